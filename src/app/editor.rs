@@ -30,9 +30,8 @@ use std::sync::Arc;
 
 /// The window of the editor.
 pub struct Editor {
-    /// The state.
     pub(super) model: Model,
-    /// What has been done in this frame.
+    /// The actions of this frame.
     pub(super) actions: Actions,
     pub(super) outside: Outside,
     ctx: Context,
@@ -74,7 +73,7 @@ impl Editor {
         let kept = storage.and_then(|s| s.get_string(DESK));
         // A workspace of a later program that this one cannot read is ignored.
         let workspace: Workspace =
-            kept.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(setup.desk);
+            kept.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(setup.workspace);
         let mut model = Model::new(workspace)?;
         model.session.safe.is_on = setup.safe.is_some();
         let wake = waker(context);
@@ -99,7 +98,7 @@ impl Editor {
         Ok(editor)
     }
 
-    /// Does something at once, and begins what is to be done outside because of it.
+    /// Performs an action at once, and starts the tasks that it causes.
     pub(super) fn act(&mut self, action: impl Into<Action>) {
         for task in update(&mut self.model, action.into()) {
             match task {
@@ -115,7 +114,7 @@ impl Editor {
         }
     }
 
-    /// Does what has been asked for since the last call.
+    /// Performs the actions that were pushed since the last call.
     pub(super) fn run(&mut self) {
         for action in self.actions.take() {
             self.act(action);
@@ -123,7 +122,7 @@ impl Editor {
         self.views.gallery.tidy(&self.model);
     }
 
-    /// Does what only the window can do.
+    /// Carries out a task that only the window can do.
     fn in_window(&mut self, task: WindowTask) {
         match task {
             WindowTask::Close => self.ctx.send_viewport_cmd(ViewportCommand::Close),
@@ -149,7 +148,7 @@ impl Editor {
                 self.ctx.copy_image(picture.taken.image.clone());
                 format!("{} copied", shows.name())
             }
-            None => "This view holds no picture to copy.".to_owned(),
+            None => "This view has no picture to copy.".to_owned(),
         };
         self.actions.push(NoteAction::Say(text));
     }
@@ -159,7 +158,7 @@ impl Editor {
         self.views.gallery.shown(&self.model, slot)
     }
 
-    /// Takes in what has arrived from other threads and from outside.
+    /// Takes the answers of the studio and of tasks.
     fn take_in(&mut self) {
         let answers: Vec<studio::Answer> = self.studio.answers().collect();
         for answer in answers {
@@ -167,10 +166,10 @@ impl Editor {
                 studio::Answer::Picture(slot, shot, grade, taken) => {
                     hang(&self.ctx, &mut self.views.gallery.traced, slot, (*shot, grade, taken));
                 }
-                studio::Answer::Figures(which, ask, grade, figures) => {
-                    self.actions.push(Computed::Figures(which, ask, grade, figures));
+                studio::Answer::Figures(which, order, grade, figures) => {
+                    self.actions.push(Computed::Figures(which, order, grade, figures));
                 }
-                studio::Answer::Tilts(ask, tilts) => self.actions.push(Computed::Tilts(ask, tilts)),
+                studio::Answer::Tilts(order, tilts) => self.actions.push(Computed::Tilts(order, tilts)),
                 studio::Answer::Trouble(why) => self.actions.push(NoteAction::Trouble(why)),
             }
         }
@@ -201,7 +200,7 @@ impl Editor {
         self.actions.push(Computed::Copied(made));
     }
 
-    /// Takes in what the system and the keyboard say of the window.
+    /// Takes dropped files, requests to close the window, and held keys.
     fn take_in_input(&mut self) {
         let (dropped, is_to_close): (Vec<PathBuf>, bool) = self.ctx.input(|i| {
             let dropped = i.raw.dropped_files.iter().map(|file| file.path().to_owned());
@@ -293,7 +292,7 @@ impl Editor {
         }
     }
 
-    /// Orders all that is in sight.
+    /// Orders the pictures and figures of all views in sight.
     fn order(&mut self, seen: &[Seen]) {
         for (slot, request) in look_ups(&self.model, &mut self.views, seen) {
             self.outside.look_up(slot, request);
@@ -312,7 +311,7 @@ impl Editor {
     }
 }
 
-/// Returns how the editor begins with a file, or with what comes with the program under that name.
+/// Returns the action that opens a file, or the cut or scene of that name that comes with the program.
 fn first(path: PathBuf, mesh: crate::io::mesh_options::MeshOptions) -> FileAction {
     use super::model::dialog::Then;
     let name = path.to_string_lossy().into_owned();

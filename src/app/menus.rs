@@ -17,8 +17,8 @@ pub fn bar(model: &Model, actions: &mut Actions, ui: &mut Ui) {
             for menu in &MENUS {
                 let shown = ui
                     .menu_button(menu.title, |ui| within_window(ui, |ui| entries(model, actions, ui, menu)));
-                let is_asked = |key| ui.input_mut(|i| i.consume_key(Modifiers::ALT, key));
-                if model.session.dialog.is_none() && menu.key().is_some_and(is_asked) {
+                let is_pressed = |key| ui.input_mut(|i| i.consume_key(Modifiers::ALT, key));
+                if model.session.dialog.is_none() && menu.key().is_some_and(is_pressed) {
                     // The focus lets the arrow keys go on from the opened menu.
                     shown.response.request_focus();
                     Popup::toggle_id(ui.ctx(), Popup::default_response_id(&shown.response));
@@ -133,7 +133,7 @@ fn from_library(actions: &mut Actions, ui: &mut Ui) {
     });
     ui.menu_button("Scene of glass", |ui| {
         for Known { name, title, .. } in PRESETS {
-            let about = "A preset of a published demonstration of spectral refraction.";
+            let about = "A preset that recreates a published demonstration of spectral refraction.";
             if ui.button(title).on_hover_text(about).clicked() {
                 actions.push(FileAction::Ask(Then::Preset(name.to_owned())));
                 ui.close();
@@ -169,13 +169,14 @@ pub fn status(session: &Session, pictures: &PictureStatus, ui: &mut Ui) {
                 let state = opening.unwrap_or_else(|| tracing.to_owned());
                 ui.label(RichText::new(format!("{state} · {}", pictures.device)).weak().small())
                     .on_hover_text(format!(
-                        "What computes the pictures: the processor, or a graphics card. The window is painted by the {}.",
+                        "The device that computes the pictures: the processor or a graphics card. The {} paints the \
+                            window.",
                         pictures.painter
                     ));
-                let said = session.notes.said().unwrap_or_default();
-                let told = if session.message.is_empty() { said } else { &session.message };
+                let note = session.notes.said().unwrap_or_default();
+                let text = if session.message.is_empty() { note } else { &session.message };
                 ui.with_layout(egui::Layout::left_to_right(Align::Center), |ui| {
-                    ui.add(egui::Label::new(told).truncate());
+                    ui.add(egui::Label::new(text).truncate());
                 });
             });
         });
@@ -210,7 +211,7 @@ pub fn keys(model: &Model, actions: &mut Actions, ctx: &Context, is_picture_focu
     }
 }
 
-/// Returns what the keys show that are held.
+/// Returns which of the keys are held that change what is shown.
 pub fn held_keys(ctx: &Context) -> HeldKeys {
     HeldKeys { other: is_down(ctx, Key::C), three: is_down(ctx, Key::Z) }
 }

@@ -19,7 +19,7 @@ pub struct Setup {
     /// What asks the user for files.
     pub chooser: Chooser,
     /// The workspace to begin with where none was kept.
-    pub desk: Workspace,
+    pub workspace: Workspace,
     /// The file that says whether the window is at rest; `None` for no such file.
     pub state_file: Option<StateFile>,
     /// What opens folders and pages outside the program.
@@ -34,7 +34,7 @@ impl Default for Setup {
             file: None,
             mesh: MeshOptions::default(),
             safe: None,
-            desk: Workspace::default(),
+            workspace: Workspace::default(),
             chooser: Arc::new(by_dialog),
             opener: Arc::new(by_system),
             painted_by: PaintedBy::default(),

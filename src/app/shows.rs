@@ -78,29 +78,32 @@ impl Shows {
         match self {
             Self::Render => "The stone as it looks under the chosen light, with its dispersion.",
             Self::Aset => {
-                "Angular spectrum evaluation: green is light from low, red from high, blue what the observer's head \
-                 blocks (a cone of 30°), black leaks out behind."
+                "Angular Spectrum Evaluation Tool. Green is light from near the horizon, red is light from higher \
+                    up, blue is the cone of 30° that the observer's head blocks, and black leaks out behind."
             }
-            Self::AsetWhite => "ASET lit from behind: what leaks is white.",
-            Self::Aset40 => "ASET whose blue cone is 40° wide, for an observer who comes closer.",
+            Self::AsetWhite => "ASET lit from behind: leakage is white.",
+            Self::Aset40 => "ASET with a blue cone of 40°, for an observer who is closer.",
             Self::IdealScope => {
-                "Red is light returned, black the observer's own shade, white leaks out behind."
+                "Red is returned light, black is the observer's own shadow, and white leaks out behind."
             }
             Self::Hearts => {
-                "The hearts viewer, face down: eight alike hearts need symmetric pavilion facets."
+                "The hearts viewer, face down. Eight equal hearts need symmetric pavilion facets."
             }
             Self::Arrows => "The arrows viewer, face up: eight arrows from the pavilion mains.",
             Self::Profile => "The stone from the side with its proportions; drag its edges to change them.",
             Self::Diagram => "Crown and pavilion facets by tier, with their slopes, as cutters print them.",
             Self::Refraction => {
-                "A background that moves behind the stone: traced once as a map of where light comes from, then looked up, by \
-                 physics whatever the strength of renders. Drag it; with Ctrl the stone tilts."
+                "A background that moves behind the stone. A map of where the light comes from is traced once and \
+                    then looked up; it always refracts fully, whatever the strength of renders. Drag the background \
+                    to move it; drag with Ctrl to tilt the stone."
             }
             Self::LiquidGlass => {
-                "A pane before the background as screens draw it, by arithmetic and without a ray; drag the pane."
+                "A pane in front of the background as screens draw it, by formulas and without rays. Drag the pane \
+                    to move it."
             }
             Self::TracedPane => {
-                "The same pane as real glass of its outline, thickness, index and dispersion, traced ray by ray."
+                "The same pane as real glass with the same outline, thickness, index and dispersion, traced ray by \
+                    ray."
             }
         }
     }

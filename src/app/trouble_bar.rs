@@ -41,10 +41,11 @@ fn last(notes: &Notes, actions: &mut Actions, ui: &mut Ui) {
     let (count, Some(trouble)) = (notes.troubles().len(), notes.troubles().last()) else { return };
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if ui.button("Dismiss").on_hover_text("Forgets this message.").clicked() {
+            if ui.button("Dismiss").on_hover_text("Removes this message.").clicked() {
                 actions.push(NoteAction::Dismiss(count - 1));
             }
-            let open = if count > 1 { format!("Show all {count}") } else { "Show all of it".to_owned() };
+            let open =
+                if count > 1 { format!("Show all {count}") } else { "Show the whole message".to_owned() };
             if ui.button(open).on_hover_text("Lists every message in full.").clicked() {
                 actions.push(NoteAction::List(true));
             }

@@ -81,8 +81,8 @@ impl Assembly {
         size: Option<Size>,
     ) -> Result<Self, Failure> {
         let material = material.unwrap_or_else(|| specimen.material.clone());
-        let told = |message| Failure::Input(format!("{}: {message}", specimen.path));
-        let diameter_mm = diameter_mm(&specimen, &material, size).map_err(told)?;
+        let refused = |message| Failure::Input(format!("{}: {message}", specimen.path));
+        let diameter_mm = diameter_mm(&specimen, &material, size).map_err(refused)?;
         let stone = Instance::of(&specimen.body, material, &specimen.design.name);
         Ok(Self {
             path: specimen.path,
@@ -106,8 +106,8 @@ impl Assembly {
         let specimens = specimens(file, &scene, mesh)?;
         let member = |(number, entry): (usize, &Entry)| {
             let specimen = &specimens[&entry.cut];
-            let told = format!("stone {} ({})", number + 1, entry.cut);
-            member(specimen, entry, material, size.or(entry.size), told)
+            let description = format!("stone {} ({})", number + 1, entry.cut);
+            member(specimen, entry, material, size.or(entry.size), description)
                 .map_err(|message| at_entry(file, number, entry, &message))
         };
         let kinds = scene.stones.iter().enumerate().map(member).collect::<Result<Vec<_>, _>>()?;
@@ -186,19 +186,12 @@ fn member<'a>(
     entry: &Entry,
     material: Option<&Material>,
     size: Option<Size>,
-    told: String,
+    description: String,
 ) -> Result<Member<'a>, String> {
     let own = || entry.material.as_ref().map_or(Ok(specimen.material.clone()), MaterialRef::material);
     let material = material.cloned().map_or_else(own, Ok).map_err(|error| error.to_string())?;
     let diameter_mm = diameter_mm(specimen, &material, size)?;
-    Ok(Member {
-        specimen,
-        material,
-        diameter_mm,
-        turn: DQuat::IDENTITY,
-        at_mm: entry.at_mm,
-        description: told,
-    })
+    Ok(Member { specimen, material, diameter_mm, turn: DQuat::IDENTITY, at_mm: entry.at_mm, description })
 }
 
 impl Member<'_> {

@@ -181,8 +181,8 @@ fn in_scope(specimen: &LoadedSpecimen, size: u32, bounces: u32) -> Result<Task, 
 }
 
 fn polytope(specimen: &LoadedSpecimen) -> Result<&Polytope, Failure> {
-    let told = |why| Failure::Usage(format!("{}: {why}", specimen.path));
-    Ok(&specimen.stone().map_err(told)?.polytope)
+    let refused = |why| Failure::Usage(format!("{}: {why}", specimen.path));
+    Ok(&specimen.stone().map_err(refused)?.polytope)
 }
 
 /// Times a picture of a diamond under small lamps, in one sample pass of many wavelengths, by every tracer.

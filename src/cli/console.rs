@@ -11,8 +11,8 @@ pub fn say(text: &str) {
 }
 
 /// Prints an event of long work: the paths of written files to standard output, notes and warnings to standard error.
-pub fn report(told: Event) -> Result<(), Failure> {
-    match told {
+pub fn report(event: Event) -> Result<(), Failure> {
+    match event {
         Event::Begun(_) => {}
         Event::Written(path) => return written(path),
         Event::Note(text) => say(&format!("note: {text}")),

@@ -85,7 +85,7 @@ impl ExportArguments {
                     specimen.path
                 )));
             }
-            export.write(&mut renderer, &progress.watch(), &|told| progress.report(told))
+            export.write(&mut renderer, &progress.watch(), &|event| progress.report(event))
         })
     }
 

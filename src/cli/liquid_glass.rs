@@ -135,8 +135,8 @@ impl LiquidGlass {
         }
         let (pane_asked, gap) = (self.asked()?, within("gap", self.gap, 1e-3, 100.0)?);
         let background = self.ground()?;
-        let told = self.description(&pane_asked);
-        self.write("liquid-glass", &pane(&pane_asked, &background, 1), &told)?;
+        let description = self.description(&pane_asked);
+        self.write("liquid-glass", &pane(&pane_asked, &background, 1), &description)?;
         if !self.compare {
             return Ok(());
         }
@@ -155,13 +155,13 @@ impl LiquidGlass {
             let rendered = Renderer::default().run(&job, &bar.watch(), &mut |_| Ok::<_, Failure>(()))?;
             rendered.pane()?
         };
-        let told = format!(
-            "{told}; traced by rays, gap {gap}, {WAVELENGTHS} wavelengths in {} samples",
+        let description = format!(
+            "{description}; traced by rays, gap {gap}, {WAVELENGTHS} wavelengths in {} samples",
             self.samples
         );
-        self.write("liquid-glass-traced", &traced, &told)?;
+        self.write("liquid-glass-traced", &traced, &description)?;
         let both = beside(&pane(&pane_asked, &background, 1), &traced);
-        self.write("liquid-glass-both", &both, &format!("left drawn, right traced; {told}"))?;
+        self.write("liquid-glass-both", &both, &format!("left drawn, right traced; {description}"))?;
         cost.map_or(Ok(()), |cost| print(&figures(&cost)))
     }
 
@@ -204,8 +204,8 @@ impl LiquidGlass {
     fn ground(&self) -> Result<Panorama, Failure> {
         let asked = BackgroundRef::read(&self.background, Path::new(""))?;
         let Some(reading) = asked.filling(self.size)? else {
-            let told = format!("--background {}: a pane needs something behind it", self.background);
-            return Err(Failure::Usage(told));
+            let problem = format!("--background {}: a pane needs something behind it", self.background);
+            return Err(Failure::Usage(problem));
         };
         reading.warnings.iter().for_each(|w| say(&format!("warning: {w}")));
         Ok(reading.panorama)
@@ -223,14 +223,14 @@ impl LiquidGlass {
         )
     }
 
-    fn write(&self, stem: &str, picture: &Linear, told: &str) -> Result<(), Failure> {
+    fn write(&self, stem: &str, picture: &Linear, description: &str) -> Result<(), Failure> {
         let path = match is_standard(&self.out) {
             true => STANDARD.into(),
             false => self.out.join(format!("{stem}.png")),
         };
         // Screens composite without exposure and tone curve.
         let manner = Develop { bloom: None, tone: Tone::Linear, ..Develop::default() };
-        write_rgba_png(&path, &develop(picture, &manner), (picture.width, picture.height), told)?;
+        write_rgba_png(&path, &develop(picture, &manner), (picture.width, picture.height), description)?;
         written(&path)
     }
 }

@@ -45,7 +45,7 @@ impl Measure {
             let viewing = self.light.viewing(&specimen, &self.view, &renderer)?;
             let report = {
                 let progress = WorkProgress::new(&format!("measuring {}", specimen.path));
-                measure(&viewing, &scoped, &mut renderer, &progress.watch(), &|told| progress.report(told))?
+                measure(&viewing, &scoped, &mut renderer, &progress.watch(), &|event| progress.report(event))?
             };
             if self.json {
                 let value = report.json(self.timing);

@@ -91,8 +91,8 @@ mod tests {
         }
         assert_eq!(up(&[]), Ok(Up::Found));
         for bad in ["w", "--z", "1,2", "0,0,0", "1,nan,0", "1,2,3,4", ""] {
-            let told = up(&[&format!("--up={bad}")]).unwrap_err();
-            assert!(told.contains("give x, -x, y, -y, z, -z, or three numbers"), "{bad}: {told}");
+            let message = up(&[&format!("--up={bad}")]).unwrap_err();
+            assert!(message.contains("give x, -x, y, -y, z, -z, or three numbers"), "{bad}: {message}");
         }
     }
 }

@@ -123,19 +123,19 @@ pub fn main(editor: Option<EditorOpener>) -> ExitCode {
     let given = spelt_out(typed.clone());
     let arguments = match Arguments::try_parse_from(&given) {
         Ok(arguments) => arguments,
-        Err(told) => {
+        Err(error) => {
             // A failure to print help or an error is ignored; clap's own `exit` would panic over it.
-            let _ = told.print();
-            let meant = given.get(1).filter(|_| told.kind() == ErrorKind::InvalidSubcommand);
+            let _ = error.print();
+            let meant = given.get(1).filter(|_| error.kind() == ErrorKind::InvalidSubcommand);
             if let Some(hint) = meant.map(|name| names::hint(Path::new(name))).filter(|hint| !hint.is_empty())
             {
                 say(hint.trim_start_matches("; "));
             }
             let is_edit = given.get(1).is_some_and(|command| command == "edit");
-            if is_edit && told.kind() == ErrorKind::UnknownArgument {
+            if is_edit && error.kind() == ErrorKind::UnknownArgument {
                 say(EDITOR_TAKES);
             }
-            return ExitCode::from(u8::try_from(told.exit_code()).unwrap_or(2));
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
     };
     // A user who types `edit`, or gives options of it, wants the editor, and no files in its place. An inserted `edit` with

@@ -15,10 +15,10 @@ use std::path::Path;
 /// Why the text of an option cannot be read.
 #[derive(Debug, Clone, thiserror::Error)]
 pub enum OptionError {
-    /// It is no number.
+    /// The text is not a number.
     #[error("a number is expected, such as 15 or 0.5")]
     Number,
-    /// It is no size of a picture, whose sides have at most so many pixels.
+    /// The text is not the size of a picture, whose sides have at most so many pixels.
     #[error("give 16 to {0} pixels, or WIDTHxHEIGHT such as 1600x900")]
     FilmSize(u32),
 }
@@ -115,7 +115,7 @@ pub struct LightOptions {
     /// Take the material's index and absorption at this wavelength in nm [default: 589.3, sodium's D line]
     #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = number)]
     pub wavelength: Option<f64>,
-    /// Shut out the light within DEGREES of the scope's axis, as the observer's head does (not in Ideal-Scope, hearts
+    /// Block the light within DEGREES of the scope's axis, as the observer's head does (not in Ideal-Scope, hearts
     /// and arrows, which have their own hole for the eye)
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
     pub head: f64,

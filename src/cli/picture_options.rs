@@ -18,7 +18,7 @@ pub struct PictureOptions {
     /// Turn the light about its axis by DEGREES
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
     pub turn: f64,
-    /// Half angle of the observer's head, which keeps out light, in DEGREES [default: the light's]
+    /// Half angle of the observer's head, which blocks light, in DEGREES [default: the light's]
     #[arg(long, allow_negative_numbers = true, value_name = "DEGREES", value_parser = number)]
     pub head: Option<f64>,
     /// A material's name, or an index, instead of the file's

@@ -88,11 +88,11 @@ impl WorkProgress {
     }
 
     /// Shows beside the bar what is being made, and prints files, notes and warnings above it.
-    pub fn report(&self, told: Event) -> Result<(), Failure> {
-        if let Event::Begun(what) = told {
+    pub fn report(&self, event: Event) -> Result<(), Failure> {
+        if let Event::Begun(what) = event {
             self.0.set_message(what.to_string());
         }
-        self.0.suspend(|| report(told))
+        self.0.suspend(|| report(event))
     }
 }
 

@@ -116,7 +116,7 @@ impl RefractionMaps {
         let map = map.developed(&studio.develop);
         let Carried { behind, single } = carried;
         let (name, light) = (&studio.assembly.name, studio.light());
-        let told = format!(
+        let description = format!(
             "{name}; refraction map, bands {}, places {}; background {} girdle radii behind, {} times as wide{}; light {light}; {}; {:.1} % of the \
              light comes from the background, {:.1} % of that from the map's places; {}",
             self.bands,
@@ -129,7 +129,7 @@ impl RefractionMaps {
             100.0 * single,
             viewpoint.description()
         );
-        self.write(file, &studio, &map, (&kinds, &told, &viewpoint.suffix()), &bar)
+        self.write(file, &studio, &map, (&kinds, &description, &viewpoint.suffix()), &bar)
     }
 
     fn kinds(&self, has_photo: bool) -> Result<Vec<Kind>, Failure> {
@@ -171,7 +171,7 @@ impl RefractionMaps {
         file: &Path,
         studio: &PictureSetup,
         map: &RefractionMap,
-        (kinds, told, suffix): (&[Kind], &str, &str),
+        (kinds, description, suffix): (&[Kind], &str, &str),
         bar: &WorkProgress,
     ) -> Result<(), Failure> {
         let stem = format!("{}{suffix}", stem(file));
@@ -181,13 +181,13 @@ impl RefractionMaps {
         {
             if kinds.contains(&kind) {
                 let paths = files::paths(&self.out, &stem, map.bands.len(), coding);
-                files::write_places(&paths, map, coding, told)?;
+                files::write_places(&paths, map, coding, description)?;
                 paths.into_iter().try_for_each(written)?;
             }
         }
         if kinds.iter().any(|kind| matches!(kind, Kind::Tiled | Kind::Png16 | Kind::Exr)) {
             let path = files::diffuse_path(&self.out, &stem);
-            files::write_diffuse(&path, map, told)?;
+            files::write_diffuse(&path, map, description)?;
             written(path)?;
         }
         if kinds.contains(&Kind::Page) {
@@ -196,7 +196,7 @@ impl RefractionMaps {
             let ground = studio.background.title();
             let title = studio.assembly.name.as_str();
             let background = background.as_deref().map(|bytes| (ground.as_str(), bytes));
-            write_page(&path, map, &Page { title, description: told, span: self.span, background })?;
+            write_page(&path, map, &Page { title, description, span: self.span, background })?;
             written(path)?;
         }
         if let (true, Some(photo)) = (kinds.contains(&Kind::Preview), &studio.photo) {
@@ -208,7 +208,7 @@ impl RefractionMaps {
                 &path,
                 &develop(&refract(map, photo, DVec2::ZERO), &manner),
                 (width, height),
-                told,
+                description,
             )?;
             written(path)?;
         }

@@ -87,18 +87,18 @@ impl Render {
             let progress = WorkProgress::new(&studio.assembly.name);
             studio.take(&job, &progress.watch())?
         };
-        let told = format!("{}; {}", taken.description, viewpoint.description());
+        let description = format!("{}; {}", taken.description, viewpoint.description());
         let (path, _) = self.output(file, &viewpoint.suffix());
         if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr")) {
             if let Some(without) = studio.undeveloped() {
                 say(&format!("note: {}: {without}", path.display()));
             }
-            write_linear_exr(&path, &taken.picture, &told)?;
+            write_linear_exr(&path, &taken.picture, &description)?;
         } else {
             let size = (taken.picture.width, taken.picture.height);
             let progress = WorkProgress::new(&format!("{}: overlays", studio.assembly.name));
             let rgba = studio.developed(&job, taken.picture, &progress.watch())?;
-            write_rgba_png(&path, &rgba, size, &told)?;
+            write_rgba_png(&path, &rgba, size, &description)?;
             studio.legend().iter().for_each(|line| say(&format!("note: {line}")));
         }
         written(&path)

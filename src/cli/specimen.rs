@@ -44,8 +44,8 @@ impl LoadedSpecimen {
 
     /// Reads a design from a file. A mesh is read with the options `mesh`.
     pub fn read(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
-        let told = |e: FileError| Failure::Input(format!("{e}{}", hint(file)));
-        Self::of(file.display().to_string(), design_file::read_with(file, mesh).map_err(told)?)
+        let refused = |e: FileError| Failure::Input(format!("{e}{}", hint(file)));
+        Self::of(file.display().to_string(), design_file::read_with(file, mesh).map_err(refused)?)
     }
 
     /// Builds a stone from the text of a cut file. Error messages call the file `path`.
@@ -58,8 +58,8 @@ impl LoadedSpecimen {
         path: String,
         ImportedDesign { design, notes, warnings, .. }: ImportedDesign,
     ) -> Result<Self, Failure> {
-        let told = |e| Failure::Input(format!("{path}: {e}"));
-        let made = scene::Specimen::new(design).map_err(told)?;
+        let refused = |e| Failure::Input(format!("{path}: {e}"));
+        let made = scene::Specimen::new(design).map_err(refused)?;
         let specimen = Self { path, made };
         notes.iter().for_each(|note| say(&format!("note: {}: {note}", specimen.path)));
         warnings.iter().for_each(|w| specimen.say(w));
@@ -93,10 +93,10 @@ impl LoadedSpecimen {
 /// Parses the value of `--material`: a material's name or a refractive index.
 pub fn asked_material(text: &str) -> Result<(MaterialRef, Material), Failure> {
     let asked = text.parse().map_or_else(|_| MaterialRef::Name(text.to_owned()), MaterialRef::Index);
-    let told = |error: MaterialError| {
+    let refused = |error: MaterialError| {
         Failure::Usage(format!("--material: {}", error.to_string().trim_start_matches("material: ")))
     };
-    let material = asked.material().map_err(told)?;
+    let material = asked.material().map_err(refused)?;
     Ok((asked, material))
 }
 

@@ -81,10 +81,11 @@ impl Spin {
             delay_ms,
             transparent: studio.develop.background == Background::Transparent,
         };
-        let told = format!("{}, {} frames; {}", studio.assembly.name, self.frames, studio.description());
+        let description =
+            format!("{}, {} frames; {}", studio.assembly.name, self.frames, studio.description());
         let bar = WorkProgress::new(&format!("{}: spin", studio.assembly.name));
         let mut moves = false;
-        write_apng(&path, animation, &told, |animation| -> Result<(), Failure> {
+        write_apng(&path, animation, &description, |animation| -> Result<(), Failure> {
             let mut first: Option<Vec<u8>> = None;
             for (number, view) in frames.iter().enumerate() {
                 let done = |part: f64| bar.watch()((number as f64 + part) / frames.len() as f64);

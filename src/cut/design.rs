@@ -88,10 +88,10 @@ pub enum PlaneFault {
     #[error("name: a name of 1 to 200 printable characters is expected")]
     Name,
     /// A normal that is zero or not finite.
-    #[error("normal: {0} points nowhere; three finite numbers that are not all 0 are expected")]
+    #[error("normal: {0} is not a direction; three finite numbers that are not all 0 are expected")]
     Normal(glam::DVec3),
     /// An offset that is not finite, or overflows when the normal is scaled to length 1.
-    #[error("offset: {0} is no finite distance; it is measured in lengths of the normal")]
+    #[error("offset: {0} is not a finite number; give it in lengths of the normal")]
     Offset(f64),
 }
 
@@ -258,7 +258,7 @@ mod tests {
     #[test]
     fn planes_that_bound_nothing_are_named_by_their_number() {
         let good = plane("table", [0.0, 0.0, 1.0], 1.0);
-        let nowhere = "points nowhere; three finite numbers that are not all 0 are expected";
+        let nowhere = "is not a direction; three finite numbers that are not all 0 are expected";
         for normal in [[0.0; 3], [f64::NAN, 0.0, 0.0], [f64::INFINITY, 0.0, 0.0]] {
             let text = text(vec![good.clone(), plane("x", normal, 1.0)]);
             assert!(text.starts_with("plane 2: normal: ") && text.ends_with(nowhere), "{text}");

@@ -18,8 +18,8 @@ const SIDE: Proportion = Proportion {
     usual: [2.0, 200.0],
     step: 0.0,
     speed: 0.05,
-    least: Bound::at(Fixed(LENGTHS[0]), "the smallest dimension taken"),
-    most: Bound::at(Fixed(LENGTHS[1]), "the largest dimension taken"),
+    least: Bound::at(Fixed(LENGTHS[0]), "the smallest dimension allowed"),
+    most: Bound::at(Fixed(LENGTHS[1]), "the largest dimension allowed"),
     ..Proportion::BLANK
 };
 

@@ -28,7 +28,7 @@ pub static ROUND_BRILLIANT: Family = Family {
             name: "Table",
             meaning: "The flat facet on top, corner to opposite corner, in percent of the girdle's diameter.",
             usual: [45.0, 75.0],
-            least: Bound::at(Fixed(5.0), "the smallest table taken"),
+            least: Bound::at(Fixed(5.0), "the smallest table allowed"),
             most: Bound::before(Fixed(100.0 * STAR_COS), "where no star facet fits between table and girdle"),
             excellent: Some([52.0, 62.0]),
             handles: &[ProfileHandle::TableEdge],
@@ -41,7 +41,7 @@ pub static ROUND_BRILLIANT: Family = Family {
             name: "Crown angle",
             meaning: "How steep the bezels stand on the girdle plane.",
             usual: [22.0, 44.0],
-            least: Bound::at(Fixed(LEAST_ANGLE), "the flattest facet taken"),
+            least: Bound::at(Fixed(LEAST_ANGLE), "the flattest facet allowed"),
             most: Bound::before(Fixed(90.0), "where the bezels would stand upright"),
             excellent: Some([31.5, 36.5]),
             handles: &[ProfileHandle::CrownSlope],
@@ -70,10 +70,10 @@ pub static ROUND_BRILLIANT: Family = Family {
         Proportion {
             key: "pavilion_angle",
             name: "Pavilion angle",
-            meaning: "How steep the mains, the eight large facets below, stand on the girdle plane. Light return depends \
-                      on nothing as much.",
+            meaning: "How steep the mains, the eight large facets below, stand on the girdle plane. Nothing affects \
+                light return more.",
             usual: [38.0, 45.0],
-            least: Bound::at(Fixed(LEAST_ANGLE), "the flattest facet taken"),
+            least: Bound::at(Fixed(LEAST_ANGLE), "the flattest facet allowed"),
             most: Bound::before(Fixed(90.0), "where the mains would stand upright"),
             excellent: Some([40.6, 41.8]),
             handles: &[ProfileHandle::PavilionSlope],

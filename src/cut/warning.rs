@@ -47,13 +47,14 @@ impl Warning {
     }
 }
 
-/// Says so where upper and lower halves meet between the bezels and leave no girdle there, or nowhere any.
+/// Warns where upper and lower halves meet between the bezels and leave no girdle there, or none at all.
 fn girdle(p: &Proportions) -> Option<String> {
     let (thickness, needed) = (50.0 * p.girdle, 50.0 * p.valley_depth());
     match thickness {
         0.0 => Some("0 % is a knife edge all round, so the stone has no girdle facets".to_owned()),
         _ if thickness <= needed => Some(format!(
-            "{} % closes to a knife edge in the valleys, where the halves take {} %; above that the girdle stays open",
+            "{} % closes to a knife edge in the valleys, where the half facets take away {} %; a thicker girdle \
+                stays open",
             given(thickness),
             rounded(needed)
         )),
@@ -109,8 +110,8 @@ mod tests {
 
     #[test]
     fn a_thin_girdle_closes_in_its_valleys() {
-        let expected = "girdle_thickness: 1.2 % closes to a knife edge in the valleys, where the halves take 1.7 %; \
-                        above that the girdle stays open";
+        let expected = "girdle_thickness: 1.2 % closes to a knife edge in the valleys, where the half facets take \
+            away 1.7 %; a thicker girdle stays open";
         assert_eq!(texts(RoundBrilliant { girdle_thickness: 1.2, ..MODERN }), [expected]);
         let straight = RoundBrilliant { girdle_thickness: 1.2, girdle_facets: 16, ..MODERN };
         assert_eq!(texts(straight), [""; 0]);

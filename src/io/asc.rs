@@ -136,7 +136,7 @@ impl Reader {
         } else if self.gear.is_none() {
             self.gear(line);
         } else {
-            self.warn(&format!("'{}' belongs to nothing and is left out", short(line)));
+            self.warn(&format!("'{}' belongs to no tier and is left out", short(line)));
         }
     }
 
@@ -150,7 +150,7 @@ impl Reader {
             Some('y') if is_number => self.symmetry(rest),
             Some('I') if is_number => self.index_of_refraction(rest),
             Some('a') if is_number => self.tier(rest),
-            _ => self.warn(&format!("'{}' is no record that is known, and is left out", short(line))),
+            _ => self.warn(&format!("'{}' is not a known record and is left out", short(line))),
         }
     }
 
@@ -159,10 +159,10 @@ impl Reader {
         let teeth =
             tokens.next().and_then(|token| token.parse::<f64>().ok()).filter(|teeth| teeth.fract() == 0.0);
         let Some(teeth) = teeth else {
-            return self.warn(&format!("'{}' is no gear; a number of teeth is expected", short(rest)));
+            return self.warn(&format!("'{}' is not a gear; a number of teeth is expected", short(rest)));
         };
         let offset = tokens.next().map_or(Ok(0.0), str::parse).unwrap_or_else(|_| {
-            self.warn("the gear's offset is no number and is taken for 0");
+            self.warn("the gear's offset is not a number and is read as 0");
             0.0
         });
         self.gear = Some(Gear::given(teeth as i32, offset, &self.place(), &mut self.warnings));
@@ -174,7 +174,7 @@ impl Reader {
             Some(Ok(fold)) if fold.is_finite() => {
                 self.symmetry = Some(cutters::symmetry(fold as i32, &self.place(), &mut self.warnings));
             }
-            _ => self.warn(&format!("'{}' is no symmetry; a number is expected", short(rest))),
+            _ => self.warn(&format!("'{}' is not a symmetry; a number is expected", short(rest))),
         }
         self.mirror = tokens.next().is_some_and(|word| word.starts_with(['y', 'Y']));
     }
@@ -182,7 +182,7 @@ impl Reader {
     fn index_of_refraction(&mut self, rest: &str) {
         match rest.split_ascii_whitespace().next().map(str::parse) {
             Some(Ok(ri)) => self.ri = Some(ri),
-            _ => self.warn(&format!("'{}' is no index of refraction; a number is expected", short(rest))),
+            _ => self.warn(&format!("'{}' is not an index of refraction; a number is expected", short(rest))),
         }
     }
 
@@ -192,7 +192,8 @@ impl Reader {
             return self.warn(&format!("'a {}' has no angle and distance, and is left out", short(rest)));
         };
         if !(angle.is_finite() && distance.is_finite()) {
-            return self.warn(&format!("'a {}' is endless, and is left out", short(rest)));
+            return self
+                .warn(&format!("'a {}' has an infinite angle or distance, and is left out", short(rest)));
         }
         let after = rest
             .trim_ascii_start()
@@ -256,7 +257,7 @@ impl Reader {
                 tier.facets.push(Indexed { index, name: self.name.take().unwrap_or_default() });
                 self.count += 1;
             }
-            _ => self.warn(&format!("'{}' is no index of a facet, and is left out", short(token))),
+            _ => self.warn(&format!("'{}' is not an index of a facet, and is left out", short(token))),
         }
     }
 
@@ -276,8 +277,8 @@ impl Reader {
 
     fn brought(mut self, label: &str) -> Result<ImportedDesign, Fault> {
         let mut missing = |what: bool, text: &str| what.then(|| self.warnings.warn(|| text.to_owned()));
-        missing(self.gear.is_none(), "the file names no index gear; one of 96 teeth is taken");
-        missing(self.ri.is_none(), "the file names no index of refraction; 1.54 is taken");
+        missing(self.gear.is_none(), "the file names no index gear; one of 96 teeth is assumed");
+        missing(self.ri.is_none(), "the file names no index of refraction; 1.54 is assumed");
         let name = cutters::title(&self.headers, label);
         let material = cutters::material(self.ri.unwrap_or(USUAL_INDEX), "", &mut self.warnings);
         let tiers = Tiers {

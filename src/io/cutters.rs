@@ -87,7 +87,7 @@ impl WarningList {
 
     pub fn texts(mut self) -> Vec<String> {
         if self.more > 0 {
-            self.texts.push(format!("{} more of this kind are not told", self.more));
+            self.texts.push(format!("{} more warnings of this kind are left out", self.more));
         }
         self.texts
     }
@@ -107,7 +107,7 @@ impl Gear {
         match given.tiers().check() {
             Ok(()) => given,
             Err((_, fault)) => {
-                told.warn(|| format!("{at}{fault}; the facets are told by a gear of {USUAL_GEAR} teeth"));
+                told.warn(|| format!("{at}{fault}; the facets are given by a gear of {USUAL_GEAR} teeth"));
                 Self::default()
             }
         }
@@ -238,7 +238,7 @@ pub(super) fn symmetry(given: i32, at: &str, told: &mut WarningList) -> u32 {
     match u32::try_from(given) {
         Ok(symmetry @ 1..) => symmetry,
         _ => {
-            told.warn(|| format!("{at}symmetry: {given} must be 1 or more; 1 is taken"));
+            told.warn(|| format!("{at}symmetry: {given} must be 1 or more; 1 is assumed"));
             1
         }
     }
@@ -250,7 +250,7 @@ pub(super) fn material(index: f64, at: &str, told: &mut WarningList) -> Material
     match material.check() {
         Ok(()) => material,
         Err(fault) => {
-            told.warn(|| format!("{at}{fault}; {USUAL_INDEX} is taken"));
+            told.warn(|| format!("{at}{fault}; {USUAL_INDEX} is assumed"));
             MaterialRef::Index(USUAL_INDEX)
         }
     }
@@ -338,6 +338,6 @@ mod tests {
         (0..1000).for_each(|k| told.warn(|| format!("{k}")));
         let texts = told.texts();
         assert_eq!(texts.len(), MOST_WARNINGS + 1);
-        assert_eq!(texts[MOST_WARNINGS], "900 more of this kind are not told");
+        assert_eq!(texts[MOST_WARNINGS], "900 more warnings of this kind are left out");
     }
 }

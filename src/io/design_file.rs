@@ -195,7 +195,7 @@ fn as_mesh(specimen: &Specimen, format: DesignFormat, bytes: Vec<u8>) -> Encoded
         DesignFormat::Stl => stated_in_stl(&bytes),
         _ => Stated { place: true, material: true },
     };
-    let seen = (format == DesignFormat::Glb).then_some("the material as three colours see it");
+    let seen = (format == DesignFormat::Glb).then_some("the material in red, green and blue");
     let size = stated.place.then_some("its size");
     let kept: Vec<&str> =
         [Some(shape), size, material.filter(|_| stated.material), seen].into_iter().flatten().collect();

@@ -94,8 +94,8 @@ fn raw_facet<'a>(cursor: &mut Cursor<'a>, at: usize, x: f64) -> Result<Raw<'a>, 
     let p = DVec3::new(x, cursor.f64("a facet")?, cursor.f64("a facet")?);
     let plane = Plane::new(p, 1.0).normalized().ok_or_else(|| {
         let problem = format!(
-            "{p} is not a facet's normal divided by its distance; three finite numbers that are not all 0 are expected, or \
-             the file is no .gem"
+            "{p} is not a facet's normal divided by its distance; three finite numbers that are not all 0 are \
+                expected, or the file is not a .gem file"
         );
         cursor::fault(at, problem)
     })?;
@@ -119,8 +119,8 @@ fn outline(cursor: &mut Cursor<'_>) -> Result<bool, Fault> {
             }
             other => {
                 let problem = format!(
-                    "{other} stands where 1 (a corner follows) or 0 (the facet ends) is expected; the file is spoilt \
-                     or is not a .gem file"
+                    "{other} stands where 1 (a corner follows) or 0 (the facet ends) is expected; the file is \
+                        damaged or is not a .gem file"
                 );
                 return Err(cursor::fault(at, problem));
             }
@@ -137,7 +137,7 @@ fn trailer(cursor: &mut Cursor<'_>, told: &mut WarningList) -> Result<(Tiers, (u
     let unknown = cursor.i32(WHAT)? as u32;
     if unknown != UNKNOWN {
         let at = cursor::place(cursor.at() - 4);
-        told.warn(|| format!("{at}{unknown:#x} stands where {UNKNOWN:#x} is usual; it is not kept"));
+        told.warn(|| format!("{at}{unknown:#x} stands where {UNKNOWN:#x} is expected; it is not kept"));
     }
     let offset = cursor.f64(WHAT)?;
     let place = cursor::place(at);

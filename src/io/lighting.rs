@@ -94,6 +94,6 @@ mod tests {
         std::fs::write(folder.path().join("lost.toml"), "name = \"x\"\npanorama.file = \"y.hdr\"\n").unwrap();
         assert!(told("lost.toml").ends_with("y.hdr: there is no such file"));
         std::fs::write(folder.path().join("bytes.hdr"), [0xff; 99]).unwrap();
-        assert!(told("bytes.hdr").contains("no picture that is known"));
+        assert!(told("bytes.hdr").contains("not a picture of a known format"));
     }
 }

@@ -80,7 +80,7 @@ pub fn read_photo(path: &Path) -> Result<LoadedPanorama, FileError> {
     let (mut panorama, mut warnings) = raw(path).map_err(|fault| fault.in_file(&label))?;
     let bad = mend(&mut panorama.pixels);
     if bad > 0 {
-        warnings.push(format!("{bad} pixels held light below 0 or no number, which is taken as dark"));
+        warnings.push(format!("{bad} pixels held negative light or no number, and are read as dark"));
     }
     let warnings = warnings.into_iter().map(|w| format!("{label}: {w}")).collect();
     Ok(LoadedPanorama { panorama, warnings })
@@ -89,7 +89,7 @@ pub fn read_photo(path: &Path) -> Result<LoadedPanorama, FileError> {
 fn raw(path: &Path) -> Result<Raw, Fault> {
     let about = path.metadata().map_err(unreadable)?;
     if !about.is_file() {
-        return Err("this is no file; give an OpenEXR, Radiance HDR, PNG or JPEG picture".into());
+        return Err("this is not a file; give an OpenEXR, Radiance HDR, PNG or JPEG picture".into());
     }
     let mut file = BufReader::new(File::open(path).map_err(unreadable)?);
     let mut start = Vec::new();
@@ -120,7 +120,7 @@ fn check_size(width: u64, height: u64, bytes: u64) -> Result<(), Fault> {
     }
     if width * height > FREE_PIXELS.max(bytes.saturating_mul(PIXELS_A_BYTE)) {
         return Err(format!(
-            "{bytes} bytes cannot hold {width} by {height} pixels: the file is damaged; get it anew"
+            "{bytes} bytes cannot hold {width} by {height} pixels: the file is damaged; get it again"
         )
         .into());
     }
@@ -130,7 +130,7 @@ fn check_size(width: u64, height: u64, bytes: u64) -> Result<(), Fault> {
 /// Makes a fault of a file that a decoder gave up on.
 fn damaged(error: impl std::fmt::Display) -> Fault {
     Fault::whole(format!(
-        "cannot be decoded ({error}); get the file anew, or save it again as OpenEXR, Radiance HDR, PNG or JPEG"
+        "cannot be decoded ({error}); get the file again, or save it again as OpenEXR, Radiance HDR, PNG or JPEG"
     ))
 }
 

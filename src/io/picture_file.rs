@@ -68,7 +68,7 @@ pub fn write_linear_exr(path: &Path, picture: &Linear, description: &str) -> Res
 
 /// Makes the error of a number of pixels that does not fit the size.
 pub(super) fn unfit(pixels: usize, (width, height): (u32, u32)) -> std::io::Error {
-    std::io::Error::other(format!("{pixels} pixels are no picture of {width} by {height}"))
+    std::io::Error::other(format!("{pixels} pixels are not a picture of {width} by {height}"))
 }
 
 #[cfg(test)]

@@ -188,7 +188,7 @@ fn found(given: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
     if let Some(path) = folder.map(|folder| folder.join(given)).filter(|path| path.is_file()) {
         return Ok(path);
     }
-    let what = "is no light of the program's and no file beside this one";
+    let what = "is neither a light of the program nor a file beside this one";
     Err(Fault::key("light", format!("light: '{}' {what}{}", shown(given), likely(given, &LIGHTS))))
 }
 

@@ -44,7 +44,7 @@ pub(super) fn check_size(bytes: usize, limit: u64) -> Result<(), Fault> {
     if bytes as u64 <= limit {
         return Ok(());
     }
-    Err(format!("this is larger than {} MiB, so hardly such a file", limit >> 20).into())
+    Err(format!("this is larger than {} MiB, too large for a file of this kind", limit >> 20).into())
 }
 
 /// Converts bytes to text; the error names a picture's format or the line that is no UTF-8.

@@ -141,7 +141,7 @@ fn spans<'t>(table: &DeTable<'t>) -> DeTable<'t> {
 /// Makes a fault of what the parser says of a text that is not TOML.
 fn syntax(text: &str, error: &Error) -> Fault {
     let Some(span) = error.span() else {
-        return Fault::whole(format!("this is no TOML that can be read: {}", error.message()));
+        return Fault::whole(format!("this TOML cannot be read: {}", error.message()));
     };
     let start = span.start.min(text.len());
     let line = text.as_bytes()[..start].rsplit(|byte| *byte == b'\n').next().unwrap_or_default();

@@ -84,13 +84,13 @@ pub enum Steps {
 /// A picture of one stone in a scope.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ScopeProduct {
-    /// The scope.
+    /// The scope whose bands the light is divided into.
     pub scope: Scope,
     /// The stone's medium.
     pub medium: Medium,
     /// Whether the energy includes glare.
     pub glare: Glare,
-    /// What is read of the light, each as a picture of its own.
+    /// The readings of the light; each becomes a picture of its own.
     pub readings: Vec<Reading>,
 }
 
@@ -123,7 +123,7 @@ pub struct MapProduct {
 /// A pane of liquid glass, traced as real glass.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PaneProduct {
-    /// The pane.
+    /// The outline and the strengths of the pane, in pixels of the picture.
     pub pane: GlassPane,
     /// What lies behind it, in the size of the picture.
     pub background: Arc<Panorama>,
@@ -138,7 +138,7 @@ pub struct PaneProduct {
 /// Figures of one stone in a scope.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FiguresProduct {
-    /// The scope.
+    /// The scope whose bands the figures list.
     pub scope: Scope,
     /// The stone's medium.
     pub medium: Medium,
@@ -147,7 +147,7 @@ pub struct FiguresProduct {
 /// How well a job is done.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Quality {
-    /// The tracer that is wanted.
+    /// The tracer to use, or the choice of the quickest.
     pub tracer: Wanted,
     /// How far exact beams are followed.
     pub beams: BeamOptions,

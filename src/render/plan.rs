@@ -45,10 +45,10 @@ pub enum CardWorth {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Unfit {
     /// The eye of a perspective is beside or inside the stone, so that no tracer can show it.
-    #[error("the eye of the perspective is not in front of the whole stone; move it farther off")]
+    #[error("the eye of the perspective is not in front of the whole stone; move it farther away")]
     Eye,
     /// There is no stone.
-    #[error("there is no stone to be seen")]
+    #[error("the scene holds no stone")]
     NoStone,
     /// The view has a perspective.
     #[error("exact beams are for parallel rays: trace a perspective by rays")]
@@ -62,9 +62,7 @@ pub enum Unfit {
     )]
     NotAlone,
     /// Refraction is followed only part of the way.
-    #[error(
-        "exact beams know no mixture of refracted and straight rays: trace by rays, or set the strength to 1"
-    )]
+    #[error("exact beams cannot mix refracted and straight rays: trace by rays, or set the strength to 1")]
     Mixture,
     /// Light is followed along many paths at once, as in refraction maps and liquid glass.
     #[error("refraction maps and liquid glass are traced by rays")]

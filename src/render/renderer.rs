@@ -42,14 +42,14 @@ pub enum Partial<'a> {
     Rows {
         /// What the picture shows.
         reading: Reading,
-        /// The rows.
+        /// Some rows of the picture, which say where they belong.
         rows: &'a Rows,
         /// The first of the channels that hold the scope's bands.
         first_channel: usize,
     },
     /// A picture under light as it is so far.
     Picture {
-        /// The picture.
+        /// The linear light of all pixels.
         picture: &'a Linear,
         /// The light that it does not show.
         rest: Remainder,
@@ -63,13 +63,13 @@ pub enum Partial<'a> {
 pub enum Output {
     /// A picture under light, and the light that it does not show.
     Light(Linear, Remainder),
-    /// A picture in a scope. Its rows were handed out; where exact beams traced it, here they are.
+    /// A picture in a scope, whose rows were handed out; holds the beams where exact beams traced it.
     Scope(Option<Arc<Beams>>),
     /// A refraction map, and how much of the light it carries.
     RefractionMap(RefractionMap, Carried),
     /// A traced pane and, where that was wanted, how a drawn one differs.
     LiquidGlass(Linear, Option<Cost>),
-    /// Figures.
+    /// The measured figures of a stone.
     Figures(Box<Measured>),
 }
 

@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// What is around the stones of a picture.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Surroundings {
-    /// The light.
+    /// The light around the stones, ready to be looked up.
     pub lighting: Arc<Lighting>,
     /// The angle by which the light is turned about its axis, radians.
     pub turn: f64,
@@ -24,7 +24,7 @@ pub struct Surroundings {
 /// A picture that hangs behind the stones, and fills the film from there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HungPicture {
-    /// The picture.
+    /// The pixels, as linear light.
     pub picture: Arc<Panorama>,
     /// How many times as wide as the film it is.
     pub span: f64,

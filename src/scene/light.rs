@@ -96,7 +96,7 @@ pub struct SoftBox {
     /// The width of its soft edges, degrees.
     #[serde(default = "soft_edge")]
     pub soft: f64,
-    /// The radiance.
+    /// The radiance, 0 to 1e6; 1 is a white sheet in full light.
     pub radiance: f64,
     /// The colour of the part's light, sRGB; `None` for the light's spectrum.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -117,7 +117,7 @@ pub struct Lamp {
     pub elevation: f64,
     /// The angle from its middle to its edge, degrees.
     pub radius: f64,
-    /// The radiance.
+    /// The radiance, 0 to 1e6; 1 is a white sheet in full light.
     pub radiance: f64,
     /// The colour of the part's light, sRGB; `None` for the light's spectrum.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -136,7 +136,7 @@ pub struct LampField {
     pub to: f64,
     /// The angle from the middle of each lamp to its edge, degrees.
     pub radius: f64,
-    /// The radiance.
+    /// The radiance, 0 to 1e6; 1 is a white sheet in full light.
     pub radiance: f64,
     /// The colour of the lamps, sRGB; `None` for the light's spectrum.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -83,7 +83,10 @@ impl Light {
         Self {
             head: 10.0,
             dome: vec![belt(0.0, 90.0, 0.0, 1.0)],
-            ..Self::named("dome", "even light from above the horizon, less the observer's head (ISO)")
+            ..Self::named(
+                "dome",
+                "even light from above the horizon, except where the observer's head is (ISO)",
+            )
         }
     }
 
@@ -94,7 +97,8 @@ impl Light {
             dome: vec![rising(0.0, 90.0, 0.0, 1.0)],
             ..Self::named(
                 "cosine",
-                "light as the cosine of the angle from the axis, less the observer's head (COS)",
+                "light that decreases with the cosine of the angle from the axis, except where the observer's head is \
+                    (COS)",
             )
         }
     }
@@ -133,7 +137,7 @@ impl Light {
                 radiance: 120.0,
                 colour: None,
             }],
-            ..Self::named("fire", "ninety small lamps in a dark room: all the fire that there is")
+            ..Self::named("fire", "ninety small lamps in a dark room: as much fire as a stone can show")
         }
     }
 
@@ -191,7 +195,7 @@ impl Light {
     pub fn white() -> Self {
         Self {
             dome: vec![belt(-90.0, 90.0, 0.0, 1.0)],
-            ..Self::named("white", "the same from everywhere: a clear stone vanishes (a test)")
+            ..Self::named("white", "the same light from everywhere, in which a clear stone vanishes (a test)")
         }
     }
 }

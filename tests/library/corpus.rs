@@ -30,8 +30,8 @@ fn files(endings: &[&str]) -> Vec<PathBuf> {
 }
 
 fn open(file: &Path) -> Result<Specimen, String> {
-    let brought = design_file::read(file).map_err(|e| e.to_string())?;
-    Specimen::new(brought.design).map_err(|e| e.to_string())
+    let imported = design_file::read(file).map_err(|e| e.to_string())?;
+    Specimen::new(imported.design).map_err(|e| e.to_string())
 }
 
 /// Files that make no stone, each with the reason that a look into the file showed.
@@ -163,7 +163,7 @@ fn what_is_measured_is_what_the_library_says() {
     let path = format!("{CORPUS}/library-metadata.json");
     let Ok(text) = std::fs::read_to_string(&path) else { return println!("SKIPPED: {path} is not there") };
     let entries: Vec<Value> = serde_json::from_str(&text).unwrap();
-    let told: BTreeMap<&str, &Value> = entries.iter().map(|e| (e["name"].as_str().unwrap(), e)).collect();
+    let by_name: BTreeMap<&str, &Value> = entries.iter().map(|e| (e["name"].as_str().unwrap(), e)).collect();
     let tally = |(what, least)| Tally { what, least, agree: 0, differ: vec![] };
     let keys = [("lw", 0.99), ("pw", 0.99), ("cw", 0.99), ("tw", 0.99), ("uw", 0.99), ("facetCount", 0.99)];
     let mut tallies = keys.map(tally);
@@ -171,7 +171,7 @@ fn what_is_measured_is_what_the_library_says() {
     let mut by_their_rule = [("pw", 0.995), ("cw", 0.995)].map(tally);
     for file in files(&["asc"]) {
         let name = file.file_name().unwrap().to_string_lossy().into_owned();
-        let (Some(entry), Ok(specimen)) = (told.get(name.as_str()), open(&file)) else { continue };
+        let (Some(entry), Ok(specimen)) = (by_name.get(name.as_str()), open(&file)) else { continue };
         let stone = specimen.stone().unwrap();
         let theirs = |tally: &Tally| entry[tally.what].as_f64().unwrap();
         // Where the library finds no girdle it gives half of the stone's depth for each, which measures nothing.

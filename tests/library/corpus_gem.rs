@@ -89,14 +89,14 @@ fn corners(bytes: &[u8]) -> Vec<glam::DVec3> {
 #[test]
 fn every_real_gem_opens_and_reads_as_it_is_written() {
     let Some(files) = corpus("gem") else { return };
-    let (mut worst, mut again, mut unlike, mut solids, mut told) = (0.0_f64, 0.0_f64, vec![], 0, vec![]);
+    let (mut worst, mut again, mut unlike, mut solids, mut warned) = (0.0_f64, 0.0_f64, vec![], 0, vec![]);
     for path in &files {
         let (bytes, label) = (std::fs::read(path).unwrap(), path.display().to_string());
         assert!(gem::looks_like(&bytes), "{label}");
         assert!(!gcs::looks_like(&bytes), "{label}");
         let ImportedDesign { design, warnings, .. } =
             gem::read(&bytes, &label).unwrap_or_else(|e| panic!("{e}"));
-        told.extend(warnings.iter().map(|warning| format!("{}: {warning}", design.name)));
+        warned.extend(warnings.iter().map(|warning| format!("{}: {warning}", design.name)));
         worst = worst.max(apart(&stored(&bytes), &planes(&design)));
         let specimen = match Specimen::new(design.clone()) {
             Ok(specimen) => specimen,
@@ -118,7 +118,7 @@ fn every_real_gem_opens_and_reads_as_it_is_written() {
         "{} files, {solids} solids; off the stored planes {worst:.1e}, written and read {again:.1e}",
         files.len()
     );
-    println!("{} warnings:\n{}", told.len(), told.join("\n"));
+    println!("{} warnings:\n{}", warned.len(), warned.join("\n"));
     assert!(unlike.is_empty(), "{} read otherwise than written: {unlike:#?}", unlike.len());
     assert!(worst < AS_STORED && again < SAME);
     assert!(solids * 100 >= files.len() * 95, "{solids} of {}", files.len());

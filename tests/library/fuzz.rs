@@ -140,7 +140,7 @@ fn cut_files() {
 #[test]
 fn cutters_texts() {
     fuzz("asc", &[brilliant(DesignFormat::Asc)], |bytes| {
-        drop(asc::read(bytes, "x").map(|brought| built(brought.design)))
+        drop(asc::read(bytes, "x").map(|imported| built(imported.design)))
     });
 }
 
@@ -148,14 +148,14 @@ fn cutters_texts() {
 fn cutters_bytes() {
     fuzz("gem", &[brilliant(DesignFormat::Gem)], |bytes| {
         let _ = gem::looks_like(bytes);
-        drop(gem::read(bytes, "x").map(|brought| built(brought.design)));
+        drop(gem::read(bytes, "x").map(|imported| built(imported.design)));
     });
 }
 
 #[test]
 fn cutters_xml() {
     fuzz("gcs", &[brilliant(DesignFormat::Gcs)], |bytes| {
-        drop(gcs::read(bytes, "x").map(|brought| built(brought.design)))
+        drop(gcs::read(bytes, "x").map(|imported| built(imported.design)))
     });
 }
 

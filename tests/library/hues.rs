@@ -109,7 +109,7 @@ fn steps(hues: &[Option<f64>]) -> (f64, usize) {
 #[test]
 fn three_wavelengths_show_three_hues_and_sixteen_nearly_all() {
     let still = |count| Sampling { jitter: false, ..Sampling::of(count) };
-    let mut told = vec![];
+    let mut shown = vec![];
     for (wavelengths, looks) in [
         (3, still(16)),
         (8, still(16)),
@@ -125,12 +125,12 @@ fn three_wavelengths_show_three_hues_and_sixteen_nearly_all() {
             looks.jitter,
             distinct(&found)
         );
-        told.push((distinct(&found), step, dark));
+        shown.push((distinct(&found), step, dark));
     }
-    assert_eq!((told[0].0, told[0].2), (3, 2), "three lines, apart");
-    assert!(told[2].0 >= 12 && told[2].2 < told[0].2, "nearly a whole rainbow: {:?}", told[2]);
-    assert!(told[4].0 >= 12 && told[4].2 < told[3].2, "with jitter as well: {:?}", told[4]);
-    assert!(told[5].0 >= 12 && told[5].1 < GAP && told[5].2 == 0, "a smooth one: {:?}", told[5]);
+    assert_eq!((shown[0].0, shown[0].2), (3, 2), "three lines, apart");
+    assert!(shown[2].0 >= 12 && shown[2].2 < shown[0].2, "nearly a whole rainbow: {:?}", shown[2]);
+    assert!(shown[4].0 >= 12 && shown[4].2 < shown[3].2, "with jitter as well: {:?}", shown[4]);
+    assert!(shown[5].0 >= 12 && shown[5].1 < GAP && shown[5].2 == 0, "a smooth one: {:?}", shown[5]);
 }
 
 #[test]

@@ -68,11 +68,11 @@ impl Shot {
         all.filter(|(_, outline)| area(outline) > 1e-9).collect()
     }
 
-    /// Counts the pixels for which `told` gives a facet other than the one whose outline surrounds the pixel's middle, and
+    /// Counts the pixels for which `given` gives a facet other than the one whose outline surrounds the pixel's middle, and
     /// the pixels that were compared. Middles within rounding of an edge are left out.
-    fn wrong(&self, told: impl Fn(f64, f64) -> Option<(usize, u32)>) -> (usize, usize) {
+    fn wrong(&self, given: impl Fn(f64, f64) -> Option<(usize, u32)>) -> (usize, usize) {
         let outlines = self.outlines(0);
-        let (mut wrong, mut asked) = (0, 0);
+        let (mut wrong, mut compared) = (0, 0);
         for k in 0..SIZE * SIZE {
             let (x, y) = (f64::from(k % SIZE) + 0.5, f64::from(k / SIZE) + 0.5);
             let at = DVec2::new(x, -y);
@@ -81,10 +81,10 @@ impl Shot {
             if near > usize::from(inside.is_some()) {
                 continue;
             }
-            asked += 1;
-            wrong += usize::from(told(x, y) != inside.map(|(facet, _)| (0, *facet)));
+            compared += 1;
+            wrong += usize::from(given(x, y) != inside.map(|(facet, _)| (0, *facet)));
         }
-        (wrong, asked)
+        (wrong, compared)
     }
 }
 
@@ -118,11 +118,11 @@ fn the_facet_at_a_point_is_the_one_whose_outline_lies_around_it() {
             let shot = Shot::new(stone(&file).polytope, "diamond", tilted(perspective));
             shot.with(|lit_scene| {
                 let sight = SceneProbe::new(lit_scene);
-                let told = |x, y| sight.through(x, y).map(|g| (g.stone, g.facet));
-                let (wrong, asked) = shot.wrong(told);
-                assert!(wrong == 0 && asked > 25_000, "{name}, {perspective}: {wrong} of {asked}");
+                let given = |x, y| sight.through(x, y).map(|g| (g.stone, g.facet));
+                let (wrong, compared) = shot.wrong(given);
+                assert!(wrong == 0 && compared > 25_000, "{name}, {perspective}: {wrong} of {compared}");
                 // `facet_at`, which keeps nothing, agrees; at NaN there is no facet.
-                assert_eq!(facet_at(lit_scene, 70.3, 85.6), told(70.3, 85.6));
+                assert_eq!(facet_at(lit_scene, 70.3, 85.6), given(70.3, 85.6));
                 assert_eq!(facet_at(lit_scene, f64::NAN, 80.0), None);
             });
             let mut other = Shot::new(stone(&file).polytope, "diamond", tilted(perspective));

@@ -97,11 +97,11 @@ fn arrows(stone: &Stone, scope: &Scope) -> [Vec<(f64, bool)>; 2] {
             are_opposite && number(bezel[0]) == number(bezel[1])
         };
         let strong = beams.iter().filter(|b| b.weight > 0.5 && b.area > 1e-4 && is_it(b));
-        let told = |b: Beam| {
+        let row = |b: Beam| {
             let band = &scope.bands[scope.band(b.exit, beams.zenith)];
             (b.exit.z.acos().to_degrees(), band.colour == [0; 3])
         };
-        strong.map(told).collect()
+        strong.map(row).collect()
     })
 }
 

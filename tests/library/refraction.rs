@@ -233,8 +233,8 @@ fn refracting_by_the_map_is_tracing_to_40_db() {
             for coding in [Coding::Tiles, Coding::Sixteen, Coding::Float] {
                 let found = refract(&written(&map, coding), &photo, DVec2::ZERO);
                 let (to_map, to_all) = (psnr(&found, &own), psnr(&found, &traced));
-                let told = format!("{name}, {bands} bands, {places} places, {coding:?}");
-                assert!(to_map >= 40.0 && to_all >= least, "{told}: {to_map} and {to_all}");
+                let case = format!("{name}, {bands} bands, {places} places, {coding:?}");
+                assert!(to_map >= 40.0 && to_all >= least, "{case}: {to_map} and {to_all}");
             }
         }
     }

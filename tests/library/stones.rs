@@ -120,12 +120,12 @@ fn fate(specimen: &Specimen, format: DesignFormat, way: Way, turn: DQuat) -> Res
         Way::StrippedAndTurned => turned(format, stripped(format, bytes), turn),
     };
     let path = PathBuf::from(format!("x.{}", format.ending()));
-    let brought = mesh::read(bytes, &path, MeshOptions::default()).map_err(|e| e.to_string())?;
+    let imported = mesh::read(bytes, &path, MeshOptions::default()).map_err(|e| e.to_string())?;
     let says = matches!(way, Way::Kept | Way::Turned);
-    let told = brought.notes.join("; ");
-    let back = Specimen::new(brought.design).map_err(|e| e.to_string())?;
-    back.stone().map_err(|_| format!("it came back as triangles: {told}"))?;
-    let doubt = if told.contains("doubt") { " (doubtful)" } else { "" };
+    let notes = imported.notes.join("; ");
+    let back = Specimen::new(imported.design).map_err(|e| e.to_string())?;
+    back.stone().map_err(|_| format!("it came back as triangles: {notes}"))?;
+    let doubt = if notes.contains("does not show clearly") { " (doubtful)" } else { "" };
     match Figures::of(specimen).differ(&Figures::of(&back), says) {
         None => Ok(()),
         Some(why) => Err(format!("{why}{doubt}")),
@@ -249,8 +249,8 @@ fn what_another_program_writes_is_found_by_its_shape() {
 /// Returns the stone that a mesh is read as, with the notes and the warnings about it.
 fn read(format: DesignFormat, bytes: Vec<u8>, up: Up) -> (Specimen, Vec<String>, Vec<String>) {
     let path = PathBuf::from(format!("x.{}", format.ending()));
-    let brought = mesh::read(bytes, &path, MeshOptions { up, ..MeshOptions::default() }).unwrap();
-    (Specimen::new(brought.design).unwrap(), brought.notes, brought.warnings)
+    let imported = mesh::read(bytes, &path, MeshOptions { up, ..MeshOptions::default() }).unwrap();
+    (Specimen::new(imported.design).unwrap(), imported.notes, imported.warnings)
 }
 
 fn tolkowsky() -> Specimen {
@@ -268,17 +268,17 @@ fn a_statement_that_no_longer_holds_is_told() {
         assert_eq!(back.design.material, specimen.design.material);
         // The mesh is turned, scaled, both, and moved; a move needs no message.
         let quarter = DQuat::from_rotation_x(1.2);
-        let told = |to: &dyn Fn(DVec3) -> DVec3| {
+        let warnings = |to: &dyn Fn(DVec3) -> DVec3| {
             let (back, _, warnings) = read(format, moved(format, bytes(format), to), Up::Found);
             assert_eq!(Figures::of(&specimen).differ(&Figures::of(&back), true), None, "{}", format.ending());
             warnings.join("; ")
         };
-        assert!(told(&|v| quarter * v).contains("but its corners have been turned since"));
+        assert!(warnings(&|v| quarter * v).contains("but its corners have been turned since"));
         assert!(
-            told(&|v| 25.4 * v).contains("its corners have been scaled by 25.4000 since; 5.2 mm is kept")
+            warnings(&|v| 25.4 * v).contains("its corners have been scaled by 25.4000 since; 5.2 mm is kept")
         );
-        assert!(told(&|v| 0.5 * (quarter * v)).contains("turned since, so that its table faces"));
-        assert_eq!(told(&|v| v + DVec3::new(0.001, -0.002, 0.003)), "");
+        assert!(warnings(&|v| 0.5 * (quarter * v)).contains("turned since, so that its table faces"));
+        assert_eq!(warnings(&|v| v + DVec3::new(0.001, -0.002, 0.003)), "");
         // A flattened mesh is another stone, and the statement in the file does not fit it.
         let flat = moved(format, bytes(format), &|v| {
             v * DVec3::new(1.0, 1.0, if format == DesignFormat::Glb { 1.0 } else { 0.8 })
@@ -286,7 +286,7 @@ fn a_statement_that_no_longer_holds_is_told() {
         });
         let (back, _, warnings) = read(format, flat, Up::Found);
         assert!(
-            warnings.iter().any(|w| w.contains("its shape is not the one that this was said of")),
+            warnings.iter().any(|w| w.contains("its shape has changed since that was written")),
             "{warnings:?}"
         );
         assert_eq!(back.design.diameter_mm, 6.5);

@@ -148,10 +148,10 @@ fn a_stone_in_the_gap_of_another_is_seen_there() {
 #[test]
 fn exact_beams_say_that_they_do_not_apply_to_triangles() {
     let body = Body::from(shell(heart()));
-    let told = body.stone().unwrap_err().to_string();
+    let error = body.stone().unwrap_err().to_string();
     assert!(
-        told.contains("exact beams and drawings are for convex stones") && told.contains("use rays"),
-        "{told}"
+        error.contains("exact beams and drawings are for convex stones") && error.contains("use rays"),
+        "{error}"
     );
     let stone = Instance::new(body, material("diamond").unwrap().clone());
     let refused = taken(vec![stone], &light("studio").unwrap(), |lit_scene| {

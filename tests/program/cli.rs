@@ -183,15 +183,15 @@ fn a_stone_of_planes_is_taken_with_its_own_names_in_every_command() {
 fn a_design_goes_through_every_format_and_keeps_its_facets() {
     let desk = Desk::new();
     let tiers = |file: &str| {
-        let (code, told, _) = desk.run(&format!("info --json {file}"));
+        let (code, printed, _) = desk.run(&format!("info --json {file}"));
         assert_eq!(code, 0, "{file}");
-        list(&serde_json::from_str::<Value>(&told).unwrap()["measured"]["tiers"]).to_vec()
+        list(&serde_json::from_str::<Value>(&printed).unwrap()["measured"]["tiers"]).to_vec()
     };
     let first = tiers("tolkowsky");
     for ending in ["toml", "asc", "gem", "gcs", "obj", "stl", "glb"] {
         let file = format!("t.{ending}");
-        let (code, _, told) = desk.run(&format!("convert tolkowsky {file}"));
-        assert_eq!((code, told.is_empty()), (0, ending == "toml"), "{told}");
+        let (code, _, stderr) = desk.run(&format!("convert tolkowsky {file}"));
+        assert_eq!((code, stderr.is_empty()), (0, ending == "toml"), "{stderr}");
         for (a, b) in tiers(&file).iter().zip(&first) {
             assert_eq!((&a["name"], &a["facets"]), (&b["name"], &b["facets"]), "{file}");
             near(at(a, "slope_deg/mean"), at(b, "slope_deg/mean"), 1e-4, &file);
@@ -216,9 +216,9 @@ fn a_solid_that_is_not_convex_is_shown_measured_and_converted_by_its_triangles()
     (1..7).for_each(|k| text += &format!("f {k} {} {} {}\n", k % 6 + 1, k % 6 + 7, k + 6));
     desk.write("l.obj", text);
     let info = |file: &str| {
-        let (code, told, _) = desk.run(&format!("info --json {file}"));
+        let (code, printed, _) = desk.run(&format!("info --json {file}"));
         assert_eq!(code, 0, "{file}");
-        serde_json::from_str::<Value>(&told).unwrap()
+        serde_json::from_str::<Value>(&printed).unwrap()
     };
     assert_eq!((info("l.obj")["triangles"].as_u64(), at(&info("l.obj"), "volume")), (Some(20), 3.0));
     for format in ["toml", "obj", "stl", "glb"] {
@@ -231,21 +231,21 @@ fn a_solid_that_is_not_convex_is_shown_measured_and_converted_by_its_triangles()
         assert!(desk.refused(&format!("convert l.obj again.{format}"), 1).contains("takes convex stones"));
         assert!(!desk.at(format!("again.{format}")).exists());
     }
-    let (code, _, told) = desk.run("render l.obj --out out --size 24 --samples 1");
-    assert!(code == 0 && told.contains("traced as 20 triangles"), "{told}");
+    let (code, _, stderr) = desk.run("render l.obj --out out --size 24 --samples 1");
+    assert!(code == 0 && stderr.contains("traced as 20 triangles"), "{stderr}");
     assert_eq!(files(&desk.at("out")).len(), 1);
     assert!(desk.refused("render l.obj --tracer beam", 2).contains("convex"));
     assert!(desk.refused("measure l.obj --tracer beam", 2).contains("convex"));
-    let (code, told, _) = desk.run("measure l.obj --json --unresolved 0.01");
-    let figures: Value = serde_json::from_str(&told).unwrap();
+    let (code, printed, _) = desk.run("measure l.obj --json --unresolved 0.01");
+    let figures: Value = serde_json::from_str(&printed).unwrap();
     assert_eq!((code, figures["tracer"].as_str()), (0, Some("ray")));
     let zones = ["surface", "transmitted"]
         .map(|k| figures[k].as_object().unwrap().values().map(|v| v.as_f64().unwrap()).sum::<f64>());
     let sum = zones[0] + zones[1] + at(&figures, "absorbed") + at(&figures, "unresolved");
     near(sum, 1.0, 1e-9, "all light");
     near(at(&figures, "silhouette_area"), 3.0, 0.02, "the L from above");
-    let (code, _, told) = desk.run("export l.obj --out e --size 24 --views aset,profile --unresolved 0.01");
-    assert!(code == 0 && told.contains("profile: left out"), "{told}");
+    let (code, _, stderr) = desk.run("export l.obj --out e --size 24 --views aset,profile --unresolved 0.01");
+    assert!(code == 0 && stderr.contains("profile: left out"), "{stderr}");
     assert_eq!(files(&desk.at("e")).len(), 3, "energy, strongest exits, figures");
     assert!(
         desk.refused("export l.obj --out n --views profile --format png", 2).contains("none of the pictures")
@@ -264,7 +264,7 @@ fn what_the_program_knows_by_name_it_lists_and_takes_back_from_a_file() {
     for material in list(&desk.json("materials --json")) {
         let name = material["name"].as_str().unwrap();
         desk.write("known.toml", cube.replace("diamond", name));
-        let (code, printed, said) = desk.run("measure known.toml --unresolved 0.5 --json");
+        let (code, printed, stderr) = desk.run("measure known.toml --unresolved 0.5 --json");
         let figures: Value = serde_json::from_str(&printed).unwrap();
         let index = at(&figures, "index");
         assert!(code == 0 && listed("materials", name) && index == at(material, "n_D"), "{name}: {index}");
@@ -272,11 +272,11 @@ fn what_the_program_knows_by_name_it_lists_and_takes_back_from_a_file() {
         let is_illustrative = material["colour_is_illustrative"] == true;
         assert_eq!(
             is_illustrative,
-            said.contains(&format!("the colour of {name} is illustrative")),
-            "{said}"
+            stderr.contains(&format!("the colour of {name} is illustrative")),
+            "{stderr}"
         );
         assert_eq!(is_illustrative, figures["colour_is_illustrative"] == true, "{name}");
-        assert!(is_illustrative || said.is_empty(), "{said}");
+        assert!(is_illustrative || stderr.is_empty(), "{stderr}");
         let source = material["source"].as_str().unwrap();
         assert_eq!(is_illustrative, source.contains("colour: illustrative"), "{source}");
     }
@@ -323,15 +323,15 @@ fn a_perspective_is_traced_by_rays_which_say_so() {
     assert!(desk.done("measure cube.toml --perspective 8").contains(" point rays"));
     desk.done("export cube.toml --perspective 8 --size 32 --views aset --format png");
     for ending in ["", "-strongest"] {
-        let told = png(&desk.at(format!("out/cube-perspective-8-aset{ending}.png"))).2;
-        assert!(told.contains("point rays") && !told.contains("beams"), "{told}");
+        let description = png(&desk.at(format!("out/cube-perspective-8-aset{ending}.png"))).2;
+        assert!(description.contains("point rays") && !description.contains("beams"), "{description}");
     }
     desk.done("export cube.toml --perspective 8 --format json --out figures");
     assert_eq!(files(&desk.at("figures")).len(), 1);
-    let (_, _, said) = desk.run("export cube.toml --perspective 8 --views aset --format svg,exr");
-    assert!(said.contains("aset: rays make PNG pictures only"), "{said}");
-    let (code, _, said) = desk.run("measure cube.toml --perspective 8 --tracer beam");
-    assert!(code != 0 && said.contains("--perspective"), "{said}");
+    let (_, _, stderr) = desk.run("export cube.toml --perspective 8 --views aset --format svg,exr");
+    assert!(stderr.contains("aset: rays make PNG pictures only"), "{stderr}");
+    let (code, _, stderr) = desk.run("measure cube.toml --perspective 8 --tracer beam");
+    assert!(code != 0 && stderr.contains("--perspective"), "{stderr}");
 }
 
 #[test]
@@ -342,18 +342,18 @@ fn where_no_card_is_found_rays_do_the_work_and_say_so() {
         let mut command = desk.command(line);
         let output =
             command.env("VK_DRIVER_FILES", "/none").env("VK_ICD_FILENAMES", "/none").output().unwrap();
-        came_of(line, &output)
+        outcome(line, &output)
     };
-    let (code, printed, said) = run("measure cube.toml --tracer gpu --json");
+    let (code, printed, stderr) = run("measure cube.toml --tracer gpu --json");
     let figures: Value = serde_json::from_str(&printed).unwrap();
     assert!(code == 0 && figures["tracer"] == "ray", "{figures}");
-    assert!(said.contains("no graphics card") && said.contains("tracing by rays"), "{said}");
-    let (code, _, said) = run("export cube.toml --views aset --tracer gpu --format png --size 32");
-    assert!(code == 0 && said.contains("tracing by rays"), "{said}");
+    assert!(stderr.contains("no graphics card") && stderr.contains("tracing by rays"), "{stderr}");
+    let (code, _, stderr) = run("export cube.toml --views aset --tracer gpu --format png --size 32");
+    assert!(code == 0 && stderr.contains("tracing by rays"), "{stderr}");
     assert!(png(&desk.at("out/cube-aset.png")).2.contains("point rays,"));
-    let (code, _, said) =
+    let (code, _, stderr) =
         run("render cube.toml --tracer gpu --size 32 --samples 1 --wavelengths 2 --out lit.png");
-    assert!(code == 0 && said.contains("tracing by rays"), "{said}");
+    assert!(code == 0 && stderr.contains("tracing by rays"), "{stderr}");
     assert!(png(&desk.at("lit.png")).2.contains("point rays,"));
 }
 
@@ -362,12 +362,14 @@ fn where_no_card_is_found_rays_do_the_work_and_say_so() {
 fn a_card_measures_and_draws_as_rays_do_and_is_named() {
     let desk = Desk::new();
     let line = "measure tolkowsky --tilt 7 --azimuth 20 --json --tracer";
-    let (code, printed, said) = desk.run(&format!("{line} gpu"));
+    let (code, printed, stderr) = desk.run(&format!("{line} gpu"));
     let by_card: Value = serde_json::from_str(&printed).unwrap();
     if by_card["tracer"] == "ray" {
-        assert!(std::env::var_os("BRILLIANTEER_REQUIRE_GPU").is_none(), "{said}");
-        let _ =
-            writeln!(std::io::stderr(), "SKIPPED a_card_measures_and_draws_as_rays_do_and_is_named: {said}");
+        assert!(std::env::var_os("BRILLIANTEER_REQUIRE_GPU").is_none(), "{stderr}");
+        let _ = writeln!(
+            std::io::stderr(),
+            "SKIPPED a_card_measures_and_draws_as_rays_do_and_is_named: {stderr}"
+        );
         return;
     }
     assert_eq!((code, &by_card["tracer"]), (0, &json!("gpu")));
@@ -396,8 +398,9 @@ fn a_card_measures_and_draws_as_rays_do_and_is_named() {
         desk.run(&format!("{export} {tracer} --out {tracer}"));
     }
     for file in ["aset.png", "aset-strongest.png"].map(|end| format!("tolkowsky-tilt-7-azimuth-20-{end}")) {
-        let [(_, card, told), (_, rays, _)] = ["gpu", "ray"].map(|folder| png(&desk.at(folder).join(&file)));
-        assert!(told.contains("point rays in f32 on "), "{told}");
+        let [(_, card, description), (_, rays, _)] =
+            ["gpu", "ray"].map(|folder| png(&desk.at(folder).join(&file)));
+        assert!(description.contains("point rays in f32 on "), "{description}");
         let off = card.iter().zip(&rays).filter(|(a, b)| (*a - *b).abs().max_element() > 0.01).count();
         assert!(off * 500 <= card.len(), "{file}: {off} pixels of {} differ", card.len());
     }
@@ -421,24 +424,27 @@ fn a_stone_weighs_its_density_times_its_volume_and_a_scene_is_told_stone_by_ston
         "[[stone]]\ncut = \"cube.toml\"\nsize = \"4mm\"\n[[stone]]\ncut = \"index.toml\"\nsize = \"2mm\"";
     let scene = format!("format = 1\nname = \"Cubes\"\nlayout = \"row\"\ngap_mm = 1\n{stones}");
     desk.write("scene.toml", &scene);
-    let told = desk.json("info --json scene.toml");
+    let info = desk.json("info --json scene.toml");
     let keys = |v: &Value| v.as_object().unwrap().keys().map(String::as_str).collect::<Vec<_>>().join(" ");
-    assert_eq!(keys(&told), "file name light unit_mm carats stones");
-    assert_eq!(keys(&told["stones"][0]), "cut material diameter_mm carats at_mm");
-    assert!(told["carats"].is_null() && told["light"].is_null() && told["unit_mm"] == 2.0);
-    near(at(&told, "stones/0/carats"), 3.52 * 64.0 / 200.0, 1e-12, "a cube of 4 mm");
+    assert_eq!(keys(&info), "file name light unit_mm carats stones");
+    assert_eq!(keys(&info["stones"][0]), "cut material diameter_mm carats at_mm");
+    assert!(info["carats"].is_null() && info["light"].is_null() && info["unit_mm"] == 2.0);
+    near(at(&info, "stones/0/carats"), 3.52 * 64.0 / 200.0, 1e-12, "a cube of 4 mm");
     // The circles around the cubes, through their corners, have radii of 2 √2 and √2 mm.
-    let apart = point(&told["stones"][1]["at_mm"]) - point(&told["stones"][0]["at_mm"]);
+    let apart = point(&info["stones"][1]["at_mm"]) - point(&info["stones"][0]["at_mm"]);
     assert!((apart - DVec3::X * (3.0 * 2_f64.sqrt() + 1.0)).length() < 1e-9, "{apart}");
     assert!(desk.done("info scene.toml").contains("index 2.42"));
     desk.write("scene.toml", scene.replace("\"row\"", "\"raw\""));
-    let said = desk.refused("info scene.toml", 1);
-    assert!(said.starts_with("error: scene.toml:3: layout: 'raw' is none; did you mean 'row'?"), "{said}");
+    let stderr = desk.refused("info scene.toml", 1);
+    assert!(
+        stderr.starts_with("error: scene.toml:3: layout: 'raw' is unknown; did you mean 'row'?"),
+        "{stderr}"
+    );
     for (line, named) in [("measure scene.toml", "scene.toml"), ("export parcel", "parcel")] {
-        let said = desk.refused(line, 1);
+        let stderr = desk.refused(line, 1);
         assert!(
-            said.starts_with(&format!("error: {named}")) && said.contains("; this is a scene, where"),
-            "{said}"
+            stderr.starts_with(&format!("error: {named}")) && stderr.contains("; this is a scene, where"),
+            "{stderr}"
         );
     }
 }

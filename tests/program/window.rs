@@ -83,23 +83,23 @@ impl Screen {
                 let messages = std::fs::read_to_string(&messages).unwrap();
                 panic!("the program ended without a window ({status}); it wrote:\n{messages}");
             }
-            !self.asked(&["search", "--name", "Brillianteer"]).trim().is_empty()
+            !self.xdotool(&["search", "--name", "Brillianteer"]).trim().is_empty()
         });
         (program, self.at_rest(layout))
     }
 
     /// Runs xdotool and returns what it prints.
-    fn asked(&self, line: &[&str]) -> String {
+    fn xdotool(&self, line: &[&str]) -> String {
         let output = Command::new("xdotool").args(line).env("DISPLAY", &self.display).output().unwrap();
         String::from_utf8_lossy(&output.stdout).into_owned()
     }
 
     /// Presses a key in the window.
     fn press(&self, key: &str) {
-        let window = self.asked(&["search", "--name", "Brillianteer"]);
+        let window = self.xdotool(&["search", "--name", "Brillianteer"]);
         let window = window.lines().next().unwrap().to_owned();
-        self.asked(&["windowfocus", &window]);
-        self.asked(&["key", "--clearmodifiers", key]);
+        self.xdotool(&["windowfocus", &window]);
+        self.xdotool(&["key", "--clearmodifiers", key]);
     }
 
     fn until(&self, what: &str, mut come: impl FnMut() -> bool) {

@@ -21,9 +21,7 @@ const LIST: f32 = 300.0;
 /// A crate that the program is built of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Crate<'a> {
-    /// The name of the crate.
     pub name: &'a str,
-    /// The version of the crate.
     pub version: &'a str,
     /// The licence of the crate, as the crate states it.
     pub licence: &'a str,
@@ -49,7 +47,7 @@ pub fn show(about: &AboutForm, actions: &mut Actions, ui: &mut Ui) {
     ui.separator();
     let mut page = about.page;
     ui.horizontal_wrapped(|ui| {
-        ui.selectable_value(&mut page, AboutPage::Crates, "Built of");
+        ui.selectable_value(&mut page, AboutPage::Crates, "Built with");
         for (k, (name, _)) in LICENCES.iter().enumerate() {
             ui.selectable_value(&mut page, AboutPage::Licence(k), format!("Licence {name}"));
         }

@@ -13,41 +13,40 @@ fn words(purpose: Purpose) -> (&'static str, &'static str) {
         Purpose::Open => ("Open a cut", "Open"),
         Purpose::SaveAs => ("Save the cut as", "Save"),
         Purpose::Compare => ("Compare with a cut", "Open"),
-        Purpose::Light => ("A light or a panorama", "Open"),
-        Purpose::Behind => ("A picture behind the stone", "Open"),
-        Purpose::Folder => ("A folder for the pictures", "Choose"),
+        Purpose::Light => ("Choose a light or a panorama", "Open"),
+        Purpose::Behind => ("Choose a background picture", "Open"),
+        Purpose::Folder => ("Choose a folder for the files", "Choose"),
     }
 }
 
 /// Draws the dialog.
-pub fn show(actions: &mut Actions, ui: &mut Ui, asked: &PathForm) {
+pub fn show(actions: &mut Actions, ui: &mut Ui, form: &PathForm) {
     ui.set_width(460.0);
-    let (heading, verb) = words(asked.purpose);
+    let (heading, verb) = words(form.purpose);
     ui.heading(heading);
-    let why = "The system opened no file dialog, which takes a desktop portal such as xdg-desktop-portal: type the path.";
+    let why = "The system could not open a file dialog. It needs a desktop portal such as xdg-desktop-portal. Type \
+        the path instead.";
     ui.label(RichText::new(why).weak());
     ui.add_space(6.0);
     let label = ui.label("Path");
-    let mut text = asked.text.clone();
+    let mut text = form.text.clone();
     let field = ui.add(TextEdit::singleline(&mut text).desired_width(440.0)).labelled_by(label.id);
     let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
     if field.changed() {
         actions.push(DialogAction::Type(text));
     }
     let has_focus = ui.memory(|m| m.focused().is_some());
-    if !(has_focus || is_entered && asked.is_typed) {
+    if !(has_focus || is_entered && form.is_typed) {
         field.request_focus();
     }
-    let path = asked.path();
-    if asked.purpose == Purpose::SaveAs && path.is_file() {
-        ui.label(
-            RichText::new("It is there already and will be replaced.").color(theme::caution(ui.visuals())),
-        );
-    } else if asked.purpose != Purpose::SaveAs && !path.exists() {
-        ui.label(RichText::new("There is no such file.").weak());
+    let path = form.path();
+    if form.purpose == Purpose::SaveAs && path.is_file() {
+        ui.label(RichText::new("The file exists and will be replaced.").color(theme::caution(ui.visuals())));
+    } else if form.purpose != Purpose::SaveAs && !path.exists() {
+        ui.label(RichText::new("This file does not exist.").weak());
     }
     match buttons_alone(ui, &[verb, "Cancel"]) {
-        None if is_entered && asked.is_typed => actions.push(DialogAction::Accept),
+        None if is_entered && form.is_typed => actions.push(DialogAction::Accept),
         Some(0) => actions.push(DialogAction::Accept),
         Some(_) => actions.push(DialogAction::Leave),
         None => {}

@@ -39,7 +39,7 @@ pub fn show(
     views(ui, export, &mut selection, thumbnails);
     if !export.plan.own.is_empty() {
         let names: Vec<&str> = export.plan.own.iter().map(|(shows, _)| shows.name()).collect();
-        let text = format!("As seen in their own views: {}.", names.join(", "));
+        let text = format!("Exported as their own views show them: {}.", names.join(", "));
         ui.label(RichText::new(text).weak().small());
     }
     ui.add_space(6.0);
@@ -117,9 +117,9 @@ fn settings(ui: &mut Ui, export: &ExportForm, selection: &mut Selection, actions
         ui.label("Formats");
         ui.horizontal(|ui| {
             for (format, name, meaning) in [
-                (OutputFormat::Png, "PNG", "Pictures; of scopes both energy and strongest exits."),
-                (OutputFormat::Svg, "SVG", "Drawings, and every virtual facet of scopes as a polygon."),
-                (OutputFormat::Exr, "EXR", "The energy of every zone, linear, in 32 bits."),
+                (OutputFormat::Png, "PNG", "Pictures. Each scope gives two: its energy and its strongest exits."),
+                (OutputFormat::Svg, "SVG", "Drawings, and scopes with each virtual facet as a polygon."),
+                (OutputFormat::Exr, "EXR", "The energy of every zone as linear 32-bit numbers."),
                 (OutputFormat::Json, "JSON", "The figures of this view."),
             ] {
                 let mut wanted = selection.formats.contains(&format);
@@ -133,24 +133,25 @@ fn settings(ui: &mut Ui, export: &ExportForm, selection: &mut Selection, actions
         });
         ui.end_row();
         ui.label("Scopes");
-        let meaning = "Under each picture in a scope: what each colour means, how the stone is tilted, what is unresolved, the \
-            stone and the program.";
+        let meaning = "Writes under each picture of a scope what each colour means, how the stone is tilted, how \
+            much light is unresolved, and the names of the stone and the program.";
         ui.checkbox(&mut selection.caption, "Caption and legend").on_hover_text(meaning);
         ui.end_row();
         ui.label("Also");
-        let meaning = "Where the light behind each pixel comes from, as a picture; the layer of all other light; and a page \
-            that refracts a moving background through both.";
+        let meaning = "Writes a picture that says where on the background the light of each pixel comes from, a \
+            picture of all other light, and a web page that refracts a moving background by both.";
         ui.horizontal(|ui| {
             ui.checkbox(&mut selection.map, "Refraction map and page").on_hover_text(meaning);
-            let meaning = "Bands of wavelengths: of one the map is grey and small, of several its look-up keeps the rainbow.";
+            let meaning = "Number of bands of wavelengths. With one band the map is grey and small; with several it \
+                keeps the rainbow.";
             let bands = DragValue::new(&mut selection.bands).range(1..=MOST_BANDS).prefix("bands ");
             ui.add_enabled(selection.map, bands).on_hover_text(meaning);
-            let meaning = "Places of each pixel: of several, what is seen twice through it shows twice; bands times places \
-                maps are written.";
+            let meaning = "Number of places on the background that each pixel can show. With several, a pixel shows \
+                everything that is seen through it at once. One map is written for each band and place.";
             let places = DragValue::new(&mut selection.places).range(1..=MOST_PLACES).prefix("places ");
             ui.add_enabled(selection.map, places).on_hover_text(meaning);
-            let meaning = "The copies as they lie now, with their light and what hangs behind: a scene file and its cut, \
-                which this program opens again and draws.";
+            let meaning = "Writes a scene file and its cut file, with all copies in their present places, their \
+                light and their background. The editor opens the scene again.";
             ui.checkbox(&mut selection.scene, "Scene file and its cut").on_hover_text(meaning);
         });
         ui.end_row();
@@ -185,14 +186,12 @@ const ROOMY: f32 = 700.0;
 fn listed(ui: &mut Ui, files: &Result<Vec<PathBuf>, Failure>) {
     match files {
         Err(why) => drop(ui.label(RichText::new(why.to_string()).color(theme::bad(ui.visuals())))),
-        Ok(files) if files.is_empty() => drop(ui.label("Nothing is chosen that these formats can hold.")),
+        Ok(files) if files.is_empty() => {
+            drop(ui.label("None of the chosen formats can hold any of the chosen views."))
+        }
         Ok(files) => {
             let there = files.iter().filter(|f| f.exists()).count();
-            let already = if there > 0 {
-                format!("; {there} are there already and will be replaced")
-            } else {
-                String::new()
-            };
+            let already = if there > 0 { format!("; {there} will be replaced") } else { String::new() };
             ui.label(
                 RichText::new(format!(
                     "{} file{}{already}",
@@ -242,11 +241,16 @@ fn working(run: &ExportRun, folder: &Path, actions: &mut Actions, ui: &mut Ui) {
         }
     });
     // A line that is always there keeps the button in its place.
-    ui.label(RichText::new(if run.end == Some(Ok(())) { "All files are written." } else { "" }).strong());
+    ui.label(
+        RichText::new(if run.end == Some(Ok(())) { "All files have been written." } else { "" }).strong(),
+    );
     if run.end.is_none() {
         let stop = ui.add_enabled(!run.is_stopped, egui::Button::new("Stop"));
         if stop
-            .on_hover_text("What is written stays; nothing is left half written. Escape does the same.")
+            .on_hover_text(
+                "Ends the export. Complete files stay, and the file being written is left out. Escape \
+                does the same.",
+            )
             .clicked()
         {
             actions.push(DialogAction::Stop);
@@ -258,7 +262,7 @@ fn working(run: &ExportRun, folder: &Path, actions: &mut Actions, ui: &mut Ui) {
         if ui.button("Close").clicked() {
             actions.push(DialogAction::Leave);
         }
-        if ui.button("Open folder").on_hover_text("Shows the files that were written.").clicked() {
+        if ui.button("Open folder").on_hover_text("Opens the folder of the written files.").clicked() {
             actions.push(FileAction::OpenOutside(folder.display().to_string()));
         }
     });

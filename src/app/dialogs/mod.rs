@@ -1,4 +1,4 @@
-//! Dialogs, which ask or say something.
+//! Draws the dialogs.
 
 pub mod about;
 pub mod asked_path;
@@ -31,7 +31,7 @@ pub fn show(model: &Model, thumbnails: &HashMap<Shows, TextureHandle>, actions: 
             Dialog::Recover(found) => recover(model, actions, ui, found),
             Dialog::ChangedOutside => changed_outside(actions, ui),
             Dialog::Export(export) => export_dialog::show(export, thumbnails, actions, ui),
-            Dialog::Path(asked) => asked_path::show(actions, ui, asked),
+            Dialog::Path(form) => asked_path::show(actions, ui, form),
             Dialog::Keys => keys(actions, ui),
             Dialog::About(about) => about::show(about, actions, ui),
         });
@@ -69,7 +69,7 @@ fn buttons_alone(ui: &mut Ui, names: &[&str]) -> Option<usize> {
     .inner
 }
 
-/// Asks before something is left behind: the user can keep it, leave it, or cancel.
+/// Asks before something is lost: the user can keep it, discard it, or cancel.
 fn parting(actions: &mut Actions, ui: &mut Ui, heading: &str, text: &str, [kept, left]: [&str; 2]) {
     ui.set_width(380.0);
     ui.heading(heading);
@@ -89,22 +89,23 @@ fn unsaved(model: &Model, actions: &mut Actions, ui: &mut Ui) {
 }
 
 fn moved(actions: &mut Actions, ui: &mut Ui) {
-    let text =
-        "They lie otherwise than they did at first. No cut's file holds them: Export writes them as a scene.";
-    parting(actions, ui, "Leave these copies?", text, ["Export…", "Leave them"]);
+    let text = "The copies have been moved, and a cut file cannot hold their places. Export them as a scene to keep them.";
+    parting(actions, ui, "Discard the moved copies?", text, ["Export…", "Discard"]);
 }
 
 fn recover(model: &Model, actions: &mut Actions, ui: &mut Ui, found: &RecoveredWork) {
     ui.set_width(400.0);
-    ui.heading("Go on with unsaved work?");
-    let of = found.path.as_ref().map_or_else(|| "in no file yet".into(), |p| format!("from {}", p.display()));
+    ui.heading("Recover unsaved work?");
+    let of =
+        found.path.as_ref().map_or_else(|| "not in a file yet".into(), |p| format!("from {}", p.display()));
     let (name, open) = (&found.design.name, model.document.title());
     let when = ago(found.when.elapsed().unwrap_or_default());
     ui.label(format!(
-        "The program ended before {name}, {of}, was saved. It was last changed {when}. Going on opens it in place of {open}."
+        "The program ended before {name} ({of}) was saved. It was last changed {when}. If you recover it, it opens \
+            in place of {open}."
     ));
     let answers = [DialogAction::Recover, DialogAction::Leave, DialogAction::Forget];
-    answer(actions, answers, buttons(ui, &["Go on", "Later", "Forget it"]));
+    answer(actions, answers, buttons(ui, &["Recover", "Later", "Discard"]));
 }
 
 /// Says in words how long ago something was.
@@ -122,9 +123,9 @@ fn ago(since: Duration) -> String {
 fn changed_outside(actions: &mut Actions, ui: &mut Ui) {
     ui.set_width(400.0);
     ui.heading("The file has changed");
-    ui.label("Another program has changed the file, and here are changes that are not saved.");
+    ui.label("Another program has changed the file, and you have unsaved changes.");
     let answers = [DialogAction::Leave, DialogAction::ReadAgain];
-    answer(actions, answers, buttons(ui, &["Keep mine", "Read the file again"]));
+    answer(actions, answers, buttons(ui, &["Keep my changes", "Reload the file"]));
 }
 
 /// The width of the column that says what a key does or a term means, points.
@@ -145,9 +146,10 @@ fn keys(actions: &mut Actions, ui: &mut Ui) {
             line("drag".into(), "Tilts the stone; with Shift or the right button turns it about its axis.");
             line("wheel".into(), "Zooms at the pointer; the middle button moves the picture.");
             line("double click".into(), "Shows one view alone.");
-            line("arrows".into(), "Tilt the view that has the focus by 1°, with Shift by 5°; with Alt they move the picture; comma and full stop turn the stone, + and - zoom, Space follows the ray in the middle.");
-            line("C held".into(), "Shows the design compared with.");
-            line("Z held".into(), "Shows renders in three bands of wavelengths alone.");
+            line("arrows".into(), "Tilt the view that has the focus by 1°, with Shift by 5°. With Alt they move the \
+                picture. Comma and full stop turn the stone, + and - zoom, and Space follows the ray in the middle.");
+            line("C held".into(), "Shows the other design of a comparison.");
+            line("Z held".into(), "Shows renders in only three bands of wavelengths.");
             for command in MENUS.iter().flat_map(|m| m.groups.iter()).flat_map(|g| g.iter()) {
                 let keys: Vec<String> = command.shortcuts().map(|keys| ctx.format_shortcut(&keys)).collect();
                 if !keys.is_empty() {
@@ -180,9 +182,9 @@ mod tests {
 
     #[test]
     fn times_are_told_in_the_largest_unit_that_has_passed() {
-        let told = [0, 4, 20, 60, 119, 7200, 200_000].map(|seconds| ago(Duration::from_secs(seconds)));
+        let texts = [0, 4, 20, 60, 119, 7200, 200_000].map(|seconds| ago(Duration::from_secs(seconds)));
         assert_eq!(
-            told,
+            texts,
             [
                 "just now",
                 "just now",

@@ -1,4 +1,4 @@
-//! Everything that a person, or a task that has ended, can do to a model.
+//! Actions: everything that a person, or a task that has ended, can do to a model.
 
 use super::choosing::{Choice, Purpose, Question};
 use super::command::Command;
@@ -29,117 +29,109 @@ use std::sync::Arc;
 pub enum Action {
     /// A command of a menu or a key.
     Do(Command),
-    /// A change of the work, which can be undone.
+    /// Changes the work; part of a step of undo.
     Edit(Edit),
-    /// A change of how the views look, and of what is beside them.
+    /// Changes how the views look, and what is beside them.
     View(ViewAction),
-    /// Something done with files, and what has come of it.
+    /// Opens or saves a file, or reports the result.
     File(FileAction),
-    /// An answer to the dialog that is open, or a dialog that opens.
+    /// Answers the open dialog, or opens one.
     Dialog(DialogAction),
-    /// Something done with messages.
+    /// Adds or removes messages.
     Note(NoteAction),
-    /// What has been computed.
+    /// Hands in a result of the studio or of a task.
     Computed(Computed),
-    /// The end of a frame: a moment between two things that a person does, or in the middle of one.
+    /// Ends a frame. Without a gesture, the edits since the last such frame become one step of undo.
     Frame(FrameEnd),
 }
 
-/// A change of the work. Each holds the new value.
+/// A change of the work, which undo takes back. Each holds the new value.
 #[derive(Debug)]
 pub enum Edit {
-    /// The name of the design.
     Name(String),
-    /// The cut.
     Cut(Cut),
-    /// A proportion of the cut: the key of the row that was edited, and the cut with it.
+    /// The key of the row that was edited, and the cut with the new proportion.
     Proportion(&'static str, Cut),
-    /// One tier of the cut; all others stay where they are, in mm.
+    /// One tier of the cut. All others keep their distance in mm.
     Tier {
         /// The place of the tier in [`Cut::settings`].
         place: usize,
-        /// The angle, degrees.
+        /// Degrees from the girdle plane.
         angle: f64,
-        /// The distance, in the unit of the design.
+        /// From the origin, in the unit of the design.
         distance: f64,
     },
-    /// What the stone is made of.
     Material(MaterialRef),
-    /// The diameter, mm.
+    /// In mm.
     Diameter(f64),
-    /// The name of the light, or its file.
+    /// The name or the file of the light in renders.
     Light(String),
-    /// The exposure of renders, in stops.
+    /// In stops.
     Exposure(f64),
-    /// The half angle of the observer's head, degrees.
+    /// The half angle of the observer's head, degrees; 0 for none.
     Head(f64),
-    /// Lays out so many copies anew.
+    /// Scatters so many copies anew.
     LayOut(usize),
-    /// The pose of one of the copies.
+    /// The number of a copy, and its pose.
     Copy(usize, Pose),
 }
 
-/// A change of how the views look, and of what is beside them.
+/// A change of how the views look, and of what is beside them. `usize` is the number of a view.
+///
+/// Undo does not touch these. Changes of tilt, zoom, layout and overlay are steps of
+/// [`ViewHistory`](super::view_history::ViewHistory).
 #[derive(Debug)]
 pub enum ViewAction {
-    /// What a view shows.
     Show(usize, Shows),
-    /// The eye that a view looks by: its own, or that of the linked views.
+    /// Moves the eye of a view: its own, or that of all linked views.
     Eye(usize, Eye),
-    /// Whether a view looks as the linked views do.
+    /// Links a view to the eye of the linked views, or gives it a copy of that eye for its own.
     Link(usize, bool),
-    /// Shows a view alone, or among the others again.
+    /// Shows a view alone, or all views again if it is alone.
     Enlarge(usize),
-    /// Ends perspective in a view.
     EndPerspective(usize),
-    /// The overlay over pictures, by its name.
+    /// The name of the overlay over all pictures.
     Overlay(Option<String>),
-    /// Whether scopes show the strongest exits alone.
+    /// Whether scopes show only the strongest exits.
     Strongest(bool),
-    /// Whether scopes include glare.
+    /// Whether scopes and figures include glare.
     Glare(bool),
-    /// Ends a step of the views: the next change begins another.
+    /// Ends a step of the view history; the next change begins another.
     EndStep,
-    /// The view under the pointer.
+    /// The pointer is over a view; commands act on it.
     Hover(usize),
-    /// What the status line says of what is under the pointer.
+    /// The text of the status line about what is under the pointer.
     Message(String),
-    /// The keys that are held.
     Keys(HeldKeys),
-    /// The distance of the eye in perspective, girdle radii.
+    /// The distance of the eye in perspective from the origin, girdle radii.
     Distance(f64),
-    /// The number of bands of wavelengths.
+    /// The number of bands of wavelengths in renders.
     Wavelengths(u32),
-    /// The backplate.
+    /// The name or the file of the background; `None` for no background.
     Behind(Option<String>),
-    /// The distance of the backplate, mm.
+    /// The distance of the background behind the middle of the scene, mm.
     BehindMm(f64),
-    /// The strength of refraction.
+    /// The strength of refraction in renders: 0 goes straight on, 1 is physics.
     Strength(f64),
-    /// How edges are smoothed.
     Smoothing(Smoothing),
-    /// The pane of liquid glass.
     Liquid(Liquid),
-    /// How the background moves in a view of a refraction map.
+    /// The state of the background in a view of a refraction map.
     Flowing(usize, Flowing),
-    /// Whether figures count areas.
+    /// Whether zones count the areas of the strongest exits, not energy.
     ByArea(bool),
-    /// Opens or folds a panel, in a window with room for both or for one.
+    /// Opens or folds a panel; where there is room for only one, the other folds.
     Panel {
-        /// The panel.
         side: PanelSide,
-        /// Whether the window has room for both panels.
         has_room_for_both: bool,
-        /// Whether the panel is open from now on.
         is_open: bool,
     },
-    /// Time goes on by so many seconds for what moves.
+    /// Moves copies and plates on by so many seconds.
     Advance(f64),
-    /// Stops time and goes back to rest.
+    /// Stops the motion and returns copies to the pose of the design.
     Rest,
-    /// The copy that is dragged, with the view that it is dragged in.
+    /// The view in which a copy is dragged, and the number of that copy.
     Hold(Option<(usize, usize)>),
-    /// Follows the ray through a point of a view's image.
+    /// Follows the ray through a point of a view's image, girdle radii, and opens the window of the light path.
     Follow(usize, DVec2),
     /// Opens or closes the window of the light path.
     LightPath(bool),
@@ -147,14 +139,14 @@ pub enum ViewAction {
     CopyAt(usize, u32),
 }
 
-/// Something done with files, and what has come of it.
+/// Opens or saves a file, or reports the result.
 #[derive(Debug)]
 pub enum FileAction {
-    /// Does something that would lose unsaved work, after a question where there is such work.
+    /// Does something that would lose unsaved work; asks first where there is any.
     Ask(Then),
-    /// Asks the user for a file.
+    /// Opens a file dialog.
     Choose(Purpose),
-    /// The user has answered which file.
+    /// The answer of a file dialog.
     Chosen(Question, Choice),
     /// Opens a file; a mesh that is read again is read as before.
     Open(PathBuf, OpeningPurpose),
@@ -164,71 +156,66 @@ pub enum FileAction {
     Opened(FileRequest, Result<OpenedFile, Failure>),
     /// Reads the open mesh with other options.
     ReadMesh(MeshOptions),
-    /// The design has been saved.
     Saved(Result<SavedDesign, Failure>),
     /// The open file has changed on disk, or is gone.
     OnDisk(PathBuf, Stamp),
     /// Files were dropped on the window.
     Dropped(Vec<PathBuf>),
-    /// What the dropped files are for.
+    /// The purpose of each dropped file, found out by its name and content.
     DroppedFor(Vec<(PathBuf, Purpose)>),
-    /// The unsaved work could not be kept safe.
+    /// The autosave failed, for this reason.
     NotKept(String),
-    /// Work that a crash left behind was found.
+    /// A crash has left these autosave files; the newest comes first.
     Found(Vec<RecoveredWork>),
     /// The system asks the window to close.
     Close,
-    /// The window has ended.
+    /// The window is gone; the last chance to write.
     Ended,
-    /// Opens a folder or a page outside the program.
+    /// Opens a folder or a web page by the system.
     OpenOutside(String),
 }
 
-/// An answer to the dialog that is open, or a dialog that opens.
+/// An answer to the open dialog, or the opening of one.
 #[derive(Debug)]
 pub enum DialogAction {
     /// Opens the export dialog; with a view, that one alone is selected.
     Export(Option<Shows>),
-    /// Leaves the dialog, which changes nothing more.
+    /// Closes the dialog without an answer; nothing that waited for it is done.
     Leave,
     /// Keeps what would be lost: saves the design, or exports the copies.
     Keep,
-    /// Gives up what would be lost.
+    /// Discards what would be lost, and goes on.
     GiveUp,
-    /// Goes on with the work that was found.
+    /// Opens the work of the found autosave.
     Recover,
-    /// Forgets the work that was found.
+    /// Removes the found autosave.
     Forget,
     /// Reads the file again that another program has changed.
     ReadAgain,
-    /// The path that is typed.
     Type(String),
-    /// Accepts the path that is typed.
+    /// Takes the typed path as the answer.
     Accept,
-    /// The page of the About dialog.
     AboutPage(AboutPage),
-    /// The search text of the About dialog.
     AboutSearch(String),
-    /// What is selected for export.
     Select(Selection),
-    /// The folder of the export.
+    /// The folder that an export writes to.
     Folder(PathBuf),
-    /// Begins to write the files.
+    /// Starts the export.
     Write,
-    /// Stops writing.
+    /// Stops the export; complete files stay.
     Stop,
-    /// The export has come further, or to its end.
+    /// Progress of the export, or its end.
     Exported(ExportEvent),
 }
 
-/// Something done with messages.
+/// A change of the messages.
 #[derive(Debug)]
 pub enum NoteAction {
-    /// Shows a note that needs no answer.
+    /// Shows a note in the status line.
     Say(String),
-    /// Reports an error.
+    /// Adds an error to the bar of messages.
     Trouble(String),
-    /// Removes one of the errors and warnings.
+    /// Removes the error or warning of this number.
     Dismiss(usize),
     /// Removes all errors and warnings.
     DismissAll,
@@ -236,25 +223,24 @@ pub enum NoteAction {
     List(bool),
 }
 
-/// What has been computed.
+/// A result of the studio or of a task.
 #[derive(Debug)]
 pub enum Computed {
-    /// A light has been loaded.
+    /// The light of this name or file.
     Light(String, Result<Arc<Lighting>, Failure>),
-    /// Figures have been measured.
+    /// Figures of the present or of the other design, with the order that they answer.
     Figures(Which, FiguresOrder, Grade, Box<Figures>),
-    /// Figures against tilt have been measured.
     Tilts(FiguresOrder, Tilts),
-    /// A picture for the clipboard has been made; its width and height in pixels.
+    /// The width and height of a picture that is in the clipboard now, pixels.
     Copied(Result<[usize; 2], Failure>),
-    /// All that is in sight, to be traced.
+    /// The order of all that is in sight, which the studio then traces.
     Order(Box<Order>),
 }
 
-/// The end of a frame.
+/// The state of the hands at the end of a frame.
 #[derive(Debug, Clone, Copy)]
 pub struct FrameEnd {
-    /// The time, seconds.
+    /// Seconds since the start of the window.
     pub now: f64,
     /// Whether a gesture, such as a drag, is going on.
     pub is_gesture: bool,
@@ -265,7 +251,6 @@ pub struct FrameEnd {
 pub struct Actions(Vec<Action>);
 
 impl Actions {
-    /// Adds an action.
     pub fn push(&mut self, action: impl Into<Action>) {
         self.0.push(action.into());
     }

@@ -48,7 +48,6 @@ pub enum Command {
 
 /// A menu of the menu bar.
 pub struct Menu {
-    /// The title of the menu.
     pub title: &'static str,
     /// The commands in the menu, in groups.
     pub groups: &'static [&'static [Command]],
@@ -94,12 +93,12 @@ impl Command {
             Quit => "Quit",
             Undo => "Undo",
             Redo => "Redo",
-            ViewBack => "View before",
-            ViewOn => "View after",
+            ViewBack => "Previous view",
+            ViewOn => "Next view",
             Top => "Top",
             Side => "Side",
             Bottom => "Bottom",
-            Free => "Free",
+            Free => "Previous tilt",
             Fit => "Fit to view",
             Perspective => "Perspective",
             EyeLeans => "Tilt the eye, not the stone",
@@ -119,9 +118,9 @@ impl Command {
             NoCompare => "Stop comparing",
             LightPath => "Light path",
             Play => "Motion",
-            LayOut => "Lay copies out anew",
+            LayOut => "Scatter copies",
             NextBehind => "Next background",
-            Panels => "Views alone",
+            Panels => "Hide panels",
             FullScreen => "Full screen",
             ResetView => "Reset view",
             ResetLayout => "Reset layout",
@@ -133,58 +132,55 @@ impl Command {
     /// Describes in a sentence what the command does.
     pub fn meaning(self) -> &'static str {
         match self {
-            Open => "Opens a cut file; dropping one on the window does the same.",
-            Save => "Saves the design where it lies.",
-            SaveAs => "Saves the design as another file.",
+            Open => "Opens a cut, a mesh or a scene. You can also drop the file on the window.",
+            Save => "Saves the design in its file.",
+            SaveAs => "Saves the design in another file.",
             Export => "Writes pictures, drawings and figures as files.",
             CopyPicture => "Copies the large picture, or the one under the pointer, to the clipboard.",
             Quit => "Closes the window.",
-            Undo => "Takes the last change back; a drag is one.",
-            Redo => "Does again what was undone.",
-            ViewBack => "Takes the last tilt, zoom, layout or overlay back; the design stays.",
-            ViewOn => "Goes to the view that was gone back from.",
+            Undo => "Undoes the last change; a whole drag is one change.",
+            Redo => "Redoes the change that was undone last.",
+            ViewBack => "Undoes the last change of tilt, zoom, layout or overlay; the design stays.",
+            ViewOn => "Redoes the view change that was undone last.",
             Top => "Looks at the table.",
             Side => "Looks along the girdle.",
             Bottom => "Looks at the culet.",
-            Free => "Goes back to the tilt before.",
+            Free => "Goes back to the tilt that the view had before.",
             Fit => "Shows the whole stone.",
-            Perspective => "Sees the stone of this view from nearby instead of along parallel rays.",
+            Perspective => "Shows the stone of this view from nearby instead of along parallel rays.",
             EyeLeans => {
-                "Moves the eye over a still stone and light; else the stone tilts under eye and light."
+                "A drag tilts the eye, while stone and light stay. Otherwise it tilts the stone, while eye and \
+                    light stay."
             }
             One => "One large view.",
             Two => "Two views.",
             Four => "Four views.",
-            Wireframe => "Draws the edges over pictures.",
+            Wireframe => "Draws the edges of the facets over pictures.",
             Facets => "Gives each facet a colour.",
             Bounces => "Shows how often light is reflected inside.",
             Unresolved => "Shows where light was not followed to its end.",
-            Total => "Shows how often light is totally reflected before the first way out.",
-            Strongest => {
-                "Shows only the zone that each point's strongest light comes from, as many ASET maps do."
-            }
+            Total => "Shows how often light is totally reflected before it first can leave the stone.",
+            Strongest => "Shows at each point only the zone of its strongest light, as many ASET maps do.",
             Glare => {
-                "Adds the light that the stone's outer surface reflects to scopes and to the zones of figures: what a camera \
-                 records, but oranges and pinks where graders look for red."
+                "Adds glare, the light that the outer surface of the stone reflects, to scopes and to the zones of \
+                    figures. A camera records it, but it turns the red that graders look for into orange and pink."
             }
-            CompareSaved => "Shows the design as it was saved while C is held.",
-            CompareFile => "Shows another file's design while C is held.",
+            CompareSaved => "Compares the design with its saved version; hold C to see that version.",
+            CompareFile => "Compares the design with that of another file; hold C to see the other one.",
             Split => "Shows both designs side by side in every view.",
-            NoCompare => "Forgets the design compared with.",
-            LightPath => "Follows one ray through the stone: click a point of a view.",
-            Play => "Copies tumble and plates wave in renders, until it is chosen again.",
-            LayOut => "Scatters the copies that renders show.",
-            NextBehind => "Hangs the next pattern behind renders.",
-            Panels => "Hides the panels at both sides, until it is chosen again.",
-            FullScreen => "Fills the screen with the window, until it is chosen again.",
+            NoCompare => "Ends the comparison.",
+            LightPath => "Follows one ray through the stone; click a point of a view to choose it.",
+            Play => "Starts or stops the motion in renders: copies tumble and plates wave.",
+            LayOut => "Scatters the copies in renders anew.",
+            NextBehind => "Puts the next pattern behind renders.",
+            Panels => "Hides the panels at both sides, or shows them again.",
+            FullScreen => "Fills the screen with the window, or makes it smaller again.",
             ResetView => {
-                "Shows the whole stone face up in all views, linked, along parallel rays, with nothing drawn over it."
+                "Links all views and shows the whole stone face up, along parallel rays, without overlays."
             }
-            ResetLayout => {
-                "Shows the four views of the first start, and both panels as wide as they were then."
-            }
-            Keys => "Lists the keys, and what the trade's terms mean.",
-            About => "The program's version, its licences, and what it is built of.",
+            ResetLayout => "Brings back the four views and the panels of the first start.",
+            Keys => "Lists all keys and explains the terms of the trade.",
+            About => "Shows the version, the licences, and the crates that the program is built with.",
         }
     }
 }

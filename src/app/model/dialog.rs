@@ -63,11 +63,9 @@ impl Dialog {
 /// A path that the user types.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathForm {
-    /// What the file is for.
     pub purpose: Purpose,
     /// The number of the document that the path is for.
     pub document: u64,
-    /// The text in the field.
     pub text: String,
     /// Whether anyone has typed: Return does not accept a path that was only suggested.
     pub is_typed: bool,
@@ -98,7 +96,6 @@ pub enum AboutPage {
 /// The state of the About dialog.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct AboutForm {
-    /// The page that is shown.
     pub page: AboutPage,
     /// The search text: the list shows the crates whose name or licence contains it.
     pub sought: String,

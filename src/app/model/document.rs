@@ -30,7 +30,7 @@ pub struct Document {
     /// The stone of the last design that makes one. Its own design may be older than `built` in what changes no light, such
     /// as the name.
     specimen: Arc<Specimen>,
-    /// How far that stone reaches, once anyone has asked.
+    /// How far that stone reaches; measured when it is first needed.
     extent: OnceLock<Extent>,
     fault: Option<SpecimenError>,
     /// The design that `specimen` or `fault` belongs to.
@@ -50,7 +50,7 @@ fn is_same_stone(a: &Design, b: &Design) -> bool {
 pub const FIRST_LIGHT: &str = "studio";
 
 impl Document {
-    /// Opens a design that lies in a file, or in none yet.
+    /// Opens a design, with or without a file.
     ///
     /// # Errors
     /// Fails where the design makes no stone; the error says why.
@@ -143,7 +143,7 @@ impl Document {
         Ok(document)
     }
 
-    /// Begins under a light; this is not a step of undo.
+    /// Sets the first light, exposure and head; this is not a step of undo.
     pub fn begin(&mut self, light: &str, exposure: f64, head: f64) {
         (self.work.light, self.work.exposure, self.work.head) = (light.to_owned(), exposure, head);
         self.history = History::new(self.work.clone());
@@ -155,12 +155,12 @@ impl Document {
         self.laid.clone_from(&other.laid);
     }
 
-    /// Counts the copies as kept where they lie now.
+    /// Marks the present places of the copies as saved.
     pub fn keep_copies(&mut self) {
         self.laid.clone_from(&self.work.company);
     }
 
-    /// Whether the copies lie otherwise than at first, or than when they were last written.
+    /// Whether copies have been moved since they were read or last saved.
     pub fn has_moved_copies(&self) -> bool {
         self.laid != self.work.company
     }
@@ -226,7 +226,7 @@ impl Document {
         self.fault.is_some() && !is_same_stone(&self.specimen.design, &self.built)
     }
 
-    /// Returns what keeps the present design from being a stone.
+    /// Returns why the present design makes no stone.
     pub fn fault(&self) -> Option<&SpecimenError> {
         self.fault.as_ref()
     }
@@ -289,14 +289,14 @@ impl Document {
         }
     }
 
-    /// Returns what is to be saved, to `path`.
+    /// Returns the request that saves the design to `path`.
     ///
     /// # Errors
     /// Fails when the design makes no stone.
     pub fn to_save(&self, path: PathBuf) -> Result<SaveRequest, Failure> {
         match &self.fault {
             Some(fault) => Err(Failure::Input(format!(
-                "this design cannot be read again: {}",
+                "this design is impossible, so it cannot be saved: {}",
                 impossible::by_name(fault)
             ))),
             None => Ok(SaveRequest {

@@ -13,12 +13,10 @@ use crate::scene::{Glare, Pose, Specimen, View, Viewpoint};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What of a stone is selected for export.
+/// The selection in the export dialog.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Selection {
-    /// The views that are exported.
     pub views: Vec<Shows>,
-    /// The formats of the files.
     pub formats: Vec<OutputFormat>,
     /// Whether a refraction map is written, with a page that shows it.
     pub map: bool,
@@ -26,7 +24,7 @@ pub struct Selection {
     pub bands: u32,
     /// The number of places in each pixel of the refraction map, for each band.
     pub places: u32,
-    /// Whether what renders show is written as a scene file, with its cut.
+    /// Whether the copies are written as a scene file, with their cut file.
     pub scene: bool,
     /// The number of pixels along each side.
     pub size: u32,
@@ -51,7 +49,7 @@ pub struct PictureAspect {
     pub turn: f64,
 }
 
-/// All that an export needs to know.
+/// Everything that an export needs.
 #[derive(Debug, Clone)]
 pub struct ExportPlan {
     /// What renders show, with light and view; the film is not used.
@@ -60,15 +58,13 @@ pub struct ExportPlan {
     pub upright: Arc<Specimen>,
     /// How the linked views see the stone; pictures and figures without a view of their own see it the same.
     pub linked: PictureAspect,
-    /// How the views that look on their own see the stone, by what they show.
+    /// How each view that is not linked sees the stone, by what it shows.
     pub own: Vec<(Shows, PictureAspect)>,
     /// Half the side of the square that renders show.
     pub reach: f64,
-    /// What is selected for export.
     pub selection: Selection,
     /// The light, as scene files name it.
     pub light: PathBuf,
-    /// The folder of the files.
     pub folder: PathBuf,
     /// The beginning of the files' names.
     pub stem: String,
@@ -80,8 +76,8 @@ impl ExportPlan {
         self.own.iter().find(|(own, _)| *own == shows).map_or(&self.linked, |(_, aspect)| aspect)
     }
 
-    /// Returns what is written of the stone as it is turned in the linked views, as it is turned in each view of its own,
-    /// and as the cut has it: drawings and figures know of no turn.
+    /// Divides the export by the turn of the stone: the linked views, each view that is not linked, and the drawings and
+    /// figures, which show the stone without a turn.
     pub fn parts(&self) -> Vec<(Outputs, Viewing<'_>)> {
         let is_drawing = |shows: &Shows| !shows.is_seen();
         let is_own = |shows: &Shows| self.own.iter().any(|(own, _)| own == shows);
@@ -152,7 +148,9 @@ impl ExportPlan {
     /// Returns a note that a render is not physics; it is empty where the render is.
     pub fn mixture(&self) -> String {
         match self.shot.strength {
-            s if s < 1.0 => format!("strength {s}: a mixture for its looks, not physics; "),
+            s if s < 1.0 => {
+                format!("strength {s}: refracted and straight rays are mixed, which is not physics; ")
+            }
             _ => String::new(),
         }
     }
@@ -182,11 +180,14 @@ impl ExportPlan {
     pub fn files(&self) -> Result<Vec<PathBuf>, Failure> {
         if self.selection.map && self.selection.size > MOST_PIXELS {
             return Err(Failure::Usage(format!(
-                "A refraction map has {MOST_PIXELS} pixels each way at most: take a smaller size."
+                "A refraction map can be at most {MOST_PIXELS} pixels wide and high; choose a smaller size."
             )));
         }
         if self.selection.map && self.selection.bands * self.selection.places > MOST_BANDS {
-            let problem = format!("Bands times places are {MOST_BANDS} at most: take fewer.");
+            let problem = format!(
+                "The number of bands times the number of places can be at most {MOST_BANDS}; \
+                choose fewer."
+            );
             return Err(Failure::Usage(problem));
         }
         let mut files = vec![];

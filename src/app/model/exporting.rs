@@ -8,7 +8,6 @@ use std::time::Duration;
 /// The state of the export dialog.
 #[derive(Debug, Clone)]
 pub struct ExportForm {
-    /// What is exported.
     pub plan: ExportPlan,
     /// The export that is under way or has ended.
     pub run: Option<ExportRun>,
@@ -31,10 +30,10 @@ pub struct ExportRun {
     elapsed: Duration,
 }
 
-/// How an export goes on.
+/// The progress of an export.
 #[derive(Debug)]
 pub enum ExportEvent {
-    /// So much is done, 0 to 1, after such a time.
+    /// The part done, 0 to 1, and the time since the start.
     Done(f64, Duration),
     /// A file has been written.
     Written(PathBuf),
@@ -57,7 +56,7 @@ impl ExportRun {
         Self { files: plan.files().unwrap_or_default(), ..Self::default() }
     }
 
-    /// Takes note of how the export goes on.
+    /// Updates the state by an event.
     pub fn hear(&mut self, event: ExportEvent) {
         match event {
             ExportEvent::Done(part, elapsed) => (self.part, self.elapsed) = (part, elapsed),

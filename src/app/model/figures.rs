@@ -8,10 +8,8 @@ use std::collections::HashMap;
 #[derive(Debug, Clone)]
 pub struct ShownFigures {
     /// The order that the figures answer.
-    pub ask: FiguresOrder,
-    /// The grade of the figures.
+    pub order: FiguresOrder,
     pub grade: Grade,
-    /// The figures.
     pub figures: Figures,
 }
 

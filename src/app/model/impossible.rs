@@ -6,13 +6,12 @@ use crate::scene::SpecimenError;
 
 /// A message about a fault, and the row that shows it.
 pub struct RowMessage {
-    /// The row.
+    /// The row that shows the message.
     pub row: &'static Proportion,
-    /// The message.
     pub text: String,
 }
 
-/// Says what keeps a design from being a stone. A proportion is called as the panel calls it.
+/// Describes why a design makes no stone, with the names that the panel shows.
 pub fn by_name(fault: &SpecimenError) -> String {
     match fault {
         SpecimenError::Design(DesignError::Proportion(fault)) => fault.by_name(),
@@ -33,7 +32,7 @@ pub fn explain(given: &Cut, last: &Cut, edited: Option<&str>, fault: &Proportion
         return RowMessage { row, text: in_its_terms(given, last, row, fault) };
     }
     // No row alone, when set back, makes a stone.
-    let text = format!("{} More than one proportion is out of its limits.", message(fault));
+    let text = format!("{} More than one proportion is outside its limits.", message(fault));
     let own = Some(fault.row()).filter(|row| row.give.is_some());
     let row = edited.or(own).or(given.proportions().first()).unwrap_or(fault.row());
     RowMessage { row, text }
@@ -58,7 +57,7 @@ fn in_its_terms(given: &Cut, last: &Cut, row: &'static Proportion, fault: &Propo
         _ => message(fault),
     };
     format!(
-        "{}: {value} makes no stone. With the other proportions as they are, it can be at {side} {limit}. {reason}",
+        "{}: {value} is impossible. With the other proportions as they are, it can be at {side} {limit}. {reason}",
         row.name
     )
 }
@@ -75,7 +74,7 @@ fn limit(given: &Cut, row: &Proportion, (possible, value): (f64, f64)) -> f64 {
 fn message(fault: &ProportionError) -> String {
     let row = fault.row();
     match fault.limit() {
-        None => format!("{}: there is no such number.", row.name),
+        None => format!("{}: this is not a finite number.", row.name),
         Some(Limit { value, limit, reason, .. }) => {
             let [value, bound] = [*value, *limit].map(|value| row.written(value));
             format!("{} would be {value}; the limit is {bound}, {reason}.", row.name)
@@ -108,7 +107,7 @@ mod tests {
         let given = with(brilliant(), "crown_angle", 89.0);
         let said = text(&given, "crown_angle");
         assert_eq!(said.row.key, "crown_angle");
-        assert!(said.text.starts_with("Crown angle: 89° makes no stone."), "{}", said.text);
+        assert!(said.text.starts_with("Crown angle: 89° is impossible."), "{}", said.text);
         assert!(
             said.text.contains("it can be at most 84.") && said.text.contains("Total depth would be 1392.4")
         );

@@ -22,9 +22,7 @@ pub enum OpeningPurpose {
 /// A file that is to be read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FileRequest {
-    /// What the file is opened for.
     pub purpose: OpeningPurpose,
-    /// The file.
     pub path: PathBuf,
     /// How the file is read where it is a mesh.
     pub mesh: MeshOptions,
@@ -40,7 +38,6 @@ impl FileRequest {
 /// A file that is being opened.
 #[derive(Debug, Clone)]
 pub struct Opening {
-    /// The file.
     pub request: FileRequest,
     /// The work as it was when the file was requested.
     pub work: Work,
@@ -56,8 +53,6 @@ impl Opening {
 /// The content of a file.
 #[derive(Debug)]
 pub enum OpenedFile {
-    /// A design.
     Design(Box<Document>),
-    /// A scene.
     Scene(Box<Preset>),
 }

@@ -12,7 +12,6 @@ pub type Seen = (usize, [u32; 2]);
 
 /// Makes the orders of a model's pictures.
 pub struct Orders<'a> {
-    /// The model.
     pub model: &'a Model,
     /// The stones that have been made for earlier orders.
     pub stones: &'a mut Stones,
@@ -46,11 +45,11 @@ impl Orders<'_> {
         let eye = self.model.workspace.eye;
         let view = eye.view(Some(Side::Table));
         let Some(specimen) = Stones::of(self.model, which) else { return };
-        let ask = FiguresOrder { specimen, view, head: self.model.document.work.head };
+        let figures = FiguresOrder { specimen, view, head: self.model.document.work.head };
         if which == Which::Present {
-            order.tilts = Some(FiguresOrder { view: View { tilt: 0.0, ..view }, ..ask.clone() });
+            order.tilts = Some(FiguresOrder { view: View { tilt: 0.0, ..view }, ..figures.clone() });
         }
-        order.figures.push((which, ask));
+        order.figures.push((which, figures));
     }
 
     /// Returns the shot of a view; `None` where its picture is not made by the studio, or is too small.

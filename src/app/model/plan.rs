@@ -42,19 +42,19 @@ pub fn export_plan(model: &Model) -> ExportPlan {
     plan
 }
 
-/// Returns how the linked views see a stone, and how each view that looks on its own sees it.
+/// Returns how the linked views see a stone, and how each view that is not linked sees it.
 ///
 /// Of several views that show the same, the one that keys act on counts, or else the first.
 fn aspects(model: &Model) -> (PictureAspect, Vec<(Shows, PictureAspect)>) {
-    let desk = &model.workspace;
-    let linked = PictureAspect { view: desk.eye.view(None), turn: desk.eye.turn };
-    let mut panes = desk.shown();
+    let workspace = &model.workspace;
+    let linked = PictureAspect { view: workspace.eye.view(None), turn: workspace.eye.turn };
+    let mut panes = workspace.shown();
     panes.sort_by_key(|&pane| (pane != model.active(), pane));
     let mut own: Vec<(Shows, PictureAspect)> = vec![];
     for pane in panes {
-        let shows = desk.panes[pane].shows;
+        let shows = workspace.panes[pane].shows;
         if shows.is_seen() && own.iter().all(|(other, _)| *other != shows) {
-            own.push((shows, PictureAspect { view: desk.view(pane), turn: desk.eye(pane).turn }));
+            own.push((shows, PictureAspect { view: workspace.view(pane), turn: workspace.eye(pane).turn }));
         }
     }
     let side = |shows: Shows| shows.side().unwrap_or(linked.view.side);

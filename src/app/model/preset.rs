@@ -34,7 +34,6 @@ pub const PRESETS: [Known; 5] = [
 pub struct Preset {
     /// The design, with its material and size.
     pub design: Design,
-    /// The copies of the design.
     pub company: Copies,
     /// The number of bands of wavelengths that the scene is seen in, if it is known.
     pub wavelengths: Option<u32>,
@@ -62,18 +61,18 @@ impl Preset {
         Self::new(scene_file::read(path)?, &path.display().to_string(), path.parent())
     }
 
-    fn new(scene: SceneFile, told: &str, folder: Option<&Path>) -> Result<Self, FileError> {
+    fn new(scene: SceneFile, label: &str, folder: Option<&Path>) -> Result<Self, FileError> {
         let first = &scene.stones[0];
         let kind = |e: &Entry| (e.cut.clone(), e.material.clone(), e.size);
         let count: usize = scene.stones.iter().map(|e| e.count).sum();
         if scene.stones.iter().any(|e| kind(e) != kind(first)) || count > MOST_COPIES {
             let problem = format!(
-                "the editor shows scenes of up to {MOST_COPIES} stones of one cut, material and size; \
-                 `brillianteer render {told}` draws any"
+                "the editor opens only scenes of up to {MOST_COPIES} stones that share one cut, material and size; \
+                    draw this one by `brillianteer render {label}`"
             );
-            return Err(FileError::new(told, problem));
+            return Err(FileError::new(label, problem));
         }
-        let refused = |error: &dyn Display| FileError::new(told, error);
+        let refused = |error: &dyn Display| FileError::new(label, error);
         let mut design = design(&first.cut, folder).map_err(|error| refused(&error))?;
         if let Some(material) = &first.material {
             design.material = material.clone();

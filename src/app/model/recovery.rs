@@ -7,10 +7,9 @@ use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::time::SystemTime;
 
-/// What is kept of the scene around the stone.
+/// The part of the scene that an autosave keeps.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct KeptScene {
-    /// The copies of the stone.
     pub company: Copies,
     /// The backplate: `light`, the name of a pattern, or the file of a picture.
     #[serde(default)]
@@ -22,10 +21,9 @@ pub struct KeptScene {
     pub strength: Option<f64>,
 }
 
-/// Unsaved work, as it is kept.
+/// The content of an autosave.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UnsavedWork {
-    /// The work.
     pub work: Work,
     /// The scene around the stone.
     pub around: KeptScene,
@@ -38,9 +36,8 @@ pub struct UnsavedWork {
 /// Work that a crash left behind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecoveredWork {
-    /// The design.
     pub design: Design,
-    /// What was kept of the scene around the stone.
+    /// The part of the scene that was kept.
     pub around: KeptScene,
     /// The file that the design was opened from.
     pub path: Option<PathBuf>,

@@ -1,4 +1,4 @@
-//! Designs that are saved, and how their files are known again.
+//! Designs that are saved, and how a change of their files is noticed.
 
 use crate::cut::Design;
 use crate::scene::Specimen;
@@ -26,9 +26,7 @@ impl Stamp {
 /// A design that is to be saved.
 #[derive(Debug)]
 pub struct SaveRequest {
-    /// The file.
     pub path: PathBuf,
-    /// The design.
     pub design: Design,
     /// A stone of the design, whose name may be older.
     pub specimen: Arc<Specimen>,
@@ -37,9 +35,7 @@ pub struct SaveRequest {
 /// A design that has been saved.
 #[derive(Debug)]
 pub struct SavedDesign {
-    /// The file.
     pub path: PathBuf,
-    /// The design.
     pub design: Design,
     /// The file as it is now.
     pub stamp: Stamp,

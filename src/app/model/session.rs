@@ -21,14 +21,13 @@ use glam::DVec2;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The lights that renders are lit by.
+/// The light of renders, and the one that is being loaded.
 #[derive(Debug, Clone)]
 pub struct LoadedLight {
     /// The name of the light, or its file.
     pub name: String,
     /// The light; the one before where that one could not be loaded.
     pub lighting: Arc<Lighting>,
-    /// The light that is being loaded.
     pub loading: Option<String>,
 }
 
@@ -55,13 +54,13 @@ pub struct Flowing {
 /// The keys that show something else while they are held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct HeldKeys {
-    /// Whether the design compared with is shown in place of the present one.
+    /// Whether the other design of a comparison is shown in place of the present one.
     pub other: bool,
-    /// Whether renders show three bands of wavelengths alone.
+    /// Whether renders show only three bands of wavelengths.
     pub three: bool,
 }
 
-/// What is awaited from outside.
+/// The answers of tasks that the session waits for.
 #[derive(Debug, Clone, Default)]
 pub struct Awaited {
     /// What a file is being chosen for.
@@ -76,7 +75,7 @@ pub struct Awaited {
     pub copying: Option<&'static str>,
 }
 
-/// What is kept safe of unsaved work.
+/// The state of the autosave.
 #[derive(Debug, Clone)]
 pub struct SafeWork {
     /// Whether there is an autosave at all.
@@ -92,11 +91,10 @@ pub struct SafeWork {
 pub struct Session {
     /// The stone that views are fitted to.
     pub framing: Framing,
-    /// The steps of the views.
+    /// The history of tilts, zooms, layouts and overlays.
     pub views: ViewHistory,
-    /// The light of renders.
     pub light: LoadedLight,
-    /// The design compared with.
+    /// The other design of a comparison.
     pub compared: Option<Compared>,
     /// The figures that have been measured.
     pub measured: SessionFigures,
@@ -116,25 +114,20 @@ pub struct Session {
     pub layings: u64,
     /// The text of the status line while the pointer is over a picture.
     pub message: String,
-    /// The messages.
     pub notes: Notes,
-    /// The dialog that is open.
     pub dialog: Option<Dialog>,
     /// What was last selected for export.
     pub selection: Selection,
     /// The view under the pointer, or the last one that was.
     pub hovered: usize,
-    /// The keys that are held.
     pub keys: HeldKeys,
-    /// What is awaited from outside.
     pub awaited: Awaited,
     /// How many documents were begun. It numbers the present one, so that no answer for another is taken for it.
     pub begun: u64,
     /// What waits until the design is saved.
     pub after_save: Option<Then>,
-    /// What is kept safe of unsaved work.
     pub safe: SafeWork,
-    /// The open file as it was last seen on disk, where that is not how the document knows it.
+    /// The open file as it was last seen on disk, where it differs from how the document was read or saved.
     pub on_disk: Option<Stamp>,
     /// The file that is watched for changes by others.
     pub watched: Option<PathBuf>,

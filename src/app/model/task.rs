@@ -10,20 +10,18 @@ use crate::scene::Specimen;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Something to be done outside.
+/// Work to be done outside the model.
 #[derive(Debug)]
 pub enum Task {
     /// Load a light by its name or file.
     LoadLight(String),
-    /// Read a file.
     Read(FileRequest),
-    /// Save a design.
     Save(Box<SaveRequest>),
     /// Ask the user for a file by the system's dialog.
     ChooseFile(Question),
-    /// Keep unsaved work safe.
+    /// Write unsaved work to the autosave.
     Keep(Box<UnsavedWork>),
-    /// Remove what is kept of unsaved work.
+    /// Remove the autosave.
     EmptySafe,
     /// Remove an autosave file that a crash left behind.
     Forget(PathBuf),
@@ -35,7 +33,7 @@ pub enum Task {
     OpenOutside(String),
     /// Make small pictures of all that can be exported.
     Thumbnails(Box<ExportPlan>),
-    /// Make no more of these small pictures.
+    /// Stop making small pictures.
     StopThumbnails,
     /// Write the files of an export.
     Export(Box<ExportPlan>),
@@ -43,16 +41,14 @@ pub enum Task {
     StopExport,
     /// Make a picture for the clipboard.
     MakeCopy(CopyRequest),
-    /// Trace all that is in sight.
+    /// Trace the pictures and figures of all views in sight.
     Trace(Box<Order>),
-    /// Something that only the window can do.
     Window(WindowTask),
 }
 
 /// Something that only the window can do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WindowTask {
-    /// Close.
     Close,
     /// Stay open, though the system asks the window to close.
     StayOpen,

@@ -23,17 +23,17 @@ pub struct ViewState {
 }
 
 impl ViewState {
-    fn of(desk: &Workspace) -> Self {
-        let Workspace { layout, panes, large, eye, distance, strongest, glare, is_split, .. } = *desk;
-        let overlay = desk.overlay.clone();
+    fn of(workspace: &Workspace) -> Self {
+        let Workspace { layout, panes, large, eye, distance, strongest, glare, is_split, .. } = *workspace;
+        let overlay = workspace.overlay.clone();
         Self { layout, panes, large, eye, distance, strongest, glare, overlay, is_split }
     }
 
-    fn lay(self, desk: &mut Workspace) {
+    fn lay(self, workspace: &mut Workspace) {
         let Self { layout, panes, large, eye, distance, strongest, glare, overlay, is_split } = self;
-        (desk.layout, desk.panes, desk.large, desk.eye) = (layout, panes, large, eye);
-        (desk.distance, desk.strongest, desk.glare) = (distance, strongest, glare);
-        (desk.overlay, desk.is_split) = (overlay, is_split);
+        (workspace.layout, workspace.panes, workspace.large, workspace.eye) = (layout, panes, large, eye);
+        (workspace.distance, workspace.strongest, workspace.glare) = (distance, strongest, glare);
+        (workspace.overlay, workspace.is_split) = (overlay, is_split);
     }
 }
 
@@ -47,14 +47,14 @@ pub struct ViewHistory {
 
 impl ViewHistory {
     /// Begins with the workspace as it is.
-    pub fn new(desk: &Workspace) -> Self {
-        let look = ViewState::of(desk);
+    pub fn new(workspace: &Workspace) -> Self {
+        let look = ViewState::of(workspace);
         Self { history: History::new(look.clone()), last: (look, 0.0) }
     }
 
     /// Takes note of the workspace between two gestures, at the time `now`, seconds.
-    pub fn note(&mut self, desk: &Workspace, now: f64) {
-        let look = ViewState::of(desk);
+    pub fn note(&mut self, workspace: &Workspace, now: f64) {
+        let look = ViewState::of(workspace);
         if look != self.last.0 {
             if now - self.last.1 > PAUSE {
                 self.settle();
@@ -74,23 +74,23 @@ impl ViewHistory {
     }
 
     /// Goes back to the state before.
-    pub fn back(&mut self, desk: &mut Workspace) {
+    pub fn back(&mut self, workspace: &mut Workspace) {
         self.settle();
         let look = self.history.undo();
-        self.go(look, desk);
+        self.go(look, workspace);
     }
 
     /// Goes forward to the state that was last gone back from.
-    pub fn on(&mut self, desk: &mut Workspace) {
+    pub fn on(&mut self, workspace: &mut Workspace) {
         self.settle();
         let look = self.history.redo();
-        self.go(look, desk);
+        self.go(look, workspace);
     }
 
-    fn go(&mut self, look: Option<ViewState>, desk: &mut Workspace) {
+    fn go(&mut self, look: Option<ViewState>, workspace: &mut Workspace) {
         if let Some(look) = look {
             self.last.0 = look.clone();
-            look.lay(desk);
+            look.lay(workspace);
         }
     }
 }
@@ -101,21 +101,21 @@ mod tests {
 
     #[test]
     fn what_follows_at_once_is_one_step_and_what_follows_later_another() {
-        let mut desk = Workspace::default();
-        let mut looks = ViewHistory::new(&desk);
+        let mut workspace = Workspace::default();
+        let mut looks = ViewHistory::new(&workspace);
         let zooms = [(2.0, 10.0), (3.0, 10.1), (4.0, 10.2), (5.0, 11.0), (6.0, 11.1)];
         for (zoom, now) in zooms {
-            desk.eye.zoom = zoom;
-            looks.note(&desk, now);
+            workspace.eye.zoom = zoom;
+            looks.note(&workspace, now);
         }
         assert_eq!(looks.steps(), (true, false));
         let mut seen = vec![];
         for _ in 0..3 {
-            looks.back(&mut desk);
-            seen.push(desk.eye.zoom);
+            looks.back(&mut workspace);
+            seen.push(workspace.eye.zoom);
         }
-        looks.on(&mut desk);
-        seen.push(desk.eye.zoom);
+        looks.on(&mut workspace);
+        seen.push(workspace.eye.zoom);
         assert_eq!((seen, looks.steps()), (vec![4.0, 1.0, 1.0, 4.0], (true, true)));
     }
 }

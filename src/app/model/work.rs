@@ -9,7 +9,6 @@ use std::sync::Arc;
 /// Everything that undo restores.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Work {
-    /// The design of the stone.
     pub design: Design,
     /// The copies of the stone in renders.
     pub company: Copies,
@@ -28,11 +27,9 @@ pub struct Work {
 /// A mesh file, and how it was read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadMesh {
-    /// The mesh file.
     pub path: PathBuf,
-    /// How the file was read.
     pub options: MeshOptions,
-    /// Whether the shape leaves a doubt which way the table faces.
+    /// Whether the shape does not show clearly which way the table faces.
     pub is_doubtful: bool,
     /// The diameter of the stone when it was read, mm.
     pub diameter_mm: f64,

@@ -206,7 +206,7 @@ impl Workspace {
         BackgroundRef::read(self.behind.as_deref()?, Path::new("")).ok()
     }
 
-    /// Returns the name of a background that cannot be shown: its file is gone, or the text is none that a background has.
+    /// Returns the name of a background that cannot be shown, because its file is gone or no background has that name.
     pub fn missing_background(&self) -> Option<&str> {
         self.behind.as_deref().filter(|_| self.background().is_none())
     }
@@ -345,56 +345,56 @@ mod tests {
 
     #[test]
     fn a_desk_is_kept_as_text_and_an_old_one_is_completed() {
-        let mut desk = Workspace { layout: PaneLayout::Two, ..Workspace::default() };
-        desk.eye.spin(crate::scene::Side::Table, 0.5);
-        desk.remember(Path::new("/a/b.toml"));
-        let text = serde_json::to_string(&desk).unwrap();
-        assert_eq!(serde_json::from_str::<Workspace>(&text).unwrap(), desk);
+        let mut workspace = Workspace { layout: PaneLayout::Two, ..Workspace::default() };
+        workspace.eye.spin(crate::scene::Side::Table, 0.5);
+        workspace.remember(Path::new("/a/b.toml"));
+        let text = serde_json::to_string(&workspace).unwrap();
+        assert_eq!(serde_json::from_str::<Workspace>(&text).unwrap(), workspace);
         assert_eq!(serde_json::from_str::<Workspace>("{}").unwrap(), Workspace::default());
     }
 
     #[test]
     fn what_a_scene_hangs_and_sets_goes_with_it_but_not_what_was_chosen_since() {
         let own = Workspace { behind: Some("grid".to_owned()), wavelengths: 64, ..Workspace::default() };
-        let mut desk = own.clone();
-        desk.enter_scene(Some("page".to_owned()), Some(8));
-        (desk.strength, desk.behind_mm) = (0.1, Some(3.0));
-        assert_eq!((desk.behind.as_deref(), desk.wavelengths), (Some("page"), 8));
-        let mut chosen = Workspace { behind: Some("dots".to_owned()), ..desk.clone() };
-        desk.rest();
-        assert_eq!(desk, own);
+        let mut workspace = own.clone();
+        workspace.enter_scene(Some("page".to_owned()), Some(8));
+        (workspace.strength, workspace.behind_mm) = (0.1, Some(3.0));
+        assert_eq!((workspace.behind.as_deref(), workspace.wavelengths), (Some("page"), 8));
+        let mut chosen = Workspace { behind: Some("dots".to_owned()), ..workspace.clone() };
+        workspace.rest();
+        assert_eq!(workspace, own);
         chosen.rest();
         assert_eq!(chosen, Workspace { behind: Some("dots".to_owned()), ..own });
     }
 
     #[test]
     fn a_render_is_shown_alone_wherever_it_is_and_where_there_is_none() {
-        let mut desk = Workspace { layout: PaneLayout::Two, ..Workspace::default() };
-        desk.panes[..2].iter_mut().for_each(|pane| pane.shows = Shows::Aset);
-        desk.panes[3].shows = Shows::Render;
-        desk.enlarge_render();
-        assert_eq!((desk.shown(), desk.panes[0].shows), (vec![0], Shows::Render));
-        desk.layout = PaneLayout::Four;
-        desk.panes[0].shows = Shows::Aset;
-        desk.enlarge_render();
-        assert_eq!((desk.shown(), desk.panes[0].shows), (vec![3], Shows::Aset));
+        let mut workspace = Workspace { layout: PaneLayout::Two, ..Workspace::default() };
+        workspace.panes[..2].iter_mut().for_each(|pane| pane.shows = Shows::Aset);
+        workspace.panes[3].shows = Shows::Render;
+        workspace.enlarge_render();
+        assert_eq!((workspace.shown(), workspace.panes[0].shows), (vec![0], Shows::Render));
+        workspace.layout = PaneLayout::Four;
+        workspace.panes[0].shows = Shows::Aset;
+        workspace.enlarge_render();
+        assert_eq!((workspace.shown(), workspace.panes[0].shows), (vec![3], Shows::Aset));
     }
 
     #[test]
     fn recent_files_are_few_and_each_stands_once() {
-        let mut desk = Workspace::default();
-        (0..30).for_each(|k| desk.remember(Path::new(&format!("/{}.toml", k % 20))));
-        assert_eq!(desk.recent.len(), MOST_RECENT);
-        assert_eq!(desk.recent[0], Path::new("/9.toml"));
+        let mut workspace = Workspace::default();
+        (0..30).for_each(|k| workspace.remember(Path::new(&format!("/{}.toml", k % 20))));
+        assert_eq!(workspace.recent.len(), MOST_RECENT);
+        assert_eq!(workspace.recent[0], Path::new("/9.toml"));
     }
 
     #[test]
     fn backgrounds_come_one_after_the_other_and_around() {
-        let mut desk = Workspace { behind: Some("/a/photo.png".to_owned()), ..Workspace::default() };
+        let mut workspace = Workspace { behind: Some("/a/photo.png".to_owned()), ..Workspace::default() };
         let mut seen = vec![];
         for _ in 0..Pattern::NAMES.len() + 1 {
-            desk.next_behind();
-            seen.push(desk.behind.clone());
+            workspace.next_behind();
+            seen.push(workspace.behind.clone());
         }
         assert_eq!(seen.iter().flatten().count(), Pattern::NAMES.len());
         assert_eq!((seen[0].as_deref(), seen.last()), (Some("page"), Some(&None)));
@@ -402,12 +402,12 @@ mod tests {
 
     #[test]
     fn every_overlay_is_toggled() {
-        let mut desk = Workspace::default();
+        let mut workspace = Workspace::default();
         for name in Overlay::names() {
-            desk.toggle_overlay(name);
-            assert!(desk.overlay().is_some(), "{name}");
-            desk.toggle_overlay(name);
-            assert_eq!(desk.overlay(), None);
+            workspace.toggle_overlay(name);
+            assert!(workspace.overlay().is_some(), "{name}");
+            workspace.toggle_overlay(name);
+            assert_eq!(workspace.overlay(), None);
         }
     }
 }

@@ -28,7 +28,6 @@ pub enum PaintShape {
 /// A shape with its texture and the area in which it is seen.
 #[derive(Debug, Clone, Copy)]
 pub struct PaintPiece {
-    /// The shape.
     pub shape: PaintShape,
     /// The texture that fills the shape.
     pub texture: TextureId,

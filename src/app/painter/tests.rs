@@ -1,5 +1,5 @@
 //! Compares this painter with egui's own for graphics cards, which Mesa's driver computes on the processor.
-#![allow(clippy::print_stdout, reason = "what is measured is told")]
+#![allow(clippy::print_stdout, reason = "tests print what they measure")]
 
 use super::Painter;
 use crate::app::editor::Editor;
@@ -63,7 +63,7 @@ fn painted(theme: Theme, scale: f32) -> (RgbaImage, RgbaImage) {
     let mut diagram = aset;
     diagram.shows = Shows::Diagram;
     let setup = Setup {
-        desk: Workspace { panes: [aset, diagram, hearts, profile], ..Workspace::default() },
+        workspace: Workspace { panes: [aset, diagram, hearts, profile], ..Workspace::default() },
         ..Setup::default()
     };
     let mut harness = Harness::builder()

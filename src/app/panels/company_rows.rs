@@ -34,7 +34,7 @@ const ABBE_NUMBERS: RangeInclusive<f64> = 1.0..=90.0;
 pub fn presets(actions: &mut Actions, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         for Known { name, title, .. } in PRESETS {
-            let meaning = "Begins this scene: its shape, material, copies, light and what lies behind.";
+            let meaning = "Starts this scene with its own shape, material, copies, light and background.";
             if ui.small_button(title).on_hover_text(meaning).clicked() {
                 actions.push(FileAction::Ask(Then::Preset(name.to_owned())));
             }
@@ -50,9 +50,9 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     ui.horizontal(|ui| {
         skip_name(ui);
         let size = vec2(field_width(ui), ui.spacing().interact_size.y);
-        let again = Button::new("Lay out").min_size(size);
+        let again = Button::new("Scatter").min_size(size);
         let again = ui.add_enabled(count > 1, again);
-        if again.on_hover_text("Lays the copies out anew, as Space does.").clicked() {
+        if again.on_hover_text("Scatters the copies anew; Space does the same.").clicked() {
             actions.push(Edit::LayOut(count));
         }
     });
@@ -62,16 +62,16 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
 
 fn motion(motion: Motion, actions: &mut Actions, ui: &mut Ui) {
     ui.horizontal(|ui| {
-        named(ui, "Motion", "Copies tumble, plates wave, in renders alone. M lets it go on and stops it.");
+        named(ui, "Motion", "In renders, copies tumble and plates wave. M starts and stops the motion.");
         let (name, meaning) = match motion.is_on {
-            true => ("Pause", "Stops here; the picture grows sharper for as long as it stands."),
-            false => ("Play", "Lets time go on."),
+            true => ("Pause", "Stops the motion; the picture then becomes sharper."),
+            false => ("Play", "Starts the motion."),
         };
         let size = vec2(control_width(ui), ui.spacing().interact_size.y);
         if ui.add_sized(size, Button::new(name)).on_hover_text(meaning).clicked() {
             actions.push(Command::Play);
         }
-        let rest = Button::new("At rest").min_size(vec2(NUMBER, size.y));
+        let rest = Button::new("Reset pose").min_size(vec2(NUMBER, size.y));
         let rest = ui.add_enabled(motion.seconds != 0.0, rest);
         if rest.on_hover_text("Goes back to the pose of the design.").clicked() {
             actions.push(ViewAction::Rest);
@@ -88,7 +88,7 @@ fn view_angle(model: &Model, actions: &mut Actions, ui: &mut Ui) {
         return;
     }
     let degrees = 2.0 * (reach / workspace.distance).atan().to_degrees();
-    let meaning = "The angle that views in perspective take in; P looks along parallel rays.";
+    let meaning = "The angle of view in perspective. P switches to parallel rays.";
     let row = Row::new("View angle", meaning, ANGLES);
     let distance = |degrees: f64| ViewAction::Distance(reach / (0.5 * degrees).to_radians().tan());
     Row { decimals: 1, speed: 0.2, unit: "°", ..row }.edit(ui, actions, degrees, distance);
@@ -96,8 +96,8 @@ fn view_angle(model: &Model, actions: &mut Actions, ui: &mut Ui) {
 
 fn copies(before: usize, actions: &mut Actions, ui: &mut Ui) {
     let (mut count, most) = (before as f64, MOST_COPIES as f64);
-    let meaning = "How many of it renders show. Light that leaves one enters another. Drag one in a render to move it; Space \
-        lays all out anew.";
+    let meaning = "The number of copies in renders. Light that leaves one copy can enter another. Drag a copy in a \
+        render to move it; Space scatters all of them anew.";
     let row = Row::new("Copies", meaning, 1.0..=most);
     Row { limits: ANY, step: 1.0, decimals: 0, speed: 0.05, ..row }.show(ui, &mut count);
     actions.push_changed(&before, count.round().clamp(1.0, most) as usize, Edit::LayOut);
@@ -105,8 +105,8 @@ fn copies(before: usize, actions: &mut Actions, ui: &mut Ui) {
 
 fn smoothing(before: Smoothing, actions: &mut Actions, ui: &mut Ui) {
     let mut smoothing = before;
-    let meaning = "How the edges of renders are evened out. Not at all; in each finished picture (FXAA); or over time while \
-        anything moves (temporal). At rest many looks at each pixel do it.";
+    let meaning = "How the edges of renders are smoothed: not at all, in each picture (FXAA), or over time while \
+        anything moves (temporal). A still picture is smoothed by its many samples of each pixel.";
     let newest = match before {
         Smoothing::Temporal { newest } => newest,
         _ => FIRST_NEWEST,
@@ -118,7 +118,8 @@ fn smoothing(before: Smoothing, actions: &mut Actions, ui: &mut Ui) {
         all.into_iter().for_each(|(each, name)| drop(ui.selectable_value(&mut smoothing, each, name)));
     });
     if let Smoothing::Temporal { newest } = &mut smoothing {
-        let meaning = "The share of the newest picture: less is smoother, and slower to follow.";
+        let meaning = "The share of the newest picture. A smaller share is smoother, but follows a change more \
+            slowly.";
         Row { speed: 0.01, ..Row::new("Newest part", meaning, NEWEST) }.show(ui, newest);
     }
     actions.push_changed(&before, smoothing, ViewAction::Smoothing);
@@ -129,9 +130,10 @@ pub fn two_numbers(material: &MaterialRef, known: &Material, ui: &mut Ui) -> Opt
     let law = &known.dispersion;
     let (index, abbe) = (known.index(line::HELIUM_D), law.abbe_number().unwrap_or(f64::INFINITY));
     let (mut n, mut v) = (index, abbe);
-    let meaning = "Refractive index n_d, of helium's yellow line at 587.6 nm.";
+    let meaning = "Refractive index n_d, at helium's yellow line of 587.6 nm.";
     Row { decimals: 3, speed: 0.01, ..Row::new("Index", meaning, INDICES) }.show(ui, &mut n);
-    let meaning = "V_d: the less, the wider the rainbow; inf for none. Below 20 no real glass is.";
+    let meaning =
+        "V_d. A smaller number makes a wider rainbow, and inf makes none. No real glass is below 20.";
     let limits = *ABBE_NUMBERS.start()..=f64::INFINITY;
     let row = Row::new("Abbe number", meaning, ABBE_NUMBERS);
     Row { limits, decimals: 1, speed: 0.1, ..row }.show(ui, &mut v);

@@ -26,17 +26,19 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui, widths: RangeIncl
                 company_rows::presets(actions, ui);
             }
             let meaning = match is_graded(&work.design) {
-                true => "Drag a slider or type a number; the green mark is the range GIA calls excellent.",
+                true => {
+                    "Drag a slider or type a number. The green band is the range that GIA calls excellent."
+                }
                 false => "Drag a slider or type a number.",
             };
             heading(ui, "Proportions", meaning);
             mesh_rows::show(model, actions, ui);
             proportions(model, actions, ui);
-            heading(ui, "Stone", "What it is made of, and how large it is.");
+            heading(ui, "Stone", "The material and the size of the stone.");
             stone_rows::show(model, actions, ui);
-            heading(ui, "Light", "What the render is lit by; scopes bring their own light.");
+            heading(ui, "Light", "The light of renders. Scopes have a light of their own.");
             light_rows::show(model, actions, ui);
-            heading(ui, "Copies", "Renders show several of it, and let them move.");
+            heading(ui, "Copies", "Renders can show several copies, and move them.");
             company_rows::show(model, actions, ui);
         });
     });
@@ -60,7 +62,7 @@ fn heading(ui: &mut Ui, text: &str, meaning: &str) {
 fn identity(document: &Document, actions: &mut Actions, ui: &mut Ui) {
     let design = &document.work.design;
     ui.horizontal(|ui| {
-        let label = named(ui, "Name", "What the design is called, in its file and on its pictures.");
+        let label = named(ui, "Name", "The name of the design in its file and on its pictures.");
         let mut name = design.name.clone();
         let field = TextEdit::singleline(&mut name).desired_width(field_width(ui));
         if ui.add(field).labelled_by(label.id).changed() {
@@ -71,10 +73,14 @@ fn identity(document: &Document, actions: &mut Actions, ui: &mut Ui) {
         wrong(ui, &fault.to_string());
     }
     ui.horizontal(|ui| {
-        named(ui, "Cut", "The family: which facets there are, and which numbers shape them.");
+        named(
+            ui,
+            "Cut",
+            "The family of the cut. It sets which facets there are, and which numbers shape them.",
+        );
         ui.label(match design.cut {
             Cut::Tiers(_) => "Tiers on an index gear",
-            Cut::Planes(_) => "Facets by their planes",
+            Cut::Planes(_) => "Facets given by planes",
             Cut::Mesh(_) => "Triangles of a mesh",
             Cut::RoundBrilliant(_) | Cut::Glass(_) => design.cut.family().map_or("", |family| family.name),
         });
@@ -205,9 +211,9 @@ fn hold(ui: &mut Ui, proportion: &Proportion, cut: &mut Cut) {
     }
     let held = (proportion.is_given)(cut);
     let meaning = if held {
-        "Held: it stays when other proportions change."
+        "Held: this number stays when other proportions change."
     } else {
-        "Hold this one when other proportions change."
+        "Hold this number when other proportions change."
     };
     let side = ui.spacing().interact_size.y;
     let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());

@@ -9,7 +9,6 @@ use crate::scene::{ASET_CONE, Backing, Glare, Scope};
 /// A figure that the panel shows.
 #[derive(Debug)]
 pub struct Figure {
-    /// The name in the panel.
     pub name: &'static str,
     /// What the figure means.
     pub meaning: &'static str,
@@ -18,7 +17,7 @@ pub struct Figure {
     source: Source,
 }
 
-/// What a figure is read from.
+/// The source of a figure.
 #[derive(Debug)]
 enum Source {
     /// A band of the scope.
@@ -29,44 +28,44 @@ enum Source {
 
 /// The zones, in the order of the panel.
 pub static ZONES: [Figure; 5] = [
-    zone("Red", "red", "Light from 45° to 75° above the horizon: the brightest that rooms have."),
+    zone("Red", "red", "Light from 45° to 75° above the horizon, where rooms are brightest."),
     zone("Green", "green", "Light from the horizon to 45°: walls and windows."),
     zone(
         "Blue",
         "blue",
-        "Light from straight above, which an observer's head blocks: it makes the contrast.",
+        "Light from straight above, which the observer's head blocks. It makes the contrast.",
     ),
-    zone(HEAD, "head", "Light that the observer's head shuts out."),
+    zone(HEAD, "head", "Light that the observer's head blocks."),
     zone(
         "Leakage",
         "below",
-        "Light from behind the stone: what the pavilion lets out. A dark spot or a window.",
+        "Light from behind the stone, through the pavilion. It shows as a dark spot or a window.",
     ),
 ];
 
-/// The figures of energy that are no zones, in the order of the panel.
+/// The figures of energy that are not zones, in the order of the panel.
 pub(super) static TOTALS: [Figure; 5] = [
     Figure {
         is_strong: true,
         ..total("Light return", LIGHT_RETURN, |figures, scope| figures.light_return(scope))
     },
-    total(WITH_GLARE, "Light return, and the glare from above the horizon.", |figures, scope| {
+    total(WITH_GLARE, "Light return plus the glare from above the horizon.", |figures, scope| {
         figures.light_return(scope) + figures.glare_return(scope)
     }),
     total("Glare", "Light that the outer surface reflects without having been inside.", |figures, _| {
         figures.surface.iter().sum()
     }),
-    total("Absorbed", "Light that the stone's colour takes away.", |figures, _| figures.absorbed),
+    total("Absorbed", "Light that the colour of the stone absorbs.", |figures, _| figures.absorbed),
     total("Unresolved", UNRESOLVED, |figures, _| figures.unresolved),
 ];
 
-/// The one figure of areas that is no zone.
+/// The one figure of areas that is not a zone.
 static UNDECIDED: Figure = total("Undecided", HIDDEN, |figures, _| figures.strongest_exit_undecided);
 
-const LIGHT_RETURN: &str =
-    "Light from above the horizon that has been inside the stone: what makes it bright. Glare is not in it.";
-const UNRESOLVED: &str = "Light that was not followed to its end: by it, figures may be too low.";
-const HIDDEN: &str = "Where a stronger exit may hide in what is unresolved, or nothing leaves the stone.";
+const LIGHT_RETURN: &str = "Light from above the horizon that has been inside the stone. It makes the stone bright. Glare is not included.";
+const UNRESOLVED: &str = "Light that was not followed to its end. Other figures may be too low by as much.";
+const HIDDEN: &str =
+    "The area where unresolved light may hide a stronger exit, or where no light leaves the stone.";
 
 const fn zone(name: &'static str, band: &'static str, meaning: &'static str) -> Figure {
     Figure { name, meaning, is_strong: false, source: Source::Zone(band) }
@@ -86,8 +85,8 @@ impl Figure {
     }
 
     /// Returns the figure, as a part of the stone's outline; 0 for a zone that the scope lacks.
-    fn of(&self, ShownFigures { ask, figures, .. }: &ShownFigures, counting: Counting) -> f64 {
-        let scope = aset(ask.head);
+    fn of(&self, ShownFigures { order, figures, .. }: &ShownFigures, counting: Counting) -> f64 {
+        let scope = aset(order.head);
         let band = match self.source {
             Source::Total(of) => return of(figures, &scope),
             Source::Zone(name) => scope.bands.iter().position(|band| band.name == name),
@@ -120,14 +119,13 @@ impl Counting {
     }
 }
 
-/// A figure of the present stone, beside that of the stone compared with.
+/// A figure of the present stone, beside that of the other stone of a comparison.
 #[derive(Debug, Clone, Copy)]
 pub struct FigureLine {
-    /// The figure.
     pub figure: &'static Figure,
     /// The share of the present stone's outline.
     pub share: f64,
-    /// The share of the outline of the stone compared with, if any.
+    /// The share of the outline of the other stone of a comparison, if any.
     pub other: Option<f64>,
     /// How far apart `share` and `other` may be in one and the same stone; 0 once both are final.
     pub error: f64,
@@ -148,7 +146,7 @@ pub fn lines(measured: &ShownFigures, other: Option<&ShownFigures>, counting: Co
     let error = other.map_or(0.0, |other| error(measured, other, counting.by_area));
     let totals = if counting.by_area { std::slice::from_ref(&UNDECIDED) } else { &TOTALS };
     let is_shown = |figure: &&Figure| match figure.name {
-        HEAD => measured.ask.head > 0.0,
+        HEAD => measured.order.head > 0.0,
         WITH_GLARE => counting.glare == Glare::Included,
         _ => true,
     };
@@ -217,7 +215,7 @@ mod tests {
         let beams =
             beam::trace(&specimen.stone().unwrap().polytope, medium, &view, &options, &unwatched).unwrap();
         let figures = by_beams(&beams, &Scope::aset(ASET_CONE, Backing::Black));
-        ShownFigures { ask: FiguresOrder { specimen, view, head: 0.0 }, grade, figures }
+        ShownFigures { order: FiguresOrder { specimen, view, head: 0.0 }, grade, figures }
     }
 
     #[test]

@@ -32,9 +32,9 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui, widths: RangeIncl
 fn figures(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     ui.horizontal(|ui| {
         ui.label(RichText::new("Figures").heading()).on_hover_text(
-            "What becomes of the light of the linked view in the common ASET, in percent of the stone's outline, at \
-             sodium's 589.3 nm. Each may be too low by what is unresolved; by rays, as of meshes and glass, there is the \
-             error of sampling as well.",
+            "The light of the linked views in the ordinary ASET, in percent of the stone's outline, at 589.3 nm \
+                (sodium). A figure may be too low by the unresolved light. Meshes and glass are measured by rays, \
+                which adds an error of sampling.",
         );
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.menu_button("Copy", |ui| copies(model, actions, ui));
@@ -50,25 +50,29 @@ fn figures(model: &Model, actions: &mut Actions, ui: &mut Ui) {
 fn against_tilt(model: &Model, ui: &mut Ui) {
     ui.add_space(8.0);
     ui.label(RichText::new("Against tilt").heading()).on_hover_text(
-        "The same figures while the stone leans toward the azimuth of the linked views, -30° to 30°.",
+        "The same figures while the stone tilts from -30° to 30° toward the azimuth of the linked views.",
     );
-    if let Some((ask, tilts)) = &model.session.measured.tilts {
+    if let Some((order, tilts)) = &model.session.measured.tilts {
         ui.label(RichText::new("in the colours of the zones above").weak().small());
-        let is_asked = model.session.ordered.tilts.as_ref() == Some(ask);
-        ui.add_enabled_ui(is_asked, |ui| plot(ui, ask.head, model.workspace.glare(), tilts));
+        let is_ordered = model.session.ordered.tilts.as_ref() == Some(order);
+        ui.add_enabled_ui(is_ordered, |ui| plot(ui, order.head, model.workspace.glare(), tilts));
     } else {
-        ui.label(RichText::new("comes when all else is done").weak());
+        ui.label(RichText::new("measured once everything else is done").weak());
     }
 }
 
 /// Draws the menu entries that copy the figures.
 fn copies(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let tilts = model.session.measured.tilts.as_ref();
-    let tilts = tilts.map(|(ask, tilts)| figures_text::tilts(ask.head, model.workspace.glare(), tilts));
-    let all = "A table for spreadsheets: energy and area of every figure, in percent.";
-    let zones = "A table for spreadsheets: the zones' energy at each tilt, in percent.";
+    let tilts = tilts.map(|(order, tilts)| figures_text::tilts(order.head, model.workspace.glare(), tilts));
+    let all = "Copies a table for spreadsheets: energy and area of every figure, in percent.";
+    let zones = "Copies a table for spreadsheets: the energy of each zone at each tilt, in percent.";
     for (name, meaning, text) in [
-        ("Copy as text", "The figures as they are shown, a line each.", figures_text::shown(model, false)),
+        (
+            "Copy as text",
+            "Copies the figures as they are shown, one per line.",
+            figures_text::shown(model, false),
+        ),
         ("Copy as CSV", all, figures_text::shown(model, true)),
         ("Copy tilts as CSV", zones, tilts),
     ] {
@@ -85,9 +89,9 @@ fn how(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let mut by_area = workspace.by_area;
         ui.selectable_value(&mut by_area, false, "Energy")
-            .on_hover_text("How much of the light comes from each zone, all exits of each point together.");
+            .on_hover_text("The share of the light that comes from each zone, over all exits of each point.");
         ui.selectable_value(&mut by_area, true, "Area").on_hover_text(
-            "The part of the stone whose strongest light comes from each zone, as most ASET scores count.",
+            "The part of the stone whose strongest light comes from each zone, as most ASET scores count it.",
         );
         actions.push_changed(&workspace.by_area, by_area, ViewAction::ByArea);
     });
@@ -112,8 +116,8 @@ fn row(ui: &mut Ui, row: &FigureLine) {
     let percent = 100.0 * row.share;
     let (width, height) = (ui.available_width(), 20.0);
     let (rect, response) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
-    let told = format!("{name} {percent:.2} %");
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &told));
+    let spoken = format!("{name} {percent:.2} %");
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &spoken));
     let bar = Rect::from_min_max(
         pos2(rect.left() + 86.0, rect.top() + 5.0),
         pos2(rect.right() - 66.0, rect.bottom() - 5.0),

@@ -15,9 +15,9 @@ pub fn other(model: &Model) -> Option<&ShownFigures> {
 
 /// Says whether figures are final, and their error where they are sampled.
 pub fn state(model: &Model, measured: &ShownFigures) -> String {
-    let is_asked = model.session.ordered.figures.iter().any(|(_, ask)| *ask == measured.ask);
-    let state = match is_asked && measured.grade == Grade::Fine {
-        true if model.document.shows_last_possible() => "those of the last possible stone",
+    let is_ordered = model.session.ordered.figures.iter().any(|(_, order)| *order == measured.order);
+    let state = match is_ordered && measured.grade == Grade::Fine {
+        true if model.document.shows_last_possible() => "figures of the last possible stone",
         true => "final",
         false => "becoming finer…",
     };
@@ -59,7 +59,6 @@ pub fn shown(model: &Model, as_table: bool) -> Option<String> {
 
 /// What the figures describe, in words.
 struct FiguresSubject<'a> {
-    /// The name of the design.
     design: &'a str,
     /// From where the design is seen.
     view: &'a str,
@@ -75,7 +74,7 @@ fn text(about: &FiguresSubject, lines: &[FigureLine]) -> String {
     let mut text = format!("{design}: {view}; {state}\n");
     if let Some(other) = other {
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "in brackets what is more than in {other}");
+        let _ = writeln!(text, "in brackets the difference from {other}");
     }
     for line in lines {
         let (name, percent) = (line.figure.name, 100.0 * line.share);
@@ -183,10 +182,10 @@ mod tests {
     #[test]
     fn a_text_tells_the_difference_from_what_is_compared_with() {
         let about = FiguresSubject { design: "a", view: "face up", state: "energy, final", other: Some("b") };
-        let told = text(&about, &[line("Red", 0.5, Some(0.375))]);
+        let copied = text(&about, &[line("Red", 0.5, Some(0.375))]);
         assert_eq!(
-            told,
-            "a: face up; energy, final\nin brackets what is more than in b\nRed             50.000 % (+12.500)\n"
+            copied,
+            "a: face up; energy, final\nin brackets the difference from b\nRed             50.000 % (+12.500)\n"
         );
     }
 }

@@ -26,12 +26,12 @@ const STRENGTHS: RangeInclusive<f64> = 0.0..=1.0;
 pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let (work, workspace) = (&model.document.work, &model.workspace);
     light_row(&work.light, actions, ui);
-    let meaning = "How bright renders are shown, in stops: one more is twice the light.";
+    let meaning = "The brightness of renders, in stops. One stop more is twice the light.";
     let exposure = Row { step: 0.1, decimals: 1, unit: " stops", ..Row::new("Exposure", meaning, STOPS) };
     exposure.edit(ui, actions, work.exposure, Edit::Exposure);
     let mut count = workspace.wavelengths;
-    let meaning = "Into how many bands of wavelengths renders take light apart; few show as bands in the colours. Hold Z \
-        to see what three show.";
+    let meaning = "The number of bands of wavelengths into which renders split light. With few, a rainbow breaks \
+        into steps of colour; hold Z to see three.";
     choice_row(ui, "Wavelengths", meaning, &count.to_string(), |ui| {
         WAVELENGTHS.into_iter().for_each(|n| drop(ui.selectable_value(&mut count, n, n.to_string())));
     });
@@ -40,19 +40,20 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     if workspace.behind.is_some() {
         behind_how(workspace, model.document.specimen().unit_mm(), actions, ui);
     }
-    let meaning = "Half angle of the observer's head, which shuts out light in ASET and figures; 0 for none.";
+    let meaning =
+        "Half angle of the observer's head, which blocks light in the ASET and in figures; 0 for none.";
     let head = Row { step: 0.1, decimals: 1, unit: "°", ..Row::new("Head", meaning, HEADS) };
     head.edit(ui, actions, work.head, Edit::Head);
 }
 
-/// Returns the name of a file without its folders; the name of what is no file as it is.
+/// Returns the name of a file without its folders; any other name unchanged.
 fn short(name: &str) -> Cow<'_, str> {
     Path::new(name).file_name().map_or(name.into(), |file| file.to_string_lossy())
 }
 
 /// Draws the row of lights.
 fn light_row(present: &str, actions: &mut Actions, ui: &mut Ui) {
-    choice_row(ui, "Light", "What stands around the stone in renders.", &short(present), |ui| {
+    choice_row(ui, "Light", "The light around the stone in renders.", &short(present), |ui| {
         for name in LIGHTS {
             let about = light(name).map_or(String::new(), |light| light.description);
             if ui.selectable_label(present == name, name).on_hover_text(about).clicked() {
@@ -69,12 +70,12 @@ fn light_row(present: &str, actions: &mut Actions, ui: &mut Ui) {
 /// Draws the row of backplates behind the stone in renders.
 fn behind(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
     let mut behind = workspace.behind.clone();
-    let meaning = "A picture behind the stone in renders, refracted where each ray meets it.";
+    let meaning = "The background of renders. Each ray shows the point of it that the ray meets.";
     let present = workspace.behind.as_deref().map_or("nothing".into(), short);
-    choice_row(ui, "Behind", meaning, &present, |ui| {
+    choice_row(ui, "Background", meaning, &present, |ui| {
         ui.selectable_value(&mut behind, None, "nothing");
         ui.selectable_value(&mut behind, Some("light".to_owned()), "light")
-            .on_hover_text("What shines, a panorama for one.");
+            .on_hover_text("The light itself, for example a panorama.");
         for (name, _) in Pattern::NAMES {
             ui.selectable_value(&mut behind, Some(name.to_owned()), name);
         }
@@ -85,17 +86,18 @@ fn behind(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
     actions.push_changed(&workspace.behind, behind, ViewAction::Behind);
 }
 
-/// Draws the rows for how the backplate is seen: its distance, and the strength of refraction.
+/// Draws the rows for the backplate's distance and the strength of refraction.
 fn behind_how(workspace: &Workspace, unit_mm: f64, actions: &mut Actions, ui: &mut Ui) {
     if workspace.behind.as_deref() != Some("light") {
         let mm = workspace.behind_mm.unwrap_or(BEHIND * unit_mm);
-        let about = "How far behind the middle it hangs; never nearer than the stones reach.";
+        let about = "Distance of the background behind the middle of the scene. It is never nearer than the stones \
+            reach.";
         let row = Row::new("Distance", about, 0.0..=20.0 * unit_mm);
         let row = Row { limits: 0.0..=f64::INFINITY, step: 0.1, decimals: 1, unit: " mm", ..row };
         row.edit(ui, actions, mm, ViewAction::BehindMm);
     }
-    let meaning = "How much of the way that refraction turns light is followed: 1 is physics, less a mixture with the \
-        straight ray, for its looks.";
+    let meaning = "The strength of refraction. 1 is physics. A smaller number mixes the refracted ray with the \
+        straight ray, which designers use for its looks.";
     let row = Row::new("Strength", meaning, STRENGTHS);
     Row { step: 0.005, decimals: 3, ..row }.edit(ui, actions, workspace.strength, ViewAction::Strength);
 }

@@ -9,12 +9,12 @@ use crate::io::mesh_options::{MeshForm, MeshOptions};
 use egui::Ui;
 use glam::DVec3;
 
-const MEANING: &str = "Which direction of the mesh's own frame the table faces. The mesh is read anew, and the views show at \
-    once what comes of it.";
+const MEANING: &str = "The direction in the mesh file that the table faces. The mesh is read again when you change \
+    it.";
 
 /// The directions that can be chosen.
 const DIRECTIONS: [(&str, Up); 7] = [
-    ("As found", Up::Found),
+    ("Automatic", Up::Found),
     ("+x", Up::Given(DVec3::X)),
     ("−x", Up::Given(DVec3::NEG_X)),
     ("+y", Up::Given(DVec3::Y)),
@@ -25,8 +25,8 @@ const DIRECTIONS: [(&str, Up); 7] = [
 
 /// The forms that the triangles of a mesh can be read as: name, form and meaning.
 const FORMS: [(&str, MeshForm, &str); 2] = [
-    ("Facets", MeshForm::Faceted, "The convex stone between flat facets, as a cutter makes it."),
-    ("Triangles", MeshForm::Triangles, "The mesh as it is, traced by rays."),
+    ("Facets", MeshForm::Faceted, "Reads a convex stone with flat facets, as a cutter makes it."),
+    ("Triangles", MeshForm::Triangles, "Keeps the mesh as it is, and traces it by rays."),
 ];
 
 /// Draws the rows for a design that was read from a mesh; another choice reads the mesh anew.
@@ -52,7 +52,11 @@ fn form(cut: &Cut, options: MeshOptions, actions: &mut Actions, ui: &mut Ui) {
     };
     let present = if options.form == MeshForm::Found { found } else { options.form };
     ui.horizontal(|ui| {
-        named(ui, "Read as", "What the triangles of the file stand for. The mesh is read anew.");
+        named(
+            ui,
+            "Read as",
+            "What the triangles of the file stand for. The mesh is read again when you change it.",
+        );
         for (name, form, meaning) in FORMS {
             let is_present = form == present;
             if ui.selectable_label(is_present, name).on_hover_text(meaning).clicked() && !is_present {

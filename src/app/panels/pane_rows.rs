@@ -21,9 +21,9 @@ const GAPS: RangeInclusive<f64> = 0.001..=1.0;
 
 /// The qualities: the name of each, and what of the effect it draws.
 const QUALITIES: [(PaneQuality, &str, &str); 3] = [
-    (PaneQuality::High, "high", "All, frost by five samples."),
-    (PaneQuality::Medium, "medium", "Frost by three samples, dispersion of 30 at most."),
-    (PaneQuality::Low, "low", "Refraction alone: no depth, dispersion, frost, light or tint."),
+    (PaneQuality::High, "high", "All effects; frost takes five samples."),
+    (PaneQuality::Medium, "medium", "Frost takes three samples, and dispersion is 30 at most."),
+    (PaneQuality::Low, "low", "Only refraction: no depth, dispersion, frost, light or tint."),
 ];
 
 /// Draws the rows, where liquid glass is in sight.
@@ -35,8 +35,8 @@ pub fn show(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
     }
     ui.add_space(8.0);
     ui.label(RichText::new("Liquid glass").heading()).on_hover_text(
-        "A pane before what hangs behind: as screens draw it, by five parts of arithmetic, and as glass is. Strengths run \
-         from 0 to 100.",
+        "A pane in front of the background: drawn by five formulas as screens do it, or traced as real glass. \
+            Strengths run from 0 to 100.",
     );
     let mut liquid = workspace.liquid;
     let Liquid { size, corners, refraction, depth, dispersion, frost, light, gap, .. } = &mut liquid;
@@ -46,23 +46,35 @@ pub fn show(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
         ("Corners", "How round its corners are, in percent of its shorter side.", corners, CORNERS, " %"),
         (
             "Refraction",
-            "Bends what is behind at the rim; of the traced glass the index, 1 to 1.5.",
+            "Bends the background at the rim. In the traced pane it is the index, 1 to 1.5.",
             refraction,
             STRENGTHS,
             "",
         ),
-        ("Pane depth", "How thick the pane looks; of the traced glass its thickness.", depth, STRENGTHS, ""),
+        (
+            "Pane depth",
+            "How thick the pane looks. In the traced pane it is the thickness.",
+            depth,
+            STRENGTHS,
+            "",
+        ),
         (
             "Dispersion",
-            "Draws red and blue apart; of the traced glass the Abbe number, 55 at 100.",
+            "Separates red from blue. In the traced pane it sets the Abbe number, 55 at 100.",
             dispersion,
             STRENGTHS,
             "",
         ),
-        ("Frost", "Blurs by noise toward the rim; the traced glass is always clear.", frost, STRENGTHS, ""),
+        (
+            "Frost",
+            "Blurs the background by noise toward the rim. The traced pane is always clear.",
+            frost,
+            STRENGTHS,
+            "",
+        ),
         (
             "Pane light",
-            "Shine, shade and rim; around the traced glass a lamp and a sky as bright.",
+            "The strength of shine, shade and rim. Around the traced pane it is the brightness of a lamp and a sky.",
             light,
             STRENGTHS,
             "",
@@ -71,7 +83,8 @@ pub fn show(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
         Row { step: 1.0, decimals: 0, speed: 0.2, unit, ..Row::new(name, meaning, range) }.show(ui, value);
     }
     if traced {
-        let meaning = "How far the traced pane lies above what is behind, in parts of its shorter side.";
+        let meaning =
+            "The distance from the traced pane to the background, in parts of the pane's shorter side.";
         let row = Row::new("Gap", meaning, GAPS);
         Row { step: 0.001, decimals: 3, speed: 0.002, logarithmic: true, ..row }.show(ui, gap);
     }
@@ -82,12 +95,12 @@ pub fn show(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
 /// Draws the rows for tint and quality.
 fn last(liquid: &mut Liquid, ui: &mut Ui) {
     ui.horizontal(|ui| {
-        let meaning = "A colour laid over the pane, and by its alpha how much of what is behind it covers.";
+        let meaning = "The colour of the pane. Its alpha says how much of the background it covers.";
         let label = named(ui, "Tint", meaning);
         ui.color_edit_button_srgba_unmultiplied(&mut liquid.tint).labelled_by(label.id);
     });
     ui.horizontal(|ui| {
-        let label = named(ui, "PaneQuality", "How much of the effect is drawn.");
+        let label = named(ui, "Quality", "How much of the effect is drawn.");
         let chosen = QUALITIES.iter().find(|(q, ..)| *q == liquid.quality).map_or("", |(_, name, _)| name);
         let width = control_width(ui);
         let combo = ComboBox::from_id_salt("quality").selected_text(chosen).width(width).show_ui(ui, |ui| {
@@ -97,7 +110,7 @@ fn last(liquid: &mut Liquid, ui: &mut Ui) {
         });
         combo.response.labelled_by(label.id);
         let reset = ui.add_sized(vec2(NUMBER, ui.spacing().interact_size.y), Button::new("Reset"));
-        if reset.on_hover_text("The pane as it was at first.").clicked() {
+        if reset.on_hover_text("Resets the pane to its first state.").clicked() {
             *liquid = Liquid::default();
         }
     });

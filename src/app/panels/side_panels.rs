@@ -88,7 +88,7 @@ fn strip(actions: &mut Actions, ui: &mut Ui, side: PanelSide) {
         chevron(ui, rect, side == PanelSide::Figures, &whole);
         upright(ui, rect, name(side));
         let label = format!("Open {}", name(side).to_lowercase());
-        if named(whole, &label, &format!("Opens the panel of the {}.", name(side).to_lowercase())).clicked() {
+        if named(whole, &label, &format!("Opens the {} panel.", name(side).to_lowercase())).clicked() {
             actions.push(open_or_fold(ui, side, true));
         }
     });

@@ -40,13 +40,13 @@ fn is_own(material: &MaterialRef) -> bool {
 }
 
 /// The note about a material whose colour is not measured.
-const ILLUSTRATIVE: &str = "\nIts colour is illustrative: chosen to look like the gem's, and not measured. What the stone \
-    absorbs follows from it.";
+const ILLUSTRATIVE: &str = "\nIts colour is illustrative: it was chosen to look like the gem's, not measured. \
+    Absorption follows from it.";
 
 /// Draws the row of materials; returns the one that was chosen.
 fn material(design: &Design, known: &Material, ui: &mut Ui) -> Option<MaterialRef> {
     let mut chosen = None;
-    let meaning = "What the stone is made of: it sets refraction, dispersion and colour.";
+    let meaning = "The material of the stone. It sets refraction, dispersion and colour.";
     let name = match &design.material {
         MaterialRef::Name(name) => name.clone(),
         MaterialRef::Index(index) => format!("index {index}"),
@@ -85,8 +85,8 @@ fn material(design: &Design, known: &Material, ui: &mut Ui) -> Option<MaterialRe
 /// which is returned.
 fn density(known: &Material, ui: &mut Ui) -> Option<MaterialRef> {
     let mut density = known.density.unwrap_or(NOT_KNOWN);
-    let meaning =
-        "What the stone's weight follows from. An index alone says nothing of it: type the density here.";
+    let meaning = "The density of the material, from which the weight follows. A material given by an index alone has none; \
+            type it here.";
     let number = Number { decimals: 3, speed: 0.01, range: DENSITIES, unit: " g/cm³" };
     number_row(ui, ("Density", meaning), number, &mut density);
     let is_set = density.is_finite() && known.density != Some(density);
@@ -99,7 +99,7 @@ fn size(design: &Design, extent: Extent, ui: &mut Ui) -> Option<f64> {
     let mut diameter = design.diameter_mm;
     let number = || Number { decimals: 3, speed: 0.01, range: LENGTHS_MM, unit: " mm" };
     if extent.is_round {
-        let meaning = "Of the girdle. A larger stone of colour is darker.";
+        let meaning = "The diameter of the girdle. A larger coloured stone is darker.";
         number_row(ui, ("Diameter", meaning), number(), &mut diameter);
         return (diameter != design.diameter_mm).then_some(diameter);
     }
@@ -111,12 +111,12 @@ fn size(design: &Design, extent: Extent, ui: &mut Ui) -> Option<f64> {
     let rows = [
         (
             names[0],
-            "The greater side of the stone from above. The whole stone is scaled by it.",
+            "The longer side of the stone, seen from above. A change scales the whole stone.",
             extent.length,
         ),
         (
             names[1],
-            "The smaller side of the stone from above. The whole stone is scaled by it.",
+            "The shorter side of the stone, seen from above. A change scales the whole stone.",
             extent.width,
         ),
     ];
@@ -133,13 +133,14 @@ fn size(design: &Design, extent: Extent, ui: &mut Ui) -> Option<f64> {
 
 /// Draws the weight; returns the diameter of the stone of the weight that was set, mm.
 fn weight(design: &Design, volume: f64, material: &Material, ui: &mut Ui) -> Option<f64> {
-    let meaning = "From the stone's volume and its material's density. Setting it scales the whole stone.";
+    let meaning =
+        "The weight, by the stone's volume and its material's density. A change scales the whole stone.";
     let known = material.carats(volume * (0.5 * design.diameter_mm).powi(3));
     let Some(mut carats) = known else {
         ui.horizontal(|ui| {
             named(ui, "Weight", meaning);
             skip_control(ui, 0.0);
-            let reason = "The density is not known: type it above.";
+            let reason = "The density is unknown; type it above.";
             ui.add_sized([NUMBER, ui.spacing().interact_size.y], egui::Label::new(UNKNOWN))
                 .on_hover_text(reason);
         });

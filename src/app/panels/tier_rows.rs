@@ -7,20 +7,21 @@ use crate::app::model::document::Document;
 use crate::app::panels::rows::{ANY, NUMBER, Number, explain, named, skip_control};
 use egui::{Align, Layout, RichText, Ui, vec2};
 
-const MEANING: &str = "A tier: facets of one angle and one distance, as a faceting machine is set for them. Each tier \
-    is set by itself; where facets meet follows.";
+const MEANING: &str = "A tier: all facets that are cut at one angle and one distance. A change moves this tier \
+    alone; the edges where facets meet follow.";
 
 /// Draws the tiers of the cut.
 pub fn show(document: &Document, actions: &mut Actions, ui: &mut Ui) {
     let unit_mm = document.specimen().unit_mm() * document.extent().unit;
     let about = format!(
-        "From the origin to the facets, in mm at the stone's present size: 1 in its file is {unit_mm:.3} mm."
+        "The distance from the origin to the facets, in mm at the stone's present size. 1 in the file is \
+            {unit_mm:.3} mm."
     );
     let heads = ui.horizontal(|ui| {
         named(ui, "Tier", MEANING);
         skip_angle(ui);
         [
-            ("Angle", "From the girdle plane, in degrees; below 0 for the pavilion."),
+            ("Angle", "The angle from the girdle plane, in degrees; negative in the pavilion."),
             ("Distance", about.as_str()),
         ]
         .map(|(head, meaning)| head_of_column(ui, head, meaning))

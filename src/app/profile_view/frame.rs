@@ -55,7 +55,6 @@ impl<'a> MeasuredProfile<'a> {
 
 /// A handle on the screen, and the response of egui to it.
 pub struct Offered {
-    /// The handle.
     pub grip: Grip,
     /// What pointer and keyboard do with the handle.
     pub response: Response,

@@ -91,10 +91,10 @@ impl Grip {
         // Shift first: a search for a key without modifiers also finds it pressed with one.
         let steps = [(ValueGrid::FINE, Modifiers::SHIFT), (ValueGrid::COARSE, Modifiers::NONE)]
             .map(|(grid, modifiers)| (grid, self.key_steps(ui, response, modifiers)));
-        let asked = (ValueGrid::COARSE, asked_steps(ui, response.id));
-        let stepped = steps.into_iter().chain([asked]).filter(|&(_, steps)| steps != 0);
+        let requested = (ValueGrid::COARSE, requested_steps(ui, response.id));
+        let stepped = steps.into_iter().chain([requested]).filter(|&(_, steps)| steps != 0);
         let stepped = stepped.fold(given, |given, (grid, steps)| grid.stepped(row, &given, steps));
-        match asked_for(ui, response.id) {
+        match requested_value(ui, response.id) {
             Some(value) => ValueGrid::FINE.toward(row, &stepped, value),
             None => stepped,
         }
@@ -143,7 +143,7 @@ impl Grip {
 }
 
 /// Returns the steps that a screen reader requests; negative ones lower the value.
-fn asked_steps(ui: &Ui, id: Id) -> i32 {
+fn requested_steps(ui: &Ui, id: Id) -> i32 {
     ui.input(|i| {
         let count = |action| i.num_accesskit_action_requests(id, action) as i32;
         count(Action::Increment) - count(Action::Decrement)
@@ -151,7 +151,7 @@ fn asked_steps(ui: &Ui, id: Id) -> i32 {
 }
 
 /// Returns the value that a screen reader requests, if any.
-fn asked_for(ui: &Ui, id: Id) -> Option<f64> {
+fn requested_value(ui: &Ui, id: Id) -> Option<f64> {
     ui.input(|i| {
         let values = i.accesskit_action_requests(id, Action::SetValue).filter_map(|r| match r.data {
             Some(ActionData::NumericValue(value)) => Some(value),

@@ -14,9 +14,7 @@ use glam::DVec2;
 /// A part of the profile, and the proportion that it is pulled to change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Handle {
-    /// The part of the profile.
     pub part: ProfileHandle,
-    /// The proportion.
     pub row: &'static Proportion,
 }
 
@@ -42,7 +40,7 @@ impl Handle {
             TableEdge | CuletEdge => "drag left or right",
             CrownSlope => "drag to tilt bezels",
             PavilionSlope => "drag to tilt mains",
-            PavilionTip => "drag up or down · sideways: culet",
+            PavilionTip => "drag up or down, sideways for the culet",
             TableLine | GirdleUpper | GirdleLower => "drag up or down",
         }
     }

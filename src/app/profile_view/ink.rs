@@ -13,11 +13,9 @@ pub struct ProfileInks {
     pub girdle: Color32,
     /// Facets that face the eye, and those seen nearly edge on.
     pub faces: [Color32; 2],
-    /// Dimension lines.
     pub dimension: Color32,
     /// Extension lines, which lead to dimension lines.
     pub extension: Color32,
-    /// Numbers.
     pub number: Color32,
     /// Numbers that follow from others.
     pub quiet: Color32,

@@ -23,7 +23,6 @@ const ARC_STEPS: u32 = 24;
 /// How much is written on the drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum LabelDetail {
-    /// Nothing.
     None,
     /// Table, total depth and angles, without their names.
     Numbers,

@@ -21,7 +21,6 @@ const ABOVE: f32 = 1.0;
 /// The purpose of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weight {
-    /// A dimension line.
     Dimension,
     /// A line that leads from the stone to a dimension.
     Extension,
@@ -30,7 +29,6 @@ pub enum Weight {
 /// A line of the drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SheetLine {
-    /// The corners of the line.
     pub points: Vec<Pos2>,
     /// The purpose of the line.
     pub weight: Weight,
@@ -41,7 +39,6 @@ pub struct SheetLine {
 /// A number on the drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Label {
-    /// The text.
     pub text: String,
     /// The box that the text fills.
     pub frame: Rect,

@@ -69,13 +69,9 @@ impl ProfileProjection {
 /// White space around the stone, in points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Margins {
-    /// Left.
     pub left: f32,
-    /// Right.
     pub right: f32,
-    /// Above.
     pub top: f32,
-    /// Below.
     pub bottom: f32,
 }
 

@@ -1,4 +1,4 @@
-//! The jobs of shots: what the renderer is asked to make of what a view shows.
+//! Makes the jobs of the renderer for what views show.
 
 use super::order::{FiguresOrder, Shot};
 use super::pace::Effort;

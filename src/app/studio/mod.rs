@@ -38,7 +38,7 @@ use std::thread::JoinHandle;
 
 /// A handle on the thread that traces pictures and figures.
 pub struct Studio {
-    desk: Arc<Mailbox>,
+    mailbox: Arc<Mailbox>,
     answers: Receiver<Answer>,
     last: Order,
     thread: Option<JoinHandle<()>>,
@@ -49,17 +49,17 @@ impl Studio {
     /// Opens a studio, which uses the card where it is quicker than the processor. `wake` is called whenever there is an
     /// answer.
     pub fn open(gpu: Option<Arc<Gpu>>, wake: Wake) -> Self {
-        let desk = Arc::new(Mailbox::default());
+        let mailbox = Arc::new(Mailbox::default());
         let gpu = gpu.filter(|gpu| !gpu.is_software());
-        let told = gpu.as_ref().map_or("processor".into(), |gpu| gpu.name().to_owned());
+        let device_name = gpu.as_ref().map_or("processor".into(), |gpu| gpu.name().to_owned());
         let (sender, answers) = channel();
-        let worker = worker::Worker::new(Arc::clone(&desk), sender, gpu, wake);
+        let worker = worker::Worker::new(Arc::clone(&mailbox), sender, gpu, wake);
         let work = || {
             urgency::lower();
             worker.work();
         };
         let thread = std::thread::Builder::new().name("studio".into()).spawn(work).ok();
-        Self { desk, answers, last: Order::default(), thread, device_name: told }
+        Self { mailbox, answers, last: Order::default(), thread, device_name }
     }
 
     /// The name of the card, or "processor".
@@ -73,12 +73,12 @@ impl Studio {
             return;
         }
         self.last = order.clone();
-        let mut next = self.desk.order.lock().unwrap_or_else(PoisonError::into_inner);
-        let number = self.desk.newest.fetch_add(1, Ordering::SeqCst) + 1;
-        self.desk.busy.store(true, Ordering::SeqCst);
+        let mut next = self.mailbox.order.lock().unwrap_or_else(PoisonError::into_inner);
+        let number = self.mailbox.newest.fetch_add(1, Ordering::SeqCst) + 1;
+        self.mailbox.busy.store(true, Ordering::SeqCst);
         *next = Some((number, order));
         drop(next);
-        self.desk.changed.notify_one();
+        self.mailbox.changed.notify_one();
     }
 
     /// Takes the answers that have come since the last call.
@@ -88,19 +88,19 @@ impl Studio {
 
     /// Whether passes are added to renders of the order although all of it is already good enough.
     pub fn sharpens(&self) -> bool {
-        self.desk.sharpens.load(Ordering::SeqCst)
+        self.mailbox.sharpens.load(Ordering::SeqCst)
     }
 
     /// How many traces of pictures, figures and figures against tilt have begun since the studio was opened. What has not
     /// changed is not traced, and so not counted, again.
     #[cfg(test)]
     pub fn traced(&self) -> u64 {
-        self.desk.traced.load(Ordering::SeqCst)
+        self.mailbox.traced.load(Ordering::SeqCst)
     }
 
     /// Whether everything in the order is as good as it needs to be.
     pub fn is_idle(&self) -> bool {
-        !self.desk.busy.load(Ordering::SeqCst)
+        !self.mailbox.busy.load(Ordering::SeqCst)
     }
 }
 
@@ -108,10 +108,10 @@ impl Drop for Studio {
     fn drop(&mut self) {
         {
             // Holds the lock, so that the worker is not between its check of `quit` and its wait.
-            let _order = self.desk.order.lock().unwrap_or_else(PoisonError::into_inner);
-            self.desk.quit.store(true, Ordering::SeqCst);
-            self.desk.newest.fetch_add(1, Ordering::SeqCst);
-            self.desk.changed.notify_one();
+            let _order = self.mailbox.order.lock().unwrap_or_else(PoisonError::into_inner);
+            self.mailbox.quit.store(true, Ordering::SeqCst);
+            self.mailbox.newest.fetch_add(1, Ordering::SeqCst);
+            self.mailbox.changed.notify_one();
         }
         if let Some(thread) = self.thread.take() {
             // A worker that panicked has already reported it.

@@ -26,7 +26,6 @@ pub type Slot = (usize, Which);
 /// How the edges of a render are smoothed while it is rough. At rest many passes smooth them, whatever is chosen here.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub enum Smoothing {
-    /// No smoothing.
     #[default]
     None,
     /// FXAA in the finished picture.
@@ -51,11 +50,8 @@ pub struct Shot {
     pub strongest: bool,
     /// Whether a scope that shows energy includes glare.
     pub glare: Glare,
-    /// The view.
     pub view: View,
-    /// The film.
     pub film: Film,
-    /// The light.
     pub light: Arc<Lighting>,
     /// The exposure of a render, in stops.
     pub exposure: f64,
@@ -139,9 +135,7 @@ impl Shot {
 /// An order of the figures of a view, in the common ASET.
 #[derive(Debug, Clone)]
 pub struct FiguresOrder {
-    /// The stone.
     pub specimen: Arc<Specimen>,
-    /// The view.
     pub view: View,
     /// The half angle of the observer's head, in degrees; 0 for no head.
     pub head: f64,
@@ -156,9 +150,7 @@ impl PartialEq for FiguresOrder {
 /// Everything that the editor shows at one moment.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Order {
-    /// The pictures.
     pub shots: Vec<(Slot, Shot)>,
-    /// The figures.
     pub figures: Vec<(Which, FiguresOrder)>,
     /// Figures against tilt, for a view whose own tilt does not matter.
     pub tilts: Option<FiguresOrder>,
@@ -194,9 +186,7 @@ pub type Tilts = Vec<(f64, Figures)>;
 /// An answer of the studio.
 #[derive(Debug)]
 pub enum Answer {
-    /// A picture.
     Picture(Slot, Box<Shot>, Grade, TakenPicture),
-    /// Figures.
     Figures(Which, FiguresOrder, Grade, Box<Figures>),
     /// Figures against tilt.
     Tilts(FiguresOrder, Tilts),

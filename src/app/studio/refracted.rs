@@ -50,7 +50,7 @@ impl ShotTracer {
     ) -> Result<TakenPicture, TakeError> {
         let factor = if refinement.is_none() { effort.coarser * RAYS_COARSER } else { 1.0 };
         let Some(behind) = self.picture_behind(Some(&shot.pane_background()))? else {
-            return Err(TakeError::Other("nothing hangs behind the pane".into()));
+            return Err(TakeError::Other("the pane has no background".into()));
         };
         // Panes are always traced by the processor, which takes no more passes than its fine renders have.
         let samples = refinement.map_or(1, |r| r.samples.min(FINE_RENDER.samples));

@@ -65,7 +65,7 @@ impl From<Unfit> for TakeError {
 pub struct ShotTracer {
     /// What does the jobs of shots.
     pub(super) renderer: Renderer,
-    /// What is to be said to the user: why the processor does a card's work.
+    /// A message for the user: why the processor does a card's work.
     pub(super) notes: Vec<String>,
     /// The last picture behind a render.
     pub(super) behind: Option<(BackgroundRef, Arc<Panorama>)>,
@@ -281,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    #[expect(clippy::print_stdout, reason = "what is skipped is told")]
+    #[expect(clippy::print_stdout, reason = "tests print what they skip")]
     fn a_card_shows_what_the_processor_shows() {
         let gpu = match Gpu::open() {
             Ok(gpu) => Arc::new(gpu),

@@ -32,7 +32,7 @@ const HALFWAY: Effort = Effort { unresolved: FAIR, coarser: 2.0 / RAYS_COARSER, 
 
 /// Carries out orders, one after the other.
 pub(super) struct Worker {
-    desk: Arc<Mailbox>,
+    mailbox: Arc<Mailbox>,
     answers: Sender<Answer>,
     wake: Wake,
     camera: ShotTracer,
@@ -52,9 +52,9 @@ struct Turn {
 }
 
 impl Worker {
-    pub fn new(desk: Arc<Mailbox>, answers: Sender<Answer>, gpu: Option<Arc<Gpu>>, wake: Wake) -> Self {
+    pub fn new(mailbox: Arc<Mailbox>, answers: Sender<Answer>, gpu: Option<Arc<Gpu>>, wake: Wake) -> Self {
         Self {
-            desk,
+            mailbox,
             answers,
             wake,
             camera: ShotTracer::by(gpu.map_or(Card::None, Card::Open)),
@@ -76,9 +76,10 @@ impl Worker {
                 self.sharpen(&turn)
             };
             let end = std::panic::catch_unwind(std::panic::AssertUnwindSafe(work));
-            self.desk.sharpens.store(false, Ordering::SeqCst);
+            self.mailbox.sharpens.store(false, Ordering::SeqCst);
             if end.is_err() {
-                let why = "a picture failed: a fault of the program; please report the design";
+                let why =
+                    "a picture failed because of a fault in the program; please report it, with the design";
                 self.answer(Answer::Trouble(why.to_owned()));
                 self.rest(&turn);
             }
@@ -87,15 +88,15 @@ impl Worker {
 
     /// Waits for an order; returns `None` when the studio is closed.
     fn next(&self) -> Option<Turn> {
-        let mut order = self.desk.order.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut order = self.mailbox.order.lock().unwrap_or_else(PoisonError::into_inner);
         loop {
-            if self.desk.quit.load(Ordering::SeqCst) {
+            if self.mailbox.quit.load(Ordering::SeqCst) {
                 return None;
             }
             if let Some((number, order)) = order.take() {
                 return Some(Turn { number, order });
             }
-            order = self.desk.changed.wait(order).unwrap_or_else(PoisonError::into_inner);
+            order = self.mailbox.changed.wait(order).unwrap_or_else(PoisonError::into_inner);
         }
     }
 
@@ -103,9 +104,9 @@ impl Worker {
     fn rest(&self, turn: &Turn) {
         {
             // Holds the lock, so that no order comes in between.
-            let _order = self.desk.order.lock().unwrap_or_else(PoisonError::into_inner);
-            if self.desk.newest.load(Ordering::SeqCst) == turn.number {
-                self.desk.busy.store(false, Ordering::SeqCst);
+            let _order = self.mailbox.order.lock().unwrap_or_else(PoisonError::into_inner);
+            if self.mailbox.newest.load(Ordering::SeqCst) == turn.number {
+                self.mailbox.busy.store(false, Ordering::SeqCst);
             }
         }
         (self.wake)();
@@ -113,7 +114,7 @@ impl Worker {
 
     /// Counts a trace that begins.
     fn count(&self) {
-        self.desk.traced.fetch_add(1, Ordering::SeqCst);
+        self.mailbox.traced.fetch_add(1, Ordering::SeqCst);
     }
 
     fn answer(&self, answer: Answer) {
@@ -127,8 +128,8 @@ impl Worker {
     /// A newer order does not interrupt this, or no picture would be finished while the hand moves; only the end of the
     /// studio does.
     fn rough(&mut self, turn: &Turn) -> Result<(), Stopped> {
-        let desk = Arc::clone(&self.desk);
-        let watch = move |_: f64| stop_if(desk.quit.load(Ordering::SeqCst));
+        let mailbox = Arc::clone(&self.mailbox);
+        let watch = move |_: f64| stop_if(mailbox.quit.load(Ordering::SeqCst));
         let effort = self.pace.effort();
         let begun = Instant::now();
         let order = &turn.order;
@@ -175,8 +176,8 @@ impl Worker {
 
     /// Traces everything better and better, until there is a newer order.
     fn refine(&mut self, turn: &Turn) -> Result<(), Stopped> {
-        let (desk, number) = (Arc::clone(&self.desk), turn.number);
-        let watch = move |_: f64| stop_if(desk.newest.load(Ordering::SeqCst) != number);
+        let (mailbox, number) = (Arc::clone(&self.mailbox), turn.number);
+        let watch = move |_: f64| stop_if(mailbox.newest.load(Ordering::SeqCst) != number);
         let has_card = self.camera.renderer.card().quick().is_some();
         let fine = if has_card { FINE_BY_CARD } else { FINE_RENDER };
         for (slot, shot) in &turn.order.shots {
@@ -214,16 +215,16 @@ impl Worker {
 
     /// Adds passes to renders by rays on the processor, until there is a newer order.
     fn sharpen(&mut self, turn: &Turn) -> Result<(), Stopped> {
-        let (desk, number) = (Arc::clone(&self.desk), turn.number);
-        let watch = move |_: f64| stop_if(desk.newest.load(Ordering::SeqCst) != number);
+        let (mailbox, number) = (Arc::clone(&self.mailbox), turn.number);
+        let watch = move |_: f64| stop_if(mailbox.newest.load(Ordering::SeqCst) != number);
         let effort = Effort { unresolved: SHARP.unresolved, coarser: 1.0, bands: SHARP.bands };
         for (slot, shot) in &turn.order.shots {
             if !self.camera.is_slow_render(shot) || self.sharp.get(slot) == Some(shot) {
                 continue;
             }
-            self.desk.sharpens.store(true, Ordering::SeqCst);
+            self.mailbox.sharpens.store(true, Ordering::SeqCst);
             self.picture((*slot, shot), Grade::Fine, (&effort, Some(&SHARP)), &watch)?;
-            self.desk.sharpens.store(false, Ordering::SeqCst);
+            self.mailbox.sharpens.store(false, Ordering::SeqCst);
             self.sharp.insert(*slot, shot.clone());
             (self.wake)();
         }

@@ -116,7 +116,7 @@ impl Autosave {
         Ok(())
     }
 
-    /// Removes the autosave file: the work is saved, or not wanted.
+    /// Removes the autosave file, because the work is saved or discarded.
     pub fn empty(&mut self) {
         if self.held.take().is_some() {
             forget(&self.own);

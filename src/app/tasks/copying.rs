@@ -32,7 +32,7 @@ pub fn make(request: &CopyRequest, is_stopped: &(dyn Fn() -> bool + Sync)) -> Re
     let made = ShotTracer::default()
         .take((slot, shot), &effort, Some(&FINE_RENDER), &watch, &mut |taken| last = Some(taken.image));
     made?;
-    last.ok_or_else(|| Failure::Output("nothing was drawn".to_owned()))
+    last.ok_or_else(|| Failure::Output("no picture was drawn".to_owned()))
 }
 
 /// Returns the drawing from the side, as it is exported.

@@ -26,30 +26,30 @@ const THUMBNAIL: u32 = 176;
 /// The effort of a render, where a picture in a scope takes 1, roughly.
 const RENDER: f64 = 4.0;
 
-/// Tells how an export goes on.
+/// Reports the progress of an export.
 struct Progress<'a> {
-    tell: &'a (dyn Fn(ExportEvent) + Sync),
+    report: &'a (dyn Fn(ExportEvent) + Sync),
     is_stopped: &'a (dyn Fn() -> bool + Sync),
     begun: Instant,
-    /// The part that was told last, in thousandths.
-    told: AtomicU64,
+    /// The part that was reported last, in thousandths.
+    reported: AtomicU64,
 }
 
 impl Progress<'_> {
-    /// Takes note of the part done, 0 to 1.
+    /// Reports the part done, 0 to 1, if it has grown enough.
     fn at(&self, done: f64) -> ControlFlow<()> {
         let thousandths = (1000.0 * done) as u64;
-        if self.told.swap(thousandths, Ordering::Relaxed) != thousandths {
-            (self.tell)(ExportEvent::Done(done, self.begun.elapsed()));
+        if self.reported.swap(thousandths, Ordering::Relaxed) != thousandths {
+            (self.report)(ExportEvent::Done(done, self.begun.elapsed()));
         }
         if (self.is_stopped)() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    fn hear(&self, told: &Event) {
-        match told {
+    fn hear(&self, event: &Event) {
+        match event {
             Event::Begun(_) => {}
-            Event::Written(path) => (self.tell)(ExportEvent::Written(path.to_path_buf())),
-            Event::Note(text) | Event::Warning(text) => (self.tell)(ExportEvent::Said((*text).to_owned())),
+            Event::Written(path) => (self.report)(ExportEvent::Written(path.to_path_buf())),
+            Event::Note(text) | Event::Warning(text) => (self.report)(ExportEvent::Said((*text).to_owned())),
         }
     }
 }
@@ -69,8 +69,8 @@ impl ExportPlan {
             let share = effort(outputs);
             let watch = |done: f64| progress.at((begun + done * share) / all);
             let export = Export { viewing: *viewing, outputs };
-            export.write(&mut Renderer::default(), &watch, &|told| {
-                progress.hear(&told);
+            export.write(&mut Renderer::default(), &watch, &|event| {
+                progress.hear(&event);
                 Ok(())
             })?;
             begun += share;
@@ -103,7 +103,7 @@ impl ExportPlan {
             watch,
         )?;
         let title = self.shot.title.as_str();
-        let told = format!(
+        let description = format!(
             "{title}; refraction map, bands {}, places {}; light {}; {:.1} % of the light comes from the background, {:.1} % of that from the \
              map's places",
             self.selection.bands,
@@ -112,33 +112,33 @@ impl ExportPlan {
             100.0 * carried.behind,
             100.0 * carried.single
         );
-        refraction::write_places(maps, &map, Coding::Tiles, &told)?;
-        refraction::write_diffuse(diffuse, &map, &told)?;
+        refraction::write_places(maps, &map, Coding::Tiles, &description)?;
+        refraction::write_diffuse(diffuse, &map, &description)?;
         let behind = self.shot.behind.as_ref().map(BackgroundRef::bytes).transpose()?;
         let background = behind.flatten().filter(|bytes| takes(bytes));
         let ground = self.shot.behind.as_ref().map_or_else(String::new, BackgroundRef::title);
         let background = background.as_deref().map(|bytes| (ground.as_str(), bytes));
-        Ok(write_page(page, &map, &Page { title, description: &told, span: SPAN, background })?)
+        Ok(write_page(page, &map, &Page { title, description: &description, span: SPAN, background })?)
     }
 
     fn render(&self, path: &Path, watch: Watch) -> Result<(), Failure> {
         let shot = self.shot(Shows::Render, self.selection.size);
         let ExportedRender { rgba, size, tracer, unresolved } = ShotTracer::default().export(&shot, watch)?;
-        let told = format!(
+        let description = format!(
             "{}: render; light {}; {}{tracer}, unresolved {unresolved:.2e}",
             self.shot.title,
             self.shot.light.light.name,
             self.mixture()
         );
-        Ok(write_rgba_png(path, &rgba, size.into(), &told)?)
+        Ok(write_rgba_png(path, &rgba, size.into(), &description)?)
     }
 }
 
-/// Writes the files of a plan; `tell` hears how that goes on, and `is_stopped` says whether it is to stop.
-pub fn run(plan: &ExportPlan, tell: &(dyn Fn(ExportEvent) + Sync), is_stopped: &(dyn Fn() -> bool + Sync)) {
-    let progress = Progress { tell, is_stopped, begun: Instant::now(), told: AtomicU64::new(0) };
+/// Writes the files of a plan; `report` gets the progress, and `is_stopped` says whether to stop.
+pub fn run(plan: &ExportPlan, report: &(dyn Fn(ExportEvent) + Sync), is_stopped: &(dyn Fn() -> bool + Sync)) {
+    let progress = Progress { report, is_stopped, begun: Instant::now(), reported: AtomicU64::new(0) };
     let end = plan.write(&progress);
-    tell(ExportEvent::Ended(end));
+    report(ExportEvent::Ended(end));
 }
 
 /// Makes thumbnails of all views, one after the other, until it is stopped.

@@ -1,4 +1,4 @@
-//! Writes what renders show as a scene file with its cut.
+//! Writes the copies in renders as a scene file and its cut file.
 
 use crate::app::model::export::ExportPlan;
 use crate::app::studio::hung;
@@ -16,7 +16,7 @@ pub struct SceneOut {
 }
 
 impl SceneOut {
-    /// Makes the scene of what a plan's renders show.
+    /// Makes the scene that a plan's renders show.
     pub fn of(plan: &ExportPlan) -> Self {
         let shot = &plan.shot;
         let paths = plan.scene_paths();

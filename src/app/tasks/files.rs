@@ -1,4 +1,4 @@
-//! Asks for files by the dialogs of the system.
+//! Asks for files by the system's file dialogs.
 
 use crate::app::model::choosing::{Choice, Purpose, Question};
 use crate::io::design_file::DesignFormat;
@@ -45,12 +45,12 @@ fn dialog(question: &Question) -> Option<PathBuf> {
             cuts(dialog.set_title("Save the cut as")).set_file_name(&question.name).save_file()
         }
         Purpose::Light => {
-            dialog.set_title("A light or a panorama").add_filter("Lights", &pictures).pick_file()
+            dialog.set_title("Choose a light or a panorama").add_filter("Lights", &pictures).pick_file()
         }
         Purpose::Behind => {
-            dialog.set_title("A picture behind the stone").add_filter("Pictures", &pictures[1..]).pick_file()
+            dialog.set_title("Choose a background picture").add_filter("Pictures", &pictures[1..]).pick_file()
         }
-        Purpose::Folder => dialog.set_title("A folder for the pictures").pick_folder(),
+        Purpose::Folder => dialog.set_title("Choose a folder for the files").pick_folder(),
     }
 }
 

@@ -53,12 +53,12 @@ impl Lookup {
     ///
     /// # Errors
     /// Fails where the backplate cannot be read; the text says why.
-    pub fn picture(&mut self, ask: &LookupRequest) -> Result<TakenPicture, Failure> {
+    pub fn picture(&mut self, request: &LookupRequest) -> Result<TakenPicture, Failure> {
         let Self { threads, backgrounds } = self;
         let begin = || ThreadPoolBuilder::new().thread_name(|k| format!("look-up {k}")).build().ok();
         match threads.get_or_init(begin) {
-            Some(threads) => threads.install(|| backgrounds.picture(ask)),
-            None => backgrounds.picture(ask),
+            Some(threads) => threads.install(|| backgrounds.picture(request)),
+            None => backgrounds.picture(request),
         }
     }
 }
@@ -73,42 +73,42 @@ struct Backgrounds {
 }
 
 impl Backgrounds {
-    fn picture(&mut self, ask: &LookupRequest) -> Result<TakenPicture, Failure> {
-        let (picture, tracer) = match &ask.map {
+    fn picture(&mut self, request: &LookupRequest) -> Result<TakenPicture, Failure> {
+        let (picture, tracer) = match &request.map {
             Some((map, moved)) => {
-                let behind = self.levels(&ask.behind)?.for_map(map.size);
+                let behind = self.levels(&request.behind)?.for_map(map.size);
                 (refracted(map, &behind, *moved), "look-up in the map")
             }
             None => {
-                let size = ask.shot.film.size;
-                let glass = ask.shot.liquid.pane(size);
-                (pane(&glass, self.filled(&ask.behind, size)?, 1), "arithmetic")
+                let size = request.shot.film.size;
+                let glass = request.shot.liquid.pane(size);
+                (pane(&glass, self.filled(&request.behind, size)?, 1), "arithmetic")
             }
         };
         Ok(TakenPicture { image: as_screens(&picture), unresolved: None, tracer, map: None })
     }
 
     /// Returns a background in its own size, with the halved sizes that have been of use so far.
-    fn levels(&mut self, asked: &BackgroundRef) -> Result<&mut Levels, Failure> {
-        let levels = match self.behind.take().filter(|(last, _)| last == asked) {
+    fn levels(&mut self, background: &BackgroundRef) -> Result<&mut Levels, Failure> {
+        let levels = match self.behind.take().filter(|(last, _)| last == background) {
             Some((_, levels)) => levels,
             None => {
-                let no_picture = || Failure::Input("what hangs behind is not a picture".to_owned());
-                let reading = asked.picture()?.ok_or_else(no_picture)?;
+                let no_picture = || Failure::Input("the background is not a picture".to_owned());
+                let reading = background.picture()?.ok_or_else(no_picture)?;
                 Levels { whole: Arc::new(reading.panorama), halved: vec![] }
             }
         };
-        Ok(&mut self.behind.insert((asked.clone(), levels)).1)
+        Ok(&mut self.behind.insert((background.clone(), levels)).1)
     }
 
     /// Returns a background that is as large as a picture of `size` pixels.
-    fn filled(&mut self, asked: &BackgroundRef, size: [u32; 2]) -> Result<&Panorama, Failure> {
-        let is = |(last, p): &(BackgroundRef, Panorama)| last == asked && [p.width, p.height] == size;
+    fn filled(&mut self, background: &BackgroundRef, size: [u32; 2]) -> Result<&Panorama, Failure> {
+        let is = |(last, p): &(BackgroundRef, Panorama)| last == background && [p.width, p.height] == size;
         let picture = match self.filled.take().filter(is) {
             Some((_, picture)) => picture,
-            None => filling(&self.levels(asked)?.whole, size),
+            None => filling(&self.levels(background)?.whole, size),
         };
-        Ok(&self.filled.insert((asked.clone(), picture)).1)
+        Ok(&self.filled.insert((background.clone(), picture)).1)
     }
 }
 

@@ -1,4 +1,4 @@
-//! What the editor does outside its window: it reads and writes files, asks and opens by the system.
+//! Carries out the tasks of the editor: it reads and writes files, opens file dialogs, and opens folders and web pages.
 //!
 //! [`Outside`] carries out the [`Task`]s of a model in the background; their answers are [`Action`]s, or pictures for the
 //! window.
@@ -36,7 +36,7 @@ use runner::{JobHandle, TaskRunner, Turn};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What a task is about: the newest with the same key wins.
+/// The key of a task; the newest task with the same key wins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 enum Key {
     Light,
@@ -79,7 +79,7 @@ impl From<FileAction> for TaskAnswer {
 }
 
 /// The text of an error that the program itself has made.
-const FAULT: &str = "a fault of the program; please report the design";
+const FAULT: &str = "this is a fault in the program; please report it, with the design";
 
 /// Carries out tasks.
 pub struct Outside {
@@ -204,7 +204,7 @@ impl Outside {
         let (opener, failed) = (Arc::clone(&self.opener), || None);
         self.runner.start(Key::Open, Turn::AtOnce, failed, move |job| {
             if let Err(why) = opener(&what) {
-                let why = format!("{what} was not opened: {why}");
+                let why = format!("{what} could not be opened: {why}");
                 job.send(Action::Note(NoteAction::Trouble(why)).into());
             }
         });

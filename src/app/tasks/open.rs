@@ -38,7 +38,7 @@ pub fn save(request: SaveRequest) -> Result<SavedDesign, Failure> {
     let SaveRequest { path, design, specimen } = request;
     let completed = path.with_extension("toml");
     if path.extension().is_none() && completed.exists() {
-        let problem = format!("{} exists; choose it by its whole name to replace it", completed.display());
+        let problem = format!("{} exists; type its full name to replace it", completed.display());
         return Err(Failure::Usage(problem));
     }
     let path = if path.extension().is_some() { path } else { completed };

@@ -158,10 +158,10 @@ fn liquid_glass_is_drawn_and_traced_as_strong_as_it_is_set() {
 #[test]
 #[ignore = "takes time to take time"]
 fn looking_up_keeps_up_with_the_window() {
-    let mut desk = Bench::small();
-    desk.layout = PaneLayout::One;
-    desk.panes[0].shows = Shows::Refraction;
-    let setup = Setup { desk, file: Some("plate".into()), ..Setup::default() };
+    let mut workspace = Bench::small();
+    workspace.layout = PaneLayout::One;
+    workspace.panes[0].shows = Shows::Refraction;
+    let setup = Setup { workspace, file: Some("plate".into()), ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(1144.0, 600.0));
     bench.settle();
     let size = bench.editor().shown((0, Which::Present)).unwrap().taken.image.size;

@@ -22,9 +22,9 @@ use std::sync::Arc;
 /// Opens a scene, of the program's own or from a file, in a single render view.
 fn bench(scene: &str) -> Bench {
     let pane = Pane { shows: Shows::Render, own: None, is_near: false };
-    let desk =
+    let workspace =
         Workspace { layout: PaneLayout::One, panes: [pane; 4], wavelengths: 3, ..Workspace::default() };
-    let setup = Setup { file: Some(PathBuf::from(scene)), desk, ..Setup::default() };
+    let setup = Setup { file: Some(PathBuf::from(scene)), workspace, ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(860.0, 1040.0));
     bench.harness.run_steps(3);
     bench
@@ -62,8 +62,11 @@ fn a_preset_is_one_click_and_its_copies_are_dragged_scattered_and_counted() {
     let mut bench = bench("prism-rainbow");
     assert_eq!(poses(bench.editor()).len(), 4);
     bench.click("Subtle pill");
-    let desk = &bench.editor().model.workspace;
-    assert_eq!((desk.behind.as_deref(), desk.behind_mm, desk.strength), (Some("page"), Some(100.0), 0.035));
+    let workspace = &bench.editor().model.workspace;
+    assert_eq!(
+        (workspace.behind.as_deref(), workspace.behind_mm, workspace.strength),
+        (Some("page"), Some(100.0), 0.035)
+    );
     let before = poses(bench.editor());
     let (lean, middle) = (bench.editor().model.workspace.eye.lean, before[2].at);
     let from = at(&bench, middle.x, middle.y);
@@ -85,7 +88,7 @@ fn a_preset_is_one_click_and_its_copies_are_dragged_scattered_and_counted() {
     bench.harness.run_steps(3);
     let scattered = poses(bench.editor());
     assert!(scattered != before && scattered.len() == 4);
-    bench.click("Lay out");
+    bench.click("Scatter");
     assert_ne!(poses(bench.editor()), scattered);
     bench.type_number("Copies", "7");
     assert_eq!(poses(bench.editor()).len(), 7);
@@ -111,15 +114,15 @@ fn what_moves_is_shown_moving_and_stands_still_when_stopped() {
     bench.harness.key_press(Key::M);
     bench.harness.run_steps(3);
     assert!(!bench.editor().model.session.motion.is_on);
-    let (seconds, asked) =
+    let (seconds, ordered) =
         (bench.editor().model.session.motion.seconds, bench.editor().model.session.ordered.clone());
     bench.harness.run_steps(5);
     assert!(
         seconds > 0.0
             && bench.editor().model.session.motion.seconds == seconds
-            && bench.editor().model.session.ordered == asked
+            && bench.editor().model.session.ordered == ordered
     );
-    bench.click("At rest");
+    bench.click("Reset pose");
     assert_eq!(bench.editor().model.session.motion.seconds, 0.0);
     bench.harness.key_press(Key::H);
     bench.harness.run_steps(3);
@@ -268,7 +271,7 @@ fn copies_that_were_moved_are_asked_about_before_they_go() {
     bench.harness.state_mut().model.session.motion.rest();
     bench.click("Prism rainbow");
     assert_eq!(bench.editor().model.workspace.strength, 0.155, "nothing was moved");
-    bench.click("Lay out");
+    bench.click("Scatter");
     bench.click("Subtle pill");
     assert_eq!(bench.editor().model.workspace.strength, 0.155);
     bench.click("Export…");
@@ -276,6 +279,6 @@ fn copies_that_were_moved_are_asked_about_before_they_go() {
     assert!(export.plan.selection.scene);
     bench.click("Cancel");
     bench.click("Subtle pill");
-    bench.click("Leave them");
+    bench.click("Discard");
     assert_eq!(bench.editor().model.workspace.strength, 0.035);
 }

@@ -13,7 +13,7 @@ const FRAME: Duration = Duration::from_micros(16_667);
 /// Makes changes at 60 Hz, as a hand does, and prints how many pictures a second each pane shows and how long a frame of the
 /// window takes, in milliseconds.
 fn drag(name: &str, mut change: impl FnMut(&mut Editor, u32)) {
-    let setup = Setup { desk: Workspace { head: 1e-9, ..Workspace::default() }, ..Setup::default() };
+    let setup = Setup { workspace: Workspace { head: 1e-9, ..Workspace::default() }, ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(1440.0, 900.0));
     bench.settle();
     let begun = Instant::now();

@@ -119,7 +119,7 @@ fn a_crash_loses_nothing() {
     drop(bench);
     let mut next = Bench::with(Setup { safe: safe.clone(), ..Setup::default() });
     next.harness.run_steps(3);
-    next.click("Go on");
+    next.click("Recover");
     next.harness.run_steps(3);
     assert_eq!(next.editor().model.document.work.design, design);
     assert!(next.editor().model.document.is_changed());
@@ -151,7 +151,7 @@ fn a_number_out_of_its_limits_is_told_where_it_stands_and_the_last_stone_stays()
     bench.settle();
     let stone = Arc::clone(bench.editor().model.document.specimen());
     bench.type_number("Table", "97");
-    assert!(bench.harness.query_by_label_contains("Table: 97 % makes no stone").is_some());
+    assert!(bench.harness.query_by_label_contains("Table: 97 % is impossible").is_some());
     assert!(Arc::ptr_eq(&stone, bench.editor().model.document.specimen()));
 }
 
@@ -191,8 +191,8 @@ fn keys_tilt_and_bring_back() {
     let tilts = |bench: &mut Bench, modifiers| {
         bench.harness.key_press_modifiers(modifiers, egui::Key::Backspace);
         bench.harness.run_steps(2);
-        let desk = &bench.editor().model.workspace;
-        (desk.shown().len(), desk.eye.from_below, desk.eye.tilt() > 0.3)
+        let workspace = &bench.editor().model.workspace;
+        (workspace.shown().len(), workspace.eye.from_below, workspace.eye.tilt() > 0.3)
     };
     let back: Vec<_> = (0..4).map(|_| tilts(&mut bench, egui::Modifiers::NONE)).collect();
     assert_eq!(back, [(2, false, false), (2, true, false), (2, false, true), (2, false, false)]);
@@ -236,7 +236,7 @@ fn every_view_is_exported_as_a_file() {
     bench.wait(|editor| matches!(&editor.model.session.dialog, Some(Dialog::Export(e)) if !e.is_busy()));
     let Some(Dialog::Export(export)) = &bench.editor().model.session.dialog else { panic!() };
     assert_eq!(export.run.as_ref().and_then(|run| run.end.clone()), Some(Ok(())));
-    assert!(bench.harness.query_by_label("All files are written.").is_some());
+    assert!(bench.harness.query_by_label("All files have been written.").is_some());
     let names: Vec<String> = std::fs::read_dir(folder.path().join("out"))
         .unwrap()
         .map(|f| f.unwrap().file_name().to_string_lossy().into_owned())
@@ -255,9 +255,9 @@ fn every_view_is_exported_as_a_file() {
 
 #[test]
 fn the_profile_is_pulled_into_another_shape() {
-    let mut desk = Bench::small();
-    desk.panes[1].shows = Shows::Profile;
-    let mut bench = Bench::with(Setup { desk, ..Setup::default() });
+    let mut workspace = Bench::small();
+    workspace.panes[1].shows = Shows::Profile;
+    let mut bench = Bench::with(Setup { workspace, ..Setup::default() });
     bench.settle();
     let before = (bench.brilliant(), bench.picture(0));
     let tip = bench.harness.get_by_label("Pavilion depth, percent").rect().center();
@@ -334,9 +334,9 @@ fn two_designs_are_compared_and_their_figures_differ() {
 
 #[test]
 fn keys_work_and_steps_end_while_a_handle_has_the_focus() {
-    let mut desk = Bench::small();
-    desk.panes[1].shows = Shows::Profile;
-    let mut bench = Bench::with(Setup { desk, ..Setup::default() });
+    let mut workspace = Bench::small();
+    workspace.panes[1].shows = Shows::Profile;
+    let mut bench = Bench::with(Setup { workspace, ..Setup::default() });
     bench.harness.run_steps(2);
     bench.harness.get_by_label("Crown angle, degrees").focus();
     bench.harness.run_steps(2);

@@ -18,7 +18,7 @@ fn a_cutters_file_opens_and_its_tiers_are_set() {
     std::fs::write(&path, text).unwrap();
     let mut bench = Bench::with(Setup { file: Some(path.clone()), ..Setup::default() });
     bench.settle();
-    assert!(bench.harness.query_by_label_contains("'Z odd' is no record").is_some());
+    assert!(bench.harness.query_by_label_contains("'Z odd' is not a known record").is_some());
     let (picture, cut) = (bench.picture(0), bench.editor().model.document.work.design.cut.clone());
     bench.type_number("P1 · 4 Angle", "-41.5");
     bench.settle();
@@ -136,9 +136,9 @@ fn a_solid_that_is_not_convex_is_shown_by_rays_and_measured() {
     let first = Document::first().unwrap().work.design;
     let design = Design { name: "heart".into(), cut: Cut::Mesh(shape), ..first };
     design_file::write(&Specimen::new(design).unwrap(), DesignFormat::Glb, &path).unwrap();
-    let mut desk = Bench::small();
-    desk.panes[1].shows = Shows::Diagram;
-    let mut bench = Bench::with(Setup { file: Some(path), desk, ..Setup::default() });
+    let mut workspace = Bench::small();
+    workspace.panes[1].shows = Shows::Diagram;
+    let mut bench = Bench::with(Setup { file: Some(path), workspace, ..Setup::default() });
     // A mesh has no diagram to wait for, and the first figures are enough.
     bench.wait(|editor| {
         let shown = editor.views.gallery.traced.get(&(0, Which::Present));
@@ -173,8 +173,8 @@ fn a_glass_shape_is_taken_from_the_library_and_its_dimensions_are_set() {
     let Cut::Glass(Glass::Plate(plate)) = bench.editor().model.document.work.design.cut else { panic!() };
     assert_eq!(plate.amplitude, 9.5);
     bench.type_number("Edge", "40");
-    let told = "Edge: 40 % makes no stone. With the other proportions as they are, it can be at most ";
-    assert!(bench.harness.query_by_label_contains(told).is_some());
+    let message = "Edge: 40 % is impossible. With the other proportions as they are, it can be at most ";
+    assert!(bench.harness.query_by_label_contains(message).is_some());
     assert!(bench.harness.query_by_label_contains("edge:").is_none(), "no key of a file is shown");
     bench.choose("Edit", "Undo");
     bench.choose("Edit", "Undo");
@@ -184,8 +184,8 @@ fn a_glass_shape_is_taken_from_the_library_and_its_dimensions_are_set() {
 #[test]
 fn renders_show_three_bands_of_wavelengths_while_a_key_is_down() {
     let [render, ..] = Workspace::default().panes;
-    let desk = Workspace { layout: PaneLayout::One, panes: [render; 4], ..Workspace::default() };
-    let mut bench = Bench::with(Setup { file: Some("prism".into()), desk, ..Setup::default() });
+    let workspace = Workspace { layout: PaneLayout::One, panes: [render; 4], ..Workspace::default() };
+    let mut bench = Bench::with(Setup { file: Some("prism".into()), workspace, ..Setup::default() });
     bench.settle();
     let many = bench.picture(0);
     bench.harness.key_down(egui::Key::Z);
@@ -200,8 +200,8 @@ fn renders_show_three_bands_of_wavelengths_while_a_key_is_down() {
 #[test]
 fn a_pattern_hangs_behind_glass_and_is_refracted_as_strongly_as_asked() {
     let [render, ..] = Workspace::default().panes;
-    let desk = Workspace { layout: PaneLayout::One, panes: [render; 4], ..Workspace::default() };
-    let setup = Setup { file: Some("cube".into()), desk, ..Setup::default() };
+    let workspace = Workspace { layout: PaneLayout::One, panes: [render; 4], ..Workspace::default() };
+    let setup = Setup { file: Some("cube".into()), workspace, ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(900.0, 300.0));
     bench.look();
     let plain = bench.picture(0);

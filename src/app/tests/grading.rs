@@ -10,14 +10,14 @@ use egui_kittest::kittest::NodeT;
 /// Returns the share that a row of the figures shows, in percent.
 fn share(bench: &Bench, name: &str) -> Option<f64> {
     let rows = bench.harness.query_all_by_label_contains(name);
-    let told = rows.filter_map(|node| node.accesskit_node().value());
-    told.filter_map(|text| text.strip_prefix(name)?.trim().strip_suffix(" %")?.parse().ok()).next()
+    let values = rows.filter_map(|node| node.accesskit_node().value());
+    values.filter_map(|text| text.strip_prefix(name)?.trim().strip_suffix(" %")?.parse().ok()).next()
 }
 
 #[test]
 fn scopes_show_no_glare_until_it_is_asked_for_and_then_only_they_are_taken_anew() {
-    let desk = Workspace { layout: PaneLayout::One, ..Bench::small() };
-    let mut bench = Bench::sized(Setup { desk, ..Setup::default() }, egui::vec2(1280.0, 900.0));
+    let workspace = Workspace { layout: PaneLayout::One, ..Bench::small() };
+    let mut bench = Bench::sized(Setup { workspace, ..Setup::default() }, egui::vec2(1280.0, 900.0));
     bench.settle();
     assert_eq!(bench.editor().shown((0, Which::Present)).unwrap().shot.glare, Glare::LeftOut);
     assert!(bench.harness.query_by_label("without glare").is_some(), "the view says what it shows");

@@ -5,10 +5,10 @@ use crate::app::model::dialog::Dialog;
 use std::path::Path;
 
 /// Opens the window as at a first start, in the dark theme, with a file that comes with the program.
-fn window(cut: &str, desk: &Workspace) -> Bench {
+fn window(cut: &str, workspace: &Workspace) -> Bench {
     let file = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts").join(cut));
     let mut bench = Bench::drawn(Setup { file, ..Setup::default() }, egui::Theme::Dark);
-    bench.harness.state_mut().model.workspace = desk.clone();
+    bench.harness.state_mut().model.workspace = workspace.clone();
     bench.settle();
     bench
 }
@@ -100,7 +100,7 @@ fn four_cubes() {
 #[ignore = "writes a picture into docs/images/editor"]
 fn what_lies_behind() {
     let shown = [Shows::Render, Shows::Refraction, Shows::LiquidGlass, Shows::TracedPane];
-    let mut desk = Workspace { behind: Some("page".into()), ..Workspace::default() };
-    desk.panes.iter_mut().zip(shown).for_each(|(pane, shows)| pane.shows = shows);
-    draw(&mut window("cube.toml", &desk), "backgrounds");
+    let mut workspace = Workspace { behind: Some("page".into()), ..Workspace::default() };
+    workspace.panes.iter_mut().zip(shown).for_each(|(pane, shows)| pane.shows = shows);
+    draw(&mut window("cube.toml", &workspace), "backgrounds");
 }

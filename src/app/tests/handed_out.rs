@@ -57,7 +57,7 @@ fn a_right_click_opens_a_menu_of_the_view_and_a_right_drag_turns_the_stone() {
     assert_eq!(export.plan.selection.views, [Shows::Aset]);
     bench.click("Cancel");
     open_menu_of(&mut bench, "Hearts picture");
-    bench.click("Draw over it");
+    bench.click("Overlays");
     bench.harness.run_steps(4);
     bench.harness.get_by_label_contains("Wireframe").click();
     bench.harness.run_steps(4);
@@ -120,8 +120,8 @@ fn figures_are_copied_as_text_and_as_a_table() {
     let text = copy(&mut bench, "Copy as text");
     let percents = [before, shown(&bench)];
     let line = text.lines().find(|line| line.starts_with("Light return")).unwrap();
-    let told: f64 = line.trim_start_matches("Light return").trim_end_matches('%').trim().parse().unwrap();
-    assert!(percents.iter().any(|percent| (told - percent).abs() < 0.0051), "{line} beside {percents:?}");
+    let copied: f64 = line.trim_start_matches("Light return").trim_end_matches('%').trim().parse().unwrap();
+    assert!(percents.iter().any(|percent| (copied - percent).abs() < 0.0051), "{line} beside {percents:?}");
     assert!(text.starts_with("Tolkowsky 1919: Table side, face up; ASET, energy; "), "{text}");
     let table = copy(&mut bench, "Copy as CSV");
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
@@ -158,7 +158,7 @@ fn the_program_says_what_it_is_and_what_it_is_built_of() {
     assert!(bench.harness.query_by_label(&version).is_some());
     bench.click("Licence MIT");
     assert!(bench.harness.query_by_label_contains("WITHOUT WARRANTY OF ANY KIND").is_some());
-    bench.click("Built of");
+    bench.click("Built with");
     bench.harness.get_by_role_and_label(egui::Role::TextInput, "Find").focus();
     bench.harness.run_steps(2);
     bench.harness.event(egui::Event::Text("egui_plot".to_owned()));

@@ -22,13 +22,13 @@ fn a_file_that_others_change_is_read_again_and_asked_about_where_work_would_be_l
     design.name = "Changed outside a second time".to_owned();
     std::fs::write(&path, cut_file::write(&design)).unwrap();
     bench.wait(|editor| editor.model.session.dialog.is_some());
-    bench.click("Keep mine");
+    bench.click("Keep my changes");
     assert!((bench.brilliant().table - 57.0).abs() < 1e-12);
     bench.choose("Edit", "Undo");
     assert!(!bench.editor().model.document.is_changed());
     std::fs::remove_file(&path).unwrap();
     bench.wait(|editor| editor.model.document.is_changed());
-    assert!(bench.harness.query_by_label_contains("no longer there").is_some());
+    assert!(bench.harness.query_by_label_contains("no longer exists").is_some());
 }
 
 #[test]
@@ -97,13 +97,13 @@ fn what_was_recovered_is_kept_until_it_is_saved() {
     for _ in 0..2 {
         let mut next = Bench::with(setup());
         next.harness.run_steps(3);
-        next.click("Go on");
+        next.click("Recover");
         next.harness.run_steps(3);
         assert!((next.brilliant().table - 59.5).abs() < 1e-12);
     }
     let mut last = Bench::with(setup());
     last.harness.run_steps(3);
-    last.click("Forget it");
+    last.click("Discard");
     drop(last);
     let none = Bench::with(setup());
     assert!(none.editor().model.session.dialog.is_none());

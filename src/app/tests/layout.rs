@@ -19,7 +19,7 @@ const PANEL: f32 = 362.0;
 
 /// Opens a window of the least size with two scopes.
 fn small(pixels_per_point: f32) -> Bench {
-    let setup = Setup { desk: Bench::small(), ..Setup::default() };
+    let setup = Setup { workspace: Bench::small(), ..Setup::default() };
     let mut bench =
         Bench::built(setup, Harness::builder().with_size(SMALL).with_pixels_per_point(pixels_per_point));
     bench.harness.run_steps(3);
@@ -69,7 +69,7 @@ fn buttons_of_the_export_are_in_sight_in_the_least_window() {
 
 #[test]
 fn what_is_on_in_a_narrow_view_has_a_menu_that_can_be_read() {
-    let setup = Setup { desk: Workspace::default(), ..Setup::default() };
+    let setup = Setup { workspace: Workspace::default(), ..Setup::default() };
     let mut bench = Bench::sized(setup, SMALL);
     bench.harness.state_mut().model.workspace = Workspace::default();
     bench.harness.run_steps(3);
@@ -117,7 +117,7 @@ fn a_small_window_folds_one_panel_and_a_click_opens_it_in_place_of_the_other() {
 fn in_a_small_window_every_entry_of_a_menu_and_every_button_of_a_dialog_is_reached() {
     let mut bench = small(1.0);
     let whole = window(&bench);
-    for (menu, last) in [("File", "Quit"), ("View", "Views alone"), ("Help", "About Brillianteer")] {
+    for (menu, last) in [("File", "Quit"), ("View", "Hide panels"), ("Help", "About Brillianteer")] {
         bench.click(menu);
         bench.harness.run_steps(4);
         let reached = |bench: &Bench| whole.contains_rect(bench.harness.get_by_label_contains(last).rect());
@@ -176,10 +176,10 @@ fn the_fields_of_a_panel_stand_in_one_column() {
     let path = folder.path().join("planes.toml");
     std::fs::write(&path, cut_file::write(&tiers)).unwrap();
     for file in [None, pill, Some(path)] {
-        let mut desk = Bench::small();
-        desk.behind = Some("grid".into());
+        let mut workspace = Bench::small();
+        workspace.behind = Some("grid".into());
         let mut bench =
-            Bench::sized(Setup { file: file.clone(), desk, ..Setup::default() }, vec2(1200.0, 900.0));
+            Bench::sized(Setup { file: file.clone(), workspace, ..Setup::default() }, vec2(1200.0, 900.0));
         bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
         let numbers = fields(&bench, Role::SpinButton);
         let numbers: Vec<_> = numbers.into_iter().filter(|(name, _)| !name.contains("Angle")).collect();
@@ -206,15 +206,15 @@ fn the_fields_of_a_panel_stand_in_one_column() {
 #[test]
 fn nothing_is_red_while_nothing_is_wrong() {
     let folder = tempfile::tempdir().unwrap();
-    let mut desk = Bench::small();
-    desk.layout = PaneLayout::One;
-    desk.panes[0].shows = Shows::Render;
-    let setup = Setup { file: Some("cube".into()), desk, ..Setup::default() };
+    let mut workspace = Bench::small();
+    workspace.layout = PaneLayout::One;
+    workspace.panes[0].shows = Shows::Render;
+    let setup = Setup { file: Some("cube".into()), workspace, ..Setup::default() };
     // A small window, because renders take long.
     let mut bench = Bench::sized(setup, vec2(900.0, 300.0));
     bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
-    let desk = &mut bench.harness.state_mut().model.workspace;
-    (desk.behind, desk.strength) = (Some("grid".into()), 0.5);
+    let workspace = &mut bench.harness.state_mut().model.workspace;
+    (workspace.behind, workspace.strength) = (Some("grid".into()), 0.5);
     bench.look();
     bench.harness.state_mut().model.session.notes.warn("it was saved, but not all of it".into());
     let editor = bench.harness.state_mut();
@@ -233,7 +233,7 @@ fn nothing_is_red_while_nothing_is_wrong() {
             .map(|(_, text)| text)
             .collect()
     };
-    assert!(bench.harness.query_by_label_contains("are there already").is_some());
+    assert!(bench.harness.query_by_label_contains("will be replaced").is_some());
     assert_eq!(is_red(&bench), Vec::<String>::new());
     let editor = bench.harness.state_mut();
     (editor.model.session.dialog, editor.model.session.notes) = (None, Default::default());
@@ -347,9 +347,9 @@ fn a_stone_keeps_its_scale_while_one_number_changes() {
 #[test]
 fn a_diagram_is_dark_in_the_dark_and_light_in_the_light() {
     for (theme, is_dark) in [(egui::ThemePreference::Dark, true), (egui::ThemePreference::Light, false)] {
-        let mut desk = Bench::small();
-        desk.panes[1].shows = Shows::Diagram;
-        let mut bench = Bench::with(Setup { desk, ..Setup::default() });
+        let mut workspace = Bench::small();
+        workspace.panes[1].shows = Shows::Diagram;
+        let mut bench = Bench::with(Setup { workspace, ..Setup::default() });
         bench.harness.ctx.set_theme(theme);
         bench.harness.run_steps(3);
         bench.look();

@@ -18,10 +18,10 @@ fn can_draw(test: &str) -> bool {
 }
 
 /// Returns a workspace of four views that are made quickly.
-fn desk() -> Workspace {
-    let mut desk = Workspace::default();
-    desk.panes[0].shows = Shows::Arrows;
-    desk
+fn arrows_first() -> Workspace {
+    let mut workspace = Workspace::default();
+    workspace.panes[0].shows = Shows::Arrows;
+    workspace
 }
 
 fn compare(bench: &mut Bench, name: &str) {
@@ -37,7 +37,7 @@ fn the_first_window_in_the_dark() {
     if !can_draw("the_first_window_in_the_dark") {
         return;
     }
-    let mut bench = Bench::drawn(Setup { desk: desk(), ..Setup::default() }, egui::Theme::Dark);
+    let mut bench = Bench::drawn(Setup { workspace: arrows_first(), ..Setup::default() }, egui::Theme::Dark);
     bench.settle();
     compare(&mut bench, "dark");
 }
@@ -47,7 +47,7 @@ fn a_light_path_in_the_light() {
     if !can_draw("a_light_path_in_the_light") {
         return;
     }
-    let mut bench = Bench::drawn(Setup { desk: desk(), ..Setup::default() }, egui::Theme::Light);
+    let mut bench = Bench::drawn(Setup { workspace: arrows_first(), ..Setup::default() }, egui::Theme::Light);
     bench.settle();
     let at = bench.harness.get_by_label("ASET picture").rect().center() + egui::vec2(60.0, 24.0);
     bench.click_at(at);
@@ -61,7 +61,7 @@ fn what_may_be_exported() {
     if !can_draw("what_may_be_exported") {
         return;
     }
-    let mut bench = Bench::drawn(Setup { desk: desk(), ..Setup::default() }, egui::Theme::Dark);
+    let mut bench = Bench::drawn(Setup { workspace: arrows_first(), ..Setup::default() }, egui::Theme::Dark);
     bench.settle();
     bench.choose("File", "Export…");
     let Some(crate::app::model::dialog::Dialog::Export(export)) =

@@ -1,5 +1,5 @@
 //! Tests of the editor as a person uses it: by the names of what is on the screen.
-#![allow(clippy::print_stdout, reason = "what is skipped or measured is told")]
+#![allow(clippy::print_stdout, reason = "tests print what they skip or measure")]
 
 mod asking;
 mod backgrounds;
@@ -79,14 +79,15 @@ impl Bench {
         let chosen = Arc::clone(&choices);
         let chooser: Chooser =
             Arc::new(move |_: &Question| chosen.lock().unwrap().pop().map_or(Choice::NoDialog, Choice::File));
-        let desk = if setup.desk == Workspace::default() { Self::small() } else { setup.desk.clone() };
+        let workspace =
+            if setup.workspace == Workspace::default() { Self::small() } else { setup.workspace.clone() };
         let opened: Arc<Mutex<Vec<String>>> = Arc::default();
         let outside = Arc::clone(&opened);
         let opener: crate::app::tasks::opener::Opener = Arc::new(move |what: &str| {
             outside.lock().unwrap().push(what.to_owned());
             Ok(())
         });
-        let setup = Setup { chooser, opener, desk, ..setup };
+        let setup = Setup { chooser, opener, workspace, ..setup };
         let harness = builder
             .with_max_steps(20)
             .with_step_dt(1.0 / 60.0)

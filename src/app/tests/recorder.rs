@@ -26,11 +26,11 @@ fn numbers(figures: &Figures) -> u64 {
 /// Adds a line to `record`: what one view of a design, leaning a little, shows at its finest, and the figures beside it.
 fn record(cut: &str, shows: Shows, record: &mut String) {
     let file = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts").join(cut));
-    let mut desk = Workspace { layout: PaneLayout::One, ..Workspace::default() };
-    desk.panes[0].shows = shows;
-    desk.eye.lean = glam::DVec2::new(0.05, -0.12);
+    let mut workspace = Workspace { layout: PaneLayout::One, ..Workspace::default() };
+    workspace.panes[0].shows = shows;
+    workspace.eye.lean = glam::DVec2::new(0.05, -0.12);
     // A window so small that glass, which is traced by rays, becomes fine within seconds.
-    let mut bench = Bench::sized(Setup { file, desk, ..Setup::default() }, egui::vec2(800.0, 400.0));
+    let mut bench = Bench::sized(Setup { file, workspace, ..Setup::default() }, egui::vec2(800.0, 400.0));
     bench.settle();
     bench.wait(|editor| !editor.studio.sharpens());
     bench.settle();

@@ -1,4 +1,4 @@
-//! The time that goes on with the frames of the window.
+//! The time that passes between frames of the window.
 
 use egui::Context;
 

@@ -11,9 +11,7 @@ pub struct Shown {
     pub texture: TextureHandle,
     /// The shot that the picture answers.
     pub shot: Shot,
-    /// The grade of the picture.
     pub grade: Grade,
-    /// The picture.
     pub taken: TakenPicture,
 }
 

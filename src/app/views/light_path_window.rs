@@ -42,13 +42,14 @@ pub fn show(model: &Model, tools: &mut ViewTools, actions: &mut Actions, ctx: &C
 /// Draws the path of the ray that is followed, or says why there is none.
 fn contents(model: &Model, tools: &mut ViewTools, ui: &mut Ui) {
     let Some((pane, at)) = model.session.followed.at else {
-        ui.label("Click a point of the stone in any view: its light is followed from there.");
+        ui.label("Click a point of the stone in any view to follow the light of that point.");
         return;
     };
     let shows = model.workspace.panes[pane].shows;
     if shows.has_company() && !model.is_alone() {
         ui.label(
-            "A ray is followed through one stone at rest: show a single copy, at rest, or click a scope.",
+            "A ray can be followed only through a single stone in its own pose. Show one copy and reset its pose, \
+                or click a point in a scope.",
         );
         return;
     }
@@ -60,7 +61,7 @@ fn contents(model: &Model, tools: &mut ViewTools, ui: &mut Ui) {
             tools.following.view.show(ui, &specimen.body, &path, &scope, &view);
         }
         None => {
-            ui.label(RichText::new("The point lies beside the stone; click one that lies on it.").weak());
+            ui.label(RichText::new("The point is beside the stone; click a point of the stone.").weak());
         }
     }
 }

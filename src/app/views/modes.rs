@@ -28,18 +28,19 @@ fn mode(name: impl Into<String>, meaning: &'static str, end: impl Into<Action>) 
 impl Mode {
     /// Returns the modes that are on in a view.
     pub fn of(model: &Model, pane: usize) -> Vec<Self> {
-        let desk = &model.workspace;
-        let Pane { shows, own, is_near } = desk.panes[pane];
+        let workspace = &model.workspace;
+        let Pane { shows, own, is_near } = workspace.panes[pane];
         if !shows.is_seen() {
             return vec![];
         }
-        let (eye, scope) = (*desk.eye(pane), shows.scoped());
+        let (eye, scope) = (*workspace.eye(pane), shows.scoped());
         let takes_head = scope.as_ref().is_some_and(|scope| scope.takes_head);
         let head = model.document.work.head;
-        let strength = if shows == Shows::Render { desk.strength() } else { 1.0 };
+        let strength = if shows == Shows::Render { workspace.strength() } else { 1.0 };
         let missing =
-            desk.missing_background().filter(|_| matches!(shows, Shows::Render | Shows::Refraction));
-        let overlay = desk.overlay.clone().filter(|_| shows.takes_overlay() && desk.overlay().is_some());
+            workspace.missing_background().filter(|_| matches!(shows, Shows::Render | Shows::Refraction));
+        let overlay =
+            workspace.overlay.clone().filter(|_| shows.takes_overlay() && workspace.overlay().is_some());
         [
             own.map(|_| {
                 let meaning = "This view has a tilt and a zoom of its own.";
@@ -50,31 +51,34 @@ impl Mode {
                 mode("perspective", meaning, ViewAction::EndPerspective(pane))
             }),
             eye.eye_leans.then(|| {
-                let meaning = "The eye moves over a still stone and light; else the stone tilts.";
+                let meaning = "A drag tilts the eye, while stone and light stay.";
                 mode("eye tilts", meaning, ViewAction::Eye(pane, Eye { eye_leans: false, ..eye }))
             }),
-            overlay.map(|name| mode(name, "Something is drawn over all pictures.", ViewAction::Overlay(None))),
-            (desk.strongest && scope.is_some()).then(|| {
-                let meaning = "Scopes show the zone of each point's strongest light alone.";
+            overlay.map(|name| {
+                mode(name, "This overlay is drawn over all pictures.", ViewAction::Overlay(None))
+            }),
+            (workspace.strongest && scope.is_some()).then(|| {
+                let meaning = "Scopes show only the zone of each point's strongest light.";
                 mode("strongest exits", meaning, ViewAction::Strongest(false))
             }),
             (head > 0.0 && takes_head).then(|| {
-                let meaning = "The observer's head shuts out light, here and in the figures.";
+                let meaning = "The observer's head blocks light, here and in the figures.";
                 mode(format!("head {head:.1}°"), meaning, Edit::Head(0.0))
             }),
-            (desk.glare && !desk.strongest && scope.is_some()).then(|| {
-                let meaning = "Scopes show what the outer surface reflects as well, as a camera records it.";
+            (workspace.glare && !workspace.strongest && scope.is_some()).then(|| {
+                let meaning =
+                    "Scopes also show the light that the outer surface reflects, as a camera records it.";
                 mode("with glare", meaning, ViewAction::Glare(false))
             }),
             missing.map(|name| {
-                let meaning = "The background cannot be read, so nothing stands behind the stone and the strength of \
-                               refraction counts as 1. A click here removes the background.";
+                let meaning = "The file of the background cannot be read, so nothing is behind the stone, and the strength of \
+                               refraction is 1.";
                 let name = Path::new(name).file_name().map_or(name.into(), |name| name.to_string_lossy());
                 mode(format!("{name} is missing"), meaning, ViewAction::Behind(None))
             }),
             (strength < 1.0).then(|| {
-                let meaning = "Strength below 1: a mixture of the refracted and the straight ray, for its looks, and no \
-                               physics.";
+                let meaning =
+                    "Below 1, the refracted ray is mixed with the straight ray, which is not physics.";
                 mode(format!("strength {strength:.3}"), meaning, ViewAction::Strength(1.0))
             }),
         ]
@@ -133,7 +137,7 @@ fn rest_label(count: usize) -> String {
 
 fn chip(ui: &mut Ui, name: &str, mode: &Mode) -> bool {
     let button = Button::new(RichText::new(name).small()).selected(true);
-    ui.add(button).on_hover_text(format!("{} Click to end it.", mode.meaning)).clicked()
+    ui.add(button).on_hover_text(format!("{} Click to switch it off.", mode.meaning)).clicked()
 }
 
 fn button_width(ui: &Ui, text: &str) -> f32 {

@@ -69,7 +69,7 @@ fn drawing(cx: &mut PaneContext, ui: &Ui, body: Rect) {
 /// Draws a text in the place of a drawing that only convex stones have.
 fn absent(ui: &Ui, body: Rect, what: &str) {
     ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
-    let text = format!("{what} is drawn of convex stones between planes only.");
+    let text = format!("{what} can be drawn only of convex stones with flat facets.");
     let (font, colour) = (FontId::proportional(14.0), ui.visuals().weak_text_color());
     ui.painter().text(body.center(), Align2::CENTER_CENTER, text, font, colour);
 }

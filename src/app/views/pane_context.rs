@@ -1,4 +1,4 @@
-//! What one view is drawn by, and what is common to all views.
+//! What one view needs to be drawn.
 
 use super::gallery::Shown;
 use super::tools::ViewTools;
@@ -12,16 +12,14 @@ use crate::app::shows::Shows;
 use crate::app::studio::Which;
 use egui::{Response, Stroke, Ui};
 
-/// One view in a frame: the state that it is drawn by, and the actions that come of what a person does in it.
+/// One view in one frame: the state that it shows, and the actions of the user in it.
 pub struct PaneContext<'a> {
-    /// The state.
     pub model: &'a Model,
-    /// What views are drawn with.
+    /// What all views need.
     pub tools: &'a mut ViewTools,
     actions: &'a mut Actions,
     /// The number of the view.
     pub pane: usize,
-    /// What the view shows.
     pub shows: Shows,
     /// The state of the background of a refraction map, as this frame changes it.
     pub flowing: Flowing,
@@ -44,7 +42,7 @@ impl<'a> PaneContext<'a> {
         entry(self.model, self.actions, ui, command);
     }
 
-    /// Returns the eye that the view looks by.
+    /// Returns the view's eye.
     pub fn eye(&self) -> Eye {
         *self.model.workspace.eye(self.pane)
     }

@@ -29,7 +29,8 @@ pub fn show(cx: &mut PaneContext, ui: &mut Ui) {
     if document.shows_last_possible() && !cx.shows.is_pane() {
         let why = document.fault().map(ToString::to_string).unwrap_or_default();
         let text = RichText::new("last possible stone").color(theme::bad(ui.visuals())).small();
-        ui.label(text).on_hover_text(format!("The design makes no stone, so this is the one before. {why}"));
+        ui.label(text)
+            .on_hover_text(format!("The design is impossible, so this is the last possible stone. {why}"));
     }
     modes::show(cx, ui, ui.available_width() - ENLARGE);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| from_right(cx, ui));
@@ -60,7 +61,8 @@ fn from_right(cx: &mut PaneContext, ui: &mut Ui) {
     let (shows, pane, workspace) = (cx.shows, cx.pane, &cx.model.workspace);
     if workspace.layout.panes() > 1 {
         let name = if workspace.large == Some(pane) { "All views" } else { "Enlarge" };
-        let meaning = format!("View {}: alone, or among the others; a double click does the same.", pane + 1);
+        let meaning =
+            format!("Shows view {} alone, or all views again; a double click does the same.", pane + 1);
         if ui.small_button(name).on_hover_text(meaning).clicked() {
             cx.push(ViewAction::Enlarge(pane));
         }
@@ -87,24 +89,25 @@ fn state(cx: &PaneContext, ui: &mut Ui) {
     let (text, meaning) = match (grade, taken.unresolved) {
         (Grade::Fine, Some(part)) => {
             let percent = 100.0 * part;
-            (format!("± {percent:.2} %"), format!("{percent:.3} % of the light is not followed to its end."))
+            (format!("± {percent:.2} %"), format!("{percent:.3} % of the light was not followed to its end."))
         }
         (Grade::Fine, None) => {
-            (String::new(), "How much of the light is not followed to its end is not known.".into())
+            (String::new(), "It is unknown how much of the light was not followed to its end.".into())
         }
         _ => ("…".to_owned(), "Becoming finer.".to_owned()),
     };
     if let Some((reading, meaning)) = reading(shot).filter(|_| has_room(ui, 150.0)) {
         ui.label(RichText::new(reading).weak().small()).on_hover_text(meaning);
     }
-    ui.label(RichText::new(text).weak().small()).on_hover_text(format!("By {}. {meaning}", taken.tracer));
+    ui.label(RichText::new(text).weak().small())
+        .on_hover_text(format!("Computed by {}. {meaning}", taken.tracer));
 }
 
-/// Returns what a picture in a scope shows of the light where no mode says so, in two words and in a sentence.
+/// Returns, in two words and in a sentence, that a picture in a scope leaves out glare; `None` where it does not.
 fn reading(shot: &Shot) -> Option<(&'static str, &'static str)> {
     shot.shows.scoped()?;
     (!shot.strongest && shot.glare == Glare::LeftOut).then_some((
         "without glare",
-        "All light that has been inside the stone; what the outer surface reflects is left out.",
+        "Shows all light that has been inside the stone, without the light that the outer surface reflects.",
     ))
 }

@@ -8,9 +8,7 @@ use glam::{DMat2, DVec2, DVec3};
 
 /// How a view looks at the stone now, and where its picture lies in the window.
 pub struct PaneView {
-    /// The view.
     pub view: View,
-    /// The film of the picture.
     pub film: Film,
     /// The middle of what the view is fitted to, girdle radii from the origin.
     pub middle: DVec2,

@@ -28,9 +28,7 @@ impl ProbeCache {
 /// What lies at a point of a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProbeHit {
-    /// The number of the facet.
     pub facet: u32,
-    /// The name of the facet.
     pub name: String,
     /// The part of their names that the facets of the tier share, and how many facets there are.
     pub tier: (String, usize),
@@ -144,7 +142,12 @@ impl ProbeHit {
         let light = self.light.as_ref().map_or_else(
             || "no light leaves here".to_owned(),
             |l| {
-                format!("{} light from {:.1}°, {:.0} % of what is seen", l.zone, l.elevation, 100.0 * l.share)
+                format!(
+                    "{} light from {:.1}°, {:.0} % of the light seen",
+                    l.zone,
+                    l.elevation,
+                    100.0 * l.share
+                )
             },
         );
         format!("{}{tier} · slope {:.2}°{azimuth} · {light}", self.name, self.slope)

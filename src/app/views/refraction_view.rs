@@ -14,13 +14,15 @@ const FLOW: DVec2 = DVec2::new(0.06, 0.02);
 /// Draws the choices over the picture, from the right.
 pub fn choices(flowing: &mut Flowing, ui: &mut Ui) {
     if has_room(ui, 64.0) {
-        ui.checkbox(&mut flowing.flows, "Flow")
-            .on_hover_text("Lets the background move by itself. Else drag it; with Ctrl the stone tilts.");
+        ui.checkbox(&mut flowing.flows, "Flow").on_hover_text(
+            "Lets the background move by itself. You can also drag it; drag with Ctrl to tilt the \
+                stone.",
+        );
     }
     if has_room(ui, 64.0) {
         ui.checkbox(&mut flowing.is_map, "Map").on_hover_text(
-            "Shows the map itself: where on the background the light of each pixel comes from, in 16 by 16 tiles. Blue \
-             tells the tile, red and green the place in it.",
+            "Shows the map itself, which says where on the background the light of each pixel comes from. Blue is \
+                the number of one of 16 by 16 tiles, red and green are the place in that tile.",
         );
     }
 }

@@ -1,4 +1,4 @@
-//! What views are drawn with beside the model.
+//! What views need besides the model to be drawn.
 
 use super::following::Following;
 use super::gallery::Gallery;
@@ -10,7 +10,7 @@ use crate::app::model::stones::Stones;
 use crate::app::profile_view::ProfileView;
 use crate::app::studio::Paper;
 
-/// What views are drawn with that is no state of the editor: pictures, and what is kept for speed or for a gesture.
+/// What views need besides the model: pictures, and caches for speed or for a gesture.
 #[derive(Default)]
 pub struct ViewTools {
     /// The pictures of the views.
@@ -25,7 +25,7 @@ pub struct ViewTools {
     pub following: Following,
     /// The colours and the scale of drawings, light or dark as the window is.
     pub paper: Paper,
-    /// What the pointer and the focus were at in the last frame.
+    /// What was under the pointer or had the focus in the last frame.
     pub attention: Attention,
 }
 
@@ -41,7 +41,7 @@ impl ViewTools {
     }
 }
 
-/// What the pointer and the focus are at, as the views of one frame find it.
+/// What is under the pointer or has the focus, as the views of one frame find it.
 #[derive(Debug, Default)]
 pub struct Attention {
     /// The view under the pointer or with the focus.

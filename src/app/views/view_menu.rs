@@ -53,7 +53,7 @@ fn contents(cx: &mut PaneContext, ui: &mut Ui) {
         }
     });
     if shows.takes_overlay() {
-        ui.menu_button("Draw over it", |ui| OVERLAYS.iter().for_each(|&command| cx.entry(ui, command)));
+        ui.menu_button("Overlays", |ui| OVERLAYS.iter().for_each(|&command| cx.entry(ui, command)));
     }
     ui.separator();
     cx.entry(ui, Command::CopyPicture);
@@ -77,7 +77,7 @@ fn contents(cx: &mut PaneContext, ui: &mut Ui) {
 
 fn sizes(cx: &mut PaneContext, ui: &mut Ui) {
     for side in SIZES {
-        let about = "Pixels of the longer side; the picture is made anew, and copied once it is done.";
+        let about = "Pixels of the longer side. The picture is made in this size and copied once it is done.";
         if ui.button(format!("{side} pixels")).on_hover_text(about).clicked() {
             cx.push(ViewAction::CopyAt(cx.pane, side));
             ui.close();

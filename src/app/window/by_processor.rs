@@ -182,7 +182,7 @@ impl OpenWindow {
             .is_ok_and(|handle| matches!(handle.as_raw(), RawDisplayHandle::Wayland(_)));
         let now = Instant::now();
         let mut pacer = FramePacer::default();
-        pacer.ask(now);
+        pacer.request(now);
         Ok(Self {
             context,
             editor,
@@ -212,7 +212,7 @@ impl OpenWindow {
                 let current = self.context.cumulative_pass_nr_for(ViewportId::ROOT);
                 // An older request has been fulfilled by a later pass.
                 if current <= pass + 1 {
-                    self.pacer.ask(when);
+                    self.pacer.request(when);
                 }
             }
             UserEvent::Access(event) => {
@@ -221,7 +221,7 @@ impl OpenWindow {
                     Access::ActionRequested(request) => self.input.on_accesskit_action_request(request),
                     Access::AccessibilityDeactivated => self.context.disable_accesskit(),
                 }
-                self.pacer.ask(Instant::now());
+                self.pacer.request(Instant::now());
             }
         }
     }
@@ -240,7 +240,7 @@ impl OpenWindow {
                 self.info.events.push(ViewportEvent::Close);
                 // The system may never ask a hidden window to paint, but it must close all the same.
                 self.is_promised = false;
-                self.pacer.ask(Instant::now());
+                self.pacer.request(Instant::now());
             }
             WindowEvent::Occluded(is_occluded) => self.info.occluded = Some(*is_occluded),
             _ => {}
@@ -251,7 +251,7 @@ impl OpenWindow {
         );
         self.is_info_stale |= !is_of_pointer;
         if self.input.on_window_event(&self.window, event).repaint {
-            self.pacer.ask(Instant::now());
+            self.pacer.request(Instant::now());
         }
         Ok(())
     }
@@ -324,7 +324,7 @@ impl OpenWindow {
         let Self { context, info, window, actions, .. } = self;
         egui_winit::process_viewport_commands(context, info, commands, window, actions);
         if !info.events.is_empty() {
-            self.pacer.ask(Instant::now());
+            self.pacer.request(Instant::now());
         }
         for action in self.actions.drain(..) {
             let event = match action {
@@ -336,7 +336,7 @@ impl OpenWindow {
             };
             if let Some(event) = event {
                 self.input.egui_input_mut().events.push(event);
-                self.pacer.ask(Instant::now());
+                self.pacer.request(Instant::now());
             }
         }
     }

@@ -40,11 +40,11 @@ pub enum WindowError {
     #[error("the window cannot be opened: {0}; on Debian it needs {PACKAGES}")]
     NoWindow(String),
     /// The window was open and has shown an image, and then painting or the window system failed.
-    #[error("the window was lost: {0}; start the program again: it offers the work that was not saved")]
+    #[error("the window was lost: {0}; start the program again to recover unsaved work")]
     Lost(String),
     /// The environment names a painter that does not exist.
     #[error(
-        "{CHOICE}={0} is unknown; set it to `card` or `processor`, or leave it out and the program chooses"
+        "{CHOICE}={0} is unknown; set it to `card` or `processor`, or unset it to let the program choose"
     )]
     NoSuchPainter(String),
 }
@@ -60,17 +60,17 @@ impl WindowError {
 /// Removes the place in winit's source code from an error's text, because it is a path of the machine that built the
 /// program: `os error at FILE:LINE: TEXT` becomes `TEXT`.
 fn without_place(text: &str) -> String {
-    let told = text.split_once("os error at ").and_then(|(before, rest)| {
+    let shortened = text.split_once("os error at ").and_then(|(before, rest)| {
         let (_, reason) = rest.split_once(": ")?;
         Some(format!("{before}{reason}"))
     });
-    told.unwrap_or_else(|| text.to_owned())
+    shortened.unwrap_or_else(|| text.to_owned())
 }
 
 impl PaintedBy {
     /// Returns the painter of this name. Without a name, it is the card where there is one, else the processor.
-    fn chosen(asked: Option<&str>, has_card: impl FnOnce() -> bool) -> Result<Self, WindowError> {
-        match asked {
+    fn chosen(name: Option<&str>, has_card: impl FnOnce() -> bool) -> Result<Self, WindowError> {
+        match name {
             None | Some("") => Ok(if has_card() { Self::Card } else { Self::Processor }),
             Some(name) => [Self::Card, Self::Processor]
                 .into_iter()
@@ -88,8 +88,8 @@ impl PaintedBy {
 /// lost. Except for a missing display, the text of the error says what to do.
 pub fn run(file: Option<PathBuf>, mesh: MeshOptions) -> Result<(), WindowError> {
     check_display()?;
-    let asked = std::env::var(CHOICE).ok();
-    let painted_by = PaintedBy::chosen(asked.as_deref(), by_card::is_there)?;
+    let name = std::env::var(CHOICE).ok();
+    let painted_by = PaintedBy::chosen(name.as_deref(), by_card::is_there)?;
     urgency::lower_the_pool();
     let state_file = StateFile::from_environment();
     let safe = eframe::storage_dir(ID);
@@ -106,7 +106,7 @@ fn check_display() -> Result<(), WindowError> {
     let names = ["WAYLAND_DISPLAY", "WAYLAND_SOCKET", "DISPLAY"];
     let is_named_by_variable = cfg!(all(unix, not(target_os = "macos")));
     if is_named_by_variable && !names.iter().any(|name| is_named(name)) {
-        return Err(WindowError::NoDisplay("none of WAYLAND_DISPLAY and DISPLAY is set".to_owned()));
+        return Err(WindowError::NoDisplay("neither WAYLAND_DISPLAY nor DISPLAY is set".to_owned()));
     }
     Ok(())
 }
@@ -129,9 +129,9 @@ mod tests {
 
     #[test]
     fn a_window_that_has_shown_an_image_is_lost_and_not_missing() {
-        let told = |has_shown| WindowError::of_ended("the server is gone", has_shown);
-        assert_eq!(told(false), WindowError::NoWindow("the server is gone".to_owned()));
-        assert_eq!(told(true), WindowError::Lost("the server is gone".to_owned()));
+        let error = |has_shown| WindowError::of_ended("the server is gone", has_shown);
+        assert_eq!(error(false), WindowError::NoWindow("the server is gone".to_owned()));
+        assert_eq!(error(true), WindowError::Lost("the server is gone".to_owned()));
     }
 
     #[test]
@@ -139,14 +139,14 @@ mod tests {
         let place = "/root/.cargo/registry/src/index/winit-0.30.13/src/platform_impl/linux/mod.rs:788";
         let reason = "Failed to open connection to X server";
         assert_eq!(without_place(&format!("os error at {place}: {reason}")), reason);
-        let told = without_place(&format!("winit error: os error at {place}: {reason}: none"));
-        assert_eq!(told, format!("winit error: {reason}: none"));
+        let text = without_place(&format!("winit error: os error at {place}: {reason}: none"));
+        assert_eq!(text, format!("winit error: {reason}: none"));
         assert_eq!(without_place("EventLoop can't be recreated"), "EventLoop can't be recreated");
     }
 
     #[test]
     fn the_processor_paints_where_there_is_no_card_unless_a_painter_is_asked_for() {
-        let chosen = |asked: Option<&str>, card: bool| PaintedBy::chosen(asked, || card);
+        let chosen = |name: Option<&str>, card: bool| PaintedBy::chosen(name, || card);
         assert_eq!(chosen(None, true), Ok(PaintedBy::Card));
         assert_eq!(chosen(None, false), Ok(PaintedBy::Processor));
         assert_eq!(chosen(Some(""), false), Ok(PaintedBy::Processor));

@@ -20,7 +20,7 @@ pub struct FramePacer {
 
 impl FramePacer {
     /// Requests an image at the time `when`; an earlier request stays in force.
-    pub fn ask(&mut self, when: Instant) {
+    pub fn request(&mut self, when: Instant) {
         self.due = Some(self.due.map_or(when, |due| due.min(when)));
     }
 
@@ -57,15 +57,15 @@ mod tests {
         let after = |millis: u64| start + Duration::from_millis(millis);
         let mut frames = FramePacer::default();
         assert_eq!(frames.next(), None);
-        frames.ask(after(9));
-        frames.ask(after(5));
-        frames.ask(after(7));
+        frames.request(after(9));
+        frames.request(after(5));
+        frames.request(after(7));
         assert_eq!(frames.next(), Some(after(5)));
         assert!(frames.is_due(after(5)) && !frames.is_due(after(4)));
         frames.begin(after(5));
         assert_eq!(frames.next(), None);
         frames.end(after(6));
-        frames.ask(after(6));
+        frames.request(after(6));
         assert_eq!(frames.next(), Some(after(5) + SHORTEST));
         frames.end(after(25));
         assert_eq!(frames.next(), Some(after(45)));
@@ -73,7 +73,7 @@ mod tests {
         assert_eq!(frames.next(), Some(after(105)));
         frames.is_hidden = false;
         frames.begin(after(45));
-        frames.ask(after(500));
+        frames.request(after(500));
         assert_eq!(frames.next(), Some(after(500)));
     }
 }

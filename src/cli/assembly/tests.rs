@@ -12,10 +12,10 @@ fn refused(stones: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("x.toml");
     std::fs::write(&path, format!("format = 1\nname = \"x\"\n{stones}")).unwrap();
-    let Err(Failure::Input(told)) = Assembly::load(&path, None, None, MeshOptions::default()) else {
+    let Err(Failure::Input(message)) = Assembly::load(&path, None, None, MeshOptions::default()) else {
         panic!("no input error")
     };
-    told.replace(&path.display().to_string(), "x.toml").replace(&folder.path().display().to_string(), "")
+    message.replace(&path.display().to_string(), "x.toml").replace(&folder.path().display().to_string(), "")
 }
 
 #[test]
@@ -116,15 +116,15 @@ fn stones_in_one_anothers_way_and_cuts_that_are_not_there_are_named() {
             "[[stone]]\ncut = \"tolkowsky\"\nat = [0, 0, 0]\n[[stone]]\ncut = \"{cut}\"\nat = [{x}, 0, 0]\n"
         ))
     };
-    let told = two(6.4, "shallow");
-    assert_eq!(told, "x.toml: stone 1 (tolkowsky) and stone 2 (shallow) overlap; move one of them away");
+    let message = two(6.4, "shallow");
+    assert_eq!(message, "x.toml: stone 1 (tolkowsky) and stone 2 (shallow) overlap; move one of them away");
     assert_eq!(
         two(9.0, "shalow"),
         "x.toml:6: stone 2: cut: /shalow: there is no such file; did you mean the cut 'shallow'?"
     );
-    let told = refused("[[stone]]\ncut = \"shallow\"\nmaterial = 2.4\nsize = \"1ct\"");
+    let message = refused("[[stone]]\ncut = \"shallow\"\nmaterial = 2.4\nsize = \"1ct\"");
     assert!(
-        told.starts_with("x.toml:3: stone 1: size: a weight in ct needs a density, which index 2.4 lacks"),
-        "{told}"
+        message.starts_with("x.toml:3: stone 1: size: a weight in ct needs a density, which index 2.4 lacks"),
+        "{message}"
     );
 }

@@ -25,7 +25,7 @@ impl PictureSetup<'_> {
         let samples = if samples == 1 { "1 sample".to_owned() } else { format!("{samples} samples") };
         let jitter = if self.finish.no_jitter { ", without jitter" } else { "" };
         let polarised = if self.options.unpolarised { "unpolarised" } else { "polarised" };
-        let told = format!(
+        let description = format!(
             "{}; light {light}; {} wavelengths in {samples}{jitter}, {polarised}; {tracer}, unresolved {:.2e}, absorbed \
              {:.3}{}",
             self.assembly.name,
@@ -34,13 +34,14 @@ impl PictureSetup<'_> {
             rest.absorbed,
             self.mixture()
         );
-        Ok(RenderedPicture { picture, description: told })
+        Ok(RenderedPicture { picture, description })
     }
 
     /// Returns the note of a picture with a strength of refraction below 1, which is not physics; empty at full strength.
     pub(super) fn mixture(&self) -> String {
         let strength = self.strength;
-        let told = || format!("; strength {strength}: a mixture for its looks, not physics");
-        (strength < 1.0).then(told).unwrap_or_default()
+        let note =
+            || format!("; strength {strength}: refracted and straight rays are mixed, which is not physics");
+        (strength < 1.0).then(note).unwrap_or_default()
     }
 }

@@ -125,20 +125,17 @@ fn what_other_programs_write_is_understood() {
 #[test]
 fn what_is_odd_is_told_with_its_line_and_the_stone_opens() {
     let odd = |from: &str, to: &str| tiers(&STONE.replace(from, to)).1.join("; ");
-    assert_eq!(
-        odd("H A square", "Z A square"),
-        "line 5: 'Z A square' is no record that is known, and is left out"
-    );
+    assert_eq!(odd("H A square", "Z A square"), "line 5: 'Z A square' is not a known record and is left out");
     assert_eq!(
         odd("96 24 48 72\r\na 0.0", "96 x4 48 72\r\na 0.0"),
-        "line 12: 'x4' is no index of a facet, and is left out"
+        "line 12: 'x4' is not an index of a facet, and is left out"
     );
     assert_eq!(odd("a 35.5", "a 3 1\r\na 35.5"), "line 13: the tier before has no indices, and is left out");
     assert_eq!(tiers(&STONE.replace("0.45 0 n T", "0.45")).0.tiers[3].facets.len(), 1);
     assert_eq!(odd("n T", "n T n U"), "line 13: a facet has two names, 'T' and 'U'; the second is used");
-    assert_eq!(odd("g 96 0.0\r\n", ""), "the file names no index gear; one of 96 teeth is taken");
-    assert_eq!(odd("I 1.76\r\n", ""), "the file names no index of refraction; 1.54 is taken");
-    assert!(odd("I 1.76", "I 0.5").ends_with("the index 0.5 must be from 1 (vacuum) to 5; 1.54 is taken"));
+    assert_eq!(odd("g 96 0.0\r\n", ""), "the file names no index gear; one of 96 teeth is assumed");
+    assert_eq!(odd("I 1.76\r\n", ""), "the file names no index of refraction; 1.54 is assumed");
+    assert!(odd("I 1.76", "I 0.5").ends_with("the index 0.5 must be from 1 (vacuum) to 5; 1.54 is assumed"));
     assert_eq!(
         odd("a 35.5 0.8", "a 35.5\r\na 35.5 0.8"),
         "line 12: 'a 35.5' has no angle and distance, and is left out"
@@ -148,10 +145,10 @@ fn what_is_odd_is_told_with_its_line_and_the_stone_opens() {
 #[test]
 fn a_gear_and_a_symmetry_that_make_no_sense_are_mended_with_a_warning_as_in_gem_files() {
     let gear = "must be from 1 to 100000 teeth, or below 0 where they are counted clockwise";
-    let mended = "the facets are told by a gear of 96 teeth";
+    let mended = "the facets are given by a gear of 96 teeth";
     for (from, to, warning) in [
-        ("y 4 y", "y 0 y", "line 3: symmetry: 0 must be 1 or more; 1 is taken".to_owned()),
-        ("y 4 y", "y -2 y", "line 3: symmetry: -2 must be 1 or more; 1 is taken".to_owned()),
+        ("y 4 y", "y 0 y", "line 3: symmetry: 0 must be 1 or more; 1 is assumed".to_owned()),
+        ("y 4 y", "y -2 y", "line 3: symmetry: -2 must be 1 or more; 1 is assumed".to_owned()),
         ("g 96 0.0", "g 0 12", format!("line 2: gear: 0 {gear}; {mended}")),
         ("g 96 0.0", "g 200000 12", format!("line 2: gear: 200000 {gear}; {mended}")),
         ("g 96 0.0", "g 96 nan", format!("line 2: offset: NaN must be a number of teeth; {mended}")),

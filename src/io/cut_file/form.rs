@@ -197,7 +197,7 @@ impl MeshForm {
         let vertices: Vec<DVec3> = self.vertices.iter().map(|v| v.0.into()).collect();
         if let Some(corner) = vertices.iter().position(|v| !v.is_finite()) {
             return Err(fault(format!(
-                "vertices: place {corner} is no point; three finite numbers are expected"
+                "vertices: place {corner} is not a point; three finite numbers are expected"
             )));
         }
         let mut is_used = vec![false; vertices.len()];

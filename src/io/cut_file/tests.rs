@@ -247,13 +247,13 @@ fn a_mesh_is_written_and_read_to_the_last_bit_and_what_encloses_nothing_is_told(
 fn what_is_out_of_range_is_told_with_its_line() {
     assert_message(
         &with("table = 53.0", "table = 0.53"),
-        "x.toml:6: table: 0.53 % must be at least 5 %, the smallest table taken; raise it by at least 4.47 \
-         (the unit is percent, so 53.0 if a fraction was meant)",
+        "x.toml:6: table: 0.53 % must be at least 5 %, the smallest table allowed; raise it by at least 4.47 (the \
+            unit is percent, so 53.0 if a fraction was meant)",
     );
     assert_message(
         &with("pavilion_angle = 40.75", "pavilion_angle = 0.7112"),
-        "x.toml:8: pavilion_angle: 0.7112° must be at least 2°, the flattest facet taken; raise it by at least 1.29 \
-         (the unit is degrees, so 40.7488 if radians were meant)",
+        "x.toml:8: pavilion_angle: 0.7112° must be at least 2°, the flattest facet allowed; raise it by at least \
+            1.29 (the unit is degrees, so 40.7488 if radians were meant)",
     );
     for (value, limit) in [
         (-5, "must be at least 16, one for each half facet; raise it by at least 21"),
@@ -295,11 +295,12 @@ fn what_is_out_of_range_is_told_with_its_line() {
 fn planes_that_bound_nothing_are_told_with_their_line() {
     assert_message(
         &planes_with("[0.0, 3e0, 4]", "[0, 0, 0]"),
-        "x.toml:9: plane 2: normal: [0, 0, 0] points nowhere; three finite numbers that are not all 0 are expected",
+        "x.toml:9: plane 2: normal: [0, 0, 0] is not a direction; three finite numbers that are not all 0 are \
+            expected",
     );
     assert_message(
         &planes_with("offset = 1", "offset = inf"),
-        "x.toml:10: plane 2: offset: inf is no finite distance; it is measured in lengths of the normal",
+        "x.toml:10: plane 2: offset: inf is not a finite number; give it in lengths of the normal",
     );
     assert_message(
         &planes_with("\"star\"", "\" \""),
@@ -338,10 +339,10 @@ fn what_is_not_toml_is_told_with_line_and_column() {
     let deep = format!("format = 1\nname = {}", "[".repeat(100_000));
     assert_message(&deep, "x.toml:2: name: column 88: cannot recurse further; max recursion depth met");
     let dotted = format!("format = 1\na{} = 1", ".a".repeat(100_000));
-    assert_message(&dotted, "x.toml: this is no TOML that can be read: recursion limit");
+    assert_message(&dotted, "x.toml: this TOML cannot be read: recursion limit");
     assert_message(
         &" ".repeat(MAX_BYTES as usize + 1),
-        "x.toml: this is larger than 4 MiB, so hardly such a file",
+        "x.toml: this is larger than 4 MiB, too large for a file of this kind",
     );
 }
 
@@ -357,7 +358,10 @@ fn a_file_that_cannot_be_read_is_told_as_such() {
     fs::write(folder.path().join("latin.toml"), b"format = 1\nname = \"taill\xe9\"").unwrap();
     assert_eq!(told("latin.toml"), "/latin.toml:2: this is not UTF-8 text; save the file as UTF-8");
     fs::write(folder.path().join("large.toml"), vec![b' '; MAX_BYTES as usize + 1]).unwrap();
-    assert_eq!(told("large.toml"), "/large.toml: this is larger than 4 MiB, so hardly such a file");
+    assert_eq!(
+        told("large.toml"),
+        "/large.toml: this is larger than 4 MiB, too large for a file of this kind"
+    );
     fs::write(folder.path().join("wrong.toml"), with("culet = 0.0", "culet = -1")).unwrap();
     assert!(told("wrong.toml").starts_with("/wrong.toml:13: culet: -1 % must be at least 0 %"));
     assert!(told("wrong.toml/x").starts_with("/wrong.toml/x: cannot be read: "));

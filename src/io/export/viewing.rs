@@ -37,7 +37,7 @@ pub struct Viewing<'a> {
     pub polarised: bool,
     /// Whether glare is shown. With `None`, pictures leave it out and figures list it beside the rest.
     pub glare: Option<Glare>,
-    /// The tracer that is wanted.
+    /// The tracer to use, or the choice of the quickest.
     pub tracer: Wanted,
 }
 
@@ -133,7 +133,7 @@ impl Viewing<'_> {
         let (file, whose) = (self.file, if self.unresolved.is_some() { "asked for" } else { "aimed at" });
         tell(Event::Warning(&format!(
             "{file}: {} % of the light is unresolved, more than the {} % {whose}: after {count} beams it is still \
-             reflected to and fro inside, and every figure may be too low by that much",
+                being reflected inside, and every figure may be too low by that much",
             percent_text(open),
             percent_text(aim)
         )))

@@ -170,7 +170,7 @@ impl<'d> Reader<'d> {
             None => return Err(self.fault(facet, "depth: the tier has none and the facet has no corners")),
         };
         // The normal has length 1, so only the depth can be at fault.
-        Plane::new(normal, depth).normalized().ok_or_else(|| self.fault(facet, "depth: it is no length"))
+        Plane::new(normal, depth).normalized().ok_or_else(|| self.fault(facet, "depth: this is not a length"))
     }
 
     fn stated_normal(&mut self, facet: Node<'_, '_>, polar: Option<f64>) -> Result<DVec3, Fault> {

@@ -153,7 +153,7 @@ fn put_tiers(tiers: &Tiers, page: &mut Page, lost: &mut Vec<String>) {
         // Around the origin, where the stone lay before, no distance is below 0.
         form.middle = 0.0;
         lost.push(
-            "the stone is not centred in height, as the format wants it: a facet would pass the origin"
+            "the stone is not centred in height as the format requires, because a facet would then pass the origin"
                 .to_owned(),
         );
     }

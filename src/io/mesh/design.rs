@@ -144,7 +144,7 @@ impl File {
             (_, Some(hint)) => match hint.material(mm_per_unit) {
                 Ok(Some(material)) => (material, Ok(None)),
                 Ok(None) => (usual, Ok(Some(unsaid()))),
-                Err(error) => (usual, Err(format!("{error}; {USUAL} is taken"))),
+                Err(error) => (usual, Err(format!("{error}; {USUAL} is used"))),
             },
             (_, None) => (usual, Ok(Some(unsaid()))),
         }

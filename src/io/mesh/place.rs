@@ -59,8 +59,8 @@ impl MeshPlace {
         let stands = statement.of_solid(surface, std::iter::once_with(directions).flatten());
         if stands == Stands::Otherwise {
             told.warnings.push(format!(
-                "the file says that {} is up and that the stone is {} mm across, but its shape is \
-                 not the one that this was said of; both are ignored",
+                "the file says that {} is up and that the stone is {} mm across, but its shape has changed since \
+                    that was written; both are ignored",
                 axis(statement.up),
                 statement.diameter_mm
             ));
@@ -99,7 +99,8 @@ fn changes(statement: &Statement, up: DVec3, scale: f64) -> Option<String> {
     let (said, size) = (axis(statement.up), statement.diameter_mm);
     match (turned, scaled) {
         (true, true) => Some(format!(
-            "the file says that {said} is up and {size} mm its size, but {to}, and {by}; {size} mm is kept"
+            "the file says that {said} is up and that the stone is {size} mm across, but {to}, and {by}; {size} mm \
+                is kept"
         )),
         (true, false) => Some(format!("the file says that {said} is up, but {to}")),
         (false, true) => {
@@ -114,7 +115,7 @@ pub(super) fn doubtful(up: DVec3, other: DVec3) -> String {
     let option = axis(other);
     format!(
         "its shape does not show clearly which way its table faces: {} was chosen, and {option} is nearly as \
-         likely; --up {option} chooses that, as does Table faces in the editor",
+            likely; --up {option} chooses that, as does Table faces in the editor",
         axis(up)
     )
 }

@@ -20,7 +20,7 @@ pub(super) fn read(file: BufReader<File>, bytes: u64, start: &[u8]) -> Result<Ra
     }
     let mut reader = ImageReader::new(file).with_guessed_format().map_err(damaged)?;
     if reader.format().is_none() {
-        return Err("this is no picture that is known here; give OpenEXR, Radiance HDR, PNG or JPEG".into());
+        return Err("this is not a picture of a known format; give OpenEXR, Radiance HDR, PNG or JPEG".into());
     }
     reader.limits(limits());
     decoded(reader.into_decoder().map_err(damaged)?, bytes)

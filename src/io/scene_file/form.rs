@@ -125,7 +125,7 @@ impl SceneForm {
 fn layout(given: &str) -> Result<Layout, Fault> {
     let names = Layout::NAMES.map(|(name, _)| name);
     let found = Layout::NAMES.iter().find(|(name, _)| *name == given).map(|(_, layout)| *layout);
-    let unknown = || format!("layout: '{}' is none{}", shown(given), likely(given, &names));
+    let unknown = || format!("layout: '{}' is unknown{}", shown(given), likely(given, &names));
     found.ok_or_else(|| Fault::key("layout", unknown()))
 }
 

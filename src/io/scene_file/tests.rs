@@ -65,8 +65,12 @@ fn what_is_wrong_with_a_scene_is_told_with_line_and_key() {
     for (part, other, told) in [
         ("format = 1", "", "x.toml:1: format: the key is missing"),
         ("\"Three\"", "\"\"", "x.toml:2: name: a name of 1 to 200 printable characters"),
-        ("\"studio\"", "\"stduio\"", "x.toml:3: light: 'stduio' is no light of the program's and no file"),
-        ("\"row\"", "\"rig\"", "x.toml:4: layout: 'rig' is none; did you mean 'ring'?; known: row, ring"),
+        (
+            "\"studio\"",
+            "\"stduio\"",
+            "x.toml:3: light: 'stduio' is neither a light of the program nor a file",
+        ),
+        ("\"row\"", "\"rig\"", "x.toml:4: layout: 'rig' is unknown; did you mean 'ring'?; known: row, ring"),
         ("\"row\"", "4", "x.toml:4: layout: invalid type: integer `4`, expected text (row, ring or parcel)"),
         ("0.6", "-1", "x.toml:5: gap_mm: -1 must be from 0 to 1000 mm"),
         ("layout = \"row\"\n", "", "x.toml:4: gap_mm: only a layout has gaps"),

@@ -47,15 +47,15 @@ impl Desk {
 
     /// Runs a command and returns its exit code, its standard output and its standard error.
     pub fn run(&self, line: &str) -> (i32, String, String) {
-        came_of(line, &self.command(line).output().unwrap())
+        outcome(line, &self.command(line).output().unwrap())
     }
 
     /// Runs a command that must succeed and returns its standard output. Standard error may hold only notes on illustrative
     /// colours.
     pub fn done(&self, line: &str) -> String {
-        let (code, printed, said) = self.run(line);
-        let is_quiet = said.lines().all(|l| l.starts_with("note: the colour of "));
-        assert!(code == 0 && is_quiet, "{line}: code {code}: {said}");
+        let (code, printed, stderr) = self.run(line);
+        let is_quiet = stderr.lines().all(|l| l.starts_with("note: the colour of "));
+        assert!(code == 0 && is_quiet, "{line}: code {code}: {stderr}");
         printed
     }
 
@@ -65,18 +65,18 @@ impl Desk {
 
     /// Runs a command that must fail with this exit code and returns its standard error.
     pub fn refused(&self, line: &str, expected: i32) -> String {
-        let (code, _, said) = self.run(line);
-        assert_eq!(code, expected, "{line}: {said}");
-        said
+        let (code, _, stderr) = self.run(line);
+        assert_eq!(code, expected, "{line}: {stderr}");
+        stderr
     }
 }
 
 /// Returns the exit code, standard output and standard error of a command, which must not have panicked.
-pub fn came_of(line: &str, output: &Output) -> (i32, String, String) {
-    let [printed, said] = [&output.stdout, &output.stderr].map(|b| String::from_utf8(b.clone()).unwrap());
+pub fn outcome(line: &str, output: &Output) -> (i32, String, String) {
+    let [printed, stderr] = [&output.stdout, &output.stderr].map(|b| String::from_utf8(b.clone()).unwrap());
     let code = output.status.code().unwrap();
-    assert!(code != 101 && !said.contains("panicked"), "{line}: a panic: {said}");
-    (code, printed, said)
+    assert!(code != 101 && !stderr.contains("panicked"), "{line}: a panic: {stderr}");
+    (code, printed, stderr)
 }
 
 /// Returns the contents of the files of a folder, by name.

@@ -41,8 +41,8 @@ fn a_signal_ends_a_bench_at_once_with_its_own_exit_code() {
             !rest.iter().any(|line| line.starts_with("diamond under")),
             "it went on to its end: {rest:?}"
         );
-        let (ended, _, said) = came_of("bench", &bench.wait_with_output().unwrap());
-        assert!(ended == code && said.ends_with("error: stopped\n"), "{name}: {ended}: {said}");
+        let (ended, _, stderr) = outcome("bench", &bench.wait_with_output().unwrap());
+        assert!(ended == code && stderr.ends_with("error: stopped\n"), "{name}: {ended}: {stderr}");
     }
 }
 
@@ -61,8 +61,8 @@ fn a_signal_leaves_whole_files_and_no_temporary_ones() {
             std::thread::yield_now();
         }
         signal(&export, name);
-        let (ended, _, said) = came_of(&line, &export.wait_with_output().unwrap());
-        assert!(ended == code && said.ends_with("error: stopped\n"), "{name}: {ended}: {said}");
+        let (ended, _, stderr) = outcome(&line, &export.wait_with_output().unwrap());
+        assert!(ended == code && stderr.ends_with("error: stopped\n"), "{name}: {ended}: {stderr}");
         let left = std::fs::read_dir(desk.at(name)).unwrap().map(|e| e.unwrap().file_name());
         assert_eq!(left.collect::<Vec<_>>(), ["tolkowsky-profile.png"]);
     }
@@ -108,19 +108,22 @@ fn without_a_screen_the_main_pictures_and_figures_are_written_unless_the_editor_
     let run = |line: &str| {
         let mut command = desk.command(line);
         command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
-        came_of(line, &command.output().unwrap())
+        outcome(line, &command.output().unwrap())
     };
     let views = ["aset", "aset-strongest", "ideal-scope", "ideal-scope-strongest"];
     for (line, stem) in [("", "tolkowsky"), ("cube.toml", "cube")] {
-        let (code, printed, said) = run(line);
-        assert!(code == 0 && said.contains("written to the folder 'out' instead"), "{line}: {code}: {said}");
+        let (code, printed, stderr) = run(line);
         assert!(
-            said.contains(if cfg!(feature = "app") { "there is no display" } else { "built without" }),
-            "{said}"
+            code == 0 && stderr.contains("written to the folder 'out' instead"),
+            "{line}: {code}: {stderr}"
         );
-        assert!(said.contains(&format!("brillianteer render {stem}")), "{said}");
+        assert!(
+            stderr.contains(if cfg!(feature = "app") { "there is no display" } else { "built without" }),
+            "{stderr}"
+        );
+        assert!(stderr.contains(&format!("brillianteer render {stem}")), "{stderr}");
         let folder = desk.at("out").canonicalize().unwrap();
-        assert!(said.trim_end().ends_with(&folder.display().to_string()), "{said}");
+        assert!(stderr.trim_end().ends_with(&folder.display().to_string()), "{stderr}");
         assert_eq!(printed.lines().count(), 12, "{line}: {printed}");
         for name in printed.lines() {
             assert!(desk.at(name).is_file(), "{name}");
@@ -131,11 +134,11 @@ fn without_a_screen_the_main_pictures_and_figures_are_written_unless_the_editor_
         std::fs::remove_dir_all(folder).unwrap();
     }
     for line in ["edit", "edit cube.toml"] {
-        let (code, _, said) = run(line);
-        assert!(code == 3 && said.contains("`brillianteer export`"), "{line}: {code}: {said}");
+        let (code, _, stderr) = run(line);
+        assert!(code == 3 && stderr.contains("`brillianteer export`"), "{line}: {code}: {stderr}");
     }
-    let (code, _, said) = run("bad/nan.toml");
-    assert!(code == 1 && said.contains("error: bad/nan.toml:6: "), "{code}: {said}");
+    let (code, _, stderr) = run("bad/nan.toml");
+    assert!(code == 1 && stderr.contains("error: bad/nan.toml:6: "), "{code}: {stderr}");
     assert!(!desk.at("out").exists());
 }
 
@@ -184,9 +187,9 @@ fn a_driver_has_nothing_to_complain_of_where_the_session_names_no_folder_for_soc
                 None => command.env_remove(name),
             };
         }
-        let (code, _, said) = came_of(line, &command.output().unwrap());
+        let (code, _, stderr) = outcome(line, &command.output().unwrap());
         assert!(desk.at("loaded").exists(), "the driver was not asked");
-        assert!(code == 0 && said.is_empty(), "{folder:?}: {code}: {said}");
+        assert!(code == 0 && stderr.is_empty(), "{folder:?}: {code}: {stderr}");
         std::fs::remove_file(desk.at("loaded")).unwrap();
     }
 }

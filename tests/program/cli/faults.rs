@@ -31,9 +31,16 @@ fn a_file_at_fault_is_named_with_its_line_or_facet_and_nothing_is_written() {
     std::fs::create_dir(desk.at("bad/directory.toml")).unwrap();
     for (name, says) in cases {
         for command in ["export --out out", "info --json", "measure"] {
-            let said = desk.refused(&format!("{command} bad/{name}"), 1);
-            assert!(said.starts_with(&format!("error: bad/{name}:")) && said.contains(&says), "{said:.500}");
-            assert!(said.lines().count() == 1 && said.len() < 1000, "{} bytes: {said:.500}", said.len());
+            let stderr = desk.refused(&format!("{command} bad/{name}"), 1);
+            assert!(
+                stderr.starts_with(&format!("error: bad/{name}:")) && stderr.contains(&says),
+                "{stderr:.500}"
+            );
+            assert!(
+                stderr.lines().count() == 1 && stderr.len() < 1000,
+                "{} bytes: {stderr:.500}",
+                stderr.len()
+            );
         }
         assert!(!desk.at("out").exists(), "{name}: something is written");
     }
@@ -45,9 +52,9 @@ fn what_has_no_figures_is_refused_and_never_measured_as_nothing() {
     let wrong = |(offset, options): &(&str, &str)| {
         let text = desk.read("cube.toml").replace("offset = 1", &format!("offset = {offset}"));
         desk.write("other.toml", text);
-        let (code, printed, said) = desk.run(&format!("measure other.toml --json {options}"));
+        let (code, printed, stderr) = desk.run(&format!("measure other.toml --json {options}"));
         if code == 1 {
-            return !said.starts_with("error: other.toml");
+            return !stderr.starts_with("error: other.toml");
         }
         let figures: Value = serde_json::from_str(&printed).unwrap();
         figures["unresolved"].is_null() || (energy(&figures) - 1.0).abs() > 1e-9
@@ -68,9 +75,10 @@ fn what_has_no_figures_is_refused_and_never_measured_as_nothing() {
 fn one_bad_file_keeps_no_other_from_being_done_and_two_of_one_name_are_refused() {
     let desk = Desk::new();
     let three = "tolkowsky bad/nan.toml cube.toml";
-    let said = desk.refused(&format!("export --views profile --format svg {three}"), 1);
+    let stderr = desk.refused(&format!("export --views profile --format svg {three}"), 1);
     assert!(
-        said.starts_with("error: bad/nan.toml:6: ") && said.ends_with("1 of 3 files failed: bad/nan.toml\n")
+        stderr.starts_with("error: bad/nan.toml:6: ")
+            && stderr.ends_with("1 of 3 files failed: bad/nan.toml\n")
     );
     let made: Vec<String> = files(&desk.at("out")).into_keys().collect();
     assert_eq!(made, ["cube-profile.svg", "tolkowsky-profile.svg"]);
@@ -83,8 +91,8 @@ fn one_bad_file_keeps_no_other_from_being_done_and_two_of_one_name_are_refused()
         );
     }
     std::fs::copy(desk.at("cube.toml"), desk.at("bad/cube.toml")).unwrap();
-    let (code, _, said) = desk.run("export cube.toml bad/cube.toml --out twins");
-    assert!(code != 0 && said.contains("bad/cube.toml") && !desk.at("twins").exists(), "{said}");
+    let (code, _, stderr) = desk.run("export cube.toml bad/cube.toml --out twins");
+    assert!(code != 0 && stderr.contains("bad/cube.toml") && !desk.at("twins").exists(), "{stderr}");
     desk.write("strongest.toml", desk.done("scopes aset").replace("\"aset\"", "\"strongest\""));
     std::fs::copy(desk.at("cube.toml"), desk.at("cube-aset.toml")).unwrap();
     let line = "export cube.toml cube-aset.toml --views aset --scope strongest.toml --out twins";
@@ -95,8 +103,8 @@ fn one_bad_file_keeps_no_other_from_being_done_and_two_of_one_name_are_refused()
 fn an_output_that_cannot_be_written_ends_with_code_3_and_leaves_no_pieces() {
     let desk = Desk::new();
     for out in ["cube.toml", "cube.toml/deeper"] {
-        let said = desk.refused(&format!("export cube.toml --size 16 --out {out}"), 3);
-        assert!(said.starts_with("error: cube.toml") && said.lines().count() == 1, "{said}");
+        let stderr = desk.refused(&format!("export cube.toml --size 16 --out {out}"), 3);
+        assert!(stderr.starts_with("error: cube.toml") && stderr.lines().count() == 1, "{stderr}");
     }
     std::fs::create_dir_all(desk.at("out/cube-aset.png")).unwrap();
     assert!(desk.refused("export cube.toml --size 16 --views aset", 3).contains("cube-aset.png"));
@@ -120,11 +128,11 @@ fn a_reader_that_goes_away_is_no_reason_to_panic() {
         "lights fire",
         "--help",
     ] {
-        let (code, _, said) = came_of(line, &desk.command(line).stdout(gone()).output().unwrap());
-        assert!(code == 0 && said.is_empty(), "{line}: code {code}: {said}");
+        let (code, _, stderr) = outcome(line, &desk.command(line).stdout(gone()).output().unwrap());
+        assert!(code == 0 && stderr.is_empty(), "{line}: code {code}: {stderr}");
     }
     let line = "info bad/nan.toml tolkowsky";
-    let (code, printed, _) = came_of(line, &desk.command(line).stderr(gone()).output().unwrap());
+    let (code, printed, _) = outcome(line, &desk.command(line).stderr(gone()).output().unwrap());
     assert!(code == 1 && printed.contains("Tolkowsky"), "code {code}");
 }
 
@@ -134,11 +142,11 @@ fn the_editor_says_what_it_takes_where_it_is_given_more() {
     for line in
         ["tolkowsky --material ruby", "cube.toml --foo", "cube.toml tolkowsky", "edit cube.toml --tilt 5"]
     {
-        let said = desk.refused(line, 2);
-        assert!(!said.contains("subcommand"), "{line}: {said}");
+        let stderr = desk.refused(line, 2);
+        assert!(!stderr.contains("subcommand"), "{line}: {stderr}");
         assert!(
-            said.contains("the editor takes one FILE") && said.contains("`brillianteer export`"),
-            "{line}: {said}"
+            stderr.contains("the editor takes one FILE") && stderr.contains("`brillianteer export`"),
+            "{line}: {stderr}"
         );
     }
     std::fs::create_dir(desk.at("folder")).unwrap();
@@ -162,8 +170,8 @@ fn a_command_line_at_fault_ends_with_code_2() {
     let ill_formed = "polish, measure, measure cube.toml --colour, measure cube.toml --index two, export cube.toml --size 15, \
         measure cube.toml --tilt 1 --eye-tilt 1, measure cube.toml --index 2 --wavelength 500, measure cube.toml --side up, \
         export cube.toml --size 16385, export cube.toml --views asset, export cube.toml --format gif";
-    let said = desk.refused("measure cube.toml --tilt abc", 2);
-    assert!(said.contains("a number is expected"), "{said}");
+    let stderr = desk.refused("measure cube.toml --tilt abc", 2);
+    assert!(stderr.contains("a number is expected"), "{stderr}");
     let out_of_range = "--index 0.9, --index nan, --wavelength 0, --tilt 91, --eye-tilt nan, --azimuth inf, --head 90, \
         --unresolved 0, --unresolved nan, --perspective 1, --perspective 5 --tracer beam";
     let impossible = "export cube.toml --format exr --size 9000, export cube.toml --views aset,aset, cuts none, scopes none, lights none";

@@ -19,8 +19,8 @@ fn the_help_of_a_command_lists_what_it_takes_and_nothing_else() {
     for option in ["tracer", "bloom", "overlay", "strength", "no-jitter"] {
         let is_listed = |list: &[String]| list.iter().any(|listed| listed == option);
         assert!(is_listed(&render) && is_listed(&spin) && !is_listed(&map), "{option}: {map:?}");
-        let said = desk.refused(&format!("refraction-map cube.toml --{option}"), 2);
-        assert!(said.contains("unexpected argument"), "{option}: {said}");
+        let stderr = desk.refused(&format!("refraction-map cube.toml --{option}"), 2);
+        assert!(stderr.contains("unexpected argument"), "{option}: {stderr}");
     }
     assert!(
         ["light", "exposure", "both-sides"].iter().all(|option| map.iter().any(|listed| listed == option))
@@ -30,10 +30,13 @@ fn the_help_of_a_command_lists_what_it_takes_and_nothing_else() {
 #[test]
 fn legends_are_notes_and_printed_are_names_of_files_alone() {
     let desk = Desk::new();
-    let (code, printed, said) = desk
+    let (code, printed, stderr) = desk
         .run("render cube.toml --size 16 --samples 1 --wavelengths 1 --overlay bounces,total --out a.png");
     assert_eq!((code, printed.as_str()), (0, "a.png\n"));
-    assert!(said.lines().all(|line| line.starts_with("note: ")) && said.contains("note: total: #"), "{said}");
+    assert!(
+        stderr.lines().all(|line| line.starts_with("note: ")) && stderr.contains("note: total: #"),
+        "{stderr}"
+    );
 }
 
 #[test]

@@ -27,13 +27,14 @@ fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_pr
             near(sixteen.u.into(), float.u.into(), 1e-5, "16 bits");
         }
     }
-    let (size, _, told) = png(&desk.at("maps/cube-tilt-20-refraction-preview.png"));
+    let (size, _, description) = png(&desk.at("maps/cube-tilt-20-refraction-preview.png"));
     assert_eq!(size, (48, 32));
     assert!(
-        told.contains("refraction map, bands 1, places 1; background 3 girdle radii behind, 2 times as wide"),
-        "{told}"
+        description
+            .contains("refraction map, bands 1, places 1; background 3 girdle radii behind, 2 times as wide"),
+        "{description}"
     );
-    assert!(told.contains("% of the light comes from the background"), "{told}");
+    assert!(description.contains("% of the light comes from the background"), "{description}");
     let page = desk.read("maps/cube-tilt-20-refraction.html");
     assert!(page.contains("<h1>Cube</h1>") && page.contains("data:image/png;base64,"));
     let printed = desk
@@ -71,7 +72,7 @@ fn a_refraction_map_is_the_same_bytes_on_any_number_of_threads() {
             "refraction-map tolkowsky --size 40 --samples 2 --wavelengths 2 --format tiled,exr --out {threads}"
         );
         let run = desk.command(&line).env("RAYON_NUM_THREADS", threads).output().unwrap();
-        assert_eq!(came_of(&line, &run).0, 0);
+        assert_eq!(outcome(&line, &run).0, 0);
     }
     assert!(files(&desk.at("1")) == files(&desk.at("2")));
 }
@@ -79,7 +80,7 @@ fn a_refraction_map_is_the_same_bytes_on_any_number_of_threads() {
 #[test]
 fn what_a_refraction_map_cannot_be_is_told() {
     let desk = Desk::new();
-    for (options, told) in [
+    for (options, expected) in [
         ("--format preview", "--background"),
         ("--size 5000", "4096"),
         ("--background light", "photograph"),
@@ -89,8 +90,8 @@ fn what_a_refraction_map_cannot_be_is_told() {
         ("--bands 8 --places 3", "these are 24 maps"),
         ("--places 9", "9"),
     ] {
-        let said = desk.refused(&format!("refraction-map cube.toml --out none {options}"), 2);
-        assert!(said.contains(told), "{options}: {said}");
+        let stderr = desk.refused(&format!("refraction-map cube.toml --out none {options}"), 2);
+        assert!(stderr.contains(expected), "{options}: {stderr}");
     }
     std::fs::create_dir(desk.at("a")).unwrap();
     std::fs::copy(desk.at("cube.toml"), desk.at("a/cube.toml")).unwrap();
@@ -105,6 +106,6 @@ fn what_a_refraction_map_cannot_be_is_told() {
 fn a_scenes_mixture_is_left_aside_and_that_is_told() {
     let desk = Desk::new();
     let line = "refraction-map prism-rainbow --size 32 --samples 1 --wavelengths 2 --format tiled --out maps";
-    let (code, _, said) = came_of(line, &desk.command(line).output().unwrap());
-    assert!(code == 0 && said.contains("strength of 0.155 is ignored"), "{code}: {said}");
+    let (code, _, stderr) = outcome(line, &desk.command(line).output().unwrap());
+    assert!(code == 0 && stderr.contains("strength of 0.155 is ignored"), "{code}: {stderr}");
 }

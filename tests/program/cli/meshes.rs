@@ -24,14 +24,14 @@ fn what_is_found_in_a_mesh_is_a_note_and_is_said_once() {
     desk.write("bent.obj", BENT);
     for command in COMMANDS {
         let command = command.replace("FILE", "bent.obj");
-        let (code, _, said) = desk.run(&command);
-        assert_eq!(code, 0, "{command}: {said}");
+        let (code, _, stderr) = desk.run(&command);
+        assert_eq!(code, 0, "{command}: {stderr}");
         for what in ["facets were found", "diamond is used", "bends inward at 1 edges"] {
-            assert_eq!(said.matches(what).count(), 1, "{command}: {said}");
-            let line = said.lines().find(|line| line.contains(what)).unwrap();
+            assert_eq!(stderr.matches(what).count(), 1, "{command}: {stderr}");
+            let line = stderr.lines().find(|line| line.contains(what)).unwrap();
             assert!(line.starts_with("note: bent.obj: "), "{command}: {line}");
         }
-        assert!(!said.contains("warning"), "{command}: {said}");
+        assert!(!stderr.contains("warning"), "{command}: {stderr}");
     }
 }
 
@@ -44,8 +44,8 @@ fn a_mesh_is_read_as_facets_or_triangles_by_every_command() {
             [("faceted", "facets were found"), ("triangles", "it is traced as 12 triangles")]
         {
             let command = format!("{} --as {form} --up -z", command.replace("FILE", "bent.obj"));
-            let (code, _, said) = desk.run(&command);
-            assert!(code == 0 && said.contains(said_of_it), "{command}: {said}");
+            let (code, _, stderr) = desk.run(&command);
+            assert!(code == 0 && stderr.contains(said_of_it), "{command}: {stderr}");
         }
     }
     let (_, faceted, _) = desk.run("info --json --as faceted bent.obj");
@@ -65,13 +65,13 @@ fn what_is_kept_of_a_design_is_told_for_each_format_of_meshes() {
         ("tolkowsky a.ply", "its facets, its size and the name of its material"),
         (
             "tolkowsky a.glb",
-            "its facets, their names, its size, the name of its material and the material as three colours see it",
+            "its facets, their names, its size, the name of its material and the material in red, green and blue",
         ),
     ] {
-        let (code, _, said) = desk.run(&format!("convert {line}"));
+        let (code, _, stderr) = desk.run(&format!("convert {line}"));
         assert!(
-            code == 0 && said.contains(&format!("only this part of the design is kept: {kept}\n")),
-            "{line}: {said}"
+            code == 0 && stderr.contains(&format!("only this part of the design is kept: {kept}\n")),
+            "{line}: {stderr}"
         );
     }
 }

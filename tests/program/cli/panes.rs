@@ -33,19 +33,22 @@ fn liquid_glass_comes_drawn_traced_and_side_by_side_with_what_the_drawing_costs(
     assert!(moved > 0.2 && moved < 1.5, "{printed}");
     assert!(figure(&printed, "traced: background is shifted by") > 0.0, "{printed}");
     assert!(figure(&printed, "mean difference in linear light") > 0.01, "{printed}");
-    let (size, _, told) = png(&desk.at("all/liquid-glass.png"));
+    let (size, _, description) = png(&desk.at("all/liquid-glass.png"));
     assert_eq!(size, (64, 48));
-    assert!(told.contains("quality high; pane 40x30+8+6, corners 9.0; refraction 100"), "{told}");
-    assert!(told.contains("frost 50, light 30; tint 0.030 0.117 1.000 0.251"), "{told}");
-    let (size, _, told) = png(&desk.at("all/liquid-glass-traced.png"));
+    assert!(
+        description.contains("quality high; pane 40x30+8+6, corners 9.0; refraction 100"),
+        "{description}"
+    );
+    assert!(description.contains("frost 50, light 30; tint 0.030 0.117 1.000 0.251"), "{description}");
+    let (size, _, description) = png(&desk.at("all/liquid-glass-traced.png"));
     assert_eq!(size, (64, 48));
-    assert!(told.contains("traced by rays, gap 0.02, 12 wavelengths in 2 samples"), "{told}");
+    assert!(description.contains("traced by rays, gap 0.02, 12 wavelengths in 2 samples"), "{description}");
     assert_eq!(png(&desk.at("all/liquid-glass-both.png")).0, (129, 48));
     // The bytes are the same on any number of threads.
     for threads in ["1", "2"] {
         let line = format!("{line} --compare --frost 80 --out {threads}");
         let run = desk.command(&line).env("RAYON_NUM_THREADS", threads).output().unwrap();
-        assert_eq!(came_of(&line, &run).0, 0);
+        assert_eq!(outcome(&line, &run).0, 0);
     }
     assert!(files(&desk.at("1")) == files(&desk.at("2")));
 }
@@ -104,10 +107,10 @@ fn what_liquid_glass_cannot_be_is_told() {
         ("transparent", 2, "needs something behind it"),
         ("light", 2, "needs something behind it"),
         ("pages", 2, "page, grid, checks"),
-        ("cube.toml", 1, "no picture that is known"),
+        ("cube.toml", 1, "not a picture of a known format"),
     ] {
-        let said = desk.refused(&format!("{line} {options}"), code);
-        assert!(said.contains(expected), "{options}: {said}");
+        let stderr = desk.refused(&format!("{line} {options}"), code);
+        assert!(stderr.contains(expected), "{options}: {stderr}");
     }
     let small = desk.refused("liquid-glass --background white --size 8", 2);
     assert!(small.contains("give 16 to 8192 pixels"), "{small}");

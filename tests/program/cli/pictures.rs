@@ -14,8 +14,8 @@ fn export_makes_every_picture_in_every_format_and_the_same_bytes_on_any_number_o
     let export = "export tolkowsky --size 96 --unresolved 0.02 --format png,svg,exr,json --out";
     let made = ["2", "2", "1"].into_iter().enumerate().map(|(k, threads)| {
         let run = desk.command(&format!("{export} {k}")).env("RAYON_NUM_THREADS", threads).output().unwrap();
-        let (code, printed, said) = came_of(export, &run);
-        assert!(code == 0 && said.is_empty(), "{said}");
+        let (code, printed, stderr) = outcome(export, &run);
+        assert!(code == 0 && stderr.is_empty(), "{stderr}");
         let made = files(&desk.at(k.to_string()));
         let mut printed: Vec<String> = printed.lines().map(|l| l.replace(&format!("{k}/"), "")).collect();
         printed.sort_unstable();
@@ -31,14 +31,14 @@ fn export_makes_every_picture_in_every_format_and_the_same_bytes_on_any_number_o
             .extend(endings[..if drawing { 2 } else { 5 }].iter().map(|e| format!("tolkowsky-{name}{e}")));
     }
     for file in expected.iter().filter(|f| f.ends_with(".png")) {
-        let ((width, height), _, told) = png(&desk.at("0").join(file));
-        let drawing = !told.contains(';');
+        let ((width, height), _, description) = png(&desk.at("0").join(file));
+        let drawing = !description.contains(';');
         assert!(width == 96 && (height == 96 || drawing), "{file}: {width} by {height}");
-        assert!(told.starts_with("Tolkowsky 1919: "), "{told}");
+        assert!(description.starts_with("Tolkowsky 1919: "), "{description}");
         let open = if file.contains("-strongest") { "undecided" } else { "unresolved" };
         let part: Option<f64> =
-            told.split(&format!("; exact beams, {open} ")).nth(1).map(|n| n.parse().unwrap());
-        assert!(part.map_or(drawing, |part| !drawing && 0.0 < part && part <= 0.02), "{told}");
+            description.split(&format!("; exact beams, {open} ")).nth(1).map(|n| n.parse().unwrap());
+        assert!(part.map_or(drawing, |part| !drawing && 0.0 < part && part <= 0.02), "{description}");
     }
     expected.sort();
     assert!(made[0].keys().eq(&expected), "{:?}", made[0].keys());
@@ -181,12 +181,12 @@ fn an_aset_is_red_where_graders_are_taught_red_and_says_what_it_leaves_out() {
     assert_eq!(files(&desk.at("bare")), files(&desk.at("same")));
     let strongest = png(&desk.at("bare/modern-ideal-aset-strongest.png")).1;
     let off_red = |folder: &str| {
-        let (_, pixels, told) = png(&desk.at(folder).join("modern-ideal-aset.png"));
+        let (_, pixels, description) = png(&desk.at(folder).join("modern-ideal-aset.png"));
         // Where the strongest light is red, any other colour comes from the light that is mixed in.
         let red: Vec<&DVec3> =
             pixels.iter().zip(&strongest).filter(|(_, s)| s.x > 0.99).map(|(p, _)| p).collect();
         let is_off = |p: &&&DVec3| p.y.max(p.z) > 0.2 * p.x;
-        (red.iter().filter(is_off).count() as f64 / red.len() as f64, told)
+        (red.iter().filter(is_off).count() as f64 / red.len() as f64, description)
     };
     let ((bare, bare_told), (glare, glare_told)) = (off_red("bare"), off_red("glare"));
     assert!(bare < 0.1 && glare > 0.5, "{bare} of the red is orange or pink without glare, {glare} with it");
@@ -226,7 +226,7 @@ fn a_caption_stands_under_pictures_of_scopes_alone() {
             document.descendants().filter(|n| n.has_tag_name("text")).filter_map(|n| n.text()).collect();
         let words = words.join(" ");
         let reading = if name == "-tilt-5-aset" { "energy, glare left out" } else { "strongest exits" };
-        for told in [
+        for phrase in [
             "Modern ideal",
             reading,
             "tilted 5 degrees toward 0",
@@ -237,7 +237,7 @@ fn a_caption_stands_under_pictures_of_scopes_alone() {
             "green, 0° to 45°",
             "below the horizon",
         ] {
-            assert!(words.contains(told), "{name}: no '{told}' in {words}");
+            assert!(words.contains(phrase), "{name}: no '{phrase}' in {words}");
         }
         assert!(!desk.read(&format!("plain/modern-ideal{name}.svg")).contains("caption"));
     }
@@ -274,8 +274,8 @@ fn measure_takes_a_scope_a_material_a_size_and_its_files_are_the_same_every_time
     assert!(desk.refused("measure tolkowsky --scope asset", 2).contains("one of aset, aset-white"));
 
     let ruby = |stone: &str| {
-        let (code, printed, said) = desk.run(&format!("{measure} --material ruby --stone {stone}"));
-        assert!(code == 0 && said.matches("the colour of ruby is illustrative").count() == 1, "{said}");
+        let (code, printed, stderr) = desk.run(&format!("{measure} --material ruby --stone {stone}"));
+        assert!(code == 0 && stderr.matches("the colour of ruby is illustrative").count() == 1, "{stderr}");
         serde_json::from_str::<Value>(&printed).unwrap()
     };
     let (small, large) = (ruby("3mm"), ruby("12mm"));
@@ -304,8 +304,8 @@ fn figures_without_glare_say_how_much_of_it_is_left_out() {
         + at(&without, "unresolved");
     near(all, 1.0, 1e-9, "all light");
     let printed = desk.done("measure tolkowsky --unresolved 0.01 --no-glare");
-    let told = format!("glare of {:.3} % is left out", 100.0 * at(&without, "glare_left_out"));
-    assert!(printed.contains(&told) && printed.contains("% of face    transmitted   strongest"), "{printed}");
+    let line = format!("glare of {:.3} % is left out", 100.0 * at(&without, "glare_left_out"));
+    assert!(printed.contains(&line) && printed.contains("% of face    transmitted   strongest"), "{printed}");
     let usual = desk.done("measure tolkowsky --unresolved 0.01");
     assert!(usual.contains(&format!("light return {:.3} %", 100.0 * at(&with, "light_return"))), "{usual}");
 }

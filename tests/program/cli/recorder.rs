@@ -48,12 +48,12 @@ fn record(desk: &Desk, line: &str, record: &mut String) {
     let folder = "recorded";
     let _ = std::fs::remove_dir_all(desk.at(folder));
     std::fs::create_dir(desk.at(folder)).unwrap();
-    let (code, printed, said) = desk.run(&line.replace("{}", folder));
+    let (code, printed, stderr) = desk.run(&line.replace("{}", folder));
     let _ = writeln!(
         record,
         "{line}: code {code}, printed {:016x}, said {:016x}",
         hash(printed.as_bytes()),
-        hash(said.as_bytes())
+        hash(stderr.as_bytes())
     );
     let mut found = BTreeMap::new();
     tree(&desk.at(folder), "", &mut found);

@@ -14,9 +14,9 @@ fn mean(pixels: &[DVec3]) -> DVec3 {
 fn picture(desk: &Desk, options: &str) -> (Vec<DVec3>, String) {
     let line = format!("render {options} --size 48 --samples 2 --wavelengths 4 --out a.png");
     assert_eq!(desk.done(&line).trim(), "a.png", "{line}");
-    let (size, pixels, told) = png(&desk.at("a.png"));
+    let (size, pixels, description) = png(&desk.at("a.png"));
     assert_eq!(size, (48, 48));
-    (pixels, told)
+    (pixels, description)
 }
 
 /// Returns the bytes of a PNG's first frame and, where it is animated, the number of frames and how often they run.
@@ -32,22 +32,25 @@ fn frame(path: &Path) -> (Vec<u8>, Option<(u32, u32)>) {
 #[test]
 fn every_tracer_shows_the_same_stone_and_says_that_it_did() {
     let desk = Desk::new();
-    let (exact, told) = picture(&desk, "modern-ideal --light dome --tracer beam");
+    let (exact, description) = picture(&desk, "modern-ideal --light dome --tracer beam");
     assert!(
-        told.contains("light dome; 4 wavelengths in 2 samples, polarised; exact beams, unresolved"),
-        "{told}"
+        description.contains("light dome; 4 wavelengths in 2 samples, polarised; exact beams, unresolved"),
+        "{description}"
     );
-    assert!(told.ends_with("table side") && told.starts_with("Modern ideal; "), "{told}");
-    let (rays, told) = picture(&desk, "modern-ideal --light dome --tracer ray");
-    assert!(told.contains("; point rays, unresolved"), "{told}");
+    assert!(
+        description.ends_with("table side") && description.starts_with("Modern ideal; "),
+        "{description}"
+    );
+    let (rays, description) = picture(&desk, "modern-ideal --light dome --tracer ray");
+    assert!(description.contains("; point rays, unresolved"), "{description}");
     assert!((mean(&exact) - mean(&rays)).abs().max_element() < 0.02);
     let (other, _) = picture(&desk, "modern-ideal --tracer beam --light ring");
     assert!((mean(&exact) - mean(&other)).abs().max_element() > 0.05);
     // Rays trace several stones and perspective.
-    let (_, told) = picture(&desk, "trilogy --perspective 12");
-    assert!(told.contains("Trilogy; ") && told.contains("rays"), "{told}");
-    let said = desk.refused("render trilogy --tracer beam", 2);
-    assert!(said.contains("exact beams are for one convex stone"), "{said}");
+    let (_, description) = picture(&desk, "trilogy --perspective 12");
+    assert!(description.contains("Trilogy; ") && description.contains("rays"), "{description}");
+    let stderr = desk.refused("render trilogy --tracer beam", 2);
+    assert!(stderr.contains("exact beams are for one convex stone"), "{stderr}");
 }
 
 #[test]
@@ -60,7 +63,7 @@ fn a_render_is_the_same_bytes_on_any_number_of_threads() {
         let made = ["1", "2"].map(|threads| {
             let line = format!("render {options} --size 64 --samples 2 --wavelengths 3 --out {threads}.png");
             let run = desk.command(&line).env("RAYON_NUM_THREADS", threads).output().unwrap();
-            assert_eq!(came_of(&line, &run).0, 0);
+            assert_eq!(outcome(&line, &run).0, 0);
             std::fs::read(desk.at(format!("{threads}.png"))).unwrap()
         });
         assert!(made[0] == made[1], "{options}");
@@ -88,12 +91,12 @@ fn a_clear_stone_vanishes_in_white_light_and_an_exr_holds_it() {
 fn a_stone_of_colour_is_darker_the_larger_it_is_and_weighs_what_is_asked() {
     let desk = Desk::new();
     let brightness = |size: &str| {
-        let (pixels, told) = picture(
+        let (pixels, description) = picture(
             &desk,
             &format!("modern-ideal --material amethyst --stone {size} --light dome --background black"),
         );
         let absorbed: f64 =
-            told.split("absorbed ").nth(1).unwrap().split(';').next().unwrap().trim().parse().unwrap();
+            description.split("absorbed ").nth(1).unwrap().split(';').next().unwrap().trim().parse().unwrap();
         (mean(&pixels).y, absorbed)
     };
     let [small, carat, large] = ["3mm", "1ct", "12mm"].map(brightness);
@@ -109,16 +112,16 @@ fn what_lies_behind_is_a_colour_nothing_or_a_photograph() {
     let linear = |rgb: [u8; 3]| DVec3::from_array(rgb.map(|c| linear_from_encoded(f64::from(c) / 255.0)));
     assert_eq!(pixels[0], linear([0x33, 0x66, 0x99]));
     desk.done("render modern-ideal --background #c08040 --bloom 0 --size 40 --samples 1 --wavelengths 2 --out behind.png");
-    let (photo, told) = picture(&desk, "cube.toml --background behind.png --light white");
+    let (photo, description) = picture(&desk, "cube.toml --background behind.png --light white");
     assert!(
-        told.contains("rays") && (photo[0] - linear([0xc0, 0x80, 0x40])).length() < 0.01,
-        "{told}: {}",
+        description.contains("rays") && (photo[0] - linear([0xc0, 0x80, 0x40])).length() < 0.01,
+        "{description}: {}",
         photo[0]
     );
-    let said = desk.refused("render modern-ideal --background mauve", 2);
+    let stderr = desk.refused("render modern-ideal --background mauve", 2);
     assert!(
-        said.contains("mauve") && said.contains("page, grid, checks") && said.contains("photograph"),
-        "{said}"
+        stderr.contains("mauve") && stderr.contains("page, grid, checks") && stderr.contains("photograph"),
+        "{stderr}"
     );
 }
 
@@ -126,29 +129,39 @@ fn what_lies_behind_is_a_colour_nothing_or_a_photograph() {
 fn a_pattern_is_seen_through_glass_with_the_strength_asked_for() {
     let desk = Desk::new();
     let of = |options: &str| picture(&desk, &format!("prism --light dome --background checks {options}"));
-    let (physics, told) = of("");
-    assert!(told.contains("rays") && !told.contains("strength") && !told.contains("jitter"), "{told}");
+    let (physics, description) = of("");
+    assert!(
+        description.contains("rays") && !description.contains("strength") && !description.contains("jitter"),
+        "{description}"
+    );
     assert_eq!(physics, of("--strength 1").0);
-    let (mixed, told) = of("--strength 0.1 --no-jitter");
-    assert!(told.contains("4 wavelengths in 2 samples, without jitter"), "{told}");
-    assert!(told.contains("strength 0.1: a mixture for its looks, not physics"), "{told}");
+    let (mixed, description) = of("--strength 0.1 --no-jitter");
+    assert!(description.contains("4 wavelengths in 2 samples, without jitter"), "{description}");
+    assert!(
+        description.contains("strength 0.1: refracted and straight rays are mixed, which is not physics"),
+        "{description}"
+    );
     assert!((mean(&physics) - mean(&mixed)).abs().max_element() < 0.5 && physics != mixed);
     // Without refraction, and with hardly any reflection, the squares are where they are without glass.
     let (bare, _) = of("--material 1.0001");
     let (straight, _) = of("--material 1.0001 --strength 0");
     assert!(bare.iter().zip(&straight).all(|(a, b)| (*a - *b).abs().max_element() < 0.02));
     // The strength of a scene, and one that an option gives instead.
-    let (_, told) = picture(&desk, "subtle-pill");
+    let (_, description) = picture(&desk, "subtle-pill");
     assert!(
-        told.starts_with("Subtle pill; light dome") && told.contains("strength 0.035: a mixture"),
-        "{told}"
+        description.starts_with("Subtle pill; light dome")
+            && description.contains("strength 0.035: refracted and straight rays are mixed"),
+        "{description}"
     );
-    let (_, told) = picture(&desk, "subtle-pill --strength 1 --background black");
-    assert!(!told.contains("mixture"), "{told}");
-    let said = desk.refused("render modern-ideal --strength 0.5 --tracer beam", 2);
-    assert!(said.contains("--tracer ray, or --strength 1"), "{said}");
-    let (by_card, told) = of("--strength 0.1 --no-jitter --tracer gpu");
-    assert!(told.contains("strength 0.1: a mixture for its looks, not physics"), "{told}");
+    let (_, description) = picture(&desk, "subtle-pill --strength 1 --background black");
+    assert!(!description.contains("rays are mixed"), "{description}");
+    let stderr = desk.refused("render modern-ideal --strength 0.5 --tracer beam", 2);
+    assert!(stderr.contains("--tracer ray, or --strength 1"), "{stderr}");
+    let (by_card, description) = of("--strength 0.1 --no-jitter --tracer gpu");
+    assert!(
+        description.contains("strength 0.1: refracted and straight rays are mixed, which is not physics"),
+        "{description}"
+    );
     assert!((mean(&by_card) - mean(&mixed)).abs().max_element() < 0.005);
 }
 
@@ -215,8 +228,8 @@ fn a_render_at_fault_is_refused_and_says_why() {
         ("spin modern-ideal --motion wobble --tilt 8", 2, "leave out --tilt"),
         ("render no-such-cut", 1, "no-such-cut"),
     ] {
-        let said = desk.refused(line, code);
-        assert!(said.contains(expected), "{line}: {said}");
+        let stderr = desk.refused(line, code);
+        assert!(stderr.contains(expected), "{line}: {stderr}");
     }
     assert!(!desk.at("out").exists());
 }

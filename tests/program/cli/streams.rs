@@ -12,9 +12,9 @@ const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\
 fn fed(desk: &Desk, line: &str, input: &str) -> (i32, Vec<u8>, String) {
     let file = std::fs::File::open(desk.at(input)).unwrap();
     let output = desk.command(line).stdin(file).output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(!said.contains("panicked"), "{line}: {said}");
-    (output.status.code().unwrap(), output.stdout, said)
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert!(!stderr.contains("panicked"), "{line}: {stderr}");
+    (output.status.code().unwrap(), output.stdout, stderr)
 }
 
 #[test]
@@ -31,18 +31,18 @@ fn a_dash_is_standard_input_for_every_format_and_command() {
         assert_eq!((code, facets(&printed)), (0, ("-".to_owned(), 153)), "{ending}");
     }
     desk.write("scene.toml", desk.done("scenes trilogy"));
-    let (code, printed, said) = fed(&desk, "info -", "scene.toml");
-    assert!(code == 0 && String::from_utf8(printed).unwrap().starts_with("stdin: "), "{said}");
-    let (code, printed, said) = fed(&desk, "export - --views profile --format svg", "cube.toml");
-    assert_eq!((code, printed.as_slice()), (0, b"out/stdin-profile.svg\n".as_slice()), "{said}");
+    let (code, printed, stderr) = fed(&desk, "info -", "scene.toml");
+    assert!(code == 0 && String::from_utf8(printed).unwrap().starts_with("stdin: "), "{stderr}");
+    let (code, printed, stderr) = fed(&desk, "export - --views profile --format svg", "cube.toml");
+    assert_eq!((code, printed.as_slice()), (0, b"out/stdin-profile.svg\n".as_slice()), "{stderr}");
     desk.write("nameless.stl", TETRAHEDRON);
-    let (code, printed, said) = fed(&desk, "info -", "nameless.stl");
-    assert!(code == 0 && String::from_utf8(printed).unwrap().starts_with("stdin\n"), "{said}");
+    let (code, printed, stderr) = fed(&desk, "info -", "nameless.stl");
+    assert!(code == 0 && String::from_utf8(printed).unwrap().starts_with("stdin\n"), "{stderr}");
     desk.write("empty", "");
-    let (code, _, said) = fed(&desk, "info -", "empty");
-    assert!(code == 1 && said == "error: -: the file is empty\n", "{code}: {said}");
-    let (code, _, said) = fed(&desk, "measure -", "bad/nan.toml");
-    assert!(code == 1 && said.starts_with("error: -:6: "), "{code}: {said}");
+    let (code, _, stderr) = fed(&desk, "info -", "empty");
+    assert!(code == 1 && stderr == "error: -: the file is empty\n", "{code}: {stderr}");
+    let (code, _, stderr) = fed(&desk, "measure -", "bad/nan.toml");
+    assert!(code == 1 && stderr.starts_with("error: -:6: "), "{code}: {stderr}");
     assert!(!desk.at("-").exists());
 }
 
@@ -84,8 +84,8 @@ fn a_dash_is_standard_output_where_one_file_is_written_and_refused_where_several
         ("liquid-glass --background dots --compare --out -", "give a folder"),
         ("convert tolkowsky -", "--format"),
     ] {
-        let (code, printed, said) = desk.run(line);
-        assert!(code == 2 && printed.is_empty() && said.contains(why), "{line}: {code}: {said}");
+        let (code, printed, stderr) = desk.run(line);
+        assert!(code == 2 && printed.is_empty() && stderr.contains(why), "{line}: {code}: {stderr}");
     }
     assert!(!desk.at("-").exists());
     let gone = || std::io::pipe().unwrap().1;
@@ -103,8 +103,8 @@ fn what_is_written_to_a_link_goes_where_the_link_leads() {
     std::fs::create_dir(desk.at("store")).unwrap();
     std::os::unix::fs::symlink("store/real.asc", desk.at("link.asc")).unwrap();
     for cut in ["cube.toml", "tolkowsky"] {
-        let (code, _, said) = desk.run(&format!("convert {cut} link.asc"));
-        assert_eq!(code, 0, "{said}");
+        let (code, _, stderr) = desk.run(&format!("convert {cut} link.asc"));
+        assert_eq!(code, 0, "{stderr}");
         let [real, link] =
             ["store/real.asc", "link.asc"].map(|file| desk.json(&format!("info --json {file}")));
         assert_eq!(real["facets"], link["facets"]);

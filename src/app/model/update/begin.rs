@@ -85,7 +85,7 @@ pub fn begin_scene(model: &mut Model, preset: Preset) -> Vec<Task> {
         }
     };
     let laid = company.poses(document.specimen().solid().vertices(), None);
-    let layers = if laid == company.poses { "" } else { ", those whose boxes would meet behind one another" };
+    let layers = if laid == company.poses { "" } else { ", some of them farther back so that none overlap" };
     document.work.company = company;
     document.keep_copies();
     model.workspace.last = None;
@@ -99,7 +99,7 @@ pub fn begin_scene(model: &mut Model, preset: Preset) -> Vec<Task> {
     let behind = scene.background.as_ref().filter(|behind| !matches!(behind, BackgroundRef::Plain(_)));
     workspace.enter_scene(behind.map(ToString::to_string), wavelengths);
     (workspace.behind_mm, workspace.strength) = (scene.background_distance_mm, scene.strength);
-    session.notes.say(&format!("{}: renders show its copies{layers}, all else shows one", scene.name));
+    session.notes.say(&format!("{}: renders show all copies{layers}; other views show one", scene.name));
     tasks
 }
 

@@ -31,25 +31,25 @@ impl Model {
 
     /// Whether a command is switched on, as menus show it.
     pub fn is_chosen(&self, command: Command) -> bool {
-        let desk = &self.workspace;
-        let overlay = |name| desk.overlay.as_deref() == Some(name);
+        let workspace = &self.workspace;
+        let overlay = |name| workspace.overlay.as_deref() == Some(name);
         match command {
-            Command::One => desk.layout == PaneLayout::One,
-            Command::Two => desk.layout == PaneLayout::Two,
-            Command::Four => desk.layout == PaneLayout::Four,
-            Command::Perspective => desk.panes[self.active()].is_near,
-            Command::EyeLeans => desk.eye(self.active()).eye_leans,
+            Command::One => workspace.layout == PaneLayout::One,
+            Command::Two => workspace.layout == PaneLayout::Two,
+            Command::Four => workspace.layout == PaneLayout::Four,
+            Command::Perspective => workspace.panes[self.active()].is_near,
+            Command::EyeLeans => workspace.eye(self.active()).eye_leans,
             Command::Wireframe => overlay("wireframe"),
             Command::Facets => overlay("facets"),
             Command::Bounces => overlay("bounces"),
             Command::Unresolved => overlay("unresolved"),
             Command::Total => overlay("total"),
-            Command::Strongest => desk.strongest,
-            Command::Glare => desk.glare,
-            Command::Split => desk.is_split,
+            Command::Strongest => workspace.strongest,
+            Command::Glare => workspace.glare,
+            Command::Split => workspace.is_split,
             Command::LightPath => self.session.followed.is_open,
             Command::Play => self.session.motion.is_on,
-            Command::Panels => desk.hides_panels,
+            Command::Panels => workspace.hides_panels,
             _ => false,
         }
     }
@@ -94,44 +94,44 @@ pub fn run(model: &mut Model, command: Command) -> Vec<Task> {
 /// Carries out a command that changes the views alone.
 fn look(model: &mut Model, command: Command) {
     let active = model.active();
-    let Model { document, workspace: desk, session } = model;
+    let Model { document, workspace, session } = model;
     match command {
-        Command::ViewBack => session.views.back(desk),
-        Command::ViewOn => session.views.on(desk),
+        Command::ViewBack => session.views.back(workspace),
+        Command::ViewOn => session.views.on(workspace),
         Command::Top => seen(model, Eye::top),
         Command::Side => seen(model, Eye::side),
         Command::Bottom => seen(model, Eye::bottom),
         Command::Free => seen(model, Eye::free),
         Command::Fit => seen(model, Eye::fit),
         Command::Perspective => {
-            let pane = &mut desk.panes[active];
+            let pane = &mut workspace.panes[active];
             pane.is_near = pane.shows.is_seen() && !pane.is_near;
         }
         Command::EyeLeans => {
-            let eye = desk.eye_mut(active);
+            let eye = workspace.eye_mut(active);
             eye.eye_leans = !eye.eye_leans;
         }
-        Command::One => (desk.layout, desk.large) = (PaneLayout::One, None),
-        Command::Two => (desk.layout, desk.large) = (PaneLayout::Two, None),
-        Command::Four => (desk.layout, desk.large) = (PaneLayout::Four, None),
-        Command::Wireframe => desk.toggle_overlay("wireframe"),
-        Command::Facets => desk.toggle_overlay("facets"),
-        Command::Bounces => desk.toggle_overlay("bounces"),
-        Command::Unresolved => desk.toggle_overlay("unresolved"),
-        Command::Total => desk.toggle_overlay("total"),
-        Command::Strongest => desk.strongest = !desk.strongest,
-        Command::Glare => desk.glare = !desk.glare,
+        Command::One => (workspace.layout, workspace.large) = (PaneLayout::One, None),
+        Command::Two => (workspace.layout, workspace.large) = (PaneLayout::Two, None),
+        Command::Four => (workspace.layout, workspace.large) = (PaneLayout::Four, None),
+        Command::Wireframe => workspace.toggle_overlay("wireframe"),
+        Command::Facets => workspace.toggle_overlay("facets"),
+        Command::Bounces => workspace.toggle_overlay("bounces"),
+        Command::Unresolved => workspace.toggle_overlay("unresolved"),
+        Command::Total => workspace.toggle_overlay("total"),
+        Command::Strongest => workspace.strongest = !workspace.strongest,
+        Command::Glare => workspace.glare = !workspace.glare,
         Command::CompareSaved => match Compared::of_saved(document) {
             Ok(compared) => session.compared = Some(compared),
             Err(why) => session.notes.trouble(why),
         },
-        Command::Split => desk.is_split = !desk.is_split,
+        Command::Split => workspace.is_split = !workspace.is_split,
         Command::NoCompare => compare_no_more(model),
         Command::Play => session.motion.is_on = !session.motion.is_on,
-        Command::NextBehind => desk.next_behind(),
-        Command::Panels => desk.hides_panels = !desk.hides_panels,
+        Command::NextBehind => workspace.next_behind(),
+        Command::Panels => workspace.hides_panels = !workspace.hides_panels,
         Command::ResetView => {
-            desk.reset_view();
+            workspace.reset_view();
             session.framing.renew(document.specimen());
         }
         Command::LightPath => session.followed.is_open = !session.followed.is_open,

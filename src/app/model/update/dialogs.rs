@@ -59,7 +59,7 @@ pub fn answer(model: &mut Model, answer: DialogAction) -> Vec<Task> {
     vec![]
 }
 
-/// Takes what is typed and chosen in the dialog that is open.
+/// Stores what is typed or chosen in the open dialog.
 fn fill_in(model: &mut Model, typed: DialogAction) {
     let session = &mut model.session;
     match (&mut session.dialog, typed) {
@@ -111,9 +111,9 @@ fn recover(model: &mut Model, found: &RecoveredWork) -> Vec<Task> {
     let KeptScene { company, behind, behind_mm, strength } = found.around.clone();
     document.work.company = company;
     let mut tasks = begin(model, document);
-    let desk = &mut model.workspace;
-    desk.behind = behind.or(desk.behind.take());
-    (desk.behind_mm, desk.strength) = (behind_mm, strength.unwrap_or(1.0));
+    let workspace = &mut model.workspace;
+    workspace.behind = behind.or(workspace.behind.take());
+    (workspace.behind_mm, workspace.strength) = (behind_mm, strength.unwrap_or(1.0));
     tasks.extend(safe::note(model));
     // The work is kept anew before the file that the crash left is removed.
     match tasks.last_mut() {

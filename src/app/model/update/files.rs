@@ -17,10 +17,10 @@ use crate::io::mesh_options::MeshOptions;
 use std::path::{Path, PathBuf};
 
 /// The note about a mesh whose table may face another way.
-const DOUBTFUL: &str = "The shape of this mesh leaves a doubt which way its table faces: choose it in the panel Design, by \
-    Table faces.";
+const DOUBTFUL: &str = "The shape of this mesh does not show clearly which way its table faces. If it faces the \
+    wrong way, choose another direction at Table faces in the design panel.";
 
-/// Does something with files.
+/// Performs a file action.
 pub fn change(model: &mut Model, change: FileAction) -> Vec<Task> {
     match change {
         FileAction::Ask(then) => ask_before(model, then),
@@ -46,7 +46,7 @@ pub fn change(model: &mut Model, change: FileAction) -> Vec<Task> {
         }
         FileAction::DroppedFor(files) => dropped(model, files),
         FileAction::NotKept(why) => {
-            model.session.notes.trouble(format!("unsaved work is not kept safe: {why}"));
+            model.session.notes.trouble(format!("the autosave of unsaved work failed: {why}"));
             vec![]
         }
         FileAction::Found(found) => {
@@ -65,8 +65,8 @@ pub fn change(model: &mut Model, change: FileAction) -> Vec<Task> {
     }
 }
 
-/// Returns what the model wants from outside as it is now: another light, another file to watch; takes note of a file that
-/// others have changed.
+/// Returns the tasks that the present state needs: to load another light, to watch another file, or to read the open file
+/// again because another program has changed it.
 pub fn wanted(model: &mut Model) -> Vec<Task> {
     let mut tasks = vec![];
     let light = &mut model.session.light;
@@ -91,7 +91,7 @@ pub fn wanted(model: &mut Model) -> Vec<Task> {
 
 fn changed_outside(model: &mut Model) -> Vec<Task> {
     if model.document.is_lost() {
-        model.session.notes.warn("The file is no longer there; save the design to keep it.".into());
+        model.session.notes.warn("The file no longer exists; save the design to keep it.".into());
     } else if model.document.is_changed() {
         model.session.dialog = Some(Dialog::ChangedOutside);
     } else if let Some(path) = model.document.path().map(Path::to_owned) {
@@ -101,10 +101,10 @@ fn changed_outside(model: &mut Model) -> Vec<Task> {
     vec![]
 }
 
-/// Does something that would lose unsaved work, after a question where there is such work.
+/// Performs a step that would lose unsaved work; asks first where there is any.
 fn ask_before(model: &mut Model, next: Then) -> Vec<Task> {
     if model.session.dialog.as_ref().is_some_and(Dialog::insists) {
-        model.session.notes.say("Answer what is asked first.");
+        model.session.notes.say("Answer the open dialog first.");
     } else if model.document.is_changed() {
         model.session.dialog = Some(Dialog::Unsaved(next));
     } else if model.document.has_moved_copies() {
@@ -131,7 +131,7 @@ pub fn then(model: &mut Model, then: Then) -> Vec<Task> {
 fn close(model: &mut Model) -> Vec<Task> {
     let session = &mut model.session;
     if session.dialog.as_ref().is_some_and(Dialog::insists) {
-        session.notes.say("Answer what is asked first, or stop the export.");
+        session.notes.say("Answer the open dialog first, or stop the export.");
     } else if session.may_close {
         return vec![];
     } else if session.awaited.saving {
@@ -154,7 +154,7 @@ fn holds_designs(path: &Path) -> bool {
 /// Asks the user for a file.
 pub fn choose(model: &mut Model, purpose: Purpose) -> Vec<Task> {
     if model.session.awaited.choosing.is_some() {
-        model.session.notes.say("Answer the file dialog that is open first.");
+        model.session.notes.say("Answer the open file dialog first.");
         return vec![];
     }
     model.session.after_save = None;
@@ -199,7 +199,10 @@ fn answered(model: &mut Model, question: Question, choice: Choice) -> Vec<Task> 
 pub fn chosen(model: &mut Model, purpose: Purpose, document: u64, path: PathBuf) -> Vec<Task> {
     match purpose {
         Purpose::SaveAs if document != model.session.begun => {
-            model.session.notes.trouble("Not saved: another design was opened meanwhile.");
+            model
+                .session
+                .notes
+                .trouble("The design was not saved, because another design was opened meanwhile.");
         }
         Purpose::Open => return ask_before(model, Then::open(path)),
         Purpose::SaveAs => return save_as(model, path),
@@ -344,7 +347,7 @@ fn is_saved(model: &mut Model, saved: Result<SavedDesign, Failure>) -> Vec<Task>
     session.notes.say(&format!("Saved {}", saved.path.display()));
     if !saved.lost.is_empty() {
         let (name, lost) = (saved.path.display(), saved.lost.join("; "));
-        session.notes.warn(format!("{name}: {lost}. As .toml, all is kept."));
+        session.notes.warn(format!("{name}: {lost}. Save it as .toml to keep everything."));
     }
     workspace.remember(&saved.path);
     document.take_saved(saved);
@@ -368,7 +371,7 @@ fn dropped(model: &mut Model, files: Vec<(PathBuf, Purpose)>) -> Vec<Task> {
         if more > 0 {
             let files = if more == 1 { "file was" } else { "files were" };
             model.session.notes.say(&format!(
-                "{} is opened; one design is open at a time, so {more} more {files} left out.",
+                "{} is opened. Only one design can be open at a time, so {more} more {files} left out.",
                 name(path)
             ));
         }
@@ -376,7 +379,10 @@ fn dropped(model: &mut Model, files: Vec<(PathBuf, Purpose)>) -> Vec<Task> {
     for (path, purpose) in files.into_iter().filter(|(_, purpose)| *purpose != Purpose::Open) {
         let text = match purpose {
             Purpose::Light => format!("{} lights the stone.", name(&path)),
-            _ => format!("{} hangs behind the stone; as a light it is chosen under Light.", name(&path)),
+            _ => format!(
+                "{} is now the background. To use it as a light, choose it at Light in the design panel.",
+                name(&path)
+            ),
         };
         tasks.extend(chosen(model, purpose, model.session.begun, path));
         model.session.notes.say(&text);

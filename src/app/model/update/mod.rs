@@ -1,4 +1,4 @@
-//! What becomes of a model by an action: the only place that changes a [`Model`].
+//! Applies actions to a model; this is the only place that changes a [`Model`].
 
 mod begin;
 mod commands;
@@ -56,17 +56,17 @@ fn computed_is(model: &mut Model, computed: Computed) -> Vec<Task> {
             }
             (session.light.name, session.light.loading) = (name, None);
         }
-        Computed::Figures(which, ask, grade, figures) => {
-            session.measured.figures.insert(which, ShownFigures { ask, grade, figures: *figures });
+        Computed::Figures(which, order, grade, figures) => {
+            session.measured.figures.insert(which, ShownFigures { order, grade, figures: *figures });
         }
-        Computed::Tilts(ask, tilts) => session.measured.tilts = Some((ask, tilts)),
+        Computed::Tilts(order, tilts) => session.measured.tilts = Some((order, tilts)),
         Computed::Copied(made) => {
             let name = session.awaited.copying.take().unwrap_or("The picture");
             match made {
                 Ok([width, height]) => {
                     session.notes.say(&format!("{name} copied, {width} × {height} pixels"))
                 }
-                Err(why) => session.notes.trouble(format!("{name} was not copied: {why}")),
+                Err(why) => session.notes.trouble(format!("{name} could not be copied: {why}")),
             }
         }
         Computed::Order(order) => {

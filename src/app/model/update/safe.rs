@@ -1,11 +1,11 @@
-//! Unsaved work is kept safe.
+//! Keeps the autosave up to date.
 
 use crate::app::model::Model;
 use crate::app::model::recovery::{KeptScene, UnsavedWork};
 use crate::app::model::task::Task;
 use crate::app::model::work::Work;
 
-/// Keeps the work as it is now safe, and stores its light, exposure and head in the workspace.
+/// Writes the present work to the autosave, and stores its light, exposure and head in the workspace.
 ///
 /// A design that makes no stone does not replace the last one that does.
 pub fn note(model: &mut Model) -> Vec<Task> {
@@ -30,7 +30,7 @@ pub fn note(model: &mut Model) -> Vec<Task> {
     vec![Task::Keep(Box::new(UnsavedWork { work: document.work.clone(), around, path, replaces: None }))]
 }
 
-/// Removes what is kept: the work is saved, or not wanted.
+/// Removes the autosave, because the work is saved or discarded.
 pub fn empty(model: &mut Model) -> Vec<Task> {
     match std::mem::take(&mut model.session.safe.is_kept) {
         true => vec![Task::EmptySafe],

@@ -127,7 +127,7 @@ fn a_file_that_comes_after_an_edit_is_asked_about_and_opened_once_that_is_answer
     let tasks = bench.act(FileAction::Ask(Then::open(path.clone())));
     bench.act(Edit::Diameter(7.0));
     bench.read(tasks);
-    assert!(matches!(bench.dialog(), Some(Dialog::Unsaved(Then::Open(asked, _))) if *asked == path));
+    assert!(matches!(bench.dialog(), Some(Dialog::Unsaved(Then::Open(waiting, _))) if *waiting == path));
     assert_eq!(bench.diameter(), 7.0);
     let tasks = bench.act(DialogAction::GiveUp);
     bench.read(tasks);
@@ -319,7 +319,7 @@ fn a_picture_that_is_not_made_for_the_clipboard_is_reported() {
     let tasks = bench.act(ViewAction::CopyAt(1, 512));
     assert!(has(&tasks, |task| matches!(task, Task::MakeCopy(request) if request.side == 512)));
     bench.act(Computed::Copied(Err(Failure::Output("no memory".to_owned()))));
-    assert_eq!(bench.model.session.notes.troubles()[0].text, "ASET was not copied: no memory");
+    assert_eq!(bench.model.session.notes.troubles()[0].text, "ASET could not be copied: no memory");
     assert!(bench.model.session.awaited.copying.is_none());
 }
 
@@ -331,7 +331,7 @@ fn an_answer_for_a_design_that_is_gone_is_not_saved_over_the_next() {
     bench.act(FileAction::Ask(Then::Library("modern-ideal".to_owned())));
     let tasks = bench.act(FileAction::Chosen(question, Choice::File("late.toml".into())));
     assert!(tasks.is_empty() && !bench.model.session.awaited.saving);
-    assert!(bench.model.session.notes.troubles()[0].text.starts_with("Not saved"));
+    assert!(bench.model.session.notes.troubles()[0].text.starts_with("The design was not saved"));
 }
 
 #[test]

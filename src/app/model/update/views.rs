@@ -7,7 +7,7 @@ use crate::app::shows::Shows;
 use crate::app::studio::{Paper, Shot, Which};
 use crate::scene::Film;
 
-/// Changes the views.
+/// Performs a change of the views.
 pub fn change(model: &mut Model, change: ViewAction) -> Vec<Task> {
     let Model { workspace, session, .. } = model;
     match change {
@@ -41,7 +41,7 @@ pub fn change(model: &mut Model, change: ViewAction) -> Vec<Task> {
     vec![]
 }
 
-/// Changes what is not kept between starts: what is under the pointer, followed, or moves.
+/// Changes what is not kept between starts: pointer, keys, motion and the followed ray.
 fn pass(model: &mut Model, change: ViewAction) {
     let session = &mut model.session;
     match change {
@@ -70,7 +70,7 @@ fn copy_at(model: &mut Model, pane: usize, side: u32) -> Vec<Task> {
         (Shows::Profile, _) => CopyOriginal::Profile(model.document.named(model.document.specimen())),
         (_, Some(shot)) => CopyOriginal::Shot(Box::new(scaled(shot, side))),
         (_, None) => {
-            model.session.notes.say("This view holds no picture to copy.");
+            model.session.notes.say("This view has no picture to copy.");
             return vec![];
         }
     };

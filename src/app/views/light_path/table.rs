@@ -30,10 +30,14 @@ const HEADINGS: [Column; COLUMNS] = [
     column("facet", "The facet that the light meets", Align::Min),
     column("angle", "Angle of incidence, between the light and the facet's normal", Align::Max),
     column("critical", "Critical angle: beyond it all light is reflected", Align::Max),
-    column("leaves", "Share of the light that leaves here; total: all is reflected", Align::Max),
-    column("elev.", "Where the light that leaves goes: its elevation above the scope's plane", Align::Max),
-    column("azim.", "Where the light that leaves goes: its azimuth around the scope's axis", Align::Max),
-    column("zone", "The zone of the scope to which the light that leaves goes", Align::Min),
+    column(
+        "leaves",
+        "Share of the light that leaves here; \"total\" where all light is reflected",
+        Align::Max,
+    ),
+    column("elev.", "Elevation of the light that leaves, above the scope's plane", Align::Max),
+    column("azim.", "Azimuth of the light that leaves, around the scope's axis", Align::Max),
+    column("zone", "Zone of the scope that the light reaches when it leaves", Align::Min),
     column("goes on", "Share of the light that goes on inside the stone", Align::Max),
 ];
 
@@ -254,7 +258,7 @@ fn row(reading: &Reading, number: usize, step: &Step) -> Row {
 const NONE: &str = "–";
 
 /// The text in place of a zone for light that enters the stone again.
-const AGAIN: &str = "in again";
+const AGAIN: &str = "stone again";
 
 /// Returns the share, elevation, azimuth and zone of light that leaves, as texts.
 fn where_to(reading: &Reading, Leaving { share, direction, again }: Leaving) -> [String; 4] {

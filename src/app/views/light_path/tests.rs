@@ -108,8 +108,8 @@ fn rows_tell_the_figures_of_the_path() {
         assert_eq!(row.contains("all reflected"), step.leaving.is_none(), "{row}");
     }
     let elevation = |d: DVec3| format!("elevation {:.1}°", d.z.asin().to_degrees()).replace('-', "−");
-    let told = path.steps.iter().filter_map(|s| s.leaving).map(|l| elevation(l.direction));
-    assert!(told.into_iter().all(|text| harness.get_all_by_label_contains(&text).count() > 0));
+    let texts = path.steps.iter().filter_map(|s| s.leaving).map(|l| elevation(l.direction));
+    assert!(texts.into_iter().all(|text| harness.get_all_by_label_contains(&text).count() > 0));
 }
 
 #[test]

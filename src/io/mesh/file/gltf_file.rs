@@ -18,7 +18,7 @@ use std::path::Path;
 const GLB_HEADER: usize = 12;
 
 /// The beginning of the message about a file that is no glTF.
-const UNREADABLE: &str = "this is no glTF 2.0 that can be read: ";
+const UNREADABLE: &str = "this glTF 2.0 cannot be read: ";
 
 /// Extensions without which shapes cannot be read as they are meant. A file can be read without any other.
 const NEEDED: [&str; 4] = [
@@ -133,10 +133,12 @@ fn extensions(root: &mut Root) -> Result<Vec<String>, Fault> {
         |name: &String| ["KHR_materials_", "KHR_texture_", "KHR_lights_"].iter().any(|p| name.starts_with(p));
     let strange = root.extensions_required.iter().filter(|name| !shapeless(name));
     let mut warnings: Vec<String> = strange
-        .map(|name| format!("the file needs {name}, which is not known here, and is read without"))
+        .map(|name| {
+            format!("the file requires {name}, which this program does not support; it is read without that")
+        })
         .collect();
     let optional = root.extensions_used.iter().filter(|name| NEEDED.contains(&name.as_str()));
-    warnings.extend(optional.map(|name| format!("{name} is not read; the shape may lack something")));
+    warnings.extend(optional.map(|name| format!("{name} is not read; a part of the shape may be missing")));
     root.extensions_required.clear();
     Ok(warnings)
 }

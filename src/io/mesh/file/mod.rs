@@ -60,7 +60,7 @@ pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshF
     let binary =
         (is_named && bytes.len() >= STL_HEADER && bytes.contains(&0)).then_some(MeshFormat::StlBinary);
     let Some(format) = looks_like(&bytes).or(binary) else {
-        return Err(FileError::new(label, "this is no mesh: glTF, OBJ, STL or PLY is expected"));
+        return Err(FileError::new(label, "this is not a mesh; glTF, OBJ, STL or PLY is expected"));
     };
     let read = match format {
         MeshFormat::Glb | MeshFormat::Gltf => gltf_file::read(&bytes, folder),
@@ -77,7 +77,9 @@ pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshF
     let statement = said.and_then(|said| match Statement::parse(&said) {
         Ok(statement) => Some(statement),
         Err(why) => {
-            warnings.push(format!("what it says of how its stone lies cannot be read: {why}"));
+            warnings.push(format!(
+                "its statement of the stone's size and upward direction cannot be read: {why}"
+            ));
             None
         }
     });

@@ -229,7 +229,8 @@ const NUMBERS: [(&str, usize); 5] = [("d", 1), ("u", 1), ("v", 1), ("s", 2), ("m
 
 impl Found {
     fn take(&mut self, pair: &str) -> Result<(), Fault> {
-        let (key, value) = pair.split_once('=').ok_or_else(|| format!("'{pair}' is no key with a value"))?;
+        let (key, value) =
+            pair.split_once('=').ok_or_else(|| format!("'{pair}' is not a key with a value"))?;
         if key == "up" {
             self.up = Some(match value {
                 "y" => DVec3::Y,

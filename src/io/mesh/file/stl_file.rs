@@ -57,7 +57,7 @@ pub(super) fn read_text(bytes: &[u8]) -> Result<ParsedMesh, Fault> {
     let closed = std::io::Read::chain(lines, &b"endsolid stone\n"[..]);
     let surface = triangles(&mut Rewound::new(FIRST, closed))
         .map_err(|(_, message)| Fault::line(line.get().max(1), message))?;
-    let told = |n: usize| format!("{n} solids are in this file; they are taken for one surface");
+    let told = |n: usize| format!("{n} solids are in this file; they are read as one surface");
     let warnings = (solids > 1).then(|| told(solids)).into_iter().collect();
     Ok(ParsedMesh { surface, warnings, name, ..ParsedMesh::default() })
 }

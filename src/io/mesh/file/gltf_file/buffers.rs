@@ -66,7 +66,7 @@ fn needed(document: &Document) -> BTreeSet<usize> {
 pub(super) fn from_uri(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, Fault> {
     if let Some(rest) = uri.strip_prefix("data:") {
         let (_, text) = rest.split_once(";base64,").ok_or("a `data:` of base64 is expected")?;
-        return STANDARD.decode(text).map_err(|error| Fault::whole(format!("this is no base64: {error}")));
+        return STANDARD.decode(text).map_err(|error| Fault::whole(format!("this is not base64: {error}")));
     }
     let name = percent_encoding::percent_decode_str(uri).decode_utf8_lossy();
     // Beside the file and nowhere else: a mesh from somewhere must not make the program read what it likes.

@@ -58,6 +58,6 @@ fn check(bytes: &[u8]) -> Result<(), Fault> {
         // `image` is built here without the readers of these formats.
         Ok(ImageFormat::WebP | ImageFormat::Avif | ImageFormat::Dds) => Ok(()),
         _ if bytes.starts_with(KTX2) => Ok(()),
-        _ => Err("its bytes are no picture of a kind that glTF knows".into()),
+        _ => Err("its bytes are not a picture of a kind that glTF allows".into()),
     }
 }

@@ -56,7 +56,8 @@ impl Gatherer<'_> {
         self.visited += 1;
         if depth > MOST_NESTED || self.visited > MOST_NODES {
             let message = format!(
-                "nodes lie more than {MOST_NESTED} deep or are more than {MOST_NODES}; do they contain themselves?"
+                "nodes are nested more than {MOST_NESTED} deep, or there are more than {MOST_NODES}; perhaps a node \
+                    contains itself"
             );
             return Err(Fault::part(format!("node {}", node.index()), message));
         }
@@ -120,7 +121,10 @@ impl Gatherer<'_> {
         warn(self.skipped > 0, format!("{} parts of points or lines are left out", self.skipped));
         warn(
             self.materials.len() > 1,
-            format!("{} materials are described; the one of most triangles is used", self.materials.len()),
+            format!(
+                "{} materials are described; the one that most triangles have is used",
+                self.materials.len()
+            ),
         );
         warn(
             document.skins().len() > 0,

@@ -100,11 +100,11 @@ fn images_that_are_missing_or_no_pictures_are_a_warning() {
     for (image, why) in [
         (serde_json::json!({ "uri": pixel() }), None),
         (serde_json::json!({ "uri": "missing.png" }), Some("`missing.png` is not a file beside this one")),
-        (serde_json::json!({ "uri": "data:image/png;base64,###" }), Some("this is no base64")),
+        (serde_json::json!({ "uri": "data:image/png;base64,###" }), Some("this is not base64")),
         (serde_json::json!({ "uri": cut_off }), Some("it is broken: ")),
         (
             serde_json::json!({ "bufferView": 1, "mimeType": "image/png" }),
-            Some("its bytes are no picture of a kind that glTF knows"),
+            Some("its bytes are not a picture of a kind that glTF allows"),
         ),
         (serde_json::json!({}), Some("it has neither a file nor a buffer view")),
     ] {

@@ -23,7 +23,7 @@ fn faults_are_told_with_their_place_and_what_was_expected() {
             stl_text().replacen("vertex 1 0 0", "vertex 1 inf 0", 1),
             "f:6: this cannot be read: expected finite",
         ),
-        (gltf().replace("\"2.0\"", "\"2.0"), "f:1: this is no glTF 2.0 that can be read"),
+        (gltf().replace("\"2.0\"", "\"2.0"), "f:1: this glTF 2.0 cannot be read"),
         (
             gltf().replace("\"count\":4", "\"count\":5"),
             "f: mesh 0, primitive 0, accessor 0: 5 values of 12 bytes from 0",
@@ -35,10 +35,7 @@ fn faults_are_told_with_their_place_and_what_was_expected() {
             gltf().replace("\"byteLength\":72", "\"byteLength\":73"),
             "f: buffer 0: 73 bytes are announced, and 72",
         ),
-        (
-            gltf().replace("\"mesh\":0,", "\"mesh\":7,"),
-            "f: this is no glTF 2.0 that can be read: nodes[1].mesh",
-        ),
+        (gltf().replace("\"mesh\":0,", "\"mesh\":7,"), "f: this glTF 2.0 cannot be read: nodes[1].mesh"),
         (gltf().replace("[1,2],\"scale\"", "[1,2,0],\"scale\""), "f: node "),
         (gltf().replace("\"POSITION\"", "\"NORMAL\""), "f:"),
         (
