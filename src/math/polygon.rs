@@ -24,6 +24,13 @@ pub fn centroid(corners: &[DVec2]) -> DVec2 {
     if twice.abs() > f64::MIN_POSITIVE { first + moment / (3.0 * twice) } else { mean }
 }
 
+/// Whether `p` lies inside by more than `margin` (a negative margin allows points that far outside).
+pub fn contains(corners: &[DVec2], p: DVec2, margin: f64) -> bool {
+    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+    corners.len() > 2
+        && edges.into_iter().all(|(&a, &b)| (b - a).perp_dot(p - a) >= margin * (b - a).length())
+}
+
 /// Writes the part of a convex polygon where `keep` is not negative to `out`, which is emptied first.
 pub fn clip(corners: &[DVec2], keep: Affine, out: &mut Vec<DVec2>) {
     out.clear();
@@ -67,5 +74,13 @@ mod tests {
             assert!((area(&left) + area(&right) - 4.0).abs() < 1e-14, "cut {k}");
             assert!(area(&left) > 0.5 && area(&right) > 0.5, "cut {k}");
         }
+    }
+
+    #[test]
+    fn containment_respects_its_margin() {
+        assert!(contains(&SQUARE, DVec2::new(1.0, 0.2), 0.1));
+        assert!(!contains(&SQUARE, DVec2::new(1.0, 0.05), 0.1));
+        assert!(contains(&SQUARE, DVec2::new(1.0, -0.05), -0.1));
+        assert!(!contains(&SQUARE[..2], DVec2::new(1.0, 0.0), -1.0));
     }
 }
