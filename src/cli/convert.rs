@@ -5,8 +5,7 @@ use super::mesh_options::MeshArguments;
 use super::specimen::LoadedSpecimen;
 use crate::io::Failure;
 use crate::io::design_file::{self, DesignFormat};
-use clap::builder::PossibleValue;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -21,26 +20,6 @@ pub struct Convert {
     format: Option<DesignFormat>,
     #[command(flatten)]
     mesh: MeshArguments,
-}
-
-impl ValueEnum for DesignFormat {
-    fn value_variants<'a>() -> &'a [Self] {
-        &Self::ALL
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        let help = match self {
-            Self::Toml => "This program's own cut files",
-            Self::Asc => "GemCad's text files",
-            Self::Gem => "GemCad's binary files",
-            Self::Gcs => "Gem Cut Studio's files",
-            Self::Obj => "Wavefront's meshes, facets as polygons",
-            Self::Stl => "Binary STL meshes",
-            Self::Ply => "PLY meshes",
-            Self::Glb => "Binary glTF meshes",
-        };
-        Some(PossibleValue::new(self.ending()).help(help))
-    }
 }
 
 impl Convert {

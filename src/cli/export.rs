@@ -9,8 +9,7 @@ use crate::io::export::{self, OutputFormat, Outputs, first_twice};
 use crate::io::{Failure, MOST_PIXELS, is_standard};
 use crate::picture::{Picture, named, names};
 use crate::render::{Card, Renderer};
-use clap::builder::PossibleValue;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -45,22 +44,6 @@ pub struct ExportArguments {
     light: LightOptions,
     #[command(flatten)]
     mesh: MeshArguments,
-}
-
-impl ValueEnum for OutputFormat {
-    fn value_variants<'a>() -> &'a [Self] {
-        &Self::ALL
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        let help = match self {
-            Self::Png => "Pictures of energy and of strongest exits, sRGB",
-            Self::Svg => "The virtual facets as polygons",
-            Self::Exr => "Energy of each zone, 32-bit and linear",
-            Self::Json => "Figures of the view, as `measure --json` prints them",
-        };
-        Some(PossibleValue::new(self.ending()).help(help))
-    }
 }
 
 impl ExportArguments {

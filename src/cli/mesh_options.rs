@@ -2,7 +2,7 @@
 
 use crate::cut::from_mesh::Up;
 use crate::io::mesh_options::{MeshForm, MeshOptions};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use glam::DVec3;
 
 /// How meshes are read. Other designs say both themselves.
@@ -14,42 +14,21 @@ pub struct MeshArguments {
     up: Option<Up>,
     /// What the triangles of a mesh stand for [default: as found]
     #[arg(long = "as", value_name = "FORM", value_enum)]
-    form: Option<Form>,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum Form {
-    /// The flat facets of a convex stone, which exact beams, scopes and drawings need
-    Faceted,
-    /// The triangles themselves, which rays trace
-    Triangles,
+    form: Option<MeshForm>,
 }
 
 impl MeshArguments {
     /// Returns the mesh options, with defaults for those that are not given.
     pub fn options(self) -> MeshOptions {
-        MeshOptions {
-            up: self.up.unwrap_or_default(),
-            form: match self.form {
-                None => MeshForm::Found,
-                Some(Form::Faceted) => MeshForm::Faceted,
-                Some(Form::Triangles) => MeshForm::Triangles,
-            },
-        }
+        MeshOptions { up: self.up.unwrap_or_default(), form: self.form.unwrap_or_default() }
     }
 }
 
 /// Parses the value of `--up`: a signed axis, or three numbers separated by commas that are not all 0.
 fn direction(text: &str) -> Result<Up, String> {
     let (sign, name) = text.strip_prefix('-').map_or((1.0, text), |name| (-1.0, name));
-    let axis = match name {
-        "x" => Some(DVec3::X),
-        "y" => Some(DVec3::Y),
-        "z" => Some(DVec3::Z),
-        _ => None,
-    };
-    if let Some(axis) = axis {
-        return Ok(Up::Given(sign * axis));
+    if let Some(axis) = ["x", "y", "z"].iter().position(|axis| *axis == name) {
+        return Ok(Up::Given(sign * DVec3::AXES[axis]));
     }
     let numbers: Option<Vec<f64>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
     let vector = numbers.filter(|numbers| numbers.len() == 3).map(|numbers| DVec3::from_slice(&numbers));

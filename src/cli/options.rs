@@ -127,20 +127,8 @@ pub struct LightOptions {
     #[arg(long)]
     pub unpolarised: bool,
     /// What traces the light
-    #[arg(long, value_enum, default_value_t = TracerName::Auto)]
-    pub tracer: TracerName,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum TracerName {
-    /// The quickest: exact beams, or for renders a graphics card where there is one; rays where beams do not apply
-    Auto,
-    /// Exact beams, in f64, for parallel rays
-    Beam,
-    /// Point rays on the processor, in f64
-    Ray,
-    /// Point rays on a graphics card, in f32
-    Gpu,
+    #[arg(long, value_enum, default_value_t = Wanted::Quickest)]
+    pub tracer: Wanted,
 }
 
 /// Returns the scope of this name that comes with the program, or reads a scope file. A file goes before a name.
@@ -157,17 +145,6 @@ pub fn scoped(given: &Path) -> Result<Scoped, Failure> {
     }
     let scope = scope_file::read(given)?;
     Ok(Scoped { scope, side: None, takes_head: true })
-}
-
-impl From<TracerName> for Wanted {
-    fn from(name: TracerName) -> Self {
-        match name {
-            TracerName::Auto => Self::Quickest,
-            TracerName::Beam => Self::Beams,
-            TracerName::Ray => Self::Rays,
-            TracerName::Gpu => Self::Card,
-        }
-    }
 }
 
 impl LightOptions {
@@ -200,7 +177,7 @@ impl LightOptions {
                 (_, true) => Some(Glare::LeftOut),
                 _ => None,
             },
-            tracer: self.tracer.into(),
+            tracer: self.tracer,
         };
         Self::check(&viewing, specimen, renderer)?;
         Ok(viewing)

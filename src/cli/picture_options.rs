@@ -2,8 +2,9 @@
 //! and `spin` also take [`FinishOptions`]: tracing and finish.
 
 use super::mesh_options::MeshArguments;
-use super::options::{OptionError, TracerName, number};
+use super::options::{OptionError, number};
 use crate::picture::{Bloom, Overlay, Tone};
+use crate::render::Wanted;
 use clap::Args;
 
 /// The largest side of a picture under light, in pixels. The whole picture is held in memory.
@@ -72,8 +73,8 @@ pub struct FinishOptions {
     #[arg(long, allow_negative_numbers = true, value_name = "PART", value_parser = number)]
     pub strength: Option<f64>,
     /// What traces the light; beams are for one convex stone without a photograph behind
-    #[arg(long, value_enum, default_value_t = TracerName::Auto)]
-    pub tracer: TracerName,
+    #[arg(long, value_enum, default_value_t = Wanted::Quickest)]
+    pub tracer: Wanted,
     /// Part of the brightest light that is spread as glow and sparkle, 0 to 1
     #[arg(long, allow_negative_numbers = true, value_name = "PART", default_value_t = Bloom::default().strength, value_parser = number)]
     pub bloom: f64,
@@ -86,7 +87,7 @@ pub struct FinishOptions {
 impl Default for FinishOptions {
     /// Returns rays on the processor at the scene's strength, without glow and overlays.
     fn default() -> Self {
-        Self { no_jitter: false, strength: None, tracer: TracerName::Ray, bloom: 0.0, overlay: vec![] }
+        Self { no_jitter: false, strength: None, tracer: Wanted::Rays, bloom: 0.0, overlay: vec![] }
     }
 }
 

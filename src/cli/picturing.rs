@@ -182,7 +182,7 @@ impl<'a> PictureSetup<'a> {
     pub fn quality(&self) -> Quality {
         let polarised = !self.options.unpolarised;
         Quality {
-            tracer: self.finish.tracer.into(),
+            tracer: self.finish.tracer,
             samples: self.options.samples,
             ..Quality::of_pictures(polarised)
         }

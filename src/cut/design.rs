@@ -164,10 +164,7 @@ impl Design {
     /// # Errors
     /// The first proportion at fault.
     pub fn warnings(&self) -> Result<Vec<Warning>, DesignError> {
-        match &self.cut {
-            Cut::RoundBrilliant(proportions) => Ok(proportions.warnings()?),
-            Cut::Tiers(_) | Cut::Planes(_) | Cut::Mesh(_) | Cut::Glass(_) => Ok(Vec::new()),
-        }
+        Ok(self.cut.brilliant().map_or(Ok(Vec::new()), |brilliant| brilliant.warnings())?)
     }
 }
 
@@ -271,9 +268,7 @@ mod tests {
     #[test]
     fn a_new_name_stands_among_the_headers_of_a_cutters_file() {
         let headers = vec!["PC 1".to_owned(), " test ".to_owned()];
-        let (footers, remarks, tiers) = (vec![], vec![], vec![]);
-        let tiers =
-            Tiers { gear: 96, offset: 0.0, symmetry: 1, mirror: false, headers, footers, remarks, tiers };
+        let tiers = Tiers { gear: 96, symmetry: 1, headers, ..Tiers::default() };
         let mut design = design(Cut::Tiers(tiers));
         let headers = |design: &Design| match &design.cut {
             Cut::Tiers(tiers) => tiers.headers.join("|"),

@@ -106,26 +106,14 @@ const PHASE: Proportion = Proportion {
 const SIDES: &[Proportion] = &[LENGTH, WIDTH, DEPTH, EDGE];
 
 /// The family of pills.
-pub static PILL: Family = Family {
-    key: "pill",
-    name: "Pill",
-    proportions: SIDES,
-    first: Cut::Glass(Glass::Pill(Sides { length: 100.0, width: 28.75, depth: 15.5, edge: 7.75 })),
-};
+pub static PILL: Family =
+    of_sides("pill", "Pill", Glass::Pill(Sides { length: 100.0, width: 28.75, depth: 15.5, edge: 7.75 }));
 /// The family of cubes and other boxes.
-pub static CUBE: Family = Family {
-    key: "cube",
-    name: "Cube",
-    proportions: SIDES,
-    first: Cut::Glass(Glass::Cube(Sides { length: 100.0, width: 100.0, depth: 100.0, edge: 19.0 })),
-};
+pub static CUBE: Family =
+    of_sides("cube", "Cube", Glass::Cube(Sides { length: 100.0, width: 100.0, depth: 100.0, edge: 19.0 }));
 /// The family of prisms.
-pub static PRISM: Family = Family {
-    key: "prism",
-    name: "Prism",
-    proportions: SIDES,
-    first: Cut::Glass(Glass::Prism(Sides { length: 100.0, width: 37.9, depth: 29.8, edge: 0.0 })),
-};
+pub static PRISM: Family =
+    of_sides("prism", "Prism", Glass::Prism(Sides { length: 100.0, width: 37.9, depth: 29.8, edge: 0.0 }));
 /// The family of plates.
 pub static PLATE: Family = Family {
     key: "plate",
@@ -138,6 +126,10 @@ pub static PLATE: Family = Family {
         phase: 0.0,
     })),
 };
+
+const fn of_sides(key: &'static str, name: &'static str, first: Glass) -> Family {
+    Family { key, name, proportions: SIDES, first: Cut::Glass(first) }
+}
 
 fn glass(cut: &Cut) -> Option<&Glass> {
     if let Cut::Glass(glass) = cut { Some(glass) } else { None }

@@ -1,6 +1,6 @@
 //! The measures of a stone of any cut: length, width, the girdle's edges, depths and table.
 
-use crate::math::{Calipers, Facet, Polytope, bounds, hull};
+use crate::math::{Calipers, Edge, Facet, Polytope, SolidRef, bounds, hull};
 use glam::{DVec2, DVec3};
 use serde::Serialize;
 
@@ -188,17 +188,9 @@ fn corner_levels(stone: &Polytope, facet: &Facet, nearest: f64) -> Vec<f64> {
 
 /// Returns the heights z of the corners where crown and pavilion meet.
 fn knife_edge(stone: &Polytope) -> Vec<f64> {
-    let faces_up = |facet: &Facet| facet.plane.normal.z > 0.0;
-    let mut levels = vec![];
-    for facet in stone.facets().iter().filter(|facet| faces_up(facet)) {
-        let corners: Vec<DVec3> = stone.corners(facet).collect();
-        for (k, &other) in facet.neighbours.iter().enumerate() {
-            if !faces_up(&stone.facets()[other as usize]) {
-                levels.extend([corners[k].z, corners[(k + 1) % corners.len()].z]);
-            }
-        }
-    }
-    levels
+    let is_rim = |edge: &Edge| edge.normals.iter().filter(|normal| normal.z > 0.0).count() == 1;
+    let edges = SolidRef::from(stone).edges().into_iter().filter(is_rim);
+    edges.flat_map(|edge| edge.ends.map(|corner| corner.z)).collect()
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 
 use super::outline::{AlongAxes, Outline, is_girdle, is_table};
 use super::{TierZone, tier_stem};
-use crate::math::{Facet, Polytope};
+use crate::math::{Facet, Plane, Polytope, grouped, span};
+use glam::DVec3;
 use serde::Serialize;
 
 /// The least, mean and greatest value among the facets of a tier.
@@ -17,11 +18,9 @@ pub struct Spread {
 }
 
 impl Spread {
-    fn of(values: &[f64]) -> Self {
-        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        // Rounding of the sum must not leave the range.
+    fn of(values: impl ExactSizeIterator<Item = f64> + Clone) -> Self {
+        let (least, most) = span(values.clone());
+        let mean = values.clone().sum::<f64>() / values.len() as f64;
         Self { least, mean: mean.clamp(least, most), most }
     }
 }
@@ -95,28 +94,21 @@ fn zone(facet: &Facet) -> TierZone {
 }
 
 fn tiers(stone: &Polytope, names: &[String]) -> Vec<TierReport> {
-    let mut tiers: Vec<(&str, TierZone, Vec<[f64; 2]>)> = vec![];
-    for (facet, name) in stone.facets().iter().zip(names) {
-        let (stem, zone) = (tier_stem(name), zone(facet));
-        let slope = facet.plane.normal.truncate().length().atan2(facet.plane.normal.z.abs()).to_degrees();
-        let place = tiers.iter().position(|(of, at, _)| *of == stem && *at == zone).unwrap_or_else(|| {
-            tiers.push((stem, zone, vec![]));
-            tiers.len() - 1
-        });
-        // Adding 0 turns the -0 of a plane through the origin into 0.
-        tiers[place].2.push([slope, facet.plane.offset + 0.0]);
-    }
-    let report = |(name, zone, facets): (&str, TierZone, Vec<[f64; 2]>)| {
-        let [slopes, distances] = [0, 1].map(|k| facets.iter().map(|facet| facet[k]).collect::<Vec<_>>());
+    let named = stone.facets().iter().zip(names);
+    let facets = named.map(|(facet, name)| ((tier_stem(name), zone(facet)), facet.plane));
+    let report = |tier: Vec<((&str, TierZone), Plane)>| {
+        let (name, zone) = tier[0].0;
+        let slope = |normal: DVec3| normal.truncate().length().atan2(normal.z.abs()).to_degrees();
         TierReport {
             name: name.to_owned(),
             zone: zone.name(),
-            facets: facets.len(),
-            slope_deg: Spread::of(&slopes),
-            distance: Spread::of(&distances),
+            facets: tier.len(),
+            slope_deg: Spread::of(tier.iter().map(|(_, plane)| slope(plane.normal))),
+            // Adding 0 turns the -0 of a plane through the origin into 0.
+            distance: Spread::of(tier.iter().map(|(_, plane)| plane.offset + 0.0)),
         }
     };
-    tiers.into_iter().map(report).collect()
+    grouped(facets, |a, b| a.0 == b.0).into_iter().map(report).collect()
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The tiers of any cut that lists its facets. Each tier has one angle and one distance, which can be set.
 
 use super::{Cut, TierZone, tier_stem};
-use crate::math::Plane;
+use crate::math::{Plane, grouped};
 
 /// A tier as it is set on a faceting machine. Where its facets differ, the numbers are their means.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,15 +61,8 @@ impl Cut {
 
 /// Groups the planes that share a name but for its number and that face the same way. Each group lists their places.
 fn groups(planes: &[(String, Plane)]) -> Vec<Vec<usize>> {
-    let mut groups: Vec<((&str, TierZone), Vec<usize>)> = vec![];
-    for (k, (name, plane)) in planes.iter().enumerate() {
-        let key = (tier_stem(name), faces(plane));
-        match groups.iter_mut().find(|(of, _)| *of == key) {
-            Some((_, group)) => group.push(k),
-            None => groups.push((key, vec![k])),
-        }
-    }
-    groups.into_iter().map(|(_, group)| group).collect()
+    let key = |k: usize| (tier_stem(&planes[k].0), faces(&planes[k].1));
+    grouped(0..planes.len(), |&a, &b| key(a) == key(b))
 }
 
 fn faces(plane: &Plane) -> TierZone {

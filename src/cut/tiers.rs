@@ -6,6 +6,8 @@
 use super::names;
 use crate::math::Plane;
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 /// The most teeth of a gear, counted either way round.
@@ -17,26 +19,39 @@ const BLOCK: f64 = 17.0 / 15.0;
 /// The largest index and distance. Beyond it planes lose their digits.
 const LARGEST: f64 = 1e9;
 
-/// A cutter's design. Lengths are in the design's own unit; a stone made of it is scaled to its girdle.
-#[derive(Debug, Clone, PartialEq)]
+/// A cutter's design. Lengths are in the design's own unit; a stone made of it is scaled to its girdle. Written by serde it
+/// is the table `[index]` of a cut file, whose tiers are tables of their own.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Tiers {
     /// The teeth of the index gear; below 0 where they are counted the other way round. Not 0.
     pub gear: i32,
     /// The gear's offset, in teeth: the index that lies at -y.
+    #[serde(default)]
     pub offset: f64,
     /// The number of times that the design repeats around its axis, according to its file. All indices are listed all the
     /// same.
+    #[serde(default = "once")]
     pub symmetry: u32,
     /// Whether, according to the file, each repeat is its own mirror image.
+    #[serde(default)]
     pub mirror: bool,
     /// The text at the top of the file, line by line.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub headers: Vec<String>,
     /// The text at the end of the file, line by line.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub footers: Vec<String>,
-    /// Everything else that the file says, such as the date, by key. No key occurs twice.
-    pub remarks: Vec<(String, String)>,
+    /// Everything else that the file says, such as the date, by key.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub remarks: BTreeMap<String, String>,
     /// The tiers, in the order in which they are cut.
+    #[serde(skip)]
     pub tiers: Vec<Tier>,
+}
+
+fn once() -> u32 {
+    1
 }
 
 /// Facets cut at one setting of the machine.
@@ -240,16 +255,7 @@ mod tests {
     fn square(gear: i32, offset: f64) -> Tiers {
         let tiers =
             vec![tier(-90.0, 1.0, &[0.0, 24.0, 48.0, 72.0]), tier(0.0, 0.5, &[0.0]), tier(-0.0, 0.5, &[0.0])];
-        Tiers {
-            gear,
-            offset,
-            symmetry: 4,
-            mirror: true,
-            headers: vec![],
-            footers: vec![],
-            remarks: vec![],
-            tiers,
-        }
+        Tiers { gear, offset, symmetry: 4, mirror: true, tiers, ..Tiers::default() }
     }
 
     #[test]

@@ -109,15 +109,18 @@ impl Reader {
 
     fn line(&mut self, line: &str) {
         let trimmed = line.trim_ascii();
-        let Some(first) = trimmed.split_ascii_whitespace().next() else { return };
+        let (first, _) = word(trimmed);
+        if first.is_empty() {
+            return;
+        }
         let goes_on =
             first.parse::<f64>().is_ok() || (line.starts_with([' ', '\t']) && matches!(first, "n" | "G"));
         if goes_on && (self.in_tier || self.tiers.is_empty()) {
             return self.go_on(trimmed);
         }
         self.end_tier();
-        let rest = trimmed[first.len()..].trim_ascii_start();
-        match first {
+        let (letter, rest) = record_of(trimmed);
+        match letter {
             "H" | "h" => self.headers.push(text_after(line)),
             "F" | "f" => self.footers.push(text_after(line)),
             "g" => self.gear(rest),
@@ -125,7 +128,7 @@ impl Reader {
             "I" | "i" => self.index_of_refraction(rest),
             "a" => self.tier(rest),
             _ if first.get(..6).is_some_and(|word| word.eq_ignore_ascii_case("gemcad")) => {}
-            _ => self.glued(trimmed),
+            _ => self.warn(&format!("'{}' is not a known record and is left out", short(trimmed))),
         }
     }
 
@@ -137,20 +140,6 @@ impl Reader {
             self.gear(line);
         } else {
             self.warn(&format!("'{}' belongs to no tier and is left out", short(line)));
-        }
-    }
-
-    /// Reads a record whose letter has no blank behind it.
-    fn glued(&mut self, line: &str) {
-        let rest = line.get(1..).unwrap_or_default();
-        let is_number =
-            rest.split_ascii_whitespace().next().is_some_and(|token| token.parse::<f64>().is_ok());
-        match line.chars().next() {
-            Some('g') if is_number => self.gear(rest),
-            Some('y') if is_number => self.symmetry(rest),
-            Some('I') if is_number => self.index_of_refraction(rest),
-            Some('a') if is_number => self.tier(rest),
-            _ => self.warn(&format!("'{}' is not a known record and is left out", short(line))),
         }
     }
 
@@ -187,20 +176,15 @@ impl Reader {
     }
 
     fn tier(&mut self, rest: &str) {
-        let mut numbers = rest.split_ascii_whitespace().map(str::parse::<f64>);
-        let (Some(Ok(angle)), Some(Ok(distance))) = (numbers.next(), numbers.next()) else {
+        let (angle, after) = word(rest);
+        let (distance, after) = word(after);
+        let (Ok(angle), Ok(distance)) = (angle.parse::<f64>(), distance.parse::<f64>()) else {
             return self.warn(&format!("'a {}' has no angle and distance, and is left out", short(rest)));
         };
         if !(angle.is_finite() && distance.is_finite()) {
             return self
                 .warn(&format!("'a {}' has an infinite angle or distance, and is left out", short(rest)));
         }
-        let after = rest
-            .trim_ascii_start()
-            .split_once(|c: char| c.is_ascii_whitespace())
-            .map_or("", |(_, after)| after);
-        let after = after.trim_ascii_start();
-        let after = after.split_once(|c: char| c.is_ascii_whitespace()).map_or("", |(_, after)| after);
         self.tiers.push(Tier { angle, distance, instructions: String::new(), is_cut: true, facets: vec![] });
         (self.in_tier, self.name) = (true, None);
         self.facets(after);
@@ -210,13 +194,12 @@ impl Reader {
     fn facets(&mut self, line: &str) {
         let mut rest = line.trim_ascii_start();
         while !rest.is_empty() {
-            let (token, after) = rest.split_once(|c: char| c.is_ascii_whitespace()).unwrap_or((rest, ""));
+            let (token, after) = word(rest);
             rest = after.trim_ascii_start();
             match token {
                 "G" => return self.instructions(after),
                 "n" => {
-                    let (name, after) =
-                        rest.split_once(|c: char| c.is_ascii_whitespace()).unwrap_or((rest, ""));
+                    let (name, after) = word(rest);
                     rest = after.trim_ascii_start();
                     self.named(name);
                 }
@@ -293,6 +276,19 @@ impl Reader {
     }
 }
 
+/// Parts a text into its first word and what follows the blank behind it.
+fn word(text: &str) -> (&str, &str) {
+    let text = text.trim_ascii_start();
+    text.split_once(|c: char| c.is_ascii_whitespace()).unwrap_or((text, ""))
+}
+
+/// Parts a record into its letter and the rest. A number may follow g, y, I and a without a blank.
+fn record_of(line: &str) -> (&str, &str) {
+    let (first, rest) = word(line);
+    let is_glued = first.starts_with(['g', 'y', 'I', 'a']) && first[1..].parse::<f64>().is_ok();
+    if is_glued { line.split_at(1) } else { (first, rest.trim_ascii_start()) }
+}
+
 /// Returns the text behind a record's letter and one blank.
 fn text_after(line: &str) -> String {
     let rest = &line.trim_ascii_start()[1..];
@@ -333,7 +329,7 @@ pub fn write(specimen: &Specimen) -> EncodedDesign {
 /// Returns messages about what of a design's tiers has no place in the format.
 fn left_out(tiers: &Tiers) -> Vec<String> {
     let uncut = tiers.tiers.iter().filter(|tier| !tier.is_cut || tier.facets.is_empty()).count();
-    let keys: Vec<&str> = tiers.remarks.iter().map(|(key, _)| key.as_str()).collect();
+    let keys: Vec<&str> = tiers.remarks.keys().map(String::as_str).collect();
     let mut lost = vec![];
     if uncut > 0 {
         lost.push(format!("{uncut} tiers that cut nothing are left out"));

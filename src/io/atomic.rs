@@ -80,7 +80,7 @@ pub struct WholeFile {
 /// Where the content of a file is kept until the file is finished.
 enum Content {
     /// In a temporary file, which is renamed to the path.
-    Beside(BufWriter<Temporary>, PathBuf),
+    Beside(Temporary, PathBuf),
     /// In a file without a name, which is copied to standard output.
     Standard(BufWriter<SpooledTempFile>),
     /// In a file without a name, which is copied to a pipe or a device.
@@ -102,7 +102,7 @@ impl WholeFile {
         if target.metadata().is_ok_and(|found| !found.is_file() && !found.is_dir()) {
             return Ok(Self { path: own, content: Content::Device(store(), target) });
         }
-        let temporary = BufWriter::with_capacity(1 << 16, Temporary::beside(path, &target)?);
+        let temporary = Temporary::beside(path, &target)?;
         Ok(Self { path: own, content: Content::Beside(temporary, target) })
     }
 
@@ -113,9 +113,7 @@ impl WholeFile {
     pub fn finish(self) -> Result<(), WriteError> {
         let Self { path, content } = self;
         let done = match content {
-            Content::Beside(buffer, target) => {
-                buffer.into_inner().map_err(io::Error::from).and_then(|file| file.persist(&target))
-            }
+            Content::Beside(temporary, target) => temporary.persist(&target),
             Content::Standard(store) => match copied(store, || Ok(io::stdout().lock())) {
                 // The reader of the pipe has gone away and wants no more.
                 Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
@@ -128,7 +126,7 @@ impl WholeFile {
 
     fn sink(&mut self) -> &mut dyn Sink {
         match &mut self.content {
-            Content::Beside(buffer, _) => buffer,
+            Content::Beside(temporary, _) => &mut temporary.buffer,
             Content::Standard(store) | Content::Device(store, _) => store,
         }
     }
@@ -188,7 +186,7 @@ fn destination(path: &Path) -> io::Result<PathBuf> {
 
 /// A temporary file, which is removed with its owner unless it is renamed.
 struct Temporary {
-    file: NamedTempFile,
+    buffer: BufWriter<NamedTempFile>,
     entry: Entry,
 }
 
@@ -198,22 +196,6 @@ struct Entry(PathBuf);
 impl Drop for Entry {
     fn drop(&mut self) {
         under_way().remove(&self.0);
-    }
-}
-
-impl Write for Temporary {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.write(bytes)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.file.flush()
-    }
-}
-
-impl Seek for Temporary {
-    fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
-        self.file.seek(to)
     }
 }
 
@@ -231,12 +213,13 @@ impl Temporary {
         let file = new_file(folder).map_err(|e| WriteError::io(path, e.kind()))?;
         let entry = Entry(file.path().to_path_buf());
         files.insert(entry.0.clone());
-        Ok(Self { file, entry })
+        Ok(Self { buffer: BufWriter::with_capacity(1 << 16, file), entry })
     }
 
     /// Renames the temporary file to `target`.
     fn persist(self, target: &Path) -> io::Result<()> {
-        let Self { file, entry } = self;
+        let Self { buffer, entry } = self;
+        let file = buffer.into_inner()?;
         let files = under_way();
         let renamed = file.persist(target).map(drop).map_err(|e| e.error);
         drop(files);

@@ -42,11 +42,6 @@ impl fmt::Display for BackgroundRef {
 }
 
 impl BackgroundRef {
-    /// Whether this is a picture that hangs at a distance behind the stones: a pattern or a photograph.
-    pub fn is_picture(&self) -> bool {
-        matches!(self, Self::Pattern(_) | Self::Photo(_))
-    }
-
     /// Returns how many times as wide as the picture the background hangs behind it: patterns go on beside the picture.
     pub fn span(&self) -> f64 {
         if matches!(self, Self::Pattern(_)) { PATTERN_SPAN } else { 1.0 }

@@ -115,16 +115,7 @@ impl Gear {
 
     /// Returns a design of this gear without tiers.
     pub fn tiers(self) -> Tiers {
-        Tiers {
-            gear: self.teeth,
-            offset: self.offset,
-            symmetry: 1,
-            mirror: false,
-            headers: vec![],
-            footers: vec![],
-            remarks: vec![],
-            tiers: vec![],
-        }
+        Tiers { gear: self.teeth, offset: self.offset, symmetry: 1, ..Tiers::default() }
     }
 
     /// Returns the setting at which the plane with this unit normal is cut. The sign of `normal.z`, even of zero, separates

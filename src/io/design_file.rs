@@ -18,24 +18,25 @@ mod imported;
 pub use encoded::EncodedDesign;
 pub use imported::ImportedDesign;
 
-/// A format of design files.
+/// A format of design files. The program's help says what is said here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum DesignFormat {
-    /// This program's own cut files, TOML.
+    /// This program's own cut files.
     Toml,
     /// GemCad's text files.
     Asc,
     /// GemCad's binary files.
     Gem,
-    /// Gem Cut Studio's files, XML.
+    /// Gem Cut Studio's files.
     Gcs,
-    /// Wavefront's meshes.
+    /// Wavefront's meshes, facets as polygons.
     Obj,
-    /// STL meshes, binary or text.
+    /// Binary STL meshes.
     Stl,
-    /// Binary PLY.
+    /// PLY meshes.
     Ply,
-    /// Binary glTF.
+    /// Binary glTF meshes.
     Glb,
 }
 
@@ -143,7 +144,7 @@ pub fn written(specimen: &Specimen, format: DesignFormat) -> Result<EncodedDesig
             format.ending()
         )));
     }
-    Ok(match format {
+    let mesh = match format {
         DesignFormat::Toml => {
             let bytes = cut_file::write(&specimen.design).into_bytes();
             if bytes.len() as u64 > cut_file::MAX_MESH_BYTES {
@@ -151,31 +152,21 @@ pub fn written(specimen: &Specimen, format: DesignFormat) -> Result<EncodedDesig
                     &"this mesh is too large for a cut file; write it as .glb, .ply, .stl or .obj",
                 ));
             }
-            EncodedDesign { bytes, lost: vec![] }
+            return Ok(EncodedDesign { bytes, lost: vec![] });
         }
-        DesignFormat::Asc => asc::write(specimen),
-        DesignFormat::Gem => gem::write(specimen),
-        DesignFormat::Gcs => gcs::write(specimen),
-        DesignFormat::Obj => {
-            let text = write_obj(&specimen.body, name, radius_mm, Some(material));
-            as_mesh(specimen, format, text.into_bytes())
-        }
-        DesignFormat::Stl => {
-            let bytes = write_stl(&specimen.body, radius_mm, Some(material)).map_err(|e| refused(&e))?;
-            as_mesh(specimen, format, bytes)
-        }
-        DesignFormat::Ply => {
-            let bytes = write_ply(&specimen.body, radius_mm, Some(material)).map_err(|e| refused(&e))?;
-            as_mesh(specimen, format, bytes)
-        }
+        DesignFormat::Asc => return Ok(asc::write(specimen)),
+        DesignFormat::Gem => return Ok(gem::write(specimen)),
+        DesignFormat::Gcs => return Ok(gcs::write(specimen)),
+        DesignFormat::Obj => write_obj(&specimen.body, name, radius_mm, Some(material)).into_bytes(),
+        DesignFormat::Stl => write_stl(&specimen.body, radius_mm, Some(material)).map_err(|e| refused(&e))?,
+        DesignFormat::Ply => write_ply(&specimen.body, radius_mm, Some(material)).map_err(|e| refused(&e))?,
         DesignFormat::Glb => {
             // The standard's unit is the metre.
             let (scale, hint) = (1e-3 * radius_mm, MaterialHint::of(&specimen.material, 1e3));
-            let bytes =
-                write_glb(&specimen.body, name, scale, (&hint, Some(material))).map_err(|e| refused(&e))?;
-            as_mesh(specimen, format, bytes)
+            write_glb(&specimen.body, name, scale, (&hint, Some(material))).map_err(|e| refused(&e))?
         }
-    })
+    };
+    Ok(as_mesh(specimen, format, mesh))
 }
 
 /// Wraps the bytes of a mesh, with messages about what meshes have no place for.

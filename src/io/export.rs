@@ -35,16 +35,17 @@ const MOST_NAMED: usize = 3;
 const DRAWING: f64 = 0.1;
 const FIGURES: f64 = 1.0;
 
-/// A file format of the outputs.
+/// A file format of the outputs. The program's help says what is said here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum OutputFormat {
-    /// PNG in sRGB: pictures of energy and of strongest exits, and drawings.
+    /// Pictures of energy and of strongest exits, sRGB.
     Png,
-    /// SVG: the virtual facets as polygons, and drawings.
+    /// The virtual facets as polygons.
     Svg,
-    /// OpenEXR: the energy of each zone, 32-bit and linear.
+    /// Energy of each zone, 32-bit and linear.
     Exr,
-    /// JSON: the figures of the view.
+    /// Figures of the view, as `measure --json` prints them.
     Json,
 }
 

@@ -38,7 +38,7 @@ pub fn write_exr(
     let named = layer.channels.iter().zip(channels);
     let list: SmallVec<[AnyChannel<FlatSamples>; 4]> =
         named.map(|(name, values)| AnyChannel::new(name.as_str(), FlatSamples::F32(values))).collect();
-    write_channels(path, size, list, (description, None), None)
+    write_channels(path, size, list, (description, None))
 }
 
 /// Writes an image as of [`image()`] from channels that are held one by one.
@@ -47,9 +47,8 @@ pub(super) fn write_channels(
     size: (usize, usize),
     channels: SmallVec<[AnyChannel<FlatSamples>; 4]>,
     texts: (&str, Option<(&str, &str)>),
-    chromaticities: Option<Chromaticities>,
 ) -> Result<(), WriteError> {
-    write_image(path, &image(size, AnyChannels::sort(channels), texts, chromaticities))
+    write_image(path, &image(size, AnyChannels::sort(channels), texts, None))
 }
 
 /// Makes an image of one layer, `light`, with these channels, a description, and another text under a name of its own.

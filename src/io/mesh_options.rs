@@ -13,15 +13,17 @@ pub struct MeshOptions {
     pub form: MeshForm,
 }
 
-/// What the triangles of a mesh stand for.
+/// What the triangles of a mesh stand for. The program's help says what is said here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum MeshForm {
     /// The shape decides: facets where the mesh means a convex stone, else triangles.
     #[default]
+    #[cfg_attr(feature = "cli", value(skip))]
     Found,
-    /// A convex stone between the planes of its facets.
+    /// The flat facets of a convex stone, which exact beams, scopes and drawings need.
     Faceted,
-    /// The triangles themselves.
+    /// The triangles themselves, which rays trace.
     Triangles,
 }

@@ -15,7 +15,6 @@ use std::path::{Path, PathBuf};
 use toml::de::DeTable;
 
 mod form;
-mod written;
 
 #[cfg(test)]
 mod tests;
@@ -150,8 +149,7 @@ pub fn parse(text: &str, label: &str, folder: Option<&Path>) -> Result<SceneFile
 /// A scene that [`parse`] refuses is written too, but does not read back.
 pub fn write(scene: &SceneFile) -> String {
     // TOML has no form for maps without text keys and for integers beyond 64 bits; a scene has neither.
-    toml::to_string(&written::EncodedScene::of(scene))
-        .expect("a scene's form is text, numbers, lists and tables")
+    toml::to_string(&SceneForm::of(scene)).expect("a scene's form is text, numbers, lists and tables")
 }
 
 /// Returns whether a file is meant as a scene: it has a key that cut files lack. A file that cannot be read is none.

@@ -17,12 +17,17 @@ pub(super) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Fault> {
     if is_standard(path) {
         return within(standard::input().map_err(unreadable)?.to_vec(), limit);
     }
+    within(content(path, limit)?, limit)
+}
+
+/// Reads a file as far as a byte beyond a limit, which shows a reader that there is more.
+pub(super) fn content(path: &Path, limit: u64) -> Result<Vec<u8>, Fault> {
     if path.metadata().map_err(unreadable)?.is_dir() {
         return Err("this is a directory; a file is expected".into());
     }
     let mut bytes = Vec::new();
     File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
-    within(bytes, limit)
+    Ok(bytes)
 }
 
 /// Makes a fault of what the file system says of a file that cannot be read.

@@ -1,5 +1,6 @@
 //! A ball around a solid, which shows quickly that a ray misses the solid.
 
+use super::bounds;
 use glam::DVec3;
 
 /// A ball around a solid.
@@ -14,8 +15,7 @@ pub struct Ball {
 impl Ball {
     /// Returns a ball around points; its middle is that of the box around them.
     pub fn around(points: &[DVec3]) -> Self {
-        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let (low, high) = points.iter().fold(start, |(low, high), &p| (low.min(p), high.max(p)));
+        let (low, high) = bounds(points.iter().copied());
         let middle = (low + high) / 2.0;
         Self { middle, radius: points.iter().map(|p| p.distance(middle)).fold(0.0, f64::max) }
     }

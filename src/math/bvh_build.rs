@@ -123,9 +123,7 @@ fn parted(parts: &mut [Part], level: u32) -> Option<usize> {
         return None;
     }
     let middle = |p: &Part| 0.5 * p.low + 0.5 * p.high;
-    let (low, high) = parts.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
-        (low.min(middle(p)), high.max(middle(p)))
-    });
+    let (low, high) = super::bounds(parts.iter().map(middle));
     // Axes without extent, or too long to divide by, give no slices.
     let scale = (BINS as f64 * (1.0 - 1e-9)) / (high - low);
     let bin = |p: &Part, axis: usize| (((middle(p) - low) * scale)[axis] as usize).min(BINS - 1);

@@ -12,6 +12,7 @@ mod edges;
 mod eigen;
 mod extent;
 pub mod faceting;
+mod grouping;
 mod hull;
 mod implicit;
 pub mod mending;
@@ -37,6 +38,7 @@ pub use decay::integral_of_decay;
 pub use edge::Edge;
 pub(crate) use eigen::{eigen, outer};
 pub use extent::{bounds, span};
+pub use grouping::grouped;
 pub use hull::convex_hull;
 #[cfg(feature = "gpu")]
 pub(crate) use implicit::SurfaceParts;

@@ -1,6 +1,6 @@
 //! A closed convex solid bounded by planes, and its measures. `polytope_build` builds it.
 
-use super::{Plane, Pose, polytope_build};
+use super::{Plane, Pose, bounds, polytope_build};
 use glam::DVec3;
 
 /// One face of a [`Polytope`].
@@ -113,8 +113,7 @@ impl Polytope {
 
     /// Returns the smallest box with sides along the axes that holds the solid, as (least, greatest) coordinates.
     pub fn bounds(&self) -> (DVec3, DVec3) {
-        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        self.vertices.iter().fold(start, |(low, high), &v| (low.min(v), high.max(v)))
+        bounds(self.vertices.iter().copied())
     }
 
     /// Returns the planes of the facets.

@@ -23,7 +23,7 @@ const NONE: u32 = u32::MAX;
 /// Returns [`TriangleMeshError::Open`] where the surface is open.
 pub(super) fn regions(surface: &Surface) -> Result<Vec<u32>, TriangleMeshError> {
     let neighbours = neighbours(&surface.triangles)?;
-    let twice_areas: Vec<DVec3> = surface.triangles.iter().map(|t| twice_area(surface, t)).collect();
+    let twice_areas: Vec<DVec3> = (0..surface.triangles.len()).map(|t| twice_area(surface, t)).collect();
     let size = surface.vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
     // Facets grow from the largest triangles outward, as the planes of these are known best.
     let mut seeds: Vec<u32> = (0..surface.triangles.len() as u32).collect();
@@ -36,16 +36,17 @@ pub(super) fn regions(surface: &Surface) -> Result<Vec<u32>, TriangleMeshError> 
             continue;
         }
         let normal = twice_areas[seed as usize].normalize_or_zero();
-        let plane = Plane { normal, offset: normal.dot(corner(surface, seed, 0)) };
+        let plane = Plane { normal, offset: normal.dot(surface.corners(seed as usize)[0]) };
         facets[seed as usize] = seed;
         edge.push(seed);
         while let Some(k) = edge.pop() {
             for &next in &neighbours[k as usize] {
                 let own = twice_areas[next as usize];
                 let is_turned = own.dot(normal) < NOT_FOLDED * own.length();
-                let is_near = |i| plane.distance(corner(surface, next, i)).abs() <= FLAT * size;
-                let is_sliver = own.length() <= FLAT * size * longest(surface, next);
-                if facets[next as usize] == NONE && (0..3).all(is_near) && (!is_turned || is_sliver) {
+                let is_near = |corner: &DVec3| plane.distance(*corner).abs() <= FLAT * size;
+                let is_flat = surface.corners(next as usize).iter().all(is_near);
+                let is_sliver = own.length() <= FLAT * size * surface.longest_edge(next as usize);
+                if facets[next as usize] == NONE && is_flat && (!is_turned || is_sliver) {
                     facets[next as usize] = seed;
                     edge.push(next);
                 }
@@ -59,9 +60,9 @@ pub(super) fn regions(surface: &Surface) -> Result<Vec<u32>, TriangleMeshError> 
 pub(super) fn planes_of(surface: &Surface, facets: &[u32]) -> Vec<Plane> {
     let count = facets.iter().max().map_or(0, |&last| last as usize + 1);
     let mut sums = vec![(DVec3::ZERO, DVec3::ZERO, 0.0); count];
-    for (t, &facet) in surface.triangles.iter().zip(facets) {
+    for (t, &facet) in facets.iter().enumerate() {
         let (area, sum) = (twice_area(surface, t), &mut sums[facet as usize]);
-        let middle = t.iter().map(|&v| surface.vertices[v as usize]).sum::<DVec3>() / 3.0;
+        let middle = surface.corners(t).iter().sum::<DVec3>() / 3.0;
         sum.0 += area;
         sum.1 += middle * area.length();
         sum.2 += area.length();
@@ -75,18 +76,8 @@ pub(super) fn planes_of(surface: &Surface, facets: &[u32]) -> Vec<Plane> {
     sums.into_iter().map(plane).collect()
 }
 
-fn corner(surface: &Surface, triangle: u32, i: usize) -> DVec3 {
-    surface.vertices[surface.triangles[triangle as usize][i] as usize]
-}
-
-fn twice_area(surface: &Surface, triangle: &[u32; 3]) -> DVec3 {
-    let [a, b, c] = triangle.map(|v| surface.vertices[v as usize]);
-    (b - a).cross(c - a)
-}
-
-fn longest(surface: &Surface, triangle: u32) -> f64 {
-    let [a, b, c] = [0, 1, 2].map(|i| corner(surface, triangle, i));
-    a.distance(b).max(b.distance(c)).max(c.distance(a))
+fn twice_area(surface: &Surface, triangle: usize) -> DVec3 {
+    2.0 * surface.area_vector(triangle)
 }
 
 /// Returns the triangle across each edge of each triangle. Every edge must have as many triangles on one side as on the

@@ -51,12 +51,6 @@ impl SmoothSolid {
         };
         sides.filter_map(edge).collect()
     }
-
-    /// Returns the triangles of a facet, as places of their corners in the surface.
-    pub fn triangles_of(&self, facet: u32) -> impl Iterator<Item = [u32; 3]> + '_ {
-        let all = self.surface.triangles.iter().zip(&self.surface.groups);
-        all.filter(move |(_, group)| **group == facet).map(|(t, _)| *t)
-    }
 }
 
 /// Returns the corners of the triangles, moved outward by as much as the triangles may lie inside the surface.

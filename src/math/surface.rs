@@ -38,6 +38,12 @@ impl Surface {
         (b - a).cross(c - a) / 2.0
     }
 
+    /// Returns the length of a triangle's longest edge.
+    pub(super) fn longest_edge(&self, triangle: usize) -> f64 {
+        let [a, b, c] = self.corners(triangle);
+        a.distance(b).max(b.distance(c)).max(c.distance(a))
+    }
+
     /// Returns the area of all triangles.
     pub fn area(&self) -> f64 {
         (0..self.triangles.len()).map(|t| self.area_vector(t).length()).sum()

@@ -7,7 +7,9 @@ use crate::math::SolidRef;
 use crate::scene::Film;
 use crate::scene::{Medium, Scope, View};
 #[cfg(feature = "gpu")]
-use crate::trace::gpu::{Gpu, GpuError, ScopePixel, ScopeShot};
+use crate::trace::ScopeShot;
+#[cfg(feature = "gpu")]
+use crate::trace::gpu::{Gpu, GpuError, ScopePixel};
 use crate::trace::ray::{Camera, Exit, Loss, RayOptions, StoneTracer};
 use crate::trace::{Stopped, Watch};
 use glam::DVec2;

@@ -1,6 +1,7 @@
 //! The background: what a picture shows where no stone covers it.
 
 use super::NameError;
+use super::drawing::hex;
 use crate::optics::{encoded_from_linear, linear_from_encoded};
 use std::fmt;
 use std::str::FromStr;
@@ -60,10 +61,8 @@ impl FromStr for Background {
 impl fmt::Display for Background {
     /// Writes text that parses back to the same background, each colour rounded to 8 bits.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let code = |colour: &[f32; 3]| {
-            let code = |c: &f32| (encoded_from_linear(f64::from(*c)).clamp(0.0, 1.0) * 255.0).round() as u8;
-            colour.iter().fold("#".to_owned(), |text, c| text + &format!("{:02x}", code(c)))
-        };
+        let byte = |c: f32| (encoded_from_linear(f64::from(c)).clamp(0.0, 1.0) * 255.0).round() as u8;
+        let code = |colour: &[f32; 3]| hex(colour.map(byte));
         match self {
             Self::Transparent => f.write_str("transparent"),
             Self::Plain(colour) => f.write_str(&code(colour)),

@@ -1,39 +1,25 @@
 //! The pictures of [`by_rays`](super::by_rays), traced on a graphics card.
 
 use super::Rows;
-use super::by_rays::ScopeSampling;
-use crate::math::SolidRef;
-use crate::scene::{Film, Glare, Medium, Scope, View};
-use crate::trace::gpu::{Gpu, GpuError, ScopePixel, ScopeShot};
-use crate::trace::{Stopped, Watch};
-use glam::DVec2;
+use crate::scene::Glare;
+use crate::trace::gpu::{Gpu, GpuError, ScopePixel};
+use crate::trace::{ScopeShot, Stopped, Watch};
 
 /// Traces a picture on a graphics card, each pixel by a regular grid of rays. It calls `each` as
 /// [`by_rays::trace`](super::by_rays::trace()) does, with the same channels.
 ///
 /// # Errors
 /// The errors of `each`, [`Stopped`] when `watch` stops the work, and [`GpuError`], the last two converted into `E`.
-#[expect(
-    clippy::too_many_arguments,
-    reason = "a card, a stone, a view, a light, a film and a manner: none derives from another"
-)]
-pub fn trace<'a, E: From<Stopped> + From<GpuError>>(
+pub fn trace<E: From<Stopped> + From<GpuError>>(
     gpu: &Gpu,
-    solid: impl Into<SolidRef<'a>>,
-    medium: Medium,
-    view: &View,
-    scope: &Scope,
-    film: &Film,
-    manner: &ScopeSampling,
+    shot: &ScopeShot,
+    glare: Glare,
     watch: Watch,
     mut each: impl FnMut(&Rows) -> Result<(), E>,
 ) -> Result<(), E> {
-    let ScopeSampling { options, per_side, glare } = *manner;
-    let (film, shift, size) = (*film, DVec2::splat(0.5), film.size[0]);
-    let shot = ScopeShot { solid: solid.into(), medium, view, scope, film, per_side, shift, options };
-    let bands = scope.bands.len();
+    let (size, bands) = (shot.film.size[0], shot.scope.bands.len());
     let share = if glare == Glare::Included { 1.0 } else { 0.0 };
-    gpu.scope(&shot, watch, |first, pixels| {
+    gpu.scope(shot, watch, |first, pixels| {
         let count = pixels.len() as u32 / size;
         let mut rows = Rows::new(first, count, size, 2 * bands + 1);
         for (y, line) in (first..).zip(pixels.chunks(size as usize)) {

@@ -1,23 +1,11 @@
 //! Pictures in a scope by point rays: for perspective views, where beams do not apply, and as a check on beams.
 
 use super::Rows;
-use crate::math::SolidRef;
-use crate::scene::{Film, Glare, Medium, Scope, View};
-use crate::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
-use crate::trace::{Stopped, Watch};
+use crate::scene::Glare;
+use crate::trace::ray::{Camera, Exit, StoneTracer};
+use crate::trace::{ScopeShot, Stopped, Watch};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-
-/// The settings by which a picture is traced.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ScopeSampling {
-    /// How far each ray is followed.
-    pub options: RayOptions,
-    /// Rays along each side of a pixel, at least 1.
-    pub per_side: u32,
-    /// Whether glare is part of the energy that is shown.
-    pub glare: Glare,
-}
 
 /// The number of rows handed on at once.
 const PIECE: u32 = 16;
@@ -25,38 +13,29 @@ const PIECE: u32 = 16;
 /// Traces a picture row by row, each pixel by a regular grid of rays, and calls `each` as [`paint()`](super::paint())
 /// does.
 ///
-/// The channels are the energy of each band of the scope, then the share of each band in the strongest exits, and last
+/// The channels are the energy of each band of the scope, with or without glare, then the share of each band in the strongest exits, and last
 /// the stone's cover.
 ///
 /// # Errors
 /// The errors of `each`, and [`Stopped`], converted into `E`, when `watch` stops the work.
-#[expect(
-    clippy::too_many_arguments,
-    reason = "a stone, a view, a light, a film and a manner: none derives from another"
-)]
-pub fn trace<'a, E: From<Stopped>>(
-    solid: impl Into<SolidRef<'a>>,
-    medium: Medium,
-    view: &View,
-    scope: &Scope,
-    film: &Film,
-    manner: &ScopeSampling,
+pub fn trace<E: From<Stopped>>(
+    shot: &ScopeShot,
+    glare: Glare,
     watch: Watch,
     mut each: impl FnMut(&Rows) -> Result<(), E>,
 ) -> Result<(), E> {
-    let solid = solid.into();
-    let tracer = StoneTracer::new(solid, medium, manner.options);
+    let ScopeShot { solid, medium, view, scope, film, per_side: grid, shift, options } = *shot;
+    let tracer = StoneTracer::new(solid, medium, options);
     let camera = Camera::new(view, solid);
     let zenith = view.zenith();
     let channels = 2 * scope.bands.len() + 1;
-    let grid = manner.per_side;
     let pixel = |x: u32, y: u32| {
         let mut values = vec![0.0; channels];
         for k in 0..grid * grid {
-            let step = DVec2::new(f64::from(k % grid), f64::from(k / grid)) + 0.5;
+            let step = DVec2::new(f64::from(k % grid), f64::from(k / grid)) + shift;
             let at = DVec2::new(f64::from(x), f64::from(y)) + step / f64::from(grid);
             let ray = camera.ray(film.image_from_pixels(at));
-            put_down(&tracer, ray, |exit| scope.band(exit.direction, zenith), manner.glare, &mut values);
+            put_down(&tracer, ray, |exit| scope.band(exit.direction, zenith), glare, &mut values);
         }
         values.iter_mut().for_each(|v| *v /= f64::from(grid * grid));
         values

@@ -1,7 +1,8 @@
 //! Captions of pictures in scopes: what the picture shows, how it was traced, and what each colour means.
 
-use super::drawing::{Ink, Inks, REMARK, TITLE, Type, degrees, hex, printable, shortened, text_width};
+use super::drawing::{Ink, Inks, REMARK, TITLE, Type, degrees, hex, page, printable, shortened, text_width};
 use crate::scene::Scope;
+use glam::DVec2;
 use svg::Document;
 use svg::node::element::{Group, Rectangle, Text};
 
@@ -35,11 +36,7 @@ impl Caption {
     /// Returns the caption alone, as a drawing of this width; its small type is 13 units high.
     pub fn document(&self, width: f64) -> Document {
         let (group, height) = self.drawn(width);
-        Document::new()
-            .set("viewBox", (0, 0, width, height))
-            .set("width", width)
-            .set("height", height)
-            .add(group)
+        page(DVec2::new(width, height)).add(group)
     }
 
     /// Returns a square drawing of this side with the caption under it.

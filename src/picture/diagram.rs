@@ -11,7 +11,7 @@ pub use style::DiagramStyle;
 
 use super::drawing::{Align, DrawnAspect, Ink, REMARK, Sheet, Type, degrees, shortened, text_width};
 use crate::cut::tier_stem;
-use crate::math::{Basis, Facet};
+use crate::math::{Basis, Facet, grouped};
 use crate::scene::Stone;
 use glam::DVec2;
 use svg::Document;
@@ -51,7 +51,7 @@ pub fn diagram(stone: &Stone, title: &str, style: &DiagramStyle) -> Document {
         labels::Labels::new(&view, stone).write(&mut sheet, &shown);
     }
     if !style.is_sheet {
-        return sheet.bare(title, style.margin());
+        return sheet.bare(title, style::SMALL_MARGIN);
     }
     let facets = stone.polytope.facets().len();
     let subtitle = format!(
@@ -88,18 +88,10 @@ impl Tier {
 /// Returns all tiers of a stone, in the order of their first facets.
 fn tiers(stone: &Stone) -> Vec<Tier> {
     let facets = stone.polytope.facets();
-    let mut groups: Vec<Vec<u32>> = vec![];
-    for (id, facet) in facets.iter().enumerate() {
-        let alike = |group: &&mut Vec<u32>| {
-            let first = facets[group[0] as usize].plane;
-            (first.normal.z - facet.plane.normal.z).abs() < SAME_TIER
-                && (first.offset - facet.plane.offset).abs() < SAME_TIER
-        };
-        match groups.iter_mut().find(alike) {
-            Some(group) => group.push(id as u32),
-            None => groups.push(vec![id as u32]),
-        }
-    }
+    let alike = |&a: &u32, &b: &u32| {
+        let [a, b] = [a, b].map(|id| facets[id as usize].plane);
+        (a.normal.z - b.normal.z).abs() < SAME_TIER && (a.offset - b.offset).abs() < SAME_TIER
+    };
     let tier = |(index, group): (usize, Vec<u32>)| {
         let normal = facets[group[0] as usize].plane.normal;
         let radial = normal.truncate();
@@ -111,7 +103,7 @@ fn tiers(stone: &Stone) -> Vec<Tier> {
             facets: group,
         }
     };
-    groups.into_iter().enumerate().map(tier).collect()
+    grouped(0..facets.len() as u32, alike).into_iter().enumerate().map(tier).collect()
 }
 
 /// Returns the azimuth of a direction, from 0 to below 360 degrees. An angle that two decimals would show as 360 is 0.

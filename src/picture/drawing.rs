@@ -8,7 +8,7 @@ mod inks;
 mod lettering;
 
 pub use inks::Inks;
-pub(super) use inks::{Ink, hex};
+pub(super) use inks::{Ink, between, hex};
 pub(super) use lettering::{
     Align, DIMENSION, Frame, REMARK, TITLE, Type, printable, shortened, text_frame, text_width,
 };
@@ -19,8 +19,8 @@ use crate::scene::Stone;
 use glam::{DVec2, DVec3};
 use lettering::MIDDLE_OF_FIGURES;
 use std::fmt::{Display, Write};
-use svg::Document;
 use svg::node::element::{Circle, Group, Path, Polygon, Rectangle, Text, Title};
+use svg::{Document, Node};
 
 /// Width of a drawing, unless it needs more.
 const LEAST_WIDTH: f64 = 1000.0;
@@ -148,63 +148,54 @@ impl Sheet {
                 }
             }
         }
-        self.onto_stone(faces.set("stroke", "none"));
+        self.stone.append(faces.set("stroke", "none"));
         for (lines, class, colour, width) in [
             (girdle, "girdle", Ink::Edge, 0.35),
             (edges, "edges", Ink::Edge, 0.9),
             (outline, "outline", Ink::Main, 1.8),
         ] {
             let lines = segments(&lines).set("class", class).set("stroke", self.inks.of(colour));
-            self.onto_stone(lines.set("stroke-width", width));
+            self.stone.append(lines.set("stroke-width", width));
         }
     }
 
     /// Returns the fill of a facet: slightly shaded where the facet turns away from the eye, so that the drawing shows
     /// relief.
     fn shade(&self, facet: &Facet, aspect: &DrawnAspect) -> String {
-        self.inks.face(facet.plane.normal.dot(aspect.basis.toward).clamp(0.0, 1.0))
+        between(self.inks.faces, facet.plane.normal.dot(aspect.basis.toward).clamp(0.0, 1.0))
     }
 
     /// Draws unobtrusive lines beside the stone, such as those of a scale.
     pub fn quiet_lines(&mut self, lines: &[(DVec2, DVec2)], class: &str, width: f64) {
         lines.iter().for_each(|&(a, b)| [a, b].into_iter().for_each(|p| self.frame.include(p)));
         let lines = segments(lines).set("class", class).set("stroke", self.inks.of(Ink::Edge));
-        self.onto_stone(lines.set("stroke-width", width));
-    }
-
-    fn onto_stone(&mut self, element: impl Into<Box<dyn svg::Node>>) {
-        self.stone = std::mem::take(&mut self.stone).add(element);
+        self.stone.append(lines.set("stroke-width", width));
     }
 
     /// Draws an extension line, which leads from a dimension to what it measures.
     pub fn extension(&mut self, a: DVec2, b: DVec2) {
         [a, b].into_iter().for_each(|p| self.frame.include(p));
-        self.extensions = std::mem::take(&mut self.extensions).add(segments(&[(a, b)]));
+        self.extensions.append(segments(&[(a, b)]));
     }
 
     /// Draws a line of the same weight as dimension lines.
     pub fn stroke(&mut self, a: DVec2, b: DVec2) {
         [a, b].into_iter().for_each(|p| self.frame.include(p));
-        self.onto_dimensions(segments(&[(a, b)]));
-    }
-
-    fn onto_dimensions(&mut self, element: impl Into<Box<dyn svg::Node>>) {
-        self.dimensions = std::mem::take(&mut self.dimensions).add(element);
+        self.dimensions.append(segments(&[(a, b)]));
     }
 
     /// Draws an arrow head whose tip lies at `tip`, pointing along the unit vector `toward`.
     pub fn arrow_head(&mut self, tip: DVec2, toward: DVec2) {
         let (back, side) = (tip - toward * ARROW.x, toward.perp() * ARROW.y);
         let data = format!("M{}L{}L{}Z", point(tip), point(back + side), point(back - side));
-        self.onto_dimensions(
-            Path::new().set("d", data).set("fill", self.inks.of(Ink::Accent)).set("stroke", "none"),
-        );
+        self.dimensions
+            .append(Path::new().set("d", data).set("fill", self.inks.of(Ink::Accent)).set("stroke", "none"));
     }
 
     /// Draws a small disc, for where a leader ends on a facet or two short dimensions meet.
     pub fn dot(&mut self, at: DVec2) {
         let disc = Circle::new().set("cx", coordinate(at.x)).set("cy", coordinate(at.y)).set("r", 2);
-        self.onto_dimensions(disc.set("fill", self.inks.of(Ink::Accent)).set("stroke", "none"));
+        self.dimensions.append(disc.set("fill", self.inks.of(Ink::Accent)).set("stroke", "none"));
     }
 
     /// Draws a dimension line between two points. Returns whether there is room for its arrows between them; without it
@@ -214,7 +205,7 @@ impl Sheet {
         let inside = (b - a).length() >= ROOM_FOR_ARROWS;
         // A halo breaks the lines underneath, so that this line reads as lying on top.
         let halo = segments(&[(a + along * 3.0, b - along * 3.0)]).set("stroke", self.inks.of(Ink::Paper));
-        self.onto_dimensions(halo.set("stroke-width", 5));
+        self.dimensions.append(halo.set("stroke-width", 5));
         let outward = if inside { 1.0 } else { -1.0 };
         self.stroke(a, b);
         for (tip, toward) in [(a, -along * outward), (b, along * outward)] {
@@ -234,7 +225,7 @@ impl Sheet {
             .set("y", coordinate(low.y))
             .set("width", coordinate(size.x))
             .set("height", coordinate(size.y));
-        self.onto_dimensions(blank.set("fill", self.inks.of(Ink::Paper)).set("stroke", "none"));
+        self.dimensions.append(blank.set("fill", self.inks.of(Ink::Paper)).set("stroke", "none"));
     }
 
     /// Draws an arc of dimension weight about `centre`, the short way from `from` to `to`, both at its radius. The arc
@@ -244,7 +235,7 @@ impl Sheet {
         let turn = (from - centre).perp_dot(to - centre).signum();
         let sweep = i32::from(turn > 0.0);
         let data = format!("M{0}A{1},{1} 0 0 {2} {3}", point(from), coordinate(radius), sweep, point(to));
-        self.onto_dimensions(Path::new().set("d", data));
+        self.dimensions.append(Path::new().set("d", data));
         if (to - from).length() >= ROOM_FOR_ARROWS {
             // An arrow head is a chord of the arc, so it is turned off the tangent by half the angle that it spans.
             for (end, sense) in [(from, -turn), (to, turn)] {
@@ -299,7 +290,7 @@ impl Sheet {
             .set("font-size", kind.size)
             .set("fill", self.inks.of(kind.colour))
             .set("text-anchor", anchor);
-        self.texts = std::mem::take(&mut self.texts).add(finish(text));
+        self.texts.append(finish(text));
         frame
     }
 
@@ -333,14 +324,16 @@ impl Sheet {
         let paper = self.inks.of(Ink::Paper);
         let all = [self.stone, self.extensions, self.dimensions, self.texts];
         let content = all.into_iter().fold(Group::new(), Group::add);
-        Document::new()
-            .set("viewBox", (0, 0, size.x, size.y))
-            .set("width", size.x)
-            .set("height", size.y)
+        page(size)
             .add(Title::new(printable(title)))
             .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", paper))
             .add(content.set("transform", format!("translate({} {})", shift.x, shift.y)))
     }
+}
+
+/// Returns an empty drawing of this size.
+pub(super) fn page(size: DVec2) -> Document {
+    Document::new().set("viewBox", (0, 0, size.x, size.y)).set("width", size.x).set("height", size.y)
 }
 
 fn face(name: &str, corners: &[DVec2], fill: String) -> Polygon {

@@ -1,6 +1,6 @@
 //! The program's icon: a stone from above, each facet as bright as it is turned to a light.
 
-use super::drawing::{DrawnAspect, hex};
+use super::drawing::{DrawnAspect, between, hex, page};
 use crate::math::{Basis, Facet};
 use crate::scene::Stone;
 use glam::{DVec2, DVec3};
@@ -36,7 +36,7 @@ pub fn icon(stone: &Stone) -> Document {
     let group =
         Group::new().set("stroke", line).set("stroke-width", LINE_WIDTH).set("stroke-linejoin", "round");
     let group = seen.fold(group, |group, facet| group.add(face(stone, facet, &aspect)));
-    Document::new().set("viewBox", (0, 0, SIDE, SIDE)).set("width", SIDE).set("height", SIDE).add(group)
+    page(DVec2::splat(SIDE)).add(group)
 }
 
 fn face(stone: &Stone, facet: &Facet, aspect: &DrawnAspect) -> Polygon {
@@ -45,9 +45,5 @@ fn face(stone: &Stone, facet: &Facet, aspect: &DrawnAspect) -> Polygon {
     let lit = facet.plane.normal.dot(LIGHT) / LIGHT.length();
     // The table, square to the eye, gets the middle shade.
     let part = (0.5 + CONTRAST * (lit - LIGHT.z / LIGHT.length())).clamp(0.0, 1.0);
-    let mixed = |k: usize| {
-        let [dark, bright] = SHADES.map(|shade| f64::from(shade[k]));
-        (dark + (bright - dark) * part).round() as u8
-    };
-    Polygon::new().set("points", points).set("fill", hex([mixed(0), mixed(1), mixed(2)]))
+    Polygon::new().set("points", points).set("fill", between(SHADES, part))
 }

@@ -15,26 +15,12 @@ pub struct Remainder {
     pub absorbed: f64,
 }
 
-/// Takes a picture with `samples` sample passes in these strata of wavelength. `prepare` builds the tracer for a range
+/// Takes a picture with sample passes as `looks` describes them, in these strata of wavelength. `prepare` builds the tracer for a range
 /// of rows, which never has more than `most_rows`.
 ///
 /// # Errors
 /// The errors of `prepare` and of the tracer that it builds, and [`Stopped`] when `watch` stops the work.
 pub fn expose<E: From<Stopped>, X: ProgressiveImage<E>>(
-    lit_scene: &LitScene,
-    (strata, samples): (&[Stratum], u32),
-    most_rows: u32,
-    prepare: impl Fn(Range<u32>) -> Result<X, E>,
-    watch: Watch,
-) -> Result<(Linear, Remainder), E> {
-    expose_in(lit_scene, (strata, Sampling::of(samples)), most_rows, prepare, watch)
-}
-
-/// Takes a picture as [`expose`] does, with sample passes as `looks` describes them.
-///
-/// # Errors
-/// The errors of [`expose`].
-pub fn expose_in<E: From<Stopped>, X: ProgressiveImage<E>>(
     lit_scene: &LitScene,
     (strata, looks): (&[Stratum], Sampling),
     most_rows: u32,

@@ -1,12 +1,13 @@
 //! Pictures as drawings: the virtual facets themselves, as polygons of an SVG.
 
+use super::drawing::{hex, page};
 use crate::math::{Basis, Plane};
 use crate::optics::{LinearRgb, encoded_from_linear};
 use crate::scene::{Film, Glare, Scope, Stone, elevation_deg};
 use crate::trace::beam::Beams;
 use glam::{DMat2, DVec2, DVec3};
-use svg::Document;
 use svg::node::element::{Description, Group, Polygon, Rectangle, Title};
+use svg::{Document, Node};
 
 /// Side of the drawing, in its own units; coordinates have four decimals.
 pub const SIDE: u32 = 1000;
@@ -24,7 +25,7 @@ pub fn strongest(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Do
     for cell in &cells {
         let Some(exit) = cell.strongest.map(|id| beams.get(id)) else {
             let polygons = page.polygons(beams.get(cell.outline).outline);
-            dark = polygons.into_iter().fold(dark, |group, (_, polygon)| group.add(polygon));
+            polygons.into_iter().for_each(|(_, polygon)| dark.append(polygon));
             continue;
         };
         let band = scope.band(exit.exit, beams.zenith);
@@ -35,7 +36,7 @@ pub fn strongest(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Do
                 .set("data-path", page.names(&met, copy))
                 .set("data-elevation", format!("{elevation:.3}"))
                 .set("data-weight", format!("{:.4}", exit.weight));
-            groups[band] = std::mem::take(&mut groups[band]).add(polygon);
+            groups[band].append(polygon);
         }
     }
     groups.push(dark);
@@ -62,9 +63,8 @@ pub fn energy(stone: &Stone, beams: &Beams, (scope, glare): (&Scope, Glare), tit
         let met = beams.facets(id);
         for (copy, polygon) in page.polygons(beams.get(id).outline) {
             let path = page.names(&met, copy);
-            group = group.add(
-                polygon.set("data-path", path).set("fill", colour.as_str()).set("stroke", colour.as_str()),
-            );
+            let colour = colour.as_str();
+            group.append(polygon.set("data-path", path).set("fill", colour).set("stroke", colour));
         }
     }
     let open = format!("unresolved light {:.2e} of the whole", beams.unresolved());
@@ -77,10 +77,6 @@ const SEAM: f64 = 0.8;
 
 fn band_group(name: &str, colour: &str) -> Group {
     Group::new().set("class", name).set("fill", colour).set("stroke", colour).set("stroke-width", SEAM)
-}
-
-fn hex([r, g, b]: [u8; 3]) -> String {
-    format!("#{r:02x}{g:02x}{b:02x}")
 }
 
 /// A drawing's frame, and the copies of the symmetry that make up the whole drawing.
@@ -124,10 +120,7 @@ impl<'a> Page<'a> {
         let polarised = if beams.polarised { "polarised" } else { "unpolarised" };
         let told =
             format!("Virtual facets of exact beams, {polarised}, index {}; {open}", beams.medium.index,);
-        let frame = Document::new()
-            .set("viewBox", (0, 0, SIDE, SIDE))
-            .set("width", SIDE)
-            .set("height", SIDE)
+        let frame = page(DVec2::splat(f64::from(SIDE)))
             .add(Title::new(title))
             .add(Description::new().add(svg::node::Text::new(told)))
             .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", backing));

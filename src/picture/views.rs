@@ -44,38 +44,39 @@ impl Scoped {
 /// these are taken from one implementation and show the patterns well.
 const VIEWER_CONES: (f64, f64) = (5.3, 16.3);
 
+/// A picture's name, and what makes the picture of its name.
+type NamedPicture = (&'static str, fn(&str) -> Picture);
+
+/// All pictures by name, in the order in which they are drawn.
+const PICTURES: [NamedPicture; 9] = [
+    ("aset", |_| Picture::Scoped(Scoped::aset())),
+    ("aset-white", |_| scoped(Scope::aset(ASET_CONE, Backing::White), None, true)),
+    ("aset-40", |_| scoped(Scope::aset(40.0, Backing::Black), None, true)),
+    ("aset-40-white", |_| scoped(Scope::aset(40.0, Backing::White), None, true)),
+    ("ideal-scope", |_| scoped(Scope::ideal_scope(IDEAL_SCOPE_HOLE), None, false)),
+    ("hearts", |name| scoped(viewer(name, [226, 0, 40]), Some(Side::Culet), false)),
+    ("arrows", |name| scoped(viewer(name, [0, 72, 186]), Some(Side::Table), false)),
+    ("profile", |_| Picture::Profile),
+    ("diagram", |_| Picture::Diagram),
+];
+
+fn scoped(scope: Scope, side: Option<Side>, takes_head: bool) -> Picture {
+    Picture::Scoped(Scoped { scope, side, takes_head })
+}
+
+fn viewer(name: &str, colour: [u8; 3]) -> Scope {
+    let (camera, ring) = VIEWER_CONES;
+    Scope::hearts_and_arrows(name, camera, ring, colour)
+}
+
 /// Returns all names, in the order in which the pictures are drawn.
 pub fn names() -> [&'static str; 9] {
-    [
-        "aset",
-        "aset-white",
-        "aset-40",
-        "aset-40-white",
-        "ideal-scope",
-        "hearts",
-        "arrows",
-        "profile",
-        "diagram",
-    ]
+    PICTURES.map(|(name, _)| name)
 }
 
 /// Returns the picture of this name; `None` if no picture has it.
 pub fn named(name: &str) -> Option<Picture> {
-    let scoped = |scope, side, takes_head| Some(Picture::Scoped(Scoped { scope, side, takes_head }));
-    let (camera, ring) = VIEWER_CONES;
-    let viewer = |colour| Scope::hearts_and_arrows(name, camera, ring, colour);
-    match name {
-        "aset" => Some(Picture::Scoped(Scoped::aset())),
-        "aset-white" => scoped(Scope::aset(ASET_CONE, Backing::White), None, true),
-        "aset-40" => scoped(Scope::aset(40.0, Backing::Black), None, true),
-        "aset-40-white" => scoped(Scope::aset(40.0, Backing::White), None, true),
-        "ideal-scope" => scoped(Scope::ideal_scope(IDEAL_SCOPE_HOLE), None, false),
-        "hearts" => scoped(viewer([226, 0, 40]), Some(Side::Culet), false),
-        "arrows" => scoped(viewer([0, 72, 186]), Some(Side::Table), false),
-        "profile" => Some(Picture::Profile),
-        "diagram" => Some(Picture::Diagram),
-        _ => None,
-    }
+    PICTURES.iter().find(|(known, _)| *known == name).map(|(name, picture)| picture(name))
 }
 
 #[cfg(test)]

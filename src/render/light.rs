@@ -5,7 +5,7 @@ use super::job::{Job, LightProduct, Steps};
 use super::plan::Unfit;
 use super::renderer::{EachPart, Halt, Output, Partial, RenderError};
 use crate::optics::Stratum;
-use crate::picture::spectral::{Remainder, expose_in, seen};
+use crate::picture::spectral::{Remainder, expose, seen};
 use crate::picture::{ByBeams, Linear};
 use crate::trace::Watch;
 #[cfg(feature = "gpu")]
@@ -60,17 +60,17 @@ impl Exposure<'_> {
         let sampled = (&*self.strata, self.sampling);
         match backend {
             Backend::Beams => {
-                expose_in(lit_scene, sampled, ByBeams::most_rows(width), |rows| self.beams(rows), self.watch)
+                expose(lit_scene, sampled, ByBeams::most_rows(width), |rows| self.beams(rows), self.watch)
             }
             Backend::Rays => {
                 let prepare = |rows| Ok(ByRays::new(*lit_scene, rows));
-                expose_in(lit_scene, sampled, ROWS_OF_RAYS, prepare, self.watch)
+                expose(lit_scene, sampled, ROWS_OF_RAYS, prepare, self.watch)
             }
             #[cfg(feature = "gpu")]
             Backend::Card(gpu) => {
                 let environment = GpuEnvironment::new(gpu, &lit_scene.environment);
                 let prepare = |rows| Ok(ByCard::new(gpu, lit_scene, &environment, rows, self.strata.len())?);
-                expose_in(lit_scene, sampled, ByCard::most_rows(width), prepare, self.watch)
+                expose(lit_scene, sampled, ByCard::most_rows(width), prepare, self.watch)
             }
         }
     }

@@ -7,17 +7,22 @@ use crate::scene::{Projection, View};
 use crate::trace::ray::Camera;
 use serde::{Deserialize, Serialize};
 
-/// The tracer that a person or a program wants.
+/// The tracer that a person or a program wants. The program's help says what is said here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Wanted {
-    /// The quickest that fits.
+    /// The quickest: exact beams, or for renders a graphics card where there is one; rays where beams do not apply.
     #[default]
+    #[cfg_attr(feature = "cli", value(name = "auto"))]
     Quickest,
-    /// Exact beams.
+    /// Exact beams, in f64, for parallel rays.
+    #[cfg_attr(feature = "cli", value(name = "beam"))]
     Beams,
-    /// Point rays on the processor.
+    /// Point rays on the processor, in f64.
+    #[cfg_attr(feature = "cli", value(name = "ray"))]
     Rays,
-    /// Point rays on a graphics card.
+    /// Point rays on a graphics card, in f32.
+    #[cfg_attr(feature = "cli", value(name = "gpu"))]
     Card,
 }
 

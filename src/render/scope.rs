@@ -6,10 +6,10 @@ use super::plan::Unfit;
 use super::renderer::{EachPart, Halt, Output, Partial, RenderError, Renderer};
 use crate::math::{Polytope, SolidRef};
 use crate::measure::{self, measured};
-use crate::picture::by_rays::{self, ScopeSampling};
-use crate::picture::{Layer, Rows, paint};
+use crate::picture::{Layer, Rows, by_rays, paint};
 use crate::scene::Body;
-use crate::trace::Watch;
+use crate::trace::{ScopeShot, Watch};
+use glam::DVec2;
 use std::sync::Arc;
 
 impl Renderer {
@@ -18,7 +18,7 @@ impl Renderer {
         &mut self,
         job: &Job,
         product: &ScopeProduct,
-        (backend, samples): (&Backend, u32),
+        (backend, per_side): (&Backend, u32),
         watch: Watch,
         each: EachPart<E>,
     ) -> Result<Output, Halt<E>> {
@@ -30,21 +30,19 @@ impl Renderer {
             each(Partial::Begun { reading, backend, unresolved: None }).map_err(Halt::Each)?;
         }
         let solid = job.stone().map_err(RenderError::from)?;
-        let sampling = ScopeSampling { options: job.quality.rays, per_side: samples, glare: *glare };
+        let (medium, film, options) = (*medium, job.film, job.quality.rays);
+        let (view, shift) = (&job.view, DVec2::splat(0.5));
+        let shot = ScopeShot { solid, medium, view, scope, film, per_side, shift, options };
         let hand_out = |rows: &Rows| {
             readings.iter().try_for_each(|&reading| {
                 let first_channel = if reading == Reading::Strongest { scope.bands.len() } else { 0 };
                 each(Partial::Rows { reading, rows, first_channel }).map_err(Halt::Each)
             })
         };
-        let (view, film) = (&job.view, &job.film);
         match backend {
             #[cfg(feature = "gpu")]
-            Backend::Card(gpu) => {
-                let (by_gpu, gpu) = (crate::picture::by_gpu::trace, &**gpu);
-                by_gpu(gpu, solid, *medium, view, scope, film, &sampling, watch, hand_out)?;
-            }
-            _ => by_rays::trace(solid, *medium, view, scope, film, &sampling, watch, hand_out)?,
+            Backend::Card(gpu) => crate::picture::by_gpu::trace(gpu, &shot, *glare, watch, hand_out)?,
+            _ => by_rays::trace(&shot, *glare, watch, hand_out)?,
         }
         Ok(Output::Scope(None))
     }

@@ -7,7 +7,9 @@ pub mod environment;
 pub mod gpu;
 pub mod ray;
 pub mod sampling;
+mod scope_shot;
 
+pub use scope_shot::ScopeShot;
 use std::ops::ControlFlow;
 
 /// A callback of long work: it is called now and then with the part done, 0 to 1, and stops the work by answering `Break`.

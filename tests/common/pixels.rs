@@ -4,9 +4,9 @@
 use super::aset;
 use brillianteer::math::SolidRef;
 use brillianteer::scene::{Film, Medium, Projection, Scope, Side, View};
-use brillianteer::trace::gpu::{Gpu, GpuError, ScopePixel, ScopeShot};
+use brillianteer::trace::gpu::{Gpu, GpuError, ScopePixel};
 use brillianteer::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
-use brillianteer::trace::{Stopped, unwatched};
+use brillianteer::trace::{ScopeShot, Stopped, unwatched};
 use glam::{DVec2, DVec3};
 
 pub const SIZE: u32 = 96;

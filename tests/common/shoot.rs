@@ -3,7 +3,7 @@
 
 use brillianteer::math::Polytope;
 use brillianteer::optics::{material, strata};
-use brillianteer::picture::spectral::{Remainder, expose_in, seen};
+use brillianteer::picture::spectral::{Remainder, expose, seen};
 use brillianteer::picture::{ByBeams, Linear};
 use brillianteer::scene::{Body, Film, Instance, Light, Panorama, Scene, View};
 use brillianteer::trace::beam;
@@ -93,7 +93,7 @@ impl Shoot {
         let strata = strata(self.wavelengths, &self.light.spectrum, true);
         self.with(|lit_scene| {
             let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
-            expose_in(lit_scene, (&strata, self.looks()), self.size, prepare, &unwatched).unwrap()
+            expose(lit_scene, (&strata, self.looks()), self.size, prepare, &unwatched).unwrap()
         })
     }
 
@@ -107,7 +107,7 @@ impl Shoot {
         let options = beam::BeamOptions { unresolved: 1e-3, ..beam::BeamOptions::default() };
         self.with(|lit_scene| {
             let prepare = |rows| Ok::<_, Stopped>(ByBeams::of_rows(*lit_scene, options, rows).unwrap());
-            expose_in(lit_scene, (&strata, self.looks()), rows, prepare, &unwatched).unwrap()
+            expose(lit_scene, (&strata, self.looks()), rows, prepare, &unwatched).unwrap()
         })
     }
 
@@ -129,7 +129,7 @@ impl Shoot {
             let around = GpuEnvironment::new(gpu, &lit_scene.environment);
             let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, lit_scene, &around, rows, strata.len())?);
             // The picture is traced in strips, as large pictures are.
-            expose_in(lit_scene, (&strata, self.looks()), 40, prepare, &unwatched).unwrap()
+            expose(lit_scene, (&strata, self.looks()), 40, prepare, &unwatched).unwrap()
         })
     }
 }

@@ -5,12 +5,11 @@ use brillianteer::math::{ImplicitForm, ImplicitSurface, Plane, Polytope, Pose, S
 use brillianteer::measure;
 use brillianteer::optics::{Dispersion, Material, material};
 use brillianteer::picture::by_rays;
-use brillianteer::picture::by_rays::ScopeSampling;
 use brillianteer::scene::{
     ASET_CONE, Backing, Body, Film, Glare, Instance, Medium, Projection, Scene, Scope, Specimen, View,
 };
 use brillianteer::trace::ray::{Camera, Exit, InstanceTracer, RayOptions, StoneTracer};
-use brillianteer::trace::unwatched;
+use brillianteer::trace::{ScopeShot, unwatched};
 use glam::{DQuat, DVec2, DVec3};
 use std::sync::Arc;
 
@@ -193,21 +192,14 @@ fn a_prism_is_the_same_between_planes_and_as_a_distance() {
             let film = Film::square(48, 1.3);
             let rows = |solid: SolidRef| {
                 let mut pixels = vec![];
-                by_rays::trace::<brillianteer::trace::Stopped>(
-                    solid,
-                    medium,
-                    &view,
-                    &scope,
-                    &film,
-                    &ScopeSampling { options, per_side: 1, glare: Glare::Included },
-                    &unwatched,
-                    |rows| {
-                        (rows.first..rows.first + rows.count).for_each(|y| {
-                            (0..scope.bands.len()).for_each(|c| pixels.extend_from_slice(rows.row(y, c)))
-                        });
-                        Ok(())
-                    },
-                )
+                let (view, scope, shift) = (&view, &scope, DVec2::splat(0.5));
+                let shot = ScopeShot { solid, medium, view, scope, film, per_side: 1, shift, options };
+                by_rays::trace::<brillianteer::trace::Stopped>(&shot, Glare::Included, &unwatched, |rows| {
+                    (rows.first..rows.first + rows.count).for_each(|y| {
+                        (0..scope.bands.len()).for_each(|c| pixels.extend_from_slice(rows.row(y, c)))
+                    });
+                    Ok(())
+                })
                 .unwrap();
                 pixels
             };

@@ -5,7 +5,7 @@ use brillianteer::io::background::BackgroundRef;
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::optics::{Dispersion, Illuminant, Material, strata};
 use brillianteer::picture::LUMINANCE;
-use brillianteer::picture::spectral::expose_in;
+use brillianteer::picture::spectral::expose;
 use brillianteer::scene::{Film, Instance, Light, Panorama, Scene, View};
 use brillianteer::trace::environment::{Backplate, Environment, EnvironmentMap};
 use brillianteer::trace::ray::{ByRays, RayOptions};
@@ -58,7 +58,7 @@ fn shot(setting: &Scene, slit: &Panorama, wavelengths: u32, looks: Sampling) -> 
     let lit_scene = LitScene { scene: setting, environment, view: &view, film, options };
     let strata = strata(wavelengths, &Illuminant::D65, true);
     let prepare = |rows| Ok::<_, Stopped>(ByRays::new(lit_scene, rows));
-    let (picture, _) = expose_in(&lit_scene, (&strata, looks), PIXELS, prepare, &unwatched).unwrap();
+    let (picture, _) = expose(&lit_scene, (&strata, looks), PIXELS, prepare, &unwatched).unwrap();
     picture.pixels.iter().map(|p| DVec3::new(p[0].into(), p[1].into(), p[2].into())).collect()
 }
 

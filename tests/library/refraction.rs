@@ -8,7 +8,7 @@ use brillianteer::picture::{Backdrop, Carried, Linear, RefractionMap, Survey, re
 use brillianteer::scene::{Film, Instance, Lean, Light, Panorama, Projection, Scene, View};
 use brillianteer::trace::environment::{Backplate, Environment, EnvironmentMap};
 use brillianteer::trace::ray::{self, ByRays};
-use brillianteer::trace::sampling::LitScene;
+use brillianteer::trace::sampling::{LitScene, Sampling};
 use brillianteer::trace::{Stopped, unwatched};
 use files::Coding;
 use glam::{DVec2, DVec3};
@@ -122,7 +122,7 @@ impl Shoot {
         let bands = strata(self.bands, &Illuminant::D65, true);
         let prepare = |lit_scene: &LitScene<'_>| {
             let rows = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
-            spectral::expose(lit_scene, (&bands, 1), self.size[1], rows, &unwatched).unwrap().0
+            spectral::expose(lit_scene, (&bands, Sampling::of(1)), self.size[1], rows, &unwatched).unwrap().0
         };
         self.sit(Some(photo), prepare)
     }

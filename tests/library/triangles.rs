@@ -6,14 +6,13 @@ use crate::common::*;
 use brillianteer::math::{Pose, SolidRef, Surface, TriangleMesh};
 use brillianteer::measure;
 use brillianteer::optics::{Material, material, strata};
-use brillianteer::picture::by_rays::ScopeSampling;
 use brillianteer::picture::spectral::{Remainder, expose};
 use brillianteer::picture::{ByBeams, Linear, Rows, by_rays};
 use brillianteer::scene::{Body, Film, Glare, Instance, Light, Medium, Scene, View, light};
 use brillianteer::trace::environment::{Environment, EnvironmentMap};
 use brillianteer::trace::ray::{ByRays, Camera, RayOptions, facet_at};
-use brillianteer::trace::sampling::LitScene;
-use brillianteer::trace::{Stopped, beam, unwatched};
+use brillianteer::trace::sampling::{LitScene, Sampling};
+use brillianteer::trace::{ScopeShot, Stopped, beam, unwatched};
 use glam::{DQuat, DVec2, DVec3};
 use std::sync::Arc;
 
@@ -51,7 +50,7 @@ fn by_rays_of(stones: Vec<Instance>, light: &Light) -> (Linear, Remainder) {
     taken(stones, light, |lit_scene| {
         let strata = strata(2, &light.spectrum, true);
         let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
-        expose(lit_scene, (&strata, 1), SIZE, prepare, &unwatched).unwrap()
+        expose(lit_scene, (&strata, Sampling::of(1)), SIZE, prepare, &unwatched).unwrap()
     })
 }
 
@@ -77,14 +76,15 @@ fn a_brilliant_of_triangles_has_the_figures_and_pictures_of_its_planes() {
     assert!((triangles.sum() - 1.0).abs() < 1e-9);
     assert!((planes.silhouette_area / triangles.silhouette_area - 1.0).abs() < 0.02);
     let film = Film::reaching(Camera::new(&view, &shell).reach(&shell).unwrap(), SIZE);
-    let manner = ScopeSampling { options: options(), per_side: 1, glare: Glare::Included };
+    let (view, scope, shift, options) = (&view, &scope, DVec2::splat(0.5), options());
     let rows = |solid: SolidRef| {
         let mut all: Vec<Rows> = vec![];
         let each = |rows: &Rows| -> Result<(), Stopped> {
             all.push(rows.clone());
             Ok(())
         };
-        by_rays::trace(solid, medium, &view, &scope, &film, &manner, &unwatched, each).unwrap();
+        let shot = ScopeShot { solid, medium, view, scope, film, per_side: 1, shift, options };
+        by_rays::trace(&shot, Glare::Included, &unwatched, each).unwrap();
         let channels = 2 * scope.bands.len() + 1;
         let row = |r: &Rows, y: u32| (0..channels).flat_map(|c| r.row(y, c).to_vec()).collect::<Vec<_>>();
         all.iter()
@@ -188,7 +188,7 @@ mod by_card {
             let strata = strata(2, &light.spectrum, true);
             let around = GpuEnvironment::new(gpu, &lit_scene.environment);
             let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, lit_scene, &around, rows, strata.len())?);
-            expose(lit_scene, (&strata, 1), SIZE, prepare, &unwatched).unwrap()
+            expose(lit_scene, (&strata, Sampling::of(1)), SIZE, prepare, &unwatched).unwrap()
         })
     }
 

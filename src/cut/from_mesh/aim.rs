@@ -5,7 +5,7 @@ use super::cues::Cues;
 use super::error::FromMeshError;
 use super::even::{self, FacetParts, Match};
 use super::up::Up;
-use crate::math::{Plane, Polytope, Pose, eigen, outer};
+use crate::math::{Plane, Polytope, Pose, eigen, grouped, outer};
 use glam::{DMat3, DQuat, DVec3};
 use std::cmp::Ordering;
 
@@ -229,7 +229,7 @@ pub fn directions(solid: &Polytope) -> Vec<DVec3> {
 fn parallels(solid: &Polytope) -> Vec<DVec3> {
     let vertices = solid.vertices();
     let size = vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
-    let mut groups: Vec<(DVec3, usize)> = vec![];
+    let mut lines: Vec<DVec3> = vec![];
     for (place, facet) in solid.facets().iter().enumerate().take(MOST_EDGES) {
         for (k, &other) in facet.neighbours.iter().enumerate().filter(|(_, other)| **other as usize > place) {
             let [a, b] = [k, (k + 1) % facet.outline.len()].map(|at| vertices[facet.outline[at] as usize]);
@@ -237,14 +237,13 @@ fn parallels(solid: &Polytope) -> Vec<DVec3> {
             // near to one another.
             let line = facet.plane.normal.cross(solid.facets()[other as usize].plane.normal);
             let Some(line) = line.try_normalize().filter(|_| a.distance(b) > 1e-4 * size) else { continue };
-            match groups.iter_mut().find(|(of, _)| of.cross(line).length() < ONE) {
-                Some((_, count)) => *count += 1,
-                None => groups.push((line, 1)),
-            }
+            lines.push(line);
         }
     }
-    groups.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
-    groups.into_iter().filter(|(_, count)| *count >= LEAST_PARALLEL).take(12).map(|(line, _)| line).collect()
+    let mut groups = grouped(lines, |of, line| of.cross(*line).length() < ONE);
+    groups.sort_by_key(|group| std::cmp::Reverse(group.len()));
+    groups.retain(|group| group.len() >= LEAST_PARALLEL);
+    groups.iter().take(12).map(|group| group[0]).collect()
 }
 
 /// Returns the principal axes of the surface.

@@ -2,7 +2,7 @@
 
 use super::super::names;
 use super::outline::LEAST_UPRIGHT;
-use crate::math::Plane;
+use crate::math::{Plane, grouped};
 use std::f64::consts::TAU;
 
 /// The slopes of one tier's facets differ by less than this, radians, or by what noise adds.
@@ -69,17 +69,10 @@ fn tiers(planes: &[Plane], mut places: Vec<usize>, noise: f64) -> Vec<Tier> {
         level(b).total_cmp(&level(a)).then(offset(b).total_cmp(&offset(a))).then(a.cmp(&b))
     });
     let (slope, shift) = (SAME_SLOPE + NOISE * noise, SAME_OFFSET + NOISE * noise);
-    let mut tiers: Vec<Tier> = vec![];
-    for place in places {
-        let same = |tier: &&mut Tier| {
-            let first = tier[0];
-            (level(first) - level(place)).abs() < slope && (offset(first) - offset(place)).abs() < shift
-        };
-        match tiers.iter_mut().find(same) {
-            Some(tier) => tier.push(place),
-            None => tiers.push(vec![place]),
-        }
-    }
+    let same = |&first: &usize, &place: &usize| {
+        (level(first) - level(place)).abs() < slope && (offset(first) - offset(place)).abs() < shift
+    };
+    let mut tiers: Vec<Tier> = grouped(places, same);
     tiers.iter_mut().for_each(|tier| by_azimuth(planes, tier));
     tiers
 }

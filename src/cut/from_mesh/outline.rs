@@ -3,7 +3,7 @@
 use super::error::FromMeshError;
 use super::even::Even;
 use crate::cut::Outline;
-use crate::math::{Calipers, Plane, Polytope, Pose, hull};
+use crate::math::{Calipers, Plane, Polytope, Pose, hull, span};
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -74,8 +74,8 @@ fn azimuth(even: &Even, areas: &[f64], rim: &[DVec2]) -> f64 {
     candidates.sort_by(|&a, &b| apart(a).total_cmp(&apart(b)));
     let width = |azimuth: f64| {
         let along = DVec2::from_angle(azimuth);
-        let reach = rim.iter().map(|v| v.dot(along));
-        reach.clone().fold(f64::NEG_INFINITY, f64::max) - reach.fold(f64::INFINITY, f64::min)
+        let (low, high) = span(rim.iter().map(|v| v.dot(along)));
+        high - low
     };
     let least = candidates.iter().map(|&c| width(c)).fold(f64::INFINITY, f64::min);
     let widest = candidates.iter().map(|&c| width(c)).fold(0.0, f64::max);

@@ -3,6 +3,7 @@
 use super::super::round_brilliant::{MODERN, RoundBrilliant};
 use super::*;
 use crate::math::faceting::{Face, SurfaceKind, facets};
+use crate::math::mending::tests::noise;
 use crate::math::{Pose, Surface, triangulate};
 use glam::DQuat;
 use proptest::prelude::*;
@@ -30,16 +31,6 @@ struct Spoilt {
     seed: u64,
 }
 
-fn random(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-    move || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
-
 fn solid(facets: &[(String, Plane)]) -> Polytope {
     Polytope::from_planes(&facets.iter().map(|(_, plane)| *plane).collect::<Vec<_>>()).unwrap()
 }
@@ -47,13 +38,13 @@ fn solid(facets: &[(String, Plane)]) -> Polytope {
 /// Returns the triangles of a stone in random order. Each has its own corners and begins at any of them.
 fn spoil(facets: &[(String, Plane)], how: Spoilt) -> Surface {
     let mesh = triangulate(&solid(facets));
-    let mut next = random(how.seed);
+    let mut next = noise(how.seed);
     let mut shaken = |v: DVec3| v + how.noise * DVec3::new(next(), next(), next());
     let shared: Vec<DVec3> = mesh.vertices.iter().map(|&v| shaken(v)).collect();
     let at = |&v: &u32| if how.apart { shaken(mesh.vertices[v as usize]) } else { shared[v as usize] };
     let placed = |v: DVec3| how.turn * v * how.scale + how.shift;
     let vertices: Vec<DVec3> = mesh.triangles.iter().flatten().map(at).map(placed).collect();
-    let mut next = random(how.seed + 1);
+    let mut next = noise(how.seed + 1);
     let mut order: Vec<(f64, u32)> = (0..mesh.triangles.len() as u32).map(|t| (next(), t)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
     let corner = |t: u32, k: u32| 3 * t + (k + t) % 3;

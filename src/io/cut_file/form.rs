@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::family_form::FamilyForm;
-use super::material_form::MaterialForm;
-use super::tier_form::{IndexForm, TierForm};
+use super::material_form::{MaterialForm, path_of};
+use super::tier_form::TierForm;
 use super::values::{Numbers, TomlTable};
-use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, MaterialRef, MeshShape};
+use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, MeshShape, Tiers};
 use crate::io::file_error::Fault;
 use crate::io::toml_format::FORMAT;
 use crate::math::{Plane, Surface, TriangleMesh};
@@ -19,20 +19,14 @@ use std::collections::HashSet;
 pub(super) struct DesignForm {
     format: i64,
     name: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
     source: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     notes: Option<String>,
     #[serde(default = "default_diameter")]
     diameter_mm: f64,
     material: MaterialForm,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    index: Option<TomlTable<IndexForm>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    index: Option<TomlTable<Tiers>>,
     tier: Option<Vec<TomlTable<TierForm>>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     plane: Option<Vec<TomlTable<PlaneForm>>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     mesh: Option<TomlTable<MeshForm>>,
 }
 
@@ -80,7 +74,7 @@ impl DesignForm {
         match &design.cut {
             Cut::RoundBrilliant(_) | Cut::Glass(_) => form,
             Cut::Tiers(tiers) => Self {
-                index: Some(TomlTable(IndexForm::of(tiers))),
+                index: Some(TomlTable(tiers.clone())),
                 tier: Some(tiers.tiers.iter().map(|tier| TomlTable(TierForm::of(tier))).collect()),
                 ..form
             },
@@ -93,63 +87,57 @@ impl DesignForm {
     }
 
     /// Returns the design that the form describes with the tables of families beside it, checked.
-    pub fn design(self, families: &[FamilyForm]) -> Result<Design, Fault> {
-        let Self { index, tier, plane, mesh, .. } = self;
+    pub fn design(mut self, families: &[FamilyForm]) -> Result<Design, Fault> {
+        let cut = self.cut(families);
         let design = Design {
             name: self.name,
             source: self.source,
             notes: self.notes,
             material: self.material.material()?,
             diameter_mm: self.diameter_mm,
-            cut: cut(Cuts { families, index, tier, plane, mesh })?,
+            cut: cut?,
         };
         match design.check() {
             Ok(()) => Ok(design),
             Err(error) => Err(Fault::key(path(&error, &design), error)),
         }
     }
-}
 
-/// The tables by which a file may give its cut.
-struct Cuts<'a> {
-    families: &'a [FamilyForm],
-    index: Option<TomlTable<IndexForm>>,
-    tier: Option<Vec<TomlTable<TierForm>>>,
-    plane: Option<Vec<TomlTable<PlaneForm>>>,
-    mesh: Option<TomlTable<MeshForm>>,
-}
-
-/// Returns the one cut that a file gives.
-fn cut(form: Cuts) -> Result<Cut, Fault> {
-    let Cuts { families, index, tier, plane, mesh } = form;
-    let families_given =
-        families.iter().map(|form| (form.family.key, format!("[{}]", form.family.key), true));
-    let others = [
-        ("tier", "[[tier]]".to_owned(), tier.is_some() || index.is_some()),
-        ("plane", "[[plane]]".to_owned(), plane.is_some()),
-        ("mesh", "[mesh]".to_owned(), mesh.is_some()),
-    ];
-    let mut given = families_given.chain(others).filter(|(.., is_given)| *is_given);
-    if let (Some((_, first, _)), Some((key, other, _))) = (given.next(), given.next()) {
-        let key = if key == "tier" && tier.is_none() { "index" } else { key };
-        return Err(Fault::key(key, format!("{key}: give {first} or {other}, not both")));
-    }
-    if let Some(form) = families.first() {
-        return form.cut();
-    }
-    if let Some(planes) = plane {
-        return Ok(Cut::Planes(planes.into_iter().map(|TomlTable(form)| form.plane()).collect()));
-    }
-    if let Some(TomlTable(form)) = mesh {
-        return form.shape().map(Cut::Mesh);
-    }
-    match (index, tier) {
-        (Some(TomlTable(index)), Some(tiers)) => Ok(Cut::Tiers(index.tiers(tiers)?)),
-        (Some(_), None) => Err(Fault::key("index", "index: the tiers are missing; give [[tier]]")),
-        (None, Some(_)) => {
-            Err(Fault::key("tier", "tier: the gear is missing; give it as [index], gear = 96"))
+    /// Takes the one cut that a file gives out of its tables.
+    fn cut(&mut self, families: &[FamilyForm]) -> Result<Cut, Fault> {
+        let families_given =
+            families.iter().map(|form| (form.family.key, format!("[{}]", form.family.key), true));
+        let others = [
+            ("tier", "[[tier]]".to_owned(), self.tier.is_some() || self.index.is_some()),
+            ("plane", "[[plane]]".to_owned(), self.plane.is_some()),
+            ("mesh", "[mesh]".to_owned(), self.mesh.is_some()),
+        ];
+        let mut given = families_given.chain(others).filter(|(.., is_given)| *is_given);
+        if let (Some((_, first, _)), Some((key, other, _))) = (given.next(), given.next()) {
+            let key = if key == "tier" && self.tier.is_none() { "index" } else { key };
+            return Err(Fault::key(key, format!("{key}: give {first} or {other}, not both")));
         }
-        (None, None) => Err("the cut is missing; give [round_brilliant], [[tier]], [[plane]], [mesh] or a glass shape such as [pill]".into()),
+        if let Some(form) = families.first() {
+            return form.cut();
+        }
+        if let Some(planes) = self.plane.take() {
+            return Ok(Cut::Planes(planes.into_iter().map(|TomlTable(form)| form.plane()).collect()));
+        }
+        if let Some(TomlTable(form)) = self.mesh.take() {
+            return form.shape().map(Cut::Mesh);
+        }
+        match (self.index.take(), self.tier.take()) {
+            (Some(TomlTable(index)), Some(tiers)) => {
+                let tier = |(place, TomlTable(form)): (usize, TomlTable<TierForm>)| form.tier(place);
+                let tiers = tiers.into_iter().enumerate().map(tier).collect::<Result<_, _>>()?;
+                Ok(Cut::Tiers(Tiers { tiers, ..index }))
+            }
+            (Some(_), None) => Err(Fault::key("index", "index: the tiers are missing; give [[tier]]")),
+            (None, Some(_)) => {
+                Err(Fault::key("tier", "tier: the gear is missing; give it as [index], gear = 96"))
+            }
+            (None, None) => Err("the cut is missing; give [round_brilliant], [[tier]], [[plane]], [mesh] or a glass shape such as [pill]".into()),
+        }
     }
 }
 
@@ -158,10 +146,7 @@ fn path(error: &DesignError, design: &Design) -> String {
     match error {
         DesignError::Name => "name".to_owned(),
         DesignError::Diameter { .. } => "diameter_mm".to_owned(),
-        DesignError::Material(error) => match design.material {
-            MaterialRef::Custom(_) => format!("material/{}", error.key()),
-            MaterialRef::Name(_) | MaterialRef::Index(_) => "material".to_owned(),
-        },
+        DesignError::Material(error) => path_of(error, &design.material),
         DesignError::Proportion(error) => {
             format!("{}/{}", design.cut.family().map_or("", |family| family.key), error.row().key)
         }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::values::{Numbers, OneOf, Pairs, TomlTable};
-use crate::cut::MaterialRef;
+use crate::cut::{MaterialError, MaterialRef};
 use crate::io::file_error::Fault;
 use crate::optics::{Absorption, AbsorptionError, Dispersion, Material};
 
@@ -23,33 +23,32 @@ pub(in crate::io) struct TableForm {
     description: String,
     #[serde(default, skip_serializing_if = "String::is_empty")]
     source: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
     index: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     sellmeier: Option<Pairs>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     cauchy: Option<Numbers<2>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     abbe: Option<Numbers<2>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     absorption: Option<OneOf<Pairs>>,
     /// The absorption of the extraordinary polarisation, where it differs.
-    #[serde(skip_serializing_if = "Option::is_none")]
     absorption_e: Option<OneOf<Pairs>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     valid_nm: Option<Numbers<2>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     density: Option<f64>,
     /// Whether the colour is chosen for its looks, and not measured.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     illustrative: bool,
     /// A law that has no key of its own, in the form of [`Dispersion`].
-    #[serde(skip_serializing_if = "Option::is_none")]
     dispersion: Option<Dispersion>,
 }
 
 fn nameless() -> String {
     "custom".to_owned()
+}
+
+/// Returns the path of the key whose value a material's check refuses.
+pub(in crate::io) fn path_of(error: &MaterialError, material: &MaterialRef) -> String {
+    match material {
+        MaterialRef::Custom(_) => format!("material/{}", error.key()),
+        MaterialRef::Name(_) | MaterialRef::Index(_) => "material".to_owned(),
+    }
 }
 
 impl MaterialForm {

@@ -1,29 +1,8 @@
-//! The keys of a cutter's design: the table `[index]` and the tables `[[tier]]`.
+//! The keys of the tables `[[tier]]` of a cutter's design.
 
-use super::values::TomlTable;
-use crate::cut::{Indexed, Tier, Tiers};
+use crate::cut::{Indexed, Tier};
 use crate::io::file_error::Fault;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
-
-/// The table `[index]`.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct IndexForm {
-    gear: i32,
-    #[serde(default)]
-    offset: f64,
-    #[serde(default = "once")]
-    symmetry: u32,
-    #[serde(default)]
-    mirror: bool,
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    headers: Vec<String>,
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    footers: Vec<String>,
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    remarks: BTreeMap<String, String>,
-}
 
 /// A table `[[tier]]`.
 #[derive(Serialize, Deserialize)]
@@ -40,35 +19,8 @@ pub(super) struct TierForm {
     cut: bool,
 }
 
-fn once() -> u32 {
-    1
-}
-
 fn yes() -> bool {
     true
-}
-
-impl IndexForm {
-    pub fn of(tiers: &Tiers) -> Self {
-        Self {
-            gear: tiers.gear,
-            offset: tiers.offset,
-            symmetry: tiers.symmetry,
-            mirror: tiers.mirror,
-            headers: tiers.headers.clone(),
-            footers: tiers.footers.clone(),
-            remarks: tiers.remarks.iter().cloned().collect(),
-        }
-    }
-
-    /// Returns the design of this gear with these tiers.
-    pub fn tiers(self, tiers: Vec<TomlTable<TierForm>>) -> Result<Tiers, Fault> {
-        let numbered = tiers.into_iter().enumerate();
-        let tiers = numbered.map(|(k, TomlTable(form))| form.tier(k)).collect::<Result<_, _>>()?;
-        let Self { gear, offset, symmetry, mirror, headers, footers, remarks } = self;
-        let remarks = remarks.into_iter().collect();
-        Ok(Tiers { gear, offset, symmetry, mirror, headers, footers, remarks, tiers })
-    }
 }
 
 impl TierForm {
@@ -84,7 +36,8 @@ impl TierForm {
         }
     }
 
-    fn tier(self, place: usize) -> Result<Tier, Fault> {
+    /// Returns the tier at this place in the file, from 0.
+    pub fn tier(self, place: usize) -> Result<Tier, Fault> {
         let (names, indices) = (self.names.len(), self.indices.len());
         if names > indices {
             let message = format!("names: {names} names are given for {indices} indices; give no more names");

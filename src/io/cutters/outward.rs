@@ -18,11 +18,10 @@ pub(in super::super) type FacetOutline = (Plane, Vec<DVec3>);
 /// commonest.
 pub(in super::super) fn tiers_of<'a>(specimen: &'a Specimen, lost: &mut Vec<String>) -> Cow<'a, Tiers> {
     let design = &specimen.design;
-    let brilliant = match &design.cut {
-        Cut::Tiers(tiers) => return Cow::Borrowed(tiers),
-        Cut::RoundBrilliant(_) => true,
-        Cut::Planes(_) | Cut::Mesh(_) | Cut::Glass(_) => false,
-    };
+    if let Cut::Tiers(tiers) = &design.cut {
+        return Cow::Borrowed(tiers);
+    }
+    let brilliant = design.cut.brilliant().is_some();
     if brilliant {
         lost.push("the format cannot hold the proportions, only the facets that follow from them".to_owned());
     }

@@ -3,6 +3,7 @@
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, Indexed, MaterialRef, Tier, Tiers};
 use crate::math::Pose;
 use crate::scene::Specimen;
+use std::collections::BTreeMap;
 
 fn tier(angle: f64, distance: f64, indices: &[f64], name: &str, instructions: &str) -> Tier {
     let mut facets: Vec<Indexed> =
@@ -21,7 +22,7 @@ pub(in super::super) fn design() -> Design {
         mirror: true,
         headers: ["Büchse & <Deckel>", "A. \"Nonymous\"", "", "third"].map(str::to_owned).to_vec(),
         footers: vec!["the end".to_owned(), "– really".to_owned()],
-        remarks: vec![],
+        remarks: BTreeMap::new(),
         tiers: vec![
             tier(-90.0, 1.0, &around.map(|index| index - 23.5), "G1", "Level 'girdle'"),
             tier(-41.234567, 1.0, &around.map(|index| index - 23.5), "P1", ""),

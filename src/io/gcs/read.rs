@@ -92,8 +92,6 @@ impl<'d> Reader<'d> {
         self.index(root, &mut tiers);
         self.info(root, &mut tiers);
         let material = self.render(root, &mut tiers);
-        // Sorted, so that the same remarks stand in the same order, whatever formats they went through.
-        tiers.remarks.sort();
         tiers.tiers = self.tiers(root, Gear { teeth: tiers.gear, offset: tiers.offset })?;
         Ok((tiers, material))
     }
@@ -162,10 +160,10 @@ impl<'d> Reader<'d> {
         if super::RENDER.contains(&(key, Some(&text))) || (key, text.as_str()) == COLOUR {
             return;
         }
-        if tiers.remarks.iter().any(|(other, _)| other == key) {
+        if tiers.remarks.contains_key(key) {
             self.warn(node, || format!("{key}: it is given twice; '{text:.40}' is not kept"));
         } else {
-            tiers.remarks.push((key.to_owned(), text));
+            tiers.remarks.insert(key.to_owned(), text);
         }
     }
 }

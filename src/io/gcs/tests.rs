@@ -34,9 +34,8 @@ fn refused(text: &str) -> String {
 #[test]
 fn a_design_reads_as_it_is_written() {
     let mut design = design();
-    tiers(&mut design).remarks = [("date", "1.\n2."), ("density", "3.5"), ("size_min", "8")]
-        .map(|(a, b)| (a.into(), b.into()))
-        .to_vec();
+    tiers(&mut design).remarks =
+        [("date", "1.\n2."), ("density", "3.5"), ("size_min", "8")].map(|(a, b)| (a.into(), b.into())).into();
     tiers(&mut design).tiers[3].is_cut = false;
     let EncodedDesign { bytes, lost } = write(&specimen(design.clone()));
     assert_eq!(lost, Vec::<String>::new());
@@ -145,7 +144,7 @@ fn what_the_format_cannot_hold_is_told() {
     cut.tiers[0].angle = 90.0;
     cut.tiers[0].facets[2].name = "H".to_owned();
     cut.tiers[1].instructions = "bell\u{7}".to_owned();
-    cut.remarks = vec![("line 3".to_owned(), "what?".to_owned())];
+    cut.remarks = [("line 3".to_owned(), "what?".to_owned())].into();
     cut.tiers.push(Tier { facets: vec![], ..cut.tiers[1].clone() });
     let expected = [
         "the format cannot hold the design's notes",

@@ -4,7 +4,7 @@ use super::{COLOUR, RENDER, ROOT, VERSION};
 use crate::cut::{Indexed, Tier, Tiers};
 use crate::io::cutters::{self, FacetOutline};
 use crate::io::design_file::EncodedDesign;
-use crate::math::Plane;
+use crate::math::{Plane, span};
 use crate::scene::Specimen;
 use glam::DVec3;
 
@@ -86,33 +86,20 @@ pub fn write(specimen: &Specimen) -> EncodedDesign {
 /// Adds messages about what the format has no place for.
 fn left_out(tiers: &Tiers, lost: &mut Vec<String>) {
     let named_apart = |tier: &&Tier| tier.facets.iter().any(|f| !f.name.is_empty() && f.name != tier.name());
-    let mut tell = |count: usize, one: &str, several: &str| match count {
+    let mut tell = |count: usize, [one, several]: [&str; 2], rest: &str| match count {
         0 => {}
-        1 => lost.push(format!("1 {one}")),
-        _ => lost.push(format!("{count} {several}")),
+        1 => lost.push(format!("1 {one} {rest}")),
+        _ => lost.push(format!("{count} {several} {rest}")),
     };
-    tell(
-        tiers.tiers.iter().filter(named_apart).count(),
-        "tier has facets of other names, which are left out",
-        "tiers have facets of other names, which are left out",
-    );
-    let above = tiers.tiers.iter().filter(|tier| tier.angle == 90.0);
-    tell(
-        above.count(),
-        "tier of girdle facets is cut at +90°, for which the format has -90°",
-        "tiers of girdle facets are cut at +90°, for which the format has -90°",
-    );
-    let nameless = tiers.tiers.iter().filter(|tier| tier.facets.is_empty());
-    tell(
-        nameless.count(),
-        "tier has no facets and will be read without a name",
-        "tiers have no facets and will be read without a name",
-    );
-    tell(
-        tiers.remarks.iter().filter(|(key, _)| !is_key(key)).count(),
-        "remark has a key that XML cannot hold",
-        "remarks have keys that XML cannot hold",
-    );
+    let apart = tiers.tiers.iter().filter(named_apart).count();
+    tell(apart, ["tier has", "tiers have"], "facets of other names, which are left out");
+    let above = tiers.tiers.iter().filter(|tier| tier.angle == 90.0).count();
+    let girdles = ["tier of girdle facets is", "tiers of girdle facets are"];
+    tell(above, girdles, "cut at +90°, for which the format has -90°");
+    let nameless = tiers.tiers.iter().filter(|tier| tier.facets.is_empty()).count();
+    tell(nameless, ["tier has", "tiers have"], "no facets and will be read without a name");
+    let odd = tiers.remarks.keys().filter(|key| !is_key(key)).count();
+    tell(odd, ["remark has a key", "remarks have keys"], "that XML cannot hold");
 }
 
 fn is_key(key: &str) -> bool {
@@ -128,8 +115,7 @@ impl Form {
     fn of(outlines: &[FacetOutline]) -> Self {
         let corners = || outlines.iter().flat_map(|(_, corners)| corners);
         let reach = corners().map(|corner| corner.truncate().abs().max_element()).fold(0.0, f64::max);
-        let low = corners().map(|corner| corner.z).fold(f64::INFINITY, f64::min);
-        let high = corners().map(|corner| corner.z).fold(f64::NEG_INFINITY, f64::max);
+        let (low, high) = span(corners().map(|corner| corner.z));
         let middle = (low + high) / 2.0;
         let scale = if reach > 0.0 && (reach - 1.0).abs() > IN_FORM { 1.0 / reach } else { 1.0 };
         let middle = if middle.is_finite() && middle.abs() > IN_FORM { middle } else { 0.0 };
@@ -209,7 +195,7 @@ fn put_facet((plane, corners): &FacetOutline, form: &Form, page: &mut Page) {
 }
 
 fn remark<'a>(tiers: &'a Tiers, key: &str) -> Option<&'a str> {
-    tiers.remarks.iter().find(|(other, _)| other == key).map(|(_, text)| text.as_str())
+    tiers.remarks.get(key).map(String::as_str)
 }
 
 fn put_render(tiers: &Tiers, index: f64, page: &mut Page) {
@@ -245,7 +231,7 @@ fn put_info(tiers: &Tiers, page: &mut Page) {
     let kept = said.iter().enumerate().filter(|(place, (_, text))| *place < 3 || !text.is_empty());
     let mut info: String = kept.map(|(_, (key, text))| page.attribute(key, text)).collect();
     let render = |key: &str| key == COLOUR.0 || RENDER.iter().any(|(known, _)| *known == key);
-    for (key, text) in tiers.remarks.iter().filter(|(key, _)| is_key(key) && key != "date" && !render(key)) {
+    for (key, text) in tiers.remarks.iter().filter(|(key, _)| is_key(key) && *key != "date" && !render(key)) {
         info += &page.attribute(key, text);
     }
     page.line(1, &format!("<info{info}/>"));

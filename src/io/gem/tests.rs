@@ -61,7 +61,7 @@ fn what_the_format_cannot_hold_is_told() {
     let cut = tiers(&mut full);
     cut.headers.push("fifth".to_owned());
     cut.footers = vec!["x".repeat(300), "Ω\t".to_owned(), String::new(), String::new(), "fifth".to_owned()];
-    cut.remarks = vec![("date".to_owned(), "today".to_owned())];
+    cut.remarks = [("date".to_owned(), "today".to_owned())].into();
     cut.tiers[3].is_cut = false;
     let EncodedDesign { bytes, lost } = write(&specimen(full.clone()));
     let expected = [

@@ -176,7 +176,7 @@ fn write_float(path: &Path, map: &RefractionMap, description: &str) -> Result<()
     });
     let about: Vec<About> = map.bands.iter().map(About::of).collect();
     let about = serde_json::to_string(&about).map_err(|e| WriteError::io(path, e))?;
-    write_channels(path, size, channels.collect(), (description, Some((ABOUT, &about))), None)
+    write_channels(path, size, channels.collect(), (description, Some((ABOUT, &about))))
 }
 
 /// Returns the name of a band's channel in OpenEXR.

@@ -1,26 +1,25 @@
-//! The keys of a scene file, and what they may be.
+//! The keys of a scene file, in the order in which they are written, and what they may be.
 
 use super::super::background::BackgroundRef;
-use super::super::cut_file::material_form::MaterialForm;
+use super::super::cut_file::material_form::{MaterialForm, path_of};
 use super::super::cut_file::values::{Numbers, OneOf, Pairs, TomlTable};
 use super::super::file_error::Fault;
+use super::super::toml_format::FORMAT;
 use super::super::toml_text::line_at;
 use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, behind, found, likely, shown};
-use crate::cut::{MaterialError, MaterialRef, Size, SizeError, is_printable};
+use crate::cut::{MaterialRef, Size, SizeError, is_printable};
 use crate::scene::Layout;
 use glam::DVec3;
-use serde::Deserialize;
-use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 use std::path::Path;
 use toml::Spanned;
 
 /// A whole scene file.
-#[derive(Deserialize)]
+#[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SceneForm {
-    #[serde(rename = "format")]
-    _format: IgnoredAny,
+    format: i64,
     name: String,
     light: Option<String>,
     layout: Option<String>,
@@ -32,13 +31,13 @@ pub(super) struct SceneForm {
 }
 
 /// A table `[[stone]]`.
-#[derive(Deserialize)]
+#[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct StoneForm {
     cut: String,
     material: Option<MaterialForm>,
     size: Option<SizeForm>,
-    #[serde(default = "one")]
+    #[serde(default = "one", skip_serializing_if = "is_alone")]
     count: i64,
     #[serde(default)]
     turn: f64,
@@ -53,9 +52,13 @@ fn one() -> i64 {
     1
 }
 
+fn is_alone(count: &i64) -> bool {
+    *count <= 1
+}
+
 /// A size, written as text with its unit.
-#[derive(Deserialize)]
-#[serde(try_from = "OneOf<Pairs>")]
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(try_from = "OneOf<Pairs>", into = "String")]
 struct SizeForm(Size);
 
 impl TryFrom<OneOf<Pairs>> for SizeForm {
@@ -74,6 +77,12 @@ impl TryFrom<OneOf<Pairs>> for SizeForm {
     }
 }
 
+impl From<SizeForm> for String {
+    fn from(SizeForm(size): SizeForm) -> Self {
+        size.to_string()
+    }
+}
+
 const DEGREES: RangeInclusive<f64> = -1e6..=1e6;
 const LEANING: RangeInclusive<f64> = -180.0..=180.0;
 const GAPS_MM: RangeInclusive<f64> = 0.0..=1000.0;
@@ -81,6 +90,24 @@ const DISTANCES_MM: RangeInclusive<f64> = 0.0..=10_000.0;
 const PLACES_MM: RangeInclusive<f64> = -10_000.0..=10_000.0;
 
 impl SceneForm {
+    /// Returns the form in which a scene is written.
+    pub fn of(scene: &SceneFile) -> Self {
+        let is = |layout: &Layout| Layout::NAMES.into_iter().find(|(_, other)| other == layout);
+        let is_placed = scene.layout.is_none();
+        let stone = |entry| Spanned::new(0..0, TomlTable(StoneForm::of(entry, is_placed)));
+        Self {
+            format: FORMAT,
+            name: scene.name.clone(),
+            light: scene.light.as_ref().map(|light| light.to_string_lossy().into_owned()),
+            layout: scene.layout.as_ref().and_then(is).map(|(name, _)| name.to_owned()),
+            gap_mm: scene.layout.map(|_| scene.gap_mm),
+            background: scene.background.as_ref().map(ToString::to_string),
+            background_distance_mm: scene.background_distance_mm,
+            strength: Some(scene.strength),
+            stone: scene.stones.iter().map(stone).collect(),
+        }
+    }
+
     /// Returns the scene that the form of a text describes, checked; files that it names are looked for from `folder`.
     pub fn scene(self, text: &str, folder: Option<&Path>) -> Result<SceneFile, Fault> {
         if !is_printable(&self.name) {
@@ -157,6 +184,19 @@ fn within(path: &str, key: &str, value: f64, range: RangeInclusive<f64>, unit: &
 }
 
 impl StoneForm {
+    fn of(entry: &Entry, is_placed: bool) -> Self {
+        Self {
+            cut: entry.cut.clone(),
+            material: entry.material.as_ref().map(MaterialForm::of),
+            size: entry.size.map(SizeForm),
+            count: entry.count as i64,
+            turn: entry.turn,
+            tilt: entry.tilt,
+            azimuth: entry.azimuth,
+            at: is_placed.then(|| Numbers(entry.at_mm.to_array())),
+        }
+    }
+
     /// Checks that a place is given where there is no layout, and only there; a stone alone needs none.
     fn check_place(&self, layout: Option<Layout>, alone: bool) -> Result<(), Fault> {
         match (layout, self.at) {
@@ -199,10 +239,6 @@ impl StoneForm {
 
 fn material(form: MaterialForm) -> Result<MaterialRef, Fault> {
     let material = form.material()?;
-    let path = |error: &MaterialError| match &material {
-        MaterialRef::Custom(_) => format!("material/{}", error.key()),
-        MaterialRef::Name(_) | MaterialRef::Index(_) => "material".to_owned(),
-    };
-    material.check().map_err(|error| Fault::key(path(&error), error))?;
+    material.check().map_err(|error| Fault::key(path_of(&error, &material), error))?;
     Ok(material)
 }

@@ -92,9 +92,7 @@ struct Grower<'a> {
 
 /// Whether a triangle is so low that its normal is mere noise.
 pub(super) fn is_sliver(surface: &Surface, triangle: usize, tolerance: f64) -> bool {
-    let [a, b, c] = surface.corners(triangle);
-    let longest = (b - a).length().max((c - b).length()).max((a - c).length());
-    2.0 * surface.area_vector(triangle).length() <= SLIVER * tolerance * longest
+    2.0 * surface.area_vector(triangle).length() <= SLIVER * tolerance * surface.longest_edge(triangle)
 }
 
 impl Grower<'_> {

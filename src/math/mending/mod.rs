@@ -14,7 +14,7 @@ mod fault;
 mod orient;
 mod seams;
 #[cfg(test)]
-pub(super) mod tests;
+pub(crate) mod tests;
 mod weld;
 
 use super::Surface;

@@ -45,6 +45,24 @@ pub fn noise(seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
+/// Cuts every triangle into four.
+pub fn divided(surface: &Surface) -> Surface {
+    let mut middles = std::collections::HashMap::new();
+    let mut vertices = surface.vertices.clone();
+    let mut between = |a: u32, b: u32| {
+        *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
+            vertices.push((surface.vertices[a as usize] + surface.vertices[b as usize]) / 2.0);
+            vertices.len() as u32 - 1
+        })
+    };
+    let mut triangles = vec![];
+    for &[a, b, c] in &surface.triangles {
+        let [x, y, z] = [between(a, b), between(b, c), between(c, a)];
+        triangles.extend([[a, x, z], [x, b, y], [z, y, c], [x, y, z]]);
+    }
+    Surface::new(vertices, triangles)
+}
+
 pub fn shaken(surface: &Surface, by: f64, seed: u64) -> Surface {
     let mut next = noise(seed);
     let mut shaken = surface.clone();

@@ -10,7 +10,7 @@ use glam::DVec2;
 const APART: [f64; 2] = [40.0, 12.0];
 
 /// Width of the paper around a small diagram.
-const SMALL_MARGIN: f64 = 10.0;
+pub(super) const SMALL_MARGIN: f64 = 10.0;
 
 /// The most lines of a list; further tiers are only counted.
 const MOST_LINES: usize = 40;
@@ -131,10 +131,5 @@ impl DiagramStyle {
     /// Returns how far below the middle of a view the list begins.
     pub(super) fn list_below(&self) -> f64 {
         self.leaders() + if self.is_sheet { 46.0 } else { 34.0 }
-    }
-
-    /// Returns the width of the paper around a diagram without a heading.
-    pub(super) fn margin(&self) -> f64 {
-        SMALL_MARGIN
     }
 }

@@ -53,22 +53,20 @@ impl Inks {
             Ink::Extension => self.extension,
         })
     }
-
-    /// Returns the fill of a facet, where `facing` is the cosine of the angle between its normal and the direction to
-    /// the eye, 0 to 1.
-    pub(super) fn face(&self, facing: f64) -> String {
-        let [edge_on, square] = self.faces;
-        let mixed = |k: usize| {
-            let [from, to] = [edge_on, square].map(|colour| f64::from(colour[k]));
-            (from + (to - from) * facing).round() as u8
-        };
-        hex([mixed(0), mixed(1), mixed(2)])
-    }
 }
 
 /// Returns a colour as SVG writes it.
 pub(in crate::picture) fn hex([red, green, blue]: [u8; 3]) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+/// Returns the colour that lies this part of the way between two, as SVG writes it.
+pub(in crate::picture) fn between([from, to]: [[u8; 3]; 2], part: f64) -> String {
+    let mixed = |k: usize| {
+        let [from, to] = [from, to].map(|colour| f64::from(colour[k]));
+        (from + (to - from) * part).round() as u8
+    };
+    hex([0, 1, 2].map(mixed))
 }
 
 /// The name of one of the colours of [`Inks`].

@@ -17,7 +17,7 @@ use crate::picture::{Backdrop, Linear, RefractionMap, Survey, spectral};
 use crate::scene::{Dome, Film, Instance, Lamp, Light, Panorama, Scene, View};
 use crate::trace::environment::{Backplate, Environment, EnvironmentMap};
 use crate::trace::ray::{ByRays, RayOptions};
-use crate::trace::sampling::LitScene;
+use crate::trace::sampling::{LitScene, Sampling};
 use crate::trace::{Stopped, Watch};
 use cost::Sums;
 use glam::{DVec2, DVec3};
@@ -218,7 +218,7 @@ impl<'a> PaneScene<'a> {
     }
 
     fn traced(&self, background: &Panorama, around: &PaneLighting, watch: Watch) -> Result<Linear, Stopped> {
-        let looks = (around.strata, around.looks.max(1));
+        let looks = (around.strata, Sampling::of(around.looks.max(1)));
         let (piece, _) = self.sit(background, around, |sitting| {
             let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*sitting, rows));
             spectral::expose(sitting, looks, ROWS, prepare, watch)

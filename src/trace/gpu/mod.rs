@@ -19,7 +19,6 @@ pub use device::{Gpu, GpuError};
 pub use gpu_types::ScopePixel;
 pub use light::{ByCard, GpuEnvironment};
 pub use limits::{MOST_BANDS, MOST_BODIES, MOST_BOUNCES, MOST_TRIANGLES, MOST_WAVELENGTHS};
-pub use scope::ScopeShot;
 
 #[cfg(test)]
 mod parity;

@@ -5,31 +5,8 @@ use super::gpu_types::{Bands, Medium as MediumAtDoor, ScopePixel, with};
 use super::limits::MOST_BANDS;
 use super::solids::Solids;
 use super::stage::{GpuCamera, Stage};
-use crate::math::{Pose, PosedSolid, SolidRef};
-use crate::scene::{Film, Medium, Scope, View};
-use crate::trace::ray::RayOptions;
-use crate::trace::{Stopped, Watch};
-use glam::DVec2;
-
-/// One picture in a scope; its rays stand on a regular grid in each pixel.
-pub struct ScopeShot<'a> {
-    /// The stone.
-    pub solid: SolidRef<'a>,
-    /// The stone's medium.
-    pub medium: Medium,
-    /// The view from which the stone is seen.
-    pub view: &'a View,
-    /// The scope, of at most [`MOST_BANDS`] bands.
-    pub scope: &'a Scope,
-    /// The picture's pixels.
-    pub film: Film,
-    /// Rays along each side of a pixel, at least 1.
-    pub per_side: u32,
-    /// The place of each ray in its cell of that grid, 0 to 1; (0.5, 0.5) is the middle.
-    pub shift: DVec2,
-    /// How far rays are followed, at most [`MOST_BOUNCES`](super::MOST_BOUNCES) bounces.
-    pub options: RayOptions,
-}
+use crate::math::{Pose, PosedSolid};
+use crate::trace::{ScopeShot, Stopped, Watch};
 
 impl Gpu {
     /// Takes a picture, some rows at a time, from the top: calls `each` with the first row's number and the pixels of whole

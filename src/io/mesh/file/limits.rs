@@ -2,9 +2,7 @@
 
 use super::parsed_mesh::ParsedMesh;
 use crate::io::file_error::Fault;
-use crate::io::text::unreadable;
-use std::fs::File;
-use std::io::Read as _;
+use crate::io::text::content;
 use std::path::Path;
 
 /// The size of the largest file that is read, in bytes; a buffer beside it may be as large again, and all buffers together.
@@ -18,11 +16,7 @@ const MAX_TRIANGLES: usize = 4_000_000;
 
 /// Reads a file, if it is no larger than [`MAX_BYTES`].
 pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, Fault> {
-    if path.is_dir() {
-        return Err("this is a directory; a file is expected".into());
-    }
-    let mut bytes = Vec::new();
-    File::open(path).and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
+    let bytes = content(path, MAX_BYTES)?;
     if bytes.len() as u64 > MAX_BYTES {
         return Err(format!("this is larger than {} MiB; save a coarser mesh", MAX_BYTES >> 20).into());
     }

@@ -37,8 +37,7 @@ impl<'a, F: FnMut(&[u8], &mut Vec<u8>)> Lines<'a, F> {
 
 impl<F: FnMut(&[u8], &mut Vec<u8>)> Read for Lines<'_, F> {
     fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
-        let count = self.fill_buf()?.len().min(buffer.len());
-        buffer[..count].copy_from_slice(&self.current[self.used..self.used + count]);
+        let count = self.fill_buf()?.read(buffer)?;
         self.consume(count);
         Ok(count)
     }
@@ -58,26 +57,20 @@ impl<F: FnMut(&[u8], &mut Vec<u8>)> BufRead for Lines<'_, F> {
 /// A reader that begins with a line of its own and can return to it, for a parser that looks at the first line twice.
 pub(super) struct Rewound<R> {
     first: &'static [u8],
-    used: usize,
+    left: &'static [u8],
     rest: R,
 }
 
 impl<R> Rewound<R> {
     /// Makes a reader of `first` and then of `rest`.
     pub fn new(first: &'static [u8], rest: R) -> Self {
-        Self { first, used: 0, rest }
+        Self { first, left: first, rest }
     }
 }
 
 impl<R: Read> Read for Rewound<R> {
     fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
-        if self.used == self.first.len() {
-            return self.rest.read(buffer);
-        }
-        let count = buffer.len().min(self.first.len() - self.used);
-        buffer[..count].copy_from_slice(&self.first[self.used..self.used + count]);
-        self.used += count;
-        Ok(count)
+        if self.left.is_empty() { self.rest.read(buffer) } else { self.left.read(buffer) }
     }
 }
 
@@ -85,7 +78,7 @@ impl<R> Seek for Rewound<R> {
     fn seek(&mut self, to: SeekFrom) -> std::io::Result<u64> {
         match to {
             SeekFrom::Start(0) => {
-                self.used = 0;
+                self.left = self.first;
                 Ok(0)
             }
             _ => Err(std::io::ErrorKind::Unsupported.into()),

@@ -3,7 +3,7 @@
 use super::*;
 use crate::math::convex_hull;
 use crate::math::fixture::{self, Triangles};
-use std::collections::HashMap;
+use crate::math::mending::tests::divided;
 
 fn mended((vertices, triangles): Triangles) -> Surface {
     Surface::new(vertices, triangles).mend().unwrap().surface
@@ -40,24 +40,6 @@ fn bent(by: f64) -> Surface {
 
 fn hull_volume(surface: &Surface) -> f64 {
     Surface::new(surface.vertices.clone(), convex_hull(&surface.vertices).unwrap()).volume()
-}
-
-/// Cuts every triangle into four.
-fn divided(surface: &Surface) -> Surface {
-    let mut middles = HashMap::new();
-    let mut vertices = surface.vertices.clone();
-    let mut between = |a: u32, b: u32| {
-        *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
-            vertices.push((surface.vertices[a as usize] + surface.vertices[b as usize]) / 2.0);
-            vertices.len() as u32 - 1
-        })
-    };
-    let mut triangles = vec![];
-    for &[a, b, c] in &surface.triangles {
-        let [x, y, z] = [between(a, b), between(b, c), between(c, a)];
-        triangles.extend([[a, x, z], [x, b, y], [z, y, c], [x, y, z]]);
-    }
-    Surface::new(vertices, triangles)
 }
 
 #[test]

@@ -109,7 +109,7 @@ impl Gatherer<'_> {
         if let Some(index) = primitive.material().index().filter(|_| hint(&primitive.material()).is_some()) {
             *self.materials.entry(index).or_default() += triangles.len();
         }
-        let name = facet(primitive).unwrap_or_else(|| name.to_owned());
+        let name = text_of(primitive.extras(), FACET).unwrap_or_else(|| name.to_owned());
         self.mesh.surface.append(Surface { names: vec![name], ..Surface::new(vertices, triangles) });
         Ok(())
     }
@@ -161,11 +161,6 @@ fn triangles(order: &[u32], mode: Mode) -> Vec<[u32; 3]> {
         }
         _ => order.as_chunks().0.to_vec(),
     }
-}
-
-/// Returns the name of the facet that a primitive stands for, where this program wrote it.
-fn facet(primitive: &Primitive<'_>) -> Option<String> {
-    text_of(primitive.extras(), FACET)
 }
 
 /// Returns the text under a key of extras.

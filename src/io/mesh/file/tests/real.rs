@@ -1,7 +1,7 @@
 //! Real meshes, where they are there, and large ones that the tests make.
 
 use super::*;
-use crate::math::Surface;
+use crate::math::mending::tests::divided;
 
 /// Reads one of the real meshes; prints a line and returns `None` where their folder is not there.
 fn real(name: &str) -> Option<MeshFile> {
@@ -90,22 +90,4 @@ fn a_million_triangles_load_in_seconds() {
     assert_eq!(stone_back.facets.len(), brilliant(96).names().len());
     // It takes five seconds, and many times as long where other programs hold the cores.
     assert!(all < 300.0, "{all} s");
-}
-
-/// Cuts every triangle into four.
-fn divided(surface: &Surface) -> Surface {
-    let mut middle = std::collections::HashMap::new();
-    let mut vertices = surface.vertices.clone();
-    let mut between = |a: u32, b: u32| {
-        *middle.entry((a.min(b), a.max(b))).or_insert_with(|| {
-            vertices.push((surface.vertices[a as usize] + surface.vertices[b as usize]) / 2.0);
-            vertices.len() as u32 - 1
-        })
-    };
-    let mut triangles = vec![];
-    for &[a, b, c] in &surface.triangles {
-        let [x, y, z] = [between(a, b), between(b, c), between(c, a)];
-        triangles.extend([[a, x, z], [x, b, y], [z, y, c], [x, y, z]]);
-    }
-    Surface::new(vertices, triangles)
 }
