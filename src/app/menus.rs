@@ -92,7 +92,7 @@ fn themes(ui: &mut Ui) {
 
 /// Draws a menu entry that carries out a command.
 pub fn entry(model: &Model, actions: &mut Actions, ui: &mut Ui, command: Command) {
-    let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
+    let keys = command.shortcuts().next().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
     let button = Button::new(command.name()).shortcut_text(keys).selected(model.is_chosen(command));
     if ui.add_enabled(model.is_possible(command), button).on_hover_text(command.meaning()).clicked() {
         actions.push(command);
@@ -196,7 +196,7 @@ pub fn keys(model: &Model, actions: &mut Actions, ctx: &Context, is_picture_focu
     for (key, modifiers) in ctx.input(|i| i.events.iter().filter_map(pressed).collect::<Vec<_>>()) {
         let is_meant =
             |c: &Command| c.shortcuts().any(|s| s.logical_key == key && modifiers.matches_exact(s.modifiers));
-        let Some(command) = Command::all().find(is_meant) else { continue };
+        let Some(command) = Command::ALL.into_iter().find(is_meant) else { continue };
         if !modifiers.command && ctx.text_edit_focused() {
             continue;
         }
