@@ -45,45 +45,28 @@ pub fn begin_again(model: &mut Model, mut document: Document) -> Vec<Task> {
 
 /// Begins a design from a cut that comes with the program.
 pub fn begin_library(model: &mut Model, name: &str) -> Vec<Task> {
-    match Document::of_library(name) {
-        Ok(document) => {
-            model.workspace.last = None;
-            begin(model, document)
-        }
-        Err(why) => {
-            model.session.notes.trouble(why);
-            vec![]
-        }
-    }
+    let document = Document::of_library(name);
+    let Some(document) = model.session.notes.ok_or_report(document) else { return vec![] };
+    model.workspace.last = None;
+    begin(model, document)
 }
 
 /// Begins a scene that comes with the program.
 pub fn begin_preset(model: &mut Model, name: &str) -> Vec<Task> {
-    match Preset::of_library(name) {
-        Ok(preset) => {
-            let tasks = begin_scene(model, preset);
-            // The scene is meant to be seen as a render.
-            model.workspace.enlarge_render();
-            model.session.motion.is_on = PRESETS.iter().any(|known| known.name == name && known.moves);
-            tasks
-        }
-        Err(why) => {
-            model.session.notes.trouble(why);
-            vec![]
-        }
-    }
+    let preset = Preset::of_library(name);
+    let Some(preset) = model.session.notes.ok_or_report(preset) else { return vec![] };
+    let tasks = begin_scene(model, preset);
+    // The scene is meant to be seen as a render.
+    model.workspace.enlarge_render();
+    model.session.motion.is_on = PRESETS.iter().any(|known| known.name == name && known.moves);
+    tasks
 }
 
 /// Begins to work on a scene: its design, which is not saved anywhere yet, its copies, its light and its backplate.
 pub fn begin_scene(model: &mut Model, preset: Preset) -> Vec<Task> {
     let Preset { design, company, scene, wavelengths } = preset;
-    let mut document = match Document::new(design, None) {
-        Ok(document) => document,
-        Err(why) => {
-            model.session.notes.trouble(why.to_string());
-            return vec![];
-        }
-    };
+    let document = Document::new(design, None);
+    let Some(mut document) = model.session.notes.ok_or_report(document) else { return vec![] };
     let laid = company.poses(document.specimen().solid().vertices(), None);
     let layers = if laid == company.poses { "" } else { ", some of them farther back so that none overlap" };
     document.work.company = company;

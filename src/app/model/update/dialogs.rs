@@ -101,13 +101,8 @@ fn keep(model: &mut Model) -> Vec<Task> {
 }
 
 fn recover(model: &mut Model, found: &RecoveredWork) -> Vec<Task> {
-    let mut document = match Document::recovered(found) {
-        Ok(document) => document,
-        Err(why) => {
-            model.session.notes.trouble(why);
-            return vec![];
-        }
-    };
+    let document = Document::recovered(found);
+    let Some(mut document) = model.session.notes.ok_or_report(document) else { return vec![] };
     let KeptScene { company, behind, behind_mm, strength } = found.around.clone();
     document.work.company = company;
     let mut tasks = begin(model, document);

@@ -247,13 +247,7 @@ fn opened(model: &mut Model, request: FileRequest, read: Result<OpenedFile, Fail
     let all = &mut model.session.awaited.opening;
     let Some(place) = all.iter().position(|opening| opening.request == request) else { return vec![] };
     let opening = all.remove(place);
-    let file = match read {
-        Ok(file) => file,
-        Err(why) => {
-            model.session.notes.trouble(why);
-            return vec![];
-        }
-    };
+    let Some(file) = model.session.notes.ok_or_report(read) else { return vec![] };
     // The user has not given up what was changed while the file was being read.
     let is_later = model.document.work != opening.work;
     match (request.purpose, file) {
@@ -319,30 +313,20 @@ fn save_as(model: &mut Model, path: PathBuf) -> Vec<Task> {
         return vec![];
     }
     model.document.update();
-    match model.document.to_save(path) {
-        Ok(request) => {
-            model.session.awaited.saving = true;
-            vec![Task::Save(Box::new(request))]
-        }
-        Err(why) => {
-            model.session.notes.trouble(why);
-            model.session.after_save = None;
-            vec![]
-        }
-    }
+    let request = model.document.to_save(path);
+    let Some(request) = model.session.notes.ok_or_report(request) else {
+        model.session.after_save = None;
+        return vec![];
+    };
+    model.session.awaited.saving = true;
+    vec![Task::Save(Box::new(request))]
 }
 
 fn is_saved(model: &mut Model, saved: Result<SavedDesign, Failure>) -> Vec<Task> {
     let Model { document, workspace, session } = model;
     session.awaited.saving = false;
     let waiting = session.after_save.take();
-    let saved = match saved {
-        Ok(saved) => saved,
-        Err(why) => {
-            session.notes.trouble(why);
-            return vec![];
-        }
-    };
+    let Some(saved) = session.notes.ok_or_report(saved) else { return vec![] };
     session.notes.clear();
     session.notes.say(&format!("Saved {}", saved.path.display()));
     if !saved.lost.is_empty() {
