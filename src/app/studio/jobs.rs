@@ -1,7 +1,7 @@
 //! Makes the jobs of the renderer for what views show.
 
+use super::effort::Effort;
 use super::order::{FiguresOrder, Shot};
-use super::pace::Effort;
 use crate::app::lookup::backdrop;
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;

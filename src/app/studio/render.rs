@@ -1,12 +1,11 @@
 //! Traces renders: a body or its copies under a light, in front of a background.
 
 use super::develop::{developed, manner, overlaid};
+use super::effort::{Effort, RAYS_COARSER, Refinement};
 use super::jobs::coarser;
 use super::motion::Moment;
 use super::order::{Shot, Slot, Smoothing, TakenPicture};
-use super::pace::Effort;
-use super::refinement::Refinement;
-use super::take::{RAYS_COARSER, ShotTracer, TakeError};
+use super::take::{ShotTracer, TakeError};
 use super::undeveloped::TracedLight;
 use crate::io::background::BackgroundRef;
 use crate::picture::developed as developed_from;
@@ -21,17 +20,16 @@ impl ShotTracer {
         &mut self,
         (slot, shot): (Slot, &Shot),
         effort: &Effort,
-        refinement: Option<&Refinement>,
         watch: Watch,
         each: &mut dyn FnMut(TakenPicture),
     ) -> Result<(), TakeError> {
         let moving = match shot.smoothing {
-            Smoothing::Temporal { newest } if refinement.is_none() => Some(newest),
+            Smoothing::Temporal { newest } if !effort.is_refined() => Some(newest),
             _ => None,
         };
         let first = moving.and_then(|_| self.trails.get(&slot)).map_or(0, |(trail, _)| trail.count);
-        let mut job = self.light_job(shot, effort, refinement, first)?;
-        let is_slow = self.renderer.plan(&job)?.backend.is_slow() && refinement.is_none();
+        let mut job = self.light_job(shot, effort, first)?;
+        let is_slow = self.renderer.plan(&job)?.backend.is_slow() && !effort.is_refined();
         job.film = coarser(&shot.film, effort.coarser * if is_slow { RAYS_COARSER } else { 1.0 });
         let Self { renderer, trails, kept, notes, .. } = self;
         renderer.run(&job, watch, &mut |part| {
@@ -47,23 +45,18 @@ impl ShotTracer {
                 Moment::of(shot, job.film).lay(trails, (slot, picture), &lit_scene, newest).clone()
             });
             let picture = laid.as_ref().unwrap_or(picture);
-            if refinement.is_some() {
+            if effort.is_refined() {
                 let light = TracedLight::Render { picture: picture.clone(), unresolved, tracer };
                 kept.insert(slot, (shot.clone(), light));
             }
-            each(developed(shot, (picture, refinement.is_some()), (unresolved, tracer), watch)?);
+            each(developed(shot, (picture, effort.is_refined()), (unresolved, tracer), watch)?);
             Ok::<_, TakeError>(())
         })?;
         Ok(())
     }
 
-    fn light_job(
-        &mut self,
-        shot: &Shot,
-        effort: &Effort,
-        refinement: Option<&Refinement>,
-        first: u32,
-    ) -> Result<Job, TakeError> {
+    fn light_job(&mut self, shot: &Shot, effort: &Effort, first: u32) -> Result<Job, TakeError> {
+        let refinement = effort.refinement;
         let behind = self.picture_behind(shot.behind.as_ref())?;
         let mut quality = Quality::of_pictures(true);
         quality.beams.unresolved = refinement.map_or(effort.unresolved, |r| r.unresolved);
@@ -72,7 +65,7 @@ impl ShotTracer {
             None => Steps::Glance { first },
             Some(refinement) => Steps::Passes { first, hidden: refinement.after },
         };
-        Ok(shot.light_job(behind, refinement.map_or(effort.bands, |r| r.bands), steps, quality))
+        Ok(shot.light_job(behind, effort.bands, steps, quality))
     }
 
     /// Whether a shot is a render that rays on the processor trace, which takes long.
@@ -80,9 +73,8 @@ impl ShotTracer {
         if !shot.is_render() {
             return false;
         }
-        let effort = Effort { unresolved: 1.0, coarser: 1.0, bands: 1 };
-        let refinement = Refinement { bands: 1, samples: 1, after: 0, unresolved: 1.0 };
-        let job = self.light_job(shot, &effort, Some(&refinement), 0);
+        let refinement = Some(Refinement { samples: 1, after: 0, unresolved: 1.0 });
+        let job = self.light_job(shot, &Effort { refinement, ..Effort::rough(1.0, 1.0, 1) }, 0);
         job.is_ok_and(|job| self.renderer.plan(&job).is_ok_and(|plan| plan.backend.is_slow()))
     }
 
