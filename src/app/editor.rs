@@ -209,13 +209,9 @@ impl Editor {
         if !dropped.is_empty() {
             self.actions.push(FileAction::Dropped(dropped));
         }
-        if is_to_close {
-            self.actions.push(FileAction::Close);
-        }
+        self.actions.push_if(is_to_close, FileAction::Close);
         let keys = menus::held_keys(&self.ctx);
-        if keys != self.model.session.keys {
-            self.actions.push(ViewAction::Keys(keys));
-        }
+        self.actions.push_changed(&self.model.session.keys, keys, ViewAction::Keys);
     }
 
     fn name_window(&mut self) {

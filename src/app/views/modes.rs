@@ -119,8 +119,8 @@ pub fn show(cx: &mut PaneContext, ui: &mut Ui, width: f32) {
         menu.response.on_hover_text(format!("Also on in this view: {}.", hidden.join(", ")));
     }
     if let Some(mode) = ended.and_then(|k| modes.into_iter().nth(k)) {
-        cx.push(ViewAction::EndStep);
-        cx.push(mode.end);
+        cx.actions.push(ViewAction::EndStep);
+        cx.actions.push(mode.end);
     }
 }
 

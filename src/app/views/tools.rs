@@ -61,9 +61,7 @@ impl Attention {
         if let Some(pane) = hovered.filter(|&pane| pane != model.session.hovered) {
             actions.push(ViewAction::Hover(pane));
         }
-        if self.message != model.session.message {
-            actions.push(ViewAction::Message(self.message.clone()));
-        }
+        actions.push_changed(&model.session.message, self.message.clone(), ViewAction::Message);
     }
 }
 

@@ -33,9 +33,7 @@ pub fn attend(cx: &mut PaneContext, response: &Response, is_hovered: bool) {
         cx.tools.attention.menu = Some(cx.pane);
         contents(cx, ui);
     });
-    if response.double_clicked() {
-        cx.push(ViewAction::Enlarge(cx.pane));
-    }
+    cx.actions.push_if(response.double_clicked(), ViewAction::Enlarge(cx.pane));
     if is_hovered {
         cx.tools.attention.hovered = Some(cx.pane);
     }
@@ -47,7 +45,7 @@ fn contents(cx: &mut PaneContext, ui: &mut Ui) {
         for other in Shows::ALL {
             let choice = ui.selectable_label(shows == other, other.name());
             if choice.on_hover_text(other.meaning()).clicked() {
-                cx.push(ViewAction::Show(pane, other));
+                cx.actions.push(ViewAction::Show(pane, other));
                 ui.close();
             }
         }
@@ -61,7 +59,7 @@ fn contents(cx: &mut PaneContext, ui: &mut Ui) {
         ui.menu_button("Copy picture at size", |ui| sizes(cx, ui));
     }
     if Shows::EXPORTED.contains(&shows) && ui.button("Export this view…").clicked() {
-        cx.push(DialogAction::Export(Some(shows)));
+        cx.actions.push(DialogAction::Export(Some(shows)));
         ui.close();
     }
     ui.separator();
@@ -69,7 +67,7 @@ fn contents(cx: &mut PaneContext, ui: &mut Ui) {
     if workspace.layout.panes() > 1 {
         let name = if workspace.large == Some(pane) { "Show all views" } else { "Show alone" };
         if ui.button(name).clicked() {
-            cx.push(ViewAction::Enlarge(pane));
+            cx.actions.push(ViewAction::Enlarge(pane));
             ui.close();
         }
     }
@@ -79,7 +77,7 @@ fn sizes(cx: &mut PaneContext, ui: &mut Ui) {
     for side in SIZES {
         let about = "Pixels of the longer side. The picture is made in this size and copied once it is done.";
         if ui.button(format!("{side} pixels")).on_hover_text(about).clicked() {
-            cx.push(ViewAction::CopyAt(cx.pane, side));
+            cx.actions.push(ViewAction::CopyAt(cx.pane, side));
             ui.close();
         }
     }
