@@ -5,9 +5,10 @@ use super::develop::map_taken;
 use super::effort::{Effort, FINE_RENDER, RAYS_COARSER};
 use super::jobs::{MapDetail, coarser};
 use super::order::{Shot, Slot, TakenPicture};
-use super::take::{ShotTracer, TakeError};
+use super::take::ShotTracer;
 use super::undeveloped::TracedLight;
 use crate::app::lookup::as_screens;
+use crate::io::Failure;
 use crate::picture::{Carried, Develop, RefractionMap};
 use crate::render::{Job, Rendered, Renderer};
 use crate::trace::Watch;
@@ -24,7 +25,7 @@ impl ShotTracer {
         (slot, shot): (Slot, &Shot),
         effort: &Effort,
         watch: Watch,
-    ) -> Result<TakenPicture, TakeError> {
+    ) -> Result<TakenPicture, Failure> {
         let (detail, factor) = match effort.refinement {
             None => (ROUGH, effort.coarser * RAYS_COARSER),
             Some(refinement) if refinement.samples == 1 => (FAIR, 1.0),
@@ -44,10 +45,10 @@ impl ShotTracer {
         shot: &Shot,
         effort: &Effort,
         watch: Watch,
-    ) -> Result<TakenPicture, TakeError> {
+    ) -> Result<TakenPicture, Failure> {
         let factor = if effort.is_refined() { 1.0 } else { effort.coarser * RAYS_COARSER };
         let Some(behind) = self.picture_behind(Some(&shot.pane_background()))? else {
-            return Err(TakeError::Other("the pane has no background".into()));
+            return Err(Failure::Input("the pane has no background".into()));
         };
         // Panes are always traced by the processor, which takes no more passes than its fine renders have.
         let samples = effort.refinement.map_or(1, |r| r.samples.min(FINE_RENDER.samples));
@@ -59,19 +60,19 @@ impl ShotTracer {
     }
 }
 
-fn run(renderer: &mut Renderer, job: &Job, watch: Watch) -> Result<Rendered, TakeError> {
+fn run(renderer: &mut Renderer, job: &Job, watch: Watch) -> Result<Rendered, Failure> {
     renderer.run(job, watch, &mut |_| Ok(()))
 }
 
 /// Traces the map of a shot as it is exported, with the given numbers of bands and of places of a pixel in each.
 ///
 /// # Errors
-/// A [`TakeError`].
+/// A [`Failure`].
 pub fn survey(
     shot: &Shot,
     [bands, places]: [u32; 2],
     watch: Watch,
-) -> Result<(RefractionMap, Carried), TakeError> {
+) -> Result<(RefractionMap, Carried), Failure> {
     let job = shot.map_job(&MapDetail { bands, places, shades: 16, samples: 4 });
     let (map, carried) = run(&mut Renderer::default(), &job, watch)?.map()?;
     Ok((map.developed(&Develop { exposure: shot.exposure, bloom: None, ..Develop::default() }), carried))

@@ -5,12 +5,13 @@ use super::effort::{Effort, RAYS_COARSER, Refinement};
 use super::jobs::coarser;
 use super::motion::Moment;
 use super::order::{Shot, Slot, Smoothing, TakenPicture};
-use super::take::{ShotTracer, TakeError};
+use super::take::ShotTracer;
 use super::undeveloped::TracedLight;
+use crate::io::Failure;
 use crate::io::background::BackgroundRef;
 use crate::picture::developed as developed_from;
 use crate::picture::spectral::Remainder;
-use crate::render::{Job, Partial, Quality, Rendered, Steps};
+use crate::render::{Job, Partial, Quality, RenderError, Rendered, Steps};
 use crate::scene::Panorama;
 use crate::trace::Watch;
 use std::sync::Arc;
@@ -22,14 +23,15 @@ impl ShotTracer {
         effort: &Effort,
         watch: Watch,
         each: &mut dyn FnMut(TakenPicture),
-    ) -> Result<(), TakeError> {
+    ) -> Result<(), Failure> {
         let moving = match shot.smoothing {
             Smoothing::Temporal { newest } if !effort.is_refined() => Some(newest),
             _ => None,
         };
         let first = moving.and_then(|_| self.trails.get(&slot)).map_or(0, |(trail, _)| trail.count);
         let mut job = self.light_job(shot, effort, first)?;
-        let is_slow = self.renderer.plan(&job)?.backend.is_slow() && !effort.is_refined();
+        let is_slow =
+            self.renderer.plan(&job).map_err(RenderError::from)?.backend.is_slow() && !effort.is_refined();
         job.film = coarser(&shot.film, effort.coarser * if is_slow { RAYS_COARSER } else { 1.0 });
         let Self { renderer, trails, kept, notes, .. } = self;
         renderer.run(&job, watch, &mut |part| {
@@ -50,12 +52,12 @@ impl ShotTracer {
                 kept.insert(slot, (shot.clone(), light));
             }
             each(developed(shot, (picture, effort.is_refined()), (unresolved, tracer), watch)?);
-            Ok::<_, TakeError>(())
+            Ok::<_, Failure>(())
         })?;
         Ok(())
     }
 
-    fn light_job(&mut self, shot: &Shot, effort: &Effort, first: u32) -> Result<Job, TakeError> {
+    fn light_job(&mut self, shot: &Shot, effort: &Effort, first: u32) -> Result<Job, Failure> {
         let refinement = effort.refinement;
         let behind = self.picture_behind(shot.behind.as_ref())?;
         let mut quality = Quality::of_pictures(true);
@@ -81,11 +83,11 @@ impl ShotTracer {
     /// Traces the render of a shot as it is exported, with as many passes as the command line takes.
     ///
     /// # Errors
-    /// A [`TakeError`].
-    pub fn export(&mut self, shot: &Shot, watch: Watch) -> Result<ExportedRender, TakeError> {
+    /// A [`Failure`].
+    pub fn export(&mut self, shot: &Shot, watch: Watch) -> Result<ExportedRender, Failure> {
         let behind = self.picture_behind(shot.behind.as_ref())?;
         let job = shot.light_job(behind, shot.bands, Steps::Strips, Quality::of_pictures(true));
-        let rendered: Rendered = self.renderer.run(&job, watch, &mut |_| Ok::<_, TakeError>(()))?;
+        let rendered: Rendered = self.renderer.run(&job, watch, &mut |_| Ok::<_, Failure>(()))?;
         let tracer = rendered.backend.kind();
         let (picture, Remainder { unresolved, .. }) = rendered.light()?;
         let size = [picture.width, picture.height];
@@ -98,13 +100,12 @@ impl ShotTracer {
     pub(super) fn picture_behind(
         &mut self,
         asked: Option<&BackgroundRef>,
-    ) -> Result<Option<Arc<Panorama>>, TakeError> {
+    ) -> Result<Option<Arc<Panorama>>, Failure> {
         let Some(asked) = asked else { return Ok(None) };
         if let Some((_, picture)) = self.behind.as_ref().filter(|(last, _)| last == asked) {
             return Ok(Some(Arc::clone(picture)));
         }
-        let read = asked.picture().map_err(|error| TakeError::Other(error.to_string()))?;
-        let picture = read.map(|reading| Arc::new(reading.panorama));
+        let picture = asked.picture()?.map(|reading| Arc::new(reading.panorama));
         self.behind = picture.clone().map(|picture| (asked.clone(), picture));
         Ok(picture)
     }

@@ -9,52 +9,12 @@ use super::undeveloped::{Kept, TracedLight};
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::io::{Failure, rasterize_within};
-use crate::math::NotConvex;
 use crate::picture::{DiagramStyle, Palette, diagram};
-use crate::render::{Card, Partial, RenderError, Renderer, Unfit};
+use crate::render::{Card, Partial, RenderError, Renderer};
 use crate::scene::Panorama;
-use crate::trace::{Stopped, Watch};
+use crate::trace::Watch;
 use egui::ColorImage;
 use std::sync::Arc;
-
-/// Why a picture was not traced.
-#[derive(Debug, thiserror::Error)]
-pub enum TakeError {
-    /// The picture is no longer wanted.
-    #[error(transparent)]
-    Stopped(#[from] Stopped),
-    /// Beams and drawings are for convex stones alone.
-    #[error(transparent)]
-    NotConvex(#[from] NotConvex),
-    /// Any other reason, in words.
-    #[error("{0}")]
-    Other(String),
-}
-
-impl From<TakeError> for Failure {
-    fn from(trouble: TakeError) -> Self {
-        match trouble {
-            TakeError::Stopped(stopped) => stopped.into(),
-            TakeError::NotConvex(why) => Self::Usage(why.to_string()),
-            TakeError::Other(why) => Self::Input(why),
-        }
-    }
-}
-
-impl From<RenderError> for TakeError {
-    fn from(error: RenderError) -> Self {
-        match error {
-            RenderError::Stopped(stopped) => stopped.into(),
-            other => Self::Other(other.to_string()),
-        }
-    }
-}
-
-impl From<Unfit> for TakeError {
-    fn from(unfit: Unfit) -> Self {
-        Self::Other(unfit.to_string())
-    }
-}
 
 /// Traces pictures, and keeps what later pictures can use.
 #[derive(Default)]
@@ -84,7 +44,7 @@ impl ShotTracer {
         effort: &Effort,
         watch: Watch,
         each: &mut dyn FnMut(TakenPicture),
-    ) -> Result<(), TakeError> {
+    ) -> Result<(), Failure> {
         match shot.shows {
             Shows::Profile | Shows::LiquidGlass => Ok(()),
             Shows::Diagram => drawing(shot).map(each),
@@ -98,28 +58,29 @@ impl ShotTracer {
     /// Makes the picture of a shot from light that was traced for another shot; `None` where no such light is kept.
     ///
     /// # Errors
-    /// [`TakeError::Stopped`] when `watch` asks to stop, which only overlays do.
+    /// [`Failure::Stopped`] when `watch` asks to stop, which only overlays do.
     pub fn develop_again(
         &self,
         slot: Slot,
         shot: &Shot,
         watch: Watch,
-    ) -> Option<Result<TakenPicture, TakeError>> {
+    ) -> Option<Result<TakenPicture, Failure>> {
         let (_, light) = self.kept.get(&slot).filter(|(kept, _)| kept.has_light_of(shot))?;
         Some(match light {
             TracedLight::Render { picture, unresolved, tracer } => {
-                developed(shot, (picture, true), (*unresolved, tracer), watch).map_err(TakeError::from)
+                developed(shot, (picture, true), (*unresolved, tracer), watch).map_err(Failure::from)
             }
             TracedLight::Map(map) => Ok(map_taken(shot, map.clone())),
         })
     }
 
-    fn scoped(&mut self, shot: &Shot, effort: &Effort, watch: Watch) -> Result<TakenPicture, TakeError> {
-        let Some(scoped) = shot.shows.scoped() else { return Err(TakeError::Other("no scope".into())) };
+    fn scoped(&mut self, shot: &Shot, effort: &Effort, watch: Watch) -> Result<TakenPicture, Failure> {
+        let Some(scoped) = shot.shows.scoped() else { return Err(Failure::Input("no scope".into())) };
         let scope = scoped.scope.with_head(if scoped.takes_head { shot.head } else { 0.0 });
         let palette = Palette::of(&scope);
         let mut job = shot.scope_job(scope, effort, if effort.is_refined() { 3 } else { 1 });
-        let is_slow = self.renderer.plan(&job)?.backend.is_slow() && !effort.is_refined();
+        let is_slow =
+            self.renderer.plan(&job).map_err(RenderError::from)?.backend.is_slow() && !effort.is_refined();
         job.film = coarser(&shot.film, effort.coarser * if is_slow { RAYS_COARSER } else { 1.0 });
         let size = job.film.size;
         let (mut pixels, mut unresolved) =
@@ -139,7 +100,7 @@ impl ShotTracer {
                 Partial::Note(why) => notes.push(why.to_owned()),
                 Partial::Picture { .. } => {}
             }
-            Ok::<_, TakeError>(())
+            Ok::<_, Failure>(())
         })?;
         let tracer = rendered.backend.kind();
         // The whole light counts, not the part of the area that has no strongest exit.
@@ -157,8 +118,8 @@ impl ShotTracer {
     }
 }
 
-fn drawing(shot: &Shot) -> Result<TakenPicture, TakeError> {
-    let stone = shot.specimen.stone()?;
+fn drawing(shot: &Shot) -> Result<TakenPicture, Failure> {
+    let stone = shot.specimen.stone().map_err(|e| Failure::Usage(e.to_string()))?;
     let style = match shot.paper.pixels_per_point.map(f64::from) {
         Some(scale) => {
             let points = shot.film.size.map(|pixels| f64::from(pixels) / scale);
@@ -168,7 +129,7 @@ fn drawing(shot: &Shot) -> Result<TakenPicture, TakeError> {
     };
     let text = diagram(stone, &shot.title, &style).to_string();
     let (width, height, rgba) =
-        rasterize_within(&text, shot.film.size).map_err(|e| TakeError::Other(e.to_string()))?;
+        rasterize_within(&text, shot.film.size).map_err(|e| Failure::Input(e.to_string()))?;
     let image = ColorImage::from_rgba_unmultiplied([width as usize, height as usize], &rgba);
     Ok(TakenPicture { image, unresolved: None, tracer: "drawn", map: None })
 }

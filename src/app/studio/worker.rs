@@ -4,8 +4,9 @@ use super::effort::{Effort, FAIR, FINE, FINE_BY_CARD, HALFWAY, SHARP};
 use super::mailbox::{Mailbox, Wake};
 use super::order::{Answer, FiguresOrder, Grade, Order, Shot, Slot, Smoothing, TakenPicture, Which};
 use super::pace::Pace;
-use super::take::{ShotTracer, TakeError};
+use super::take::ShotTracer;
 use crate::app::shows::Shows;
+use crate::io::Failure;
 use crate::measure::{Bounds, Figures, LATTICE, UNRESOLVED};
 use crate::render::{Card, Job, RenderError, Rendered};
 use crate::scene::View;
@@ -152,7 +153,7 @@ impl Worker {
         let Some((done, grade)) = before.cloned() else { return Ok(false) };
         match self.camera.develop_again(slot, shot, watch) {
             Some(Ok(taken)) => self.answer(Answer::Picture(slot, Box::new(shot.clone()), grade, taken)),
-            Some(Err(TakeError::Stopped(stopped))) => return Err(stopped),
+            Some(Err(Failure::Stopped)) => return Err(Stopped),
             Some(Err(_)) | None => return Ok(false),
         }
         if self.sharp.get(&slot) == Some(&done) {
@@ -240,7 +241,7 @@ impl Worker {
         notes.into_iter().for_each(|note| self.answer(Answer::Trouble(note)));
         match taken {
             Ok(()) => {}
-            Err(TakeError::Stopped(stopped)) => return Err(stopped),
+            Err(Failure::Stopped) => return Err(Stopped),
             Err(why) => self.answer(Answer::Trouble(why.to_string())),
         }
         self.pictures.insert(slot, (shot.clone(), grade));
