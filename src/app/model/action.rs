@@ -92,10 +92,6 @@ pub enum ViewAction {
     EndPerspective(usize),
     /// The name of the overlay over all pictures.
     Overlay(Option<String>),
-    /// Whether scopes show only the strongest exits.
-    Strongest(bool),
-    /// Whether scopes and figures include glare.
-    Glare(bool),
     /// Ends a step of the view history; the next change begins another.
     EndStep,
     /// The pointer is over a view; commands act on it.
