@@ -7,6 +7,8 @@ use super::model::dialog::Then;
 use super::model::opening::Opening;
 use super::model::preset::{Known, PRESETS};
 use super::model::session::{HeldKeys, Session};
+use super::setup::PaintedBy;
+use super::studio::Studio;
 use crate::io::{cut_file, library};
 use egui::{Align, Button, Context, Event, Key, Modifiers, Panel, Popup, RichText, ThemePreference, Ui};
 
@@ -142,36 +144,24 @@ fn from_library(actions: &mut Actions, ui: &mut Ui) {
     });
 }
 
-/// What the status line says of the pictures, beside the messages.
-pub struct PictureStatus<'a> {
-    /// Whether all pictures and figures that were ordered are there.
-    pub is_idle: bool,
-    /// Whether pictures still become sharper.
-    pub sharpens: bool,
-    /// The name of what computes the pictures.
-    pub device: &'a str,
-    /// The name of what paints the window.
-    pub painter: &'a str,
-}
-
 /// Draws the status line at the bottom of the window.
-pub fn status(session: &Session, pictures: &PictureStatus, ui: &mut Ui) {
+pub fn status(session: &Session, studio: &Studio, painted_by: PaintedBy, ui: &mut Ui) {
     Panel::bottom("status").show(ui, |ui| {
         ui.horizontal(|ui| {
             // The state is laid out first, so that a long message is shortened and does not push it out.
             ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
                 let opening = session.awaited.opening.last().map(Opening::message);
-                let tracing = match (pictures.is_idle, pictures.sharpens) {
+                let tracing = match (studio.is_idle(), studio.sharpens()) {
                     (false, _) => "tracing…",
                     (true, true) => "sharpening…",
                     (true, false) => "done",
                 };
                 let state = opening.unwrap_or_else(|| tracing.to_owned());
-                ui.label(RichText::new(format!("{state} · {}", pictures.device)).weak().small())
+                ui.label(RichText::new(format!("{state} · {}", studio.device_name())).weak().small())
                     .on_hover_text(format!(
                         "The device that computes the pictures: the processor or a graphics card. The {} paints the \
                             window.",
-                        pictures.painter
+                        painted_by.name()
                     ));
                 let note = session.notes.said().unwrap_or_default();
                 let text = if session.message.is_empty() { note } else { &session.message };

@@ -225,11 +225,8 @@ fn working(run: &ExportRun, folder: &Path, actions: &mut Actions, ui: &mut Ui) {
     let lines = ScrollArea::vertical().max_height(TOLD).min_scrolled_height(TOLD).auto_shrink(false);
     lines.stick_to_bottom(true).show(ui, |ui| {
         run.messages.iter().for_each(|line| drop(ui.label(RichText::new(line).small())));
-        match &run.end {
-            Some(Err(why)) if !run.is_stopped => {
-                ui.label(RichText::new(why.to_string()).color(theme::bad(ui.visuals())));
-            }
-            _ => {}
+        if let (Some(Err(why)), false) = (&run.end, run.is_stopped) {
+            ui.label(RichText::new(why.to_string()).color(theme::bad(ui.visuals())));
         }
     });
     // A line that is always there keeps the button in its place.

@@ -7,6 +7,7 @@ use super::motion::Moment;
 use super::order::{Shot, Slot, Smoothing, TakenPicture};
 use super::take::ShotTracer;
 use super::undeveloped::TracedLight;
+use crate::app::shows::Shows;
 use crate::io::Failure;
 use crate::io::background::BackgroundRef;
 use crate::picture::developed as developed_from;
@@ -72,7 +73,7 @@ impl ShotTracer {
 
     /// Whether a shot is a render that rays on the processor trace, which takes long.
     pub fn is_slow_render(&mut self, shot: &Shot) -> bool {
-        if !shot.is_render() {
+        if shot.shows != Shows::Render {
             return false;
         }
         let refinement = Some(Refinement { samples: 1, after: 0, unresolved: 1.0 });

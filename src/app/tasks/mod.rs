@@ -11,7 +11,6 @@ pub mod files;
 mod look_ups;
 pub mod lookup;
 pub mod open;
-pub mod opener;
 pub mod runner;
 
 use crate::app::model::action::{Computed, DialogAction, FileAction, NoteAction};
@@ -31,7 +30,6 @@ use egui::ColorImage;
 use files::Chooser;
 use look_ups::LookUps;
 use lookup::LookupRequest;
-use opener::Opener;
 use runner::{JobHandle, TaskRunner, Turn};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -79,6 +77,9 @@ const FAULT: &str = "this is a fault in the program; please report it, with the 
 fn fault() -> Failure {
     Failure::Output(FAULT.to_owned())
 }
+
+/// A function that opens a folder by its path, or a page of the web by its address, without waiting for it.
+pub type Opener = Arc<dyn Fn(&str) -> std::io::Result<()> + Send + Sync>;
 
 /// Carries out tasks.
 pub struct Outside {

@@ -1,8 +1,8 @@
 //! The view of a pane of liquid glass, drawn as screens draw it or traced: the pane is moved by hand.
 
-use super::arrows;
 use super::pane_context::{PaneContext, focus};
 use super::view_menu::attend;
+use crate::app::arrows;
 use crate::app::model::action::ViewAction;
 use crate::app::studio::Which;
 use egui::{Modifiers, PointerButton, Rect, Role, Sense, StrokeKind, Ui, WidgetInfo};
