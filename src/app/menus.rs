@@ -1,7 +1,7 @@
 //! The menu bar, the status line at the bottom, and the keys.
 
 use super::model::Model;
-use super::model::action::{Actions, FileAction};
+use super::model::action::{Action, Actions, FileAction};
 use super::model::command::{Command, MENUS, Menu};
 use super::model::dialog::Then;
 use super::model::opening::Opening;
@@ -10,7 +10,9 @@ use super::model::session::{HeldKeys, Session};
 use super::setup::PaintedBy;
 use super::studio::Studio;
 use crate::io::{cut_file, library};
-use egui::{Align, Button, Context, Event, Key, Modifiers, Panel, Popup, RichText, ThemePreference, Ui};
+use egui::{
+    Align, Button, Context, Event, Key, Modifiers, Panel, Popup, Response, RichText, ThemePreference, Ui,
+};
 
 /// Draws the menu bar.
 pub fn bar(model: &Model, actions: &mut Actions, ui: &mut Ui) {
@@ -96,8 +98,14 @@ fn themes(ui: &mut Ui) {
 pub fn entry(model: &Model, actions: &mut Actions, ui: &mut Ui, command: Command) {
     let keys = command.shortcuts().next().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
     let button = Button::new(command.name()).shortcut_text(keys).selected(model.is_chosen(command));
-    if ui.add_enabled(model.is_possible(command), button).on_hover_text(command.meaning()).clicked() {
-        actions.push(command);
+    let entry = ui.add_enabled(model.is_possible(command), button).on_hover_text(command.meaning());
+    choose(actions, ui, &entry, command);
+}
+
+/// Adds the action of a menu's entry and closes the menu, where the entry was clicked.
+pub fn choose(actions: &mut Actions, ui: &Ui, entry: &Response, action: impl Into<Action>) {
+    if entry.clicked() {
+        actions.push(action);
         ui.close();
     }
 }
@@ -109,10 +117,8 @@ fn opened_before(model: &Model, actions: &mut Actions, ui: &mut Ui) {
                 let name = path
                     .file_name()
                     .map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into());
-                if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
-                    actions.push(FileAction::Ask(Then::open(path.clone())));
-                    ui.close();
-                }
+                let entry = ui.button(name).on_hover_text(path.display().to_string());
+                choose(actions, ui, &entry, FileAction::Ask(Then::open(path.clone())));
             }
         });
     });
@@ -127,19 +133,15 @@ fn from_library(actions: &mut Actions, ui: &mut Ui) {
                 .as_ref()
                 .and_then(|d| d.source.as_deref())
                 .unwrap_or("A cut that comes with the program.");
-            if ui.button(title).on_hover_text(source).clicked() {
-                actions.push(FileAction::Ask(Then::Library(name.to_owned())));
-                ui.close();
-            }
+            let entry = ui.button(title).on_hover_text(source);
+            choose(actions, ui, &entry, FileAction::Ask(Then::Library(name.to_owned())));
         }
     });
     ui.menu_button("Scene of glass", |ui| {
         for Known { name, title, .. } in PRESETS {
             let about = "A preset that recreates a published demonstration of spectral refraction.";
-            if ui.button(title).on_hover_text(about).clicked() {
-                actions.push(FileAction::Ask(Then::Preset(name.to_owned())));
-                ui.close();
-            }
+            let entry = ui.button(title).on_hover_text(about);
+            choose(actions, ui, &entry, FileAction::Ask(Then::Preset(name.to_owned())));
         }
     });
 }
