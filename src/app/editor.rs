@@ -1,7 +1,6 @@
 //! The editor's window: it draws the model, turns what a person does into actions, and carries out tasks.
 
 use super::hands::Hands;
-use super::menus::PictureStatus;
 use super::model::action::{Actions, Computed, FileAction, FrameEnd, NoteAction, ViewAction};
 use super::model::opening::{FileRequest, OpeningPurpose};
 use super::model::ordering::Seen;
@@ -209,13 +208,9 @@ impl Editor {
         if !dropped.is_empty() {
             self.actions.push(FileAction::Dropped(dropped));
         }
-        if is_to_close {
-            self.actions.push(FileAction::Close);
-        }
+        self.actions.push_if(is_to_close, FileAction::Close);
         let keys = menus::held_keys(&self.ctx);
-        if keys != self.model.session.keys {
-            self.actions.push(ViewAction::Keys(keys));
-        }
+        self.actions.push_changed(&self.model.session.keys, keys, ViewAction::Keys);
     }
 
     fn name_window(&mut self) {
@@ -251,13 +246,7 @@ impl Editor {
         self.run();
         self.views.paper = theme::paper(&ctx);
         menus::bar(&self.model, &mut self.actions, ui);
-        let pictures = PictureStatus {
-            is_idle: self.studio.is_idle(),
-            sharpens: self.studio.sharpens(),
-            device: self.studio.device_name(),
-            painter: self.painted_by.name(),
-        };
-        menus::status(&self.model.session, &pictures, ui);
+        menus::status(&self.model.session, &self.studio, self.painted_by, ui);
         self.run();
         if !self.model.workspace.hides_panels {
             side_panels::show(&self.model, &mut self.actions, ui);

@@ -1,14 +1,18 @@
 //! The menu bar, the status line at the bottom, and the keys.
 
 use super::model::Model;
-use super::model::action::{Actions, FileAction};
+use super::model::action::{Action, Actions, FileAction};
 use super::model::command::{Command, MENUS, Menu};
 use super::model::dialog::Then;
 use super::model::opening::Opening;
 use super::model::preset::{Known, PRESETS};
 use super::model::session::{HeldKeys, Session};
+use super::setup::PaintedBy;
+use super::studio::Studio;
 use crate::io::{cut_file, library};
-use egui::{Align, Button, Context, Event, Key, Modifiers, Panel, Popup, RichText, ThemePreference, Ui};
+use egui::{
+    Align, Button, Context, Event, Key, Modifiers, Panel, Popup, Response, RichText, ThemePreference, Ui,
+};
 
 /// Draws the menu bar.
 pub fn bar(model: &Model, actions: &mut Actions, ui: &mut Ui) {
@@ -92,10 +96,16 @@ fn themes(ui: &mut Ui) {
 
 /// Draws a menu entry that carries out a command.
 pub fn entry(model: &Model, actions: &mut Actions, ui: &mut Ui, command: Command) {
-    let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
+    let keys = command.shortcuts().next().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
     let button = Button::new(command.name()).shortcut_text(keys).selected(model.is_chosen(command));
-    if ui.add_enabled(model.is_possible(command), button).on_hover_text(command.meaning()).clicked() {
-        actions.push(command);
+    let entry = ui.add_enabled(model.is_possible(command), button).on_hover_text(command.meaning());
+    choose(actions, ui, &entry, command);
+}
+
+/// Adds the action of a menu's entry and closes the menu, where the entry was clicked.
+pub fn choose(actions: &mut Actions, ui: &Ui, entry: &Response, action: impl Into<Action>) {
+    if entry.clicked() {
+        actions.push(action);
         ui.close();
     }
 }
@@ -107,10 +117,8 @@ fn opened_before(model: &Model, actions: &mut Actions, ui: &mut Ui) {
                 let name = path
                     .file_name()
                     .map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into());
-                if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
-                    actions.push(FileAction::Ask(Then::open(path.clone())));
-                    ui.close();
-                }
+                let entry = ui.button(name).on_hover_text(path.display().to_string());
+                choose(actions, ui, &entry, FileAction::Ask(Then::open(path.clone())));
             }
         });
     });
@@ -125,53 +133,37 @@ fn from_library(actions: &mut Actions, ui: &mut Ui) {
                 .as_ref()
                 .and_then(|d| d.source.as_deref())
                 .unwrap_or("A cut that comes with the program.");
-            if ui.button(title).on_hover_text(source).clicked() {
-                actions.push(FileAction::Ask(Then::Library(name.to_owned())));
-                ui.close();
-            }
+            let entry = ui.button(title).on_hover_text(source);
+            choose(actions, ui, &entry, FileAction::Ask(Then::Library(name.to_owned())));
         }
     });
     ui.menu_button("Scene of glass", |ui| {
         for Known { name, title, .. } in PRESETS {
             let about = "A preset that recreates a published demonstration of spectral refraction.";
-            if ui.button(title).on_hover_text(about).clicked() {
-                actions.push(FileAction::Ask(Then::Preset(name.to_owned())));
-                ui.close();
-            }
+            let entry = ui.button(title).on_hover_text(about);
+            choose(actions, ui, &entry, FileAction::Ask(Then::Preset(name.to_owned())));
         }
     });
 }
 
-/// What the status line says of the pictures, beside the messages.
-pub struct PictureStatus<'a> {
-    /// Whether all pictures and figures that were ordered are there.
-    pub is_idle: bool,
-    /// Whether pictures still become sharper.
-    pub sharpens: bool,
-    /// The name of what computes the pictures.
-    pub device: &'a str,
-    /// The name of what paints the window.
-    pub painter: &'a str,
-}
-
 /// Draws the status line at the bottom of the window.
-pub fn status(session: &Session, pictures: &PictureStatus, ui: &mut Ui) {
+pub fn status(session: &Session, studio: &Studio, painted_by: PaintedBy, ui: &mut Ui) {
     Panel::bottom("status").show(ui, |ui| {
         ui.horizontal(|ui| {
             // The state is laid out first, so that a long message is shortened and does not push it out.
             ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
                 let opening = session.awaited.opening.last().map(Opening::message);
-                let tracing = match (pictures.is_idle, pictures.sharpens) {
+                let tracing = match (studio.is_idle(), studio.sharpens()) {
                     (false, _) => "tracing…",
                     (true, true) => "sharpening…",
                     (true, false) => "done",
                 };
                 let state = opening.unwrap_or_else(|| tracing.to_owned());
-                ui.label(RichText::new(format!("{state} · {}", pictures.device)).weak().small())
+                ui.label(RichText::new(format!("{state} · {}", studio.device_name())).weak().small())
                     .on_hover_text(format!(
                         "The device that computes the pictures: the processor or a graphics card. The {} paints the \
                             window.",
-                        pictures.painter
+                        painted_by.name()
                     ));
                 let note = session.notes.said().unwrap_or_default();
                 let text = if session.message.is_empty() { note } else { &session.message };
@@ -196,7 +188,7 @@ pub fn keys(model: &Model, actions: &mut Actions, ctx: &Context, is_picture_focu
     for (key, modifiers) in ctx.input(|i| i.events.iter().filter_map(pressed).collect::<Vec<_>>()) {
         let is_meant =
             |c: &Command| c.shortcuts().any(|s| s.logical_key == key && modifiers.matches_exact(s.modifiers));
-        let Some(command) = Command::all().find(is_meant) else { continue };
+        let Some(command) = Command::ALL.into_iter().find(is_meant) else { continue };
         if !modifiers.command && ctx.text_edit_focused() {
             continue;
         }

@@ -1,5 +1,7 @@
 //! Floor 7: the editor, a window in which a stone is cut and its light is watched.
 
+mod arrows;
+mod described;
 mod dialogs;
 mod drops;
 mod editor;

@@ -75,7 +75,7 @@ impl ProfileView {
 
     /// Returns the part of the profile to show: the same part while a handle is dragged, else one on its way to what fits.
     fn extent(&mut self, ui: &Ui, measured: &MeasuredProfile<'_>) -> ProfileBox {
-        let fitting = measured.extent();
+        let fitting = ProfileBox::of(&measured.dimensions);
         let shown = match (&self.grab, &measured.cut) {
             (Some(grab), Some(cut)) => grab.shown(cut),
             _ => {
@@ -93,7 +93,7 @@ impl ProfileView {
     /// Returns the handle that is dragged, else the one under the pointer, else the one with the keyboard focus.
     fn active(&self, offered: &[Offered]) -> Option<Handle> {
         let find = |is: fn(&Offered) -> bool| offered.iter().find(|o| is(o)).map(|o| o.grip.handle);
-        let held = self.grab.as_ref().map(Grab::handle);
+        let held = self.grab.as_ref().map(|grab| grab.handle);
         held.or_else(|| find(Offered::is_pointed_at)).or_else(|| find(|o| o.response.has_focus()))
     }
 
@@ -150,7 +150,7 @@ impl ProfileView {
             if o.is_pointed_at() {
                 ui.ctx().set_cursor_icon(cursor(o.grip.handle, held));
             }
-            let handle = held.map_or(o.grip.handle, Grab::handle);
+            let handle = held.map_or(o.grip.handle, |grab| grab.handle);
             let row = handle.row;
             let value = format!("{} {}", row.name, row.written((row.get)(cut)));
             let is_shown = labels.iter().any(|label| label.about == Some(row));
@@ -167,7 +167,7 @@ impl ProfileView {
 
 fn cursor(handle: Handle, held: Option<&Grab>) -> CursorIcon {
     match held {
-        Some(grab) if !grab.is_undecided() => grab.handle().cursor(),
+        Some(grab) if !grab.is_undecided => grab.handle.cursor(),
         _ if handle.part == ProfileHandle::PavilionTip => CursorIcon::Move,
         _ => handle.cursor(),
     }

@@ -2,8 +2,8 @@
 
 use super::model::workspace::Workspace;
 use super::state_file::StateFile;
+use super::tasks::Opener;
 use super::tasks::files::{Chooser, by_dialog};
-use super::tasks::opener::{Opener, by_system};
 use crate::io::mesh_options::MeshOptions;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -36,7 +36,7 @@ impl Default for Setup {
             safe: None,
             workspace: Workspace::default(),
             chooser: Arc::new(by_dialog),
-            opener: Arc::new(by_system),
+            opener: Arc::new(|what| open::that_detached(what)),
             painted_by: PaintedBy::default(),
             state_file: None,
         }

@@ -10,60 +10,23 @@ impl Menu {
     }
 }
 
-use Command::*;
-
 impl Command {
-    /// Returns the key of the command, with the modifiers that are held down, if it has one.
-    pub fn shortcut(self) -> Option<KeyboardShortcut> {
-        let bare = |key| Some(KeyboardShortcut::new(Modifiers::NONE, key));
-        let command = |key| Some(KeyboardShortcut::new(Modifiers::COMMAND, key));
-        let shifted = |key| Some(KeyboardShortcut::new(Modifiers::COMMAND | Modifiers::SHIFT, key));
-        match self {
-            Open => command(Key::O),
-            Save => command(Key::S),
-            SaveAs => shifted(Key::S),
-            Export => command(Key::E),
-            CopyPicture => shifted(Key::C),
-            Quit => command(Key::Q),
-            Undo => command(Key::Z),
-            Redo => shifted(Key::Z),
-            ViewBack => bare(Key::Backspace),
-            ViewOn => Some(KeyboardShortcut::new(Modifiers::SHIFT, Key::Backspace)),
-            Top => bare(Key::T),
-            Side => bare(Key::S),
-            Bottom => bare(Key::B),
-            Free => bare(Key::F),
-            Fit => bare(Key::Num0),
-            Perspective => bare(Key::P),
-            EyeLeans => bare(Key::E),
-            One => bare(Key::Num1),
-            Two => bare(Key::Num2),
-            Four => bare(Key::Num4),
-            Wireframe => bare(Key::W),
-            Facets => bare(Key::A),
-            Bounces => bare(Key::N),
-            Unresolved => bare(Key::U),
-            Total => bare(Key::I),
-            Strongest => bare(Key::X),
-            Glare => bare(Key::V),
-            Split => bare(Key::D),
-            LightPath => bare(Key::L),
-            Play => bare(Key::M),
-            LayOut => bare(Key::Space),
-            NextBehind => bare(Key::G),
-            Panels => bare(Key::H),
-            FullScreen => bare(Key::F11),
-            Keys => bare(Key::F1),
-            CompareSaved => bare(Key::R),
-            CompareFile | NoCompare | ResetView | ResetLayout | About => None,
-        }
-    }
-
-    /// Returns all keys of the command: the one that menus show, and one that other programs use.
+    /// Returns all keys of the command; menus show the first.
     pub fn shortcuts(self) -> impl Iterator<Item = KeyboardShortcut> {
-        let other = (self == Redo).then(|| KeyboardShortcut::new(Modifiers::COMMAND, Key::Y));
-        self.shortcut().into_iter().chain(other)
+        self.keys().split(", ").filter_map(shortcut)
     }
+}
+
+/// Returns a key by its text, such as `Ctrl+O`.
+fn shortcut(text: &str) -> Option<KeyboardShortcut> {
+    let (modifiers, key) = match text.rsplit_once('+') {
+        None => (Modifiers::NONE, text),
+        Some(("Shift", key)) => (Modifiers::SHIFT, key),
+        Some(("Ctrl", key)) => (Modifiers::COMMAND, key),
+        Some(("Ctrl+Shift", key)) => (Modifiers::COMMAND | Modifiers::SHIFT, key),
+        Some(_) => return None,
+    };
+    Some(KeyboardShortcut::new(modifiers, Key::from_name(key)?))
 }
 
 #[cfg(test)]
@@ -78,8 +41,16 @@ mod tests {
     }
 
     #[test]
+    fn the_menus_hold_every_command_once_in_the_order_of_the_table() {
+        let all: Vec<Command> = MENUS.iter().flat_map(|menu| menu.groups.concat()).collect();
+        assert_eq!(all, Command::ALL);
+    }
+
+    #[test]
     fn no_key_does_two_things() {
-        let keys: Vec<_> = Command::all().flat_map(|c| c.shortcuts().map(move |key| (c, key))).collect();
+        let keys: Vec<_> = Command::ALL.iter().flat_map(|c| c.shortcuts().map(move |key| (c, key))).collect();
+        let texts = Command::ALL.iter().flat_map(|c| c.keys().split(", ")).filter(|text| !text.is_empty());
+        assert_eq!(keys.len(), texts.count(), "a text in the table of commands is no key");
         for (i, (a, key)) in keys.iter().enumerate() {
             let twin = keys[..i].iter().find(|(_, other)| other == key);
             assert!(twin.is_none(), "{a:?} and {twin:?}");

@@ -60,19 +60,13 @@ fn list(notes: &Notes, actions: &mut Actions, ui: &mut Ui, height: f32) {
     ScrollArea::vertical().max_height(height).show(ui, |ui| {
         for (k, trouble) in notes.troubles().iter().enumerate().rev() {
             ui.horizontal_top(|ui| {
-                if ui.small_button("Dismiss").clicked() {
-                    actions.push(NoteAction::Dismiss(k));
-                }
+                actions.push_if(ui.small_button("Dismiss").clicked(), NoteAction::Dismiss(k));
                 ui.add(Label::new(coloured(ui, trouble)).wrap().selectable(true));
             });
         }
     });
     ui.horizontal(|ui| {
-        if ui.button("Dismiss all").clicked() {
-            actions.push(NoteAction::DismissAll);
-        }
-        if ui.button("Show one line").clicked() {
-            actions.push(NoteAction::List(false));
-        }
+        actions.push_if(ui.button("Dismiss all").clicked(), NoteAction::DismissAll);
+        actions.push_if(ui.button("Show one line").clicked(), NoteAction::List(false));
     });
 }

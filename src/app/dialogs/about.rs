@@ -52,9 +52,7 @@ pub fn show(about: &AboutForm, actions: &mut Actions, ui: &mut Ui) {
             ui.selectable_value(&mut page, AboutPage::Licence(k), format!("Licence {name}"));
         }
     });
-    if page != about.page {
-        actions.push(DialogAction::AboutPage(page));
-    }
+    actions.push_changed(&about.page, page, DialogAction::AboutPage);
     let height = (ui.ctx().content_rect().height() - 300.0).clamp(120.0, LIST);
     match about.page {
         AboutPage::Crates => list(actions, ui, &about.sought, height),
@@ -109,9 +107,7 @@ fn list(actions: &mut Actions, ui: &mut Ui, sought: &str, height: f32) {
         let label = ui.label("Find");
         let mut text = sought.to_owned();
         let field = ui.add(TextEdit::singleline(&mut text).desired_width(180.0)).labelled_by(label.id);
-        if field.changed() {
-            actions.push(DialogAction::AboutSearch(text));
-        }
+        actions.push_if(field.changed(), DialogAction::AboutSearch(text));
         ui.label(RichText::new(format!("{} of {} crates", found.len(), crates().count())).weak());
     });
     ScrollArea::vertical().id_salt("crates").max_height(height).auto_shrink(false).show(ui, |ui| {

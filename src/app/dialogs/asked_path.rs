@@ -7,23 +7,19 @@ use crate::app::model::dialog::PathForm;
 use crate::app::theme;
 use egui::{Key, RichText, TextEdit, Ui};
 
-/// Returns the heading of the dialog, and the name of the button that accepts the path.
-fn words(purpose: Purpose) -> (&'static str, &'static str) {
+/// Returns the name of the button that accepts the path.
+fn verb(purpose: Purpose) -> &'static str {
     match purpose {
-        Purpose::Open => ("Open a cut", "Open"),
-        Purpose::SaveAs => ("Save the cut as", "Save"),
-        Purpose::Compare => ("Compare with a cut", "Open"),
-        Purpose::Light => ("Choose a light or a panorama", "Open"),
-        Purpose::Behind => ("Choose a background picture", "Open"),
-        Purpose::Folder => ("Choose a folder for the files", "Choose"),
+        Purpose::SaveAs => "Save",
+        Purpose::Folder => "Choose",
+        _ => "Open",
     }
 }
 
 /// Draws the dialog.
 pub fn show(actions: &mut Actions, ui: &mut Ui, form: &PathForm) {
     ui.set_width(460.0);
-    let (heading, verb) = words(form.purpose);
-    ui.heading(heading);
+    ui.heading(form.purpose.heading());
     let why = "The system could not open a file dialog. It needs a desktop portal such as xdg-desktop-portal. Type \
         the path instead.";
     ui.label(RichText::new(why).weak());
@@ -32,9 +28,7 @@ pub fn show(actions: &mut Actions, ui: &mut Ui, form: &PathForm) {
     let mut text = form.text.clone();
     let field = ui.add(TextEdit::singleline(&mut text).desired_width(440.0)).labelled_by(label.id);
     let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
-    if field.changed() {
-        actions.push(DialogAction::Type(text));
-    }
+    actions.push_if(field.changed(), DialogAction::Type(text));
     let has_focus = ui.memory(|m| m.focused().is_some());
     if !(has_focus || is_entered && form.is_typed) {
         field.request_focus();
@@ -45,7 +39,7 @@ pub fn show(actions: &mut Actions, ui: &mut Ui, form: &PathForm) {
     } else if form.purpose != Purpose::SaveAs && !path.exists() {
         ui.label(RichText::new("This file does not exist.").weak());
     }
-    match buttons_alone(ui, &[verb, "Cancel"]) {
+    match buttons_alone(ui, &[verb(form.purpose), "Cancel"]) {
         None if is_entered && form.is_typed => actions.push(DialogAction::Accept),
         Some(0) => actions.push(DialogAction::Accept),
         Some(_) => actions.push(DialogAction::Leave),

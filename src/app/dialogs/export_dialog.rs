@@ -44,20 +44,14 @@ pub fn show(
     }
     ui.add_space(6.0);
     settings(ui, export, &mut selection, actions);
-    if selection != export.plan.selection {
-        actions.push(DialogAction::Select(selection));
-    }
+    actions.push_changed(&export.plan.selection, selection, DialogAction::Select);
     let files = export.plan.files();
     listed(ui, &files);
     ui.add_space(8.0);
     ui.horizontal(|ui| {
         let can = files.as_ref().is_ok_and(|f| !f.is_empty());
-        if ui.add_enabled(can, egui::Button::new("Write files")).clicked() {
-            actions.push(DialogAction::Write);
-        }
-        if ui.button("Cancel").clicked() {
-            actions.push(DialogAction::Leave);
-        }
+        actions.push_if(ui.add_enabled(can, egui::Button::new("Write files")).clicked(), DialogAction::Write);
+        actions.push_if(ui.button("Cancel").clicked(), DialogAction::Leave);
     });
 }
 
@@ -166,9 +160,7 @@ fn settings(ui: &mut Ui, export: &ExportForm, selection: &mut Selection, actions
             if ui.add(edit).labelled_by(label.id).changed() {
                 actions.push(DialogAction::Folder(PathBuf::from(text)));
             }
-            if ui.button("Choose…").clicked() {
-                actions.push(FileAction::Choose(Purpose::Folder));
-            }
+            actions.push_if(ui.button("Choose…").clicked(), FileAction::Choose(Purpose::Folder));
         });
         ui.end_row();
     });
@@ -233,11 +225,8 @@ fn working(run: &ExportRun, folder: &Path, actions: &mut Actions, ui: &mut Ui) {
     let lines = ScrollArea::vertical().max_height(TOLD).min_scrolled_height(TOLD).auto_shrink(false);
     lines.stick_to_bottom(true).show(ui, |ui| {
         run.messages.iter().for_each(|line| drop(ui.label(RichText::new(line).small())));
-        match &run.end {
-            Some(Err(why)) if !run.is_stopped => {
-                ui.label(RichText::new(why.to_string()).color(theme::bad(ui.visuals())));
-            }
-            _ => {}
+        if let (Some(Err(why)), false) = (&run.end, run.is_stopped) {
+            ui.label(RichText::new(why.to_string()).color(theme::bad(ui.visuals())));
         }
     });
     // A line that is always there keeps the button in its place.
@@ -259,9 +248,7 @@ fn working(run: &ExportRun, folder: &Path, actions: &mut Actions, ui: &mut Ui) {
     }
     // In one line, so that the dialog grows no higher and the button does not move under the pointer.
     ui.horizontal(|ui| {
-        if ui.button("Close").clicked() {
-            actions.push(DialogAction::Leave);
-        }
+        actions.push_if(ui.button("Close").clicked(), DialogAction::Leave);
         if ui.button("Open folder").on_hover_text("Opens the folder of the written files.").clicked() {
             actions.push(FileAction::OpenOutside(folder.display().to_string()));
         }

@@ -6,7 +6,7 @@ pub mod export_dialog;
 
 use super::model::Model;
 use super::model::action::{Actions, DialogAction};
-use super::model::command::MENUS;
+use super::model::command::Command;
 use super::model::dialog::Dialog;
 use super::model::recovery::RecoveredWork;
 use super::shows::Shows;
@@ -150,7 +150,7 @@ fn keys(actions: &mut Actions, ui: &mut Ui) {
                 picture. Comma and full stop turn the stone, + and - zoom, and Space follows the ray in the middle.");
             line("C held".into(), "Shows the other design of a comparison.");
             line("Z held".into(), "Shows renders in only three bands of wavelengths.");
-            for command in MENUS.iter().flat_map(|m| m.groups.iter()).flat_map(|g| g.iter()) {
+            for command in Command::ALL {
                 let keys: Vec<String> = command.shortcuts().map(|keys| ctx.format_shortcut(&keys)).collect();
                 if !keys.is_empty() {
                     line(keys.join(" or "), command.meaning());

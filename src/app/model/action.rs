@@ -92,10 +92,6 @@ pub enum ViewAction {
     EndPerspective(usize),
     /// The name of the overlay over all pictures.
     Overlay(Option<String>),
-    /// Whether scopes show only the strongest exits.
-    Strongest(bool),
-    /// Whether scopes and figures include glare.
-    Glare(bool),
     /// Ends a step of the view history; the next change begins another.
     EndStep,
     /// The pointer is over a view; commands act on it.
@@ -255,6 +251,13 @@ impl Actions {
         self.0.push(action.into());
     }
 
+    /// Adds an action if its button was clicked, or whatever else it waits for has happened.
+    pub fn push_if(&mut self, has_happened: bool, action: impl Into<Action>) {
+        if has_happened {
+            self.push(action);
+        }
+    }
+
     /// Adds the action that sets a value, where the value is another than before.
     pub fn push_changed<T: PartialEq, A: Into<Action>>(
         &mut self,
@@ -273,44 +276,23 @@ impl Actions {
     }
 }
 
-impl From<Command> for Action {
-    fn from(command: Command) -> Self {
-        Self::Do(command)
-    }
+/// Lets actions of a kind become actions by `into`.
+macro_rules! into_action {
+    ($($kind:ident => $variant:ident),*) => {
+        $(impl From<$kind> for Action {
+            fn from(action: $kind) -> Self {
+                Self::$variant(action)
+            }
+        })*
+    };
 }
 
-impl From<Edit> for Action {
-    fn from(edit: Edit) -> Self {
-        Self::Edit(edit)
-    }
-}
-
-impl From<ViewAction> for Action {
-    fn from(change: ViewAction) -> Self {
-        Self::View(change)
-    }
-}
-
-impl From<FileAction> for Action {
-    fn from(change: FileAction) -> Self {
-        Self::File(change)
-    }
-}
-
-impl From<DialogAction> for Action {
-    fn from(answer: DialogAction) -> Self {
-        Self::Dialog(answer)
-    }
-}
-
-impl From<NoteAction> for Action {
-    fn from(note: NoteAction) -> Self {
-        Self::Note(note)
-    }
-}
-
-impl From<Computed> for Action {
-    fn from(computed: Computed) -> Self {
-        Self::Computed(computed)
-    }
-}
+into_action!(
+    Command => Do,
+    Edit => Edit,
+    ViewAction => View,
+    FileAction => File,
+    DialogAction => Dialog,
+    NoteAction => Note,
+    Computed => Computed
+);

@@ -19,6 +19,20 @@ pub enum Purpose {
     Folder,
 }
 
+impl Purpose {
+    /// Returns the heading of the dialog that asks for the file.
+    pub fn heading(self) -> &'static str {
+        match self {
+            Self::Open => "Open a cut",
+            Self::SaveAs => "Save the cut as",
+            Self::Compare => "Compare with a cut",
+            Self::Light => "Choose a light or a panorama",
+            Self::Behind => "Choose a background picture",
+            Self::Folder => "Choose a folder for the files",
+        }
+    }
+}
+
 /// A question for a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Question {

@@ -22,15 +22,11 @@ impl Compared {
     /// Fails where that design makes no stone.
     pub fn of_saved(document: &Document) -> Result<Self, SpecimenError> {
         let specimen = Specimen::new(document.saved().clone())?;
-        Ok(Self::new("as saved".to_owned(), true, Arc::new(specimen)))
+        Ok(Self { name: "as saved".to_owned(), is_saved: true, specimen: Arc::new(specimen) })
     }
 
     /// Returns the design of another document.
     pub fn of(document: &Document) -> Self {
-        Self::new(document.title(), false, Arc::clone(document.specimen()))
-    }
-
-    fn new(name: String, is_saved: bool, specimen: Arc<Specimen>) -> Self {
-        Self { name, is_saved, specimen }
+        Self { name: document.title(), is_saved: false, specimen: Arc::clone(document.specimen()) }
     }
 }

@@ -242,6 +242,18 @@ impl Document {
         file.unwrap_or_else(|| self.work.design.name.clone())
     }
 
+    /// Returns the folder of the document's file, or the present folder where there is no file.
+    pub fn folder(&self) -> PathBuf {
+        let here = || std::env::current_dir().unwrap_or_default();
+        self.path.as_deref().and_then(Path::parent).map_or_else(here, Path::to_owned)
+    }
+
+    /// Returns the name for files of the document, without an ending: that of its file, or one made of the design's name.
+    pub fn stem(&self) -> String {
+        let file = self.path.as_deref().and_then(Path::file_stem).map(|n| n.to_string_lossy().into_owned());
+        file.unwrap_or_else(|| self.work.design.name.to_lowercase().replace([' ', '/'], "-"))
+    }
+
     /// Returns the design as it was last saved.
     pub fn saved(&self) -> &Design {
         &self.saved

@@ -26,7 +26,6 @@ pub mod preset;
 pub mod recovery;
 pub mod saving;
 pub mod session;
-pub mod stones;
 pub mod task;
 pub mod update;
 pub mod view_history;
@@ -38,11 +37,14 @@ pub use task::Task;
 pub use update::update;
 
 use crate::app::shows::Shows;
+use crate::app::studio::Which;
 use crate::io::Failure;
-use crate::scene::{Copies, Specimen, View};
+use crate::scene::{Copies, Pose, Specimen, View};
 use document::Document;
 use framing::FramingFit;
+use motion::WaveCache;
 use session::Session;
+use std::sync::Arc;
 use workspace::Workspace;
 
 /// The whole state of an editor.
@@ -74,6 +76,23 @@ impl Model {
     pub fn active(&self) -> usize {
         let shown = self.workspace.shown();
         if shown.contains(&self.session.hovered) { self.session.hovered } else { shown[0] }
+    }
+
+    /// Returns one of the two stones.
+    pub fn stone(&self, which: Which) -> Option<Arc<Specimen>> {
+        match which {
+            Which::Present => Some(Arc::clone(self.document.specimen())),
+            Which::Other => Some(Arc::clone(&self.session.compared.as_ref()?.specimen)),
+        }
+    }
+
+    /// Returns what a render shows: the stone as it is now, and the poses of its copies.
+    pub fn company(&self, which: Which, waves: &mut WaveCache) -> Option<(Arc<Specimen>, Vec<Pose>)> {
+        let stone = self.stone(which)?;
+        match self.is_alone() {
+            true => Some((stone, vec![Pose::STILL])),
+            false => Some(self.session.motion.now(waves, &stone, &self.document.work.company)),
+        }
     }
 
     /// Whether renders show the stone alone and at rest.

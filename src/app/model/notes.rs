@@ -34,6 +34,11 @@ impl Notes {
         self.add(what.to_string(), true);
     }
 
+    /// Returns the value of a result; reports its error instead.
+    pub fn ok_or_report<T>(&mut self, result: Result<T, impl Display>) -> Option<T> {
+        result.map_err(|why| self.trouble(why)).ok()
+    }
+
     /// Warns that something is done, but perhaps not as it was meant; the warning stays until it is dismissed.
     pub fn warn(&mut self, what: String) {
         self.add(what, false);

@@ -1,7 +1,7 @@
 //! Orders of pictures and figures: of all that is in sight, by what the model holds.
 
 use super::Model;
-use super::stones::Stones;
+use super::motion::WaveCache;
 use crate::app::shows::Shows;
 use crate::app::studio::{BEHIND, FiguresOrder, Order, Paper, Shot, Smoothing, Which};
 use crate::scene::{Pose, Side, Specimen, View};
@@ -14,7 +14,7 @@ pub type Seen = (usize, [u32; 2]);
 pub struct Orders<'a> {
     pub model: &'a Model,
     /// The stones that have been made for earlier orders.
-    pub stones: &'a mut Stones,
+    pub waves: &'a mut WaveCache,
     /// What drawings are drawn on.
     pub paper: Paper,
 }
@@ -44,7 +44,7 @@ impl Orders<'_> {
     fn figures(&mut self, which: Which, order: &mut Order) {
         let eye = self.model.workspace.eye;
         let view = eye.view(Some(Side::Table));
-        let Some(specimen) = Stones::of(self.model, which) else { return };
+        let Some(specimen) = self.model.stone(which) else { return };
         let figures = FiguresOrder { specimen, view, head: self.model.document.work.head };
         if which == Which::Present {
             order.tilts = Some(FiguresOrder { view: View { tilt: 0.0, ..view }, ..figures.clone() });
@@ -63,12 +63,12 @@ impl Orders<'_> {
         let eye = *workspace.eye(pane);
         let view = workspace.view(pane);
         let fit = self.model.fit(shows, &view);
-        let specimen = Stones::of(self.model, which)?;
+        let specimen = self.model.stone(which)?;
         if shows == Shows::Diagram && specimen.stone().is_err() {
             return None;
         }
         let (specimen, company) = match shows.has_company() {
-            true => self.stones.company(self.model, which)?,
+            true => self.model.company(which, self.waves)?,
             false => (specimen, vec![Pose::STILL]),
         };
         Some(Shot {
@@ -88,7 +88,7 @@ impl Orders<'_> {
     /// Returns what a render shows in a view.
     pub fn render(&mut self, view: View) -> Shot {
         let alone = (Arc::clone(self.model.document.specimen()), vec![Pose::STILL]);
-        let (specimen, company) = self.stones.company(self.model, Which::Present).unwrap_or(alone);
+        let (specimen, company) = self.model.company(Which::Present, self.waves).unwrap_or(alone);
         let fit = self.model.fit(Shows::Render, &view);
         let plain = self.plain(Shows::Render, view, specimen);
         Shot { film: fit.film([1, 1]), whole: fit.whole([1, 1]), company, ..plain }

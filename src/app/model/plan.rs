@@ -2,27 +2,21 @@
 
 use super::Model;
 use super::export::{ExportPlan, PictureAspect};
+use super::motion::WaveCache;
 use super::ordering::Orders;
-use super::stones::Stones;
 use crate::app::shows::Shows;
 use crate::app::studio::{Paper, Shot};
 use crate::scene::{Copies, Pose, View};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Plans an export of the open document, seen as the linked views see it.
 pub fn export_plan(model: &Model) -> ExportPlan {
     let Model { document, session, .. } = model;
-    let here = || std::env::current_dir().unwrap_or_default();
-    let folder = document.path().and_then(Path::parent).map_or_else(here, ToOwned::to_owned);
-    let stem = document.path().and_then(Path::file_stem).map_or_else(
-        || document.work.design.name.to_lowercase().replace([' ', '/'], "-"),
-        |s| s.to_string_lossy().into_owned(),
-    );
     let upright = document.named(document.specimen());
     let (linked, own) = aspects(model);
     let render = own.iter().find(|(shows, _)| *shows == Shows::Render).map_or(&linked, |(_, aspect)| aspect);
-    let mut stones = Stones::default();
-    let shot = Orders { model, stones: &mut stones, paper: Paper::default() }.render(render.view);
+    let mut waves = WaveCache::default();
+    let shot = Orders { model, waves: &mut waves, paper: Paper::default() }.render(render.view);
     let specimen = document.named(&shot.specimen);
     let shot = Shot { specimen, ..shot };
     let light = match PathBuf::from(&session.light.name) {
@@ -35,7 +29,7 @@ pub fn export_plan(model: &Model) -> ExportPlan {
     let copies = Copies::at(poses, shot.specimen.solid().vertices());
     let reach = model.reach(Shows::Render).max(copies.reach(0.0));
     let selection = session.selection.clone();
-    let folder = folder.join("out");
+    let (folder, stem) = (document.folder().join("out"), document.stem());
     let mut plan = ExportPlan { shot, upright, linked, own, reach, selection, light, folder, stem };
     let can_be_shown: Vec<Shows> = plan.can_be_shown().collect();
     plan.selection.views.retain(|shows| can_be_shown.contains(shows));

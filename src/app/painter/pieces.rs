@@ -167,10 +167,8 @@ fn hashed(seed: u64, shape: &PaintShape) -> u64 {
         let hash = combined(combined(hash, two(c.at)), two(c.uv));
         combined(hash, u64::from(c.colour))
     };
-    match shape {
-        PaintShape::Rectangle(corners) => corners.iter().fold(combined(seed, 4), add),
-        PaintShape::Triangle(corners) => corners.iter().fold(combined(seed, 3), add),
-    }
+    let corners = shape.corners();
+    corners.iter().fold(combined(seed, corners.len() as u64), add)
 }
 
 #[cfg(test)]

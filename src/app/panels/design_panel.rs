@@ -65,9 +65,7 @@ fn identity(document: &Document, actions: &mut Actions, ui: &mut Ui) {
         let label = named(ui, "Name", "The name of the design in its file and on its pictures.");
         let mut name = design.name.clone();
         let field = TextEdit::singleline(&mut name).desired_width(field_width(ui));
-        if ui.add(field).labelled_by(label.id).changed() {
-            actions.push(Edit::Name(name));
-        }
+        actions.push_if(ui.add(field).labelled_by(label.id).changed(), Edit::Name(name));
     });
     if let Some(fault @ SpecimenError::Design(DesignError::Name)) = document.fault() {
         wrong(ui, &fault.to_string());

@@ -108,22 +108,12 @@ fn size(design: &Design, extent: Extent, ui: &mut Ui) -> Option<f64> {
         Cut::Glass(_) => ["Length in mm", "Width in mm"],
         _ => ["Length", "Width"],
     };
-    let rows = [
-        (
-            names[0],
-            "The longer side of the stone, seen from above. A change scales the whole stone.",
-            extent.length,
-        ),
-        (
-            names[1],
-            "The shorter side of the stone, seen from above. A change scales the whole stone.",
-            extent.width,
-        ),
-    ];
-    for (name, meaning, across) in rows {
+    for (name, side, across) in [(names[0], "longer", extent.length), (names[1], "shorter", extent.width)] {
+        let meaning =
+            format!("The {side} side of the stone, seen from above. A change scales the whole stone.");
         let before = 0.5 * design.diameter_mm * across;
         let mut mm = before;
-        number_row(ui, (name, meaning), number(), &mut mm);
+        number_row(ui, (name, &meaning), number(), &mut mm);
         if mm != before {
             diameter = 2.0 * mm / across;
         }

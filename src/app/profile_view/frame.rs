@@ -6,7 +6,7 @@ use super::handle::Handle;
 use super::ink::ProfileInks;
 use super::plan::{LabelDetail, Planner, ProfileSubject};
 use super::sheet::{About, Label, ProfileSheet, SheetLine, Weight};
-use super::sight::{ProfileBox, ProfileProjection};
+use super::sight::{ProfileBox, ProfileProjection, room};
 use crate::cut::Cut;
 use crate::math::Basis;
 use crate::picture::profile::brilliant::BRILLIANT_BASIS;
@@ -46,11 +46,6 @@ impl<'a> MeasuredProfile<'a> {
         };
         Self { stone, basis, dimensions, cut }
     }
-
-    /// Returns the box that the stone fills in the profile's plane.
-    pub fn extent(&self) -> ProfileBox {
-        ProfileBox::of(&self.dimensions)
-    }
 }
 
 /// A handle on the screen, and the response of egui to it.
@@ -89,7 +84,7 @@ impl<'a> ProfileFrame<'a> {
         let font = FontId::new(TYPE * body.size, body.family);
         let detail = LabelDetail::of(rect.size());
         let margins = detail.margins(&|text| size_of(ui.painter(), &font, text));
-        let sight = ProfileProjection::fitting(extent, margins.within(rect));
+        let sight = ProfileProjection::fitting(extent, room(rect, margins));
         Self { id, sight, measured, rect, detail, inks: ProfileInks::of(ui.visuals()), font }
     }
 

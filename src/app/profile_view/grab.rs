@@ -20,7 +20,7 @@ const DECIDED: f32 = 4.0;
 /// at a limit comes back when the hand does.
 #[derive(Debug, Clone)]
 pub struct Grab {
-    handle: Handle,
+    pub handle: Handle,
     mirrored: bool,
     /// The cut when the handle was taken.
     pub start: Cut,
@@ -33,7 +33,7 @@ pub struct Grab {
     /// The pull in points; movement with Shift down counts by [`FINE`].
     pull: DVec2,
     grid: ValueGrid,
-    undecided: bool,
+    pub is_undecided: bool,
 }
 
 impl Grab {
@@ -49,18 +49,8 @@ impl Grab {
             last: at,
             pull: DVec2::ZERO,
             grid: ValueGrid::COARSE,
-            undecided: grip.handle.part == ProfileHandle::PavilionTip,
+            is_undecided: grip.handle.part == ProfileHandle::PavilionTip,
         }
-    }
-
-    /// Returns the handle that is being dragged.
-    pub fn handle(&self) -> Handle {
-        self.handle
-    }
-
-    /// Whether it is not clear yet in which direction the handle is to move.
-    pub fn is_undecided(&self) -> bool {
-        self.undecided
     }
 
     /// Follows the pointer. A pull that was once fine keeps its fine steps, because releasing Shift would lose them
@@ -73,8 +63,8 @@ impl Grab {
             self.grid = ValueGrid::FINE;
         }
         let way = (to - self.from).abs();
-        if self.undecided && way.max_elem() > DECIDED {
-            self.undecided = false;
+        if self.is_undecided && way.max_elem() > DECIDED {
+            self.is_undecided = false;
             let part = if way.x > way.y { ProfileHandle::CuletEdge } else { ProfileHandle::PavilionTip };
             self.handle = Handle::of(&self.start, part).unwrap_or(self.handle);
         }
@@ -82,7 +72,7 @@ impl Grab {
 
     /// Returns the cut that results from the pull.
     pub fn pulled(&self, sight: &ProfileProjection) -> Cut {
-        if self.undecided {
+        if self.is_undecided {
             return self.start.clone();
         }
         let mut travel = sight.travel(Vec2::new(self.pull.x as f32, self.pull.y as f32));

@@ -3,13 +3,12 @@
 use super::handle::Handle;
 use super::ink::ProfileInks;
 use super::sight::ProfileProjection;
+use crate::app::arrows;
 use crate::app::value_grid::ValueGrid;
 use crate::cut::{Cut, ProfileHandle};
 use crate::picture::profile::Dimensions;
 use egui::accesskit::{Action, ActionData};
-use egui::{
-    EventFilter, Id, Key, Modifiers, Painter, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, WidgetInfo,
-};
+use egui::{Id, Modifiers, Painter, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, WidgetInfo};
 use glam::DVec2;
 
 /// Half the width of the square in which a handle takes the pointer, where there is room, in points. The window's own
@@ -106,14 +105,9 @@ impl Grip {
         if !response.has_focus() {
             return 0;
         }
-        let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
-        ui.memory_mut(|m| m.set_focus_lock_filter(response.id, arrows));
-        let (across, up) = ui.input_mut(|i| {
-            let mut presses = |key| i.count_and_consume_key(modifiers, key) as i32;
-            let across = presses(Key::ArrowRight) - presses(Key::ArrowLeft);
-            (across, presses(Key::ArrowUp) - presses(Key::ArrowDown))
-        });
-        across + if self.handle.grows_downward() { -up } else { up }
+        arrows::keep(ui, response.id);
+        let way = arrows::way(ui, modifiers);
+        (way.x + if self.handle.grows_downward() { -way.y } else { way.y }) as i32
     }
 
     /// Reports the handle's name and value to screen readers.

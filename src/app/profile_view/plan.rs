@@ -1,10 +1,11 @@
 //! Decides which dimensions a profile of a given size shows, and where.
 
 use super::sheet::{About, BESIDE, GAP, Label, ProfileSheet, SheetLine, Weight};
-use super::sight::{Margins, ProfileProjection};
+use super::sight::ProfileProjection;
 use crate::cut::{Cut, ProfileHandle};
 use crate::picture::profile::brilliant::{lower_half_ends, star_ends};
 use crate::picture::profile::{Dimensions, Span, percent, spread};
+use egui::epaint::MarginF32;
 use egui::{Align2, Pos2, Rect, Vec2, pos2, vec2};
 use glam::DVec2;
 
@@ -44,18 +45,18 @@ impl LabelDetail {
     }
 
     /// Returns the white space that dimensions of this detail need. `measure` returns the size of a text, in points.
-    pub fn margins(self, measure: &dyn Fn(&str) -> Vec2) -> Margins {
+    pub fn margins(self, measure: &dyn Fn(&str) -> Vec2) -> MarginF32 {
         let text = measure(LONGEST);
         let across = |levels: f32| EDGE + levels * LEVEL + text.y / 2.0;
         match self {
-            Self::None => Margins { left: EDGE, right: EDGE, top: EDGE, bottom: EDGE },
+            Self::None => MarginF32::same(EDGE),
             Self::Numbers => {
-                Margins { left: across(1.0), right: 2.0 * EDGE, top: across(1.0), bottom: 2.0 * EDGE }
+                MarginF32 { left: across(1.0), right: 2.0 * EDGE, top: across(1.0), bottom: 2.0 * EDGE }
             }
             Self::Named | Self::Whole => {
                 let levels = if self == Self::Whole { 2.0 } else { 1.0 };
                 let right = EDGE + LEVEL + BESIDE + text.x;
-                Margins { left: across(1.0), right, top: across(levels), bottom: across(levels) }
+                MarginF32 { left: across(1.0), right, top: across(levels), bottom: across(levels) }
             }
         }
     }
@@ -251,7 +252,7 @@ impl<'a, 'b> Planner<'a, 'b> {
 #[cfg(test)]
 mod tests {
     use super::super::body::ProfileBody;
-    use super::super::sight::ProfileBox;
+    use super::super::sight::{ProfileBox, room};
     use super::*;
     use crate::cut::{Crown, RoundBrilliant, TOLKOWSKY, strategy};
     use crate::picture::profile::brilliant::BRILLIANT_BASIS;
@@ -268,7 +269,7 @@ mod tests {
         let dimensions = Dimensions::of_brilliant(given, &derived);
         let (rect, detail) = (Rect::from_min_size(Pos2::ZERO, size), LabelDetail::of(size));
         let sight =
-            ProfileProjection::fitting(ProfileBox::of(&dimensions), detail.margins(&measure).within(rect));
+            ProfileProjection::fitting(ProfileBox::of(&dimensions), room(rect, detail.margins(&measure)));
         let stone = Stone::new(&given.facets().unwrap()).unwrap();
         let outline = ProfileBody::new(&stone, BRILLIANT_BASIS, &sight).outline();
         let subject = ProfileSubject { dimensions: &dimensions, cut: Some(&Cut::RoundBrilliant(*given)) };

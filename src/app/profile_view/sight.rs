@@ -1,6 +1,7 @@
 //! The projection from the profile to the screen: which part of the plane is shown, and where.
 
 use crate::picture::profile::Dimensions;
+use egui::epaint::MarginF32;
 use egui::{Pos2, Rect, Vec2, vec2};
 use glam::DVec2;
 
@@ -66,26 +67,12 @@ impl ProfileProjection {
     }
 }
 
-/// White space around the stone, in points.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Margins {
-    pub left: f32,
-    pub right: f32,
-    pub top: f32,
-    pub bottom: f32,
-}
-
-impl Margins {
-    /// Returns the part of a rectangle that the margins leave.
-    pub fn within(&self, rect: Rect) -> Rect {
-        let room = Rect::from_min_max(
-            rect.min + vec2(self.left, self.top),
-            rect.max - vec2(self.right, self.bottom),
-        );
-        // A rectangle too small for its margins leaves the point in the middle between them.
-        let middle = room.center();
-        Rect::from_min_max(room.min.min(middle), room.max.max(middle))
-    }
+/// Returns the part of a rectangle that the margins around a stone leave.
+pub fn room(rect: Rect, margins: MarginF32) -> Rect {
+    let room = rect - margins;
+    // A rectangle too small for its margins leaves the point in the middle between them.
+    let middle = room.center();
+    Rect::from_min_max(room.min.min(middle), room.max.max(middle))
 }
 
 #[cfg(test)]
@@ -95,10 +82,10 @@ mod tests {
 
     #[test]
     fn a_rectangle_too_small_for_its_margins_keeps_the_drawing_in_its_middle() {
-        let margins = Margins { left: 6.0, right: 6.0, top: 6.0, bottom: 6.0 };
+        let margins = MarginF32::same(6.0);
         for size in [vec2(100.0, 40.0), vec2(100.0, 5.0), vec2(3.0, 40.0), vec2(3.0, 5.0)] {
             let rect = Rect::from_min_size(pos2(20.0, 30.0), size);
-            let room = margins.within(rect);
+            let room = room(rect, margins);
             assert!(room.center() == rect.center() && !room.is_negative(), "{size}: {room}");
         }
     }

@@ -1,9 +1,8 @@
 //! Makes the jobs of the renderer for what views show.
 
+use super::effort::Effort;
 use super::order::{FiguresOrder, Shot};
-use super::pace::Effort;
 use crate::app::lookup::backdrop;
-use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::measure::Bounds;
 use crate::optics::line;
@@ -153,11 +152,6 @@ impl Shot {
     pub fn overlay_job(&self, film: Film) -> Job {
         let steps = Steps::Glance { first: 0 };
         Job { film, ..self.light_job(None, 1, steps, Quality::of_pictures(true)) }
-    }
-
-    /// Whether the shot is of a render.
-    pub fn is_render(&self) -> bool {
-        self.shows == Shows::Render
     }
 }
 

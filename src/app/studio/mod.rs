@@ -4,12 +4,12 @@
 //! there is always something that follows the hand.
 
 mod develop;
+mod effort;
 mod jobs;
 mod mailbox;
 mod motion;
 mod order;
 mod pace;
-mod refinement;
 mod refracted;
 mod render;
 mod take;
@@ -20,10 +20,9 @@ pub use order::{
     Answer, FiguresOrder, Grade, Order, Paper, Shot, Slot, Smoothing, TakenPicture, Tilts, Which,
 };
 
+pub use effort::{Effort, FINE};
 pub use jobs::{BEHIND, SPAN, hung};
 pub use mailbox::Wake;
-pub use pace::Effort;
-pub use refinement::FINE_RENDER;
 pub use refracted::survey;
 pub use render::ExportedRender;
 pub use take::ShotTracer;

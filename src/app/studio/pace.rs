@@ -1,39 +1,21 @@
 //! How much a picture may cost while the hand moves.
 
+use super::effort::Effort;
 use std::time::Duration;
 
 /// The efforts from the finest to the coarsest.
 const STEPS: [Effort; 6] = [
-    Effort { unresolved: 5e-3, coarser: 1.0, bands: 12 },
-    Effort { unresolved: 1e-2, coarser: 1.0, bands: 10 },
-    Effort { unresolved: 2e-2, coarser: 1.34, bands: 8 },
-    Effort { unresolved: 3e-2, coarser: 1.67, bands: 6 },
-    Effort { unresolved: 5e-2, coarser: 2.0, bands: 5 },
-    Effort { unresolved: 8e-2, coarser: 3.0, bands: 4 },
+    Effort::rough(5e-3, 1.0, 12),
+    Effort::rough(1e-2, 1.0, 10),
+    Effort::rough(2e-2, 1.34, 8),
+    Effort::rough(3e-2, 1.67, 6),
+    Effort::rough(5e-2, 2.0, 5),
+    Effort::rough(8e-2, 3.0, 4),
 ];
 
 /// The time that all pictures together should take, at most, so that more than 20 sets of them come in a second. Where they
 /// take longer the next ones are coarser, where they take less than a third of it they are finer.
 const GOAL: Duration = Duration::from_millis(40);
-
-/// How much a picture may cost.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Effort {
-    /// The share of the light that may stay unresolved.
-    pub unresolved: f64,
-    /// How many times larger than the film's pixels the picture's pixels are.
-    pub coarser: f64,
-    /// The number of bands of wavelengths of a render.
-    pub bands: u32,
-}
-
-impl Effort {
-    /// Returns the largest number of beams that are followed: light that is caught inside the stone takes many beams for
-    /// little energy, and memory is limited.
-    pub fn most_beams(&self) -> usize {
-        ((600.0 / self.unresolved) as usize).max(30_000)
-    }
-}
 
 /// Finds the effort that keeps up with the hand, as an index of `STEPS`.
 #[derive(Debug, Clone, Copy)]

@@ -2,13 +2,13 @@
 //! glass.
 
 use super::develop::map_taken;
+use super::effort::{Effort, FINE_RENDER, RAYS_COARSER};
 use super::jobs::{MapDetail, coarser};
 use super::order::{Shot, Slot, TakenPicture};
-use super::pace::Effort;
-use super::refinement::{FINE_RENDER, Refinement};
-use super::take::{RAYS_COARSER, ShotTracer, TakeError};
+use super::take::ShotTracer;
 use super::undeveloped::TracedLight;
 use crate::app::lookup::as_screens;
+use crate::io::Failure;
 use crate::picture::{Carried, Develop, RefractionMap};
 use crate::render::{Job, Rendered, Renderer};
 use crate::trace::Watch;
@@ -24,17 +24,16 @@ impl ShotTracer {
         &mut self,
         (slot, shot): (Slot, &Shot),
         effort: &Effort,
-        refinement: Option<&Refinement>,
         watch: Watch,
-    ) -> Result<TakenPicture, TakeError> {
-        let (detail, factor) = match refinement {
+    ) -> Result<TakenPicture, Failure> {
+        let (detail, factor) = match effort.refinement {
             None => (ROUGH, effort.coarser * RAYS_COARSER),
             Some(refinement) if refinement.samples == 1 => (FAIR, 1.0),
             Some(_) => (FINE, 1.0),
         };
         let job = Job { film: coarser(&shot.film, factor), ..shot.map_job(&detail) };
         let (map, _) = run(&mut self.renderer, &job, watch)?.map()?;
-        if refinement.is_some() {
+        if effort.is_refined() {
             self.kept.insert(slot, (shot.clone(), TracedLight::Map(map.clone())));
         }
         Ok(map_taken(shot, map))
@@ -45,36 +44,35 @@ impl ShotTracer {
         &mut self,
         shot: &Shot,
         effort: &Effort,
-        refinement: Option<&Refinement>,
         watch: Watch,
-    ) -> Result<TakenPicture, TakeError> {
-        let factor = if refinement.is_none() { effort.coarser * RAYS_COARSER } else { 1.0 };
+    ) -> Result<TakenPicture, Failure> {
+        let factor = if effort.is_refined() { 1.0 } else { effort.coarser * RAYS_COARSER };
         let Some(behind) = self.picture_behind(Some(&shot.pane_background()))? else {
-            return Err(TakeError::Other("the pane has no background".into()));
+            return Err(Failure::Input("the pane has no background".into()));
         };
         // Panes are always traced by the processor, which takes no more passes than its fine renders have.
-        let samples = refinement.map_or(1, |r| r.samples.min(FINE_RENDER.samples));
+        let samples = effort.refinement.map_or(1, |r| r.samples.min(FINE_RENDER.samples));
         let size = coarser(&shot.film, factor).size;
-        let job = shot.pane_job(&behind, size, refinement.is_some_and(|r| r.samples > 1), samples);
+        let job = shot.pane_job(&behind, size, samples > 1, samples);
         let rendered = run(&mut self.renderer, &job, watch)?;
         let tracer = rendered.backend.kind();
         Ok(TakenPicture { image: as_screens(&rendered.pane()?.0), unresolved: None, tracer, map: None })
     }
 }
 
-fn run(renderer: &mut Renderer, job: &Job, watch: Watch) -> Result<Rendered, TakeError> {
+fn run(renderer: &mut Renderer, job: &Job, watch: Watch) -> Result<Rendered, Failure> {
     renderer.run(job, watch, &mut |_| Ok(()))
 }
 
 /// Traces the map of a shot as it is exported, with the given numbers of bands and of places of a pixel in each.
 ///
 /// # Errors
-/// A [`TakeError`].
+/// A [`Failure`].
 pub fn survey(
     shot: &Shot,
     [bands, places]: [u32; 2],
     watch: Watch,
-) -> Result<(RefractionMap, Carried), TakeError> {
+) -> Result<(RefractionMap, Carried), Failure> {
     let job = shot.map_job(&MapDetail { bands, places, shades: 16, samples: 4 });
     let (map, carried) = run(&mut Renderer::default(), &job, watch)?.map()?;
     Ok((map.developed(&Develop { exposure: shot.exposure, bloom: None, ..Develop::default() }), carried))

@@ -1,17 +1,18 @@
 //! Traces renders: a body or its copies under a light, in front of a background.
 
 use super::develop::{developed, manner, overlaid};
+use super::effort::{Effort, RAYS_COARSER, Refinement};
 use super::jobs::coarser;
 use super::motion::Moment;
 use super::order::{Shot, Slot, Smoothing, TakenPicture};
-use super::pace::Effort;
-use super::refinement::Refinement;
-use super::take::{RAYS_COARSER, ShotTracer, TakeError};
+use super::take::ShotTracer;
 use super::undeveloped::TracedLight;
+use crate::app::shows::Shows;
+use crate::io::Failure;
 use crate::io::background::BackgroundRef;
 use crate::picture::developed as developed_from;
 use crate::picture::spectral::Remainder;
-use crate::render::{Job, Partial, Quality, Rendered, Steps};
+use crate::render::{Job, Partial, Quality, RenderError, Rendered, Steps};
 use crate::scene::Panorama;
 use crate::trace::Watch;
 use std::sync::Arc;
@@ -21,17 +22,17 @@ impl ShotTracer {
         &mut self,
         (slot, shot): (Slot, &Shot),
         effort: &Effort,
-        refinement: Option<&Refinement>,
         watch: Watch,
         each: &mut dyn FnMut(TakenPicture),
-    ) -> Result<(), TakeError> {
+    ) -> Result<(), Failure> {
         let moving = match shot.smoothing {
-            Smoothing::Temporal { newest } if refinement.is_none() => Some(newest),
+            Smoothing::Temporal { newest } if !effort.is_refined() => Some(newest),
             _ => None,
         };
         let first = moving.and_then(|_| self.trails.get(&slot)).map_or(0, |(trail, _)| trail.count);
-        let mut job = self.light_job(shot, effort, refinement, first)?;
-        let is_slow = self.renderer.plan(&job)?.backend.is_slow() && refinement.is_none();
+        let mut job = self.light_job(shot, effort, first)?;
+        let is_slow =
+            self.renderer.plan(&job).map_err(RenderError::from)?.backend.is_slow() && !effort.is_refined();
         job.film = coarser(&shot.film, effort.coarser * if is_slow { RAYS_COARSER } else { 1.0 });
         let Self { renderer, trails, kept, notes, .. } = self;
         renderer.run(&job, watch, &mut |part| {
@@ -47,23 +48,18 @@ impl ShotTracer {
                 Moment::of(shot, job.film).lay(trails, (slot, picture), &lit_scene, newest).clone()
             });
             let picture = laid.as_ref().unwrap_or(picture);
-            if refinement.is_some() {
+            if effort.is_refined() {
                 let light = TracedLight::Render { picture: picture.clone(), unresolved, tracer };
                 kept.insert(slot, (shot.clone(), light));
             }
-            each(developed(shot, (picture, refinement.is_some()), (unresolved, tracer), watch)?);
-            Ok::<_, TakeError>(())
+            each(developed(shot, (picture, effort.is_refined()), (unresolved, tracer), watch)?);
+            Ok::<_, Failure>(())
         })?;
         Ok(())
     }
 
-    fn light_job(
-        &mut self,
-        shot: &Shot,
-        effort: &Effort,
-        refinement: Option<&Refinement>,
-        first: u32,
-    ) -> Result<Job, TakeError> {
+    fn light_job(&mut self, shot: &Shot, effort: &Effort, first: u32) -> Result<Job, Failure> {
+        let refinement = effort.refinement;
         let behind = self.picture_behind(shot.behind.as_ref())?;
         let mut quality = Quality::of_pictures(true);
         quality.beams.unresolved = refinement.map_or(effort.unresolved, |r| r.unresolved);
@@ -72,28 +68,27 @@ impl ShotTracer {
             None => Steps::Glance { first },
             Some(refinement) => Steps::Passes { first, hidden: refinement.after },
         };
-        Ok(shot.light_job(behind, refinement.map_or(effort.bands, |r| r.bands), steps, quality))
+        Ok(shot.light_job(behind, effort.bands, steps, quality))
     }
 
     /// Whether a shot is a render that rays on the processor trace, which takes long.
     pub fn is_slow_render(&mut self, shot: &Shot) -> bool {
-        if !shot.is_render() {
+        if shot.shows != Shows::Render {
             return false;
         }
-        let effort = Effort { unresolved: 1.0, coarser: 1.0, bands: 1 };
-        let refinement = Refinement { bands: 1, samples: 1, after: 0, unresolved: 1.0 };
-        let job = self.light_job(shot, &effort, Some(&refinement), 0);
+        let refinement = Some(Refinement { samples: 1, after: 0, unresolved: 1.0 });
+        let job = self.light_job(shot, &Effort { refinement, ..Effort::rough(1.0, 1.0, 1) }, 0);
         job.is_ok_and(|job| self.renderer.plan(&job).is_ok_and(|plan| plan.backend.is_slow()))
     }
 
     /// Traces the render of a shot as it is exported, with as many passes as the command line takes.
     ///
     /// # Errors
-    /// A [`TakeError`].
-    pub fn export(&mut self, shot: &Shot, watch: Watch) -> Result<ExportedRender, TakeError> {
+    /// A [`Failure`].
+    pub fn export(&mut self, shot: &Shot, watch: Watch) -> Result<ExportedRender, Failure> {
         let behind = self.picture_behind(shot.behind.as_ref())?;
         let job = shot.light_job(behind, shot.bands, Steps::Strips, Quality::of_pictures(true));
-        let rendered: Rendered = self.renderer.run(&job, watch, &mut |_| Ok::<_, TakeError>(()))?;
+        let rendered: Rendered = self.renderer.run(&job, watch, &mut |_| Ok::<_, Failure>(()))?;
         let tracer = rendered.backend.kind();
         let (picture, Remainder { unresolved, .. }) = rendered.light()?;
         let size = [picture.width, picture.height];
@@ -106,13 +101,12 @@ impl ShotTracer {
     pub(super) fn picture_behind(
         &mut self,
         asked: Option<&BackgroundRef>,
-    ) -> Result<Option<Arc<Panorama>>, TakeError> {
+    ) -> Result<Option<Arc<Panorama>>, Failure> {
         let Some(asked) = asked else { return Ok(None) };
         if let Some((_, picture)) = self.behind.as_ref().filter(|(last, _)| last == asked) {
             return Ok(Some(Arc::clone(picture)));
         }
-        let read = asked.picture().map_err(|error| TakeError::Other(error.to_string()))?;
-        let picture = read.map(|reading| Arc::new(reading.panorama));
+        let picture = asked.picture()?.map(|reading| Arc::new(reading.panorama));
         self.behind = picture.clone().map(|picture| (asked.clone(), picture));
         Ok(picture)
     }

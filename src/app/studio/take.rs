@@ -1,64 +1,20 @@
 //! Traces one picture.
 
 use super::develop::{developed, map_taken, overlaid};
+use super::effort::{Effort, RAYS_COARSER};
 use super::jobs::coarser;
 use super::motion::Trails;
 use super::order::{Shot, Slot, TakenPicture};
-use super::pace::Effort;
-use super::refinement::Refinement;
 use super::undeveloped::{Kept, TracedLight};
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::io::{Failure, rasterize_within};
-use crate::math::NotConvex;
 use crate::picture::{DiagramStyle, Palette, diagram};
-use crate::render::{Card, Partial, RenderError, Renderer, Unfit};
+use crate::render::{Card, Partial, RenderError, Renderer};
 use crate::scene::Panorama;
-use crate::trace::{Stopped, Watch};
+use crate::trace::Watch;
 use egui::ColorImage;
 use std::sync::Arc;
-
-/// How many times larger pixels are for rays on the processor while the hand moves, beyond what the pace says.
-pub(super) const RAYS_COARSER: f64 = 3.0;
-
-/// Why a picture was not traced.
-#[derive(Debug, thiserror::Error)]
-pub enum TakeError {
-    /// The picture is no longer wanted.
-    #[error(transparent)]
-    Stopped(#[from] Stopped),
-    /// Beams and drawings are for convex stones alone.
-    #[error(transparent)]
-    NotConvex(#[from] NotConvex),
-    /// Any other reason, in words.
-    #[error("{0}")]
-    Other(String),
-}
-
-impl From<TakeError> for Failure {
-    fn from(trouble: TakeError) -> Self {
-        match trouble {
-            TakeError::Stopped(stopped) => stopped.into(),
-            TakeError::NotConvex(why) => Self::Usage(why.to_string()),
-            TakeError::Other(why) => Self::Input(why),
-        }
-    }
-}
-
-impl From<RenderError> for TakeError {
-    fn from(error: RenderError) -> Self {
-        match error {
-            RenderError::Stopped(stopped) => stopped.into(),
-            other => Self::Other(other.to_string()),
-        }
-    }
-}
-
-impl From<Unfit> for TakeError {
-    fn from(unfit: Unfit) -> Self {
-        Self::Other(unfit.to_string())
-    }
-}
 
 /// Traces pictures, and keeps what later pictures can use.
 #[derive(Default)]
@@ -81,59 +37,50 @@ impl ShotTracer {
         Self { renderer: Renderer::new(card), ..Self::default() }
     }
 
-    /// Traces a picture with an effort; an [`Effort::coarser`] of 1 is full size.
-    ///
-    /// With `refinement` the picture is traced finely, and `each` is called with each stage of a render that grows clearer;
-    /// without it the picture is a rough one.
+    /// Traces a picture with an effort, and calls `each` with each stage of a render that grows clearer.
     pub fn take(
         &mut self,
         (slot, shot): (Slot, &Shot),
         effort: &Effort,
-        refinement: Option<&Refinement>,
         watch: Watch,
         each: &mut dyn FnMut(TakenPicture),
-    ) -> Result<(), TakeError> {
+    ) -> Result<(), Failure> {
         match shot.shows {
             Shows::Profile | Shows::LiquidGlass => Ok(()),
             Shows::Diagram => drawing(shot).map(each),
-            Shows::Render => self.render((slot, shot), effort, refinement, watch, each),
-            Shows::Refraction => self.mapped((slot, shot), effort, refinement, watch).map(each),
-            Shows::TracedPane => self.glass(shot, effort, refinement, watch).map(each),
-            _ => self.scoped(shot, effort, refinement.is_some(), watch).map(each),
+            Shows::Render => self.render((slot, shot), effort, watch, each),
+            Shows::Refraction => self.mapped((slot, shot), effort, watch).map(each),
+            Shows::TracedPane => self.glass(shot, effort, watch).map(each),
+            _ => self.scoped(shot, effort, watch).map(each),
         }
     }
 
     /// Makes the picture of a shot from light that was traced for another shot; `None` where no such light is kept.
     ///
     /// # Errors
-    /// [`TakeError::Stopped`] when `watch` asks to stop, which only overlays do.
+    /// [`Failure::Stopped`] when `watch` asks to stop, which only overlays do.
     pub fn develop_again(
         &self,
         slot: Slot,
         shot: &Shot,
         watch: Watch,
-    ) -> Option<Result<TakenPicture, TakeError>> {
+    ) -> Option<Result<TakenPicture, Failure>> {
         let (_, light) = self.kept.get(&slot).filter(|(kept, _)| kept.has_light_of(shot))?;
         Some(match light {
             TracedLight::Render { picture, unresolved, tracer } => {
-                developed(shot, (picture, true), (*unresolved, tracer), watch).map_err(TakeError::from)
+                developed(shot, (picture, true), (*unresolved, tracer), watch).map_err(Failure::from)
             }
             TracedLight::Map(map) => Ok(map_taken(shot, map.clone())),
         })
     }
 
-    fn scoped(
-        &mut self,
-        shot: &Shot,
-        effort: &Effort,
-        fine: bool,
-        watch: Watch,
-    ) -> Result<TakenPicture, TakeError> {
-        let Some(scoped) = shot.shows.scoped() else { return Err(TakeError::Other("no scope".into())) };
+    fn scoped(&mut self, shot: &Shot, effort: &Effort, watch: Watch) -> Result<TakenPicture, Failure> {
+        let Some(scoped) = shot.shows.scoped() else { return Err(Failure::Input("no scope".into())) };
         let scope = scoped.scope.with_head(if scoped.takes_head { shot.head } else { 0.0 });
         let palette = Palette::of(&scope);
-        let mut job = shot.scope_job(scope, effort, if fine { 3 } else { 1 });
-        let is_slow = self.renderer.plan(&job)?.backend.is_slow() && !fine;
+        let mut job = shot.scope_job(scope, effort, if effort.is_refined() { 3 } else { 1 });
+        let is_slow =
+            self.renderer.plan(&job).map_err(RenderError::from)?.backend.is_slow() && !effort.is_refined();
         job.film = coarser(&shot.film, effort.coarser * if is_slow { RAYS_COARSER } else { 1.0 });
         let size = job.film.size;
         let (mut pixels, mut unresolved) =
@@ -153,7 +100,7 @@ impl ShotTracer {
                 Partial::Note(why) => notes.push(why.to_owned()),
                 Partial::Picture { .. } => {}
             }
-            Ok::<_, TakeError>(())
+            Ok::<_, Failure>(())
         })?;
         let tracer = rendered.backend.kind();
         // The whole light counts, not the part of the area that has no strongest exit.
@@ -171,8 +118,8 @@ impl ShotTracer {
     }
 }
 
-fn drawing(shot: &Shot) -> Result<TakenPicture, TakeError> {
-    let stone = shot.specimen.stone()?;
+fn drawing(shot: &Shot) -> Result<TakenPicture, Failure> {
+    let stone = shot.specimen.stone().map_err(|e| Failure::Usage(e.to_string()))?;
     let style = match shot.paper.pixels_per_point.map(f64::from) {
         Some(scale) => {
             let points = shot.film.size.map(|pixels| f64::from(pixels) / scale);
@@ -182,7 +129,7 @@ fn drawing(shot: &Shot) -> Result<TakenPicture, TakeError> {
     };
     let text = diagram(stone, &shot.title, &style).to_string();
     let (width, height, rgba) =
-        rasterize_within(&text, shot.film.size).map_err(|e| TakeError::Other(e.to_string()))?;
+        rasterize_within(&text, shot.film.size).map_err(|e| Failure::Input(e.to_string()))?;
     let image = ColorImage::from_rgba_unmultiplied([width as usize, height as usize], &rgba);
     Ok(TakenPicture { image, unresolved: None, tracer: "drawn", map: None })
 }
@@ -194,6 +141,7 @@ mod tests {
     use crate::app::model::document::Document;
     use crate::app::model::eye::Eye;
     use crate::app::model::framing::FramingFit;
+    use crate::app::studio::effort::Refinement;
     use crate::app::studio::jobs::BEHIND;
     use crate::app::studio::order::{Paper, Smoothing, Which};
     use crate::io::lighting::Lighting;
@@ -260,14 +208,17 @@ mod tests {
         assert!(exported.rgba.chunks(4).any(|pixel| (1..255).contains(&pixel[3])), "edges are soft");
     }
 
-    fn taken(camera: &mut ShotTracer, shot: &Shot, refinement: Option<&Refinement>) -> TakenPicture {
+    /// Takes a picture; without `refinement` a rough one.
+    fn taken(
+        camera: &mut ShotTracer,
+        shot: &Shot,
+        bands: u32,
+        refinement: Option<Refinement>,
+    ) -> TakenPicture {
         let mut last = None;
-        let effort = Effort { unresolved: 5e-3, coarser: 1.0, bands: 4 };
-        camera
-            .take(((0, Which::Present), shot), &effort, refinement, &unwatched, &mut |taken| {
-                last = Some(taken)
-            })
-            .unwrap();
+        let effort = Effort { refinement, ..Effort::rough(5e-3, 1.0, bands) };
+        let each = &mut |taken| last = Some(taken);
+        camera.take(((0, Which::Present), shot), &effort, &unwatched, each).unwrap();
         last.unwrap()
     }
 
@@ -292,7 +243,7 @@ mod tests {
             }
         };
         let mut card = ShotTracer::by(Card::Open(gpu));
-        let refinement = Refinement { bands: 4, samples: 16, after: 0, unresolved: 5e-3 };
+        let refinement = Some(Refinement { samples: 16, after: 0, unresolved: 5e-3 });
         let checks = BackgroundRef::read("checks", Path::new("")).unwrap();
         let mixed = Shot { behind: Some(checks), strength: 0.2, ..shot(Shows::Render, None) };
         for (shot, most) in [
@@ -302,10 +253,10 @@ mod tests {
             (mixed, 4e-3),
         ] {
             let (shows, projection) = (shot.shows, shot.view.projection);
-            let [a, b] = [&mut card, &mut ShotTracer::default()].map(|c| taken(c, &shot, Some(&refinement)));
+            let [a, b] = [&mut card, &mut ShotTracer::default()].map(|c| taken(c, &shot, 4, refinement));
             assert_ne!(a.tracer, b.tracer);
             let other = Shot { view: Eye::default().view(None), ..shot.clone() };
-            let (off, wrong) = (apart(&a, &b), apart(&taken(&mut card, &other, Some(&refinement)), &b));
+            let (off, wrong) = (apart(&a, &b), apart(&taken(&mut card, &other, 4, refinement), &b));
             assert!(
                 off < most && wrong > 3.0 * most,
                 "{shows:?} {projection:?}: {off}, and {wrong} of another view"
@@ -325,9 +276,10 @@ mod tests {
     #[test]
     fn a_rough_render_looks_like_the_fine_one() {
         let shot = shot(Shows::Render, None);
-        let refinement = Refinement { bands: 16, samples: 4, after: 0, unresolved: 2e-3 };
+        let refinement = Some(Refinement { samples: 4, after: 0, unresolved: 2e-3 });
         let mut camera = ShotTracer::default();
-        let (rough, fine) = (taken(&mut camera, &shot, None), taken(&mut camera, &shot, Some(&refinement)));
+        let rough = taken(&mut camera, &shot, 4, None);
+        let fine = taken(&mut camera, &shot, 16, refinement);
         let off = apart(&rough, &fine);
         assert!(off < 0.03, "{off}");
     }

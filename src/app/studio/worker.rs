@@ -1,11 +1,12 @@
 //! The work of the studio's thread.
 
+use super::effort::{Effort, FAIR, FINE, FINE_BY_CARD, HALFWAY, SHARP};
 use super::mailbox::{Mailbox, Wake};
 use super::order::{Answer, FiguresOrder, Grade, Order, Shot, Slot, Smoothing, TakenPicture, Which};
-use super::pace::{Effort, Pace};
-use super::refinement::{FAIR_RENDER, FINE_BY_CARD, FINE_RENDER, Refinement, SHARP};
-use super::take::{RAYS_COARSER, ShotTracer, TakeError};
+use super::pace::Pace;
+use super::take::ShotTracer;
 use crate::app::shows::Shows;
+use crate::io::Failure;
 use crate::measure::{Bounds, Figures, LATTICE, UNRESOLVED};
 use crate::render::{Card, Job, RenderError, Rendered};
 use crate::scene::View;
@@ -21,14 +22,9 @@ use std::time::Instant;
 /// The tilts that figures are plotted against, in degrees.
 const TILTS: [f64; 13] = [-30.0, -25.0, -20.0, -15.0, -10.0, -5.0, 0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0];
 
-/// The share of the light that may stay unresolved in a fair picture, a fine picture, fine figures and figures against tilt.
-const FAIR: f64 = 5e-3;
-const FINE: f64 = 1e-3;
-const FIGURES: f64 = UNRESOLVED;
+/// The share of the light that may stay unresolved in fair figures and in figures against tilt.
+const FAIR_FIGURES: f64 = 1e-3;
 const TILTED: f64 = 5e-3;
-
-/// A render by rays on its way from rough to fair, with pixels twice as large.
-const HALFWAY: Effort = Effort { unresolved: FAIR, coarser: 2.0 / RAYS_COARSER, bands: FAIR_RENDER.bands };
 
 /// Carries out orders, one after the other.
 pub(super) struct Worker {
@@ -137,19 +133,12 @@ impl Worker {
         self.camera.kept.retain(|slot, _| order.shots.iter().any(|(wanted, _)| wanted == slot));
         let mut any = false;
         for (slot, shot) in &order.shots {
-            let is_done = self.pictures.get(slot).is_some_and(|(done, _)| done == shot);
-            if !is_done && !self.develop_again((*slot, shot), &watch)? {
+            if self.is_wanted(slot, shot, Grade::Rough) && !self.develop_again((*slot, shot), &watch)? {
                 any |= shot.shows != Shows::Diagram;
-                self.picture((*slot, shot), Grade::Rough, (&effort, None), &watch)?;
+                self.picture((*slot, shot), Grade::Rough, &effort, &watch)?;
             }
         }
-        for (which, ask) in &order.figures {
-            if self.figures.get(which).is_none_or(|(done, _)| done != ask) {
-                self.count();
-                let figures = self.measured(&ask.rough_job(&effort, LATTICE / 16), &watch)?;
-                self.send_figures(*which, ask, Grade::Rough, figures);
-            }
-        }
+        self.all_figures(order, Grade::Rough, |ask| ask.rough_job(&effort, LATTICE / 16), &watch)?;
         if any {
             self.pace.learn(begun.elapsed());
         }
@@ -164,7 +153,7 @@ impl Worker {
         let Some((done, grade)) = before.cloned() else { return Ok(false) };
         match self.camera.develop_again(slot, shot, watch) {
             Some(Ok(taken)) => self.answer(Answer::Picture(slot, Box::new(shot.clone()), grade, taken)),
-            Some(Err(TakeError::Stopped(stopped))) => return Err(stopped),
+            Some(Err(Failure::Stopped)) => return Err(Stopped),
             Some(Err(_)) | None => return Ok(false),
         }
         if self.sharp.get(&slot) == Some(&done) {
@@ -179,35 +168,37 @@ impl Worker {
         let (mailbox, number) = (Arc::clone(&self.mailbox), turn.number);
         let watch = move |_: f64| stop_if(mailbox.newest.load(Ordering::SeqCst) != number);
         let has_card = self.camera.renderer.card().quick().is_some();
-        let fine = if has_card { FINE_BY_CARD } else { FINE_RENDER };
+        let fine = if has_card { FINE_BY_CARD } else { FINE };
         for (slot, shot) in &turn.order.shots {
             // Pictures of a temporal history all have one size.
             let is_laid = matches!(shot.smoothing, Smoothing::Temporal { .. });
-            if !is_laid
-                && self.camera.is_slow_render(shot)
-                && self.pictures.get(slot).is_none_or(|(done, g)| done != shot || *g < Grade::Fair)
-            {
-                self.picture((*slot, shot), Grade::Rough, (&HALFWAY, None), &watch)?;
+            if !is_laid && self.camera.is_slow_render(shot) && self.is_wanted(slot, shot, Grade::Fair) {
+                self.picture((*slot, shot), Grade::Rough, &HALFWAY, &watch)?;
             }
         }
-        self.pictures(&turn.order, Grade::Fair, (FAIR, &FAIR_RENDER), &watch)?;
-        self.all_figures(&turn.order, Grade::Fair, bounds(FINE, LATTICE / 4), &watch)?;
-        self.pictures(&turn.order, Grade::Fine, (FINE, &fine), &watch)?;
-        self.all_figures(&turn.order, Grade::Fine, bounds(FIGURES, LATTICE), &watch)?;
+        let [fair_figures, fine_figures] = [bounds(FAIR_FIGURES, LATTICE / 4), bounds(UNRESOLVED, LATTICE)];
+        self.pictures(&turn.order, Grade::Fair, &FAIR, &watch)?;
+        self.all_figures(&turn.order, Grade::Fair, |ask| ask.job(ask.view, &fair_figures), &watch)?;
+        self.pictures(&turn.order, Grade::Fine, &fine, &watch)?;
+        self.all_figures(&turn.order, Grade::Fine, |ask| ask.job(ask.view, &fine_figures), &watch)?;
         self.against_tilt(&turn.order, &watch)
+    }
+
+    /// Whether a shot has not been answered yet by a picture of this grade or a better one.
+    fn is_wanted(&self, slot: &Slot, shot: &Shot, grade: Grade) -> bool {
+        self.pictures.get(slot).is_none_or(|(done, known)| done != shot || *known < grade)
     }
 
     fn pictures(
         &mut self,
         order: &Order,
         grade: Grade,
-        (unresolved, refinement): (f64, &Refinement),
+        effort: &Effort,
         watch: Watch,
     ) -> Result<(), Stopped> {
-        let effort = Effort { unresolved, coarser: 1.0, bands: refinement.bands };
         for (slot, shot) in &order.shots {
-            if self.pictures.get(slot).is_none_or(|(done, g)| done != shot || *g < grade) {
-                self.picture((*slot, shot), grade, (&effort, Some(refinement)), watch)?;
+            if self.is_wanted(slot, shot, grade) {
+                self.picture((*slot, shot), grade, effort, watch)?;
             }
         }
         Ok(())
@@ -217,13 +208,12 @@ impl Worker {
     fn sharpen(&mut self, turn: &Turn) -> Result<(), Stopped> {
         let (mailbox, number) = (Arc::clone(&self.mailbox), turn.number);
         let watch = move |_: f64| stop_if(mailbox.newest.load(Ordering::SeqCst) != number);
-        let effort = Effort { unresolved: SHARP.unresolved, coarser: 1.0, bands: SHARP.bands };
         for (slot, shot) in &turn.order.shots {
             if !self.camera.is_slow_render(shot) || self.sharp.get(slot) == Some(shot) {
                 continue;
             }
             self.mailbox.sharpens.store(true, Ordering::SeqCst);
-            self.picture((*slot, shot), Grade::Fine, (&effort, Some(&SHARP)), &watch)?;
+            self.picture((*slot, shot), Grade::Fine, &SHARP, &watch)?;
             self.mailbox.sharpens.store(false, Ordering::SeqCst);
             self.sharp.insert(*slot, shot.clone());
             (self.wake)();
@@ -235,7 +225,7 @@ impl Worker {
         &mut self,
         (slot, shot): (Slot, &Shot),
         grade: Grade,
-        (effort, refinement): (&Effort, Option<&Refinement>),
+        effort: &Effort,
         watch: Watch,
     ) -> Result<(), Stopped> {
         // A render that is traced again must be sharpened again.
@@ -246,14 +236,13 @@ impl Worker {
             let _ = answers.send(Answer::Picture(slot, Box::new(shot.clone()), grade, taken));
             wake();
         };
-        let taken = self.camera.take((slot, shot), effort, refinement, watch, &mut each);
+        let taken = self.camera.take((slot, shot), effort, watch, &mut each);
         let notes: Vec<String> = self.camera.notes.drain(..).collect();
         notes.into_iter().for_each(|note| self.answer(Answer::Trouble(note)));
         match taken {
             Ok(()) => {}
-            Err(TakeError::Stopped(stopped)) => return Err(stopped),
-            Err(TakeError::NotConvex(why)) => self.answer(Answer::Trouble(why.to_string())),
-            Err(TakeError::Other(why)) => self.answer(Answer::Trouble(why)),
+            Err(Failure::Stopped) => return Err(Stopped),
+            Err(why) => self.answer(Answer::Trouble(why.to_string())),
         }
         self.pictures.insert(slot, (shot.clone(), grade));
         Ok(())
@@ -263,14 +252,15 @@ impl Worker {
         &mut self,
         order: &Order,
         grade: Grade,
-        bound: Bounds,
+        job: impl Fn(&FiguresOrder) -> Job,
         watch: Watch,
     ) -> Result<(), Stopped> {
         for (which, ask) in &order.figures {
             if self.figures.get(which).is_none_or(|(done, g)| done != ask || *g < grade) {
                 self.count();
-                let figures = self.measured(&ask.job(ask.view, &bound), watch)?;
-                self.send_figures(*which, ask, grade, figures);
+                let figures = Box::new(self.measured(&job(ask), watch)?);
+                self.figures.insert(*which, (ask.clone(), grade));
+                self.answer(Answer::Figures(*which, ask.clone(), grade, figures));
             }
         }
         Ok(())
@@ -284,11 +274,6 @@ impl Worker {
             // Figures are ordered for parallel rays alone, and traced by a tracer that fits them.
             Err(other) => unreachable!("{other}"),
         }
-    }
-
-    fn send_figures(&mut self, which: Which, ask: &FiguresOrder, grade: Grade, figures: Figures) {
-        self.figures.insert(which, (ask.clone(), grade));
-        self.answer(Answer::Figures(which, ask.clone(), grade, Box::new(figures)));
     }
 
     fn against_tilt(&mut self, order: &Order, watch: Watch) -> Result<(), Stopped> {

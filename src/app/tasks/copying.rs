@@ -1,16 +1,13 @@
 //! Pictures for the clipboard at a chosen size.
 
 use crate::app::model::task::{CopyOriginal, CopyRequest};
-use crate::app::studio::{Effort, FINE_RENDER, ShotTracer, Which};
+use crate::app::studio::{FINE, ShotTracer, Which};
 use crate::io::Failure;
 use crate::io::rasterize;
 use crate::picture::profile;
 use crate::scene::Specimen;
 use egui::ColorImage;
 use std::ops::ControlFlow;
-
-/// The share of the light that may stay unresolved in a scope, as in exported pictures.
-const UNRESOLVED: f64 = 1e-3;
 
 /// Makes a picture, until `is_stopped` says that nobody wants it any more.
 ///
@@ -26,17 +23,15 @@ pub fn make(request: &CopyRequest, is_stopped: &(dyn Fn() -> bool + Sync)) -> Re
         true => ControlFlow::Break(()),
         false => ControlFlow::Continue(()),
     };
-    let effort = Effort { unresolved: UNRESOLVED, coarser: 1.0, bands: FINE_RENDER.bands };
     let mut last = None;
     let slot = (0, Which::Present);
-    let made = ShotTracer::default()
-        .take((slot, shot), &effort, Some(&FINE_RENDER), &watch, &mut |taken| last = Some(taken.image));
+    let made = ShotTracer::default().take((slot, shot), &FINE, &watch, &mut |taken| last = Some(taken.image));
     made?;
     last.ok_or_else(|| Failure::Output("no picture was drawn".to_owned()))
 }
 
 /// Returns the drawing from the side, as it is exported.
-fn drawn(specimen: &Specimen, side: u32) -> Result<ColorImage, Failure> {
+pub fn drawn(specimen: &Specimen, side: u32) -> Result<ColorImage, Failure> {
     let stone = specimen.stone().map_err(|e| Failure::Usage(e.to_string()))?;
     let text = profile(stone, &specimen.design.name, specimen.design.cut.brilliant()).to_string();
     let (width, height, rgb) = rasterize(&text, side).map_err(|e| Failure::Output(e.to_string()))?;

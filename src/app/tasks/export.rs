@@ -1,5 +1,6 @@
 //! Writes the files of an export, one after the other, and makes thumbnails of what can be exported.
 
+use super::copying::drawn;
 use super::export_scene::SceneOut;
 use crate::app::model::export::ExportPlan;
 use crate::app::model::exporting::ExportEvent;
@@ -7,12 +8,9 @@ use crate::app::shows::Shows;
 use crate::app::studio::{Effort, ExportedRender, SPAN, ShotTracer, Which, survey};
 use crate::io::background::BackgroundRef;
 use crate::io::export::{Event, Export, OutputFormat, Outputs};
-use crate::io::refraction::{self, Coding};
-use crate::io::refraction::{Page, takes, write_page};
-use crate::io::{Failure, rasterize, write_rgba_png};
-use crate::picture::profile;
+use crate::io::refraction::{self, Coding, Page, takes, write_page};
+use crate::io::{Failure, write_rgba_png};
 use crate::render::Renderer;
-use crate::scene::Specimen;
 use crate::trace::Watch;
 use egui::ColorImage;
 use std::ops::ControlFlow;
@@ -148,25 +146,17 @@ pub fn thumbnails(
     is_stopped: &(dyn Fn() -> bool + Sync),
 ) {
     let mut tracer = ShotTracer::default();
-    let effort = Effort { unresolved: 2e-2, coarser: 1.0, bands: 6 };
+    let effort = Effort::rough(2e-2, 1.0, 6);
     let watch = |_: f64| if is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
     for shows in plan.can_be_shown().take_while(|_| !is_stopped()) {
         if shows == Shows::Profile {
-            side(plan).into_iter().for_each(|image| hang(shows, image));
+            drawn(&plan.upright, 2 * THUMBNAIL).into_iter().for_each(|image| hang(shows, image));
             continue;
         }
         let shot = plan.shot(shows, THUMBNAIL);
         // A thumbnail that cannot be taken stays empty; exporting says why.
-        let _ = tracer.take(((0, Which::Present), &shot), &effort, None, &watch, &mut |taken| {
+        let _ = tracer.take(((0, Which::Present), &shot), &effort, &watch, &mut |taken| {
             hang(shows, taken.image);
         });
     }
-}
-
-/// Returns the drawing from the side, small.
-fn side(plan: &ExportPlan) -> Option<ColorImage> {
-    let Specimen { design, .. } = &*plan.upright;
-    let text = profile(plan.upright.stone().ok()?, &design.name, design.cut.brilliant()).to_string();
-    let (width, height, rgb) = rasterize(&text, 2 * THUMBNAIL).ok()?;
-    Some(ColorImage::from_rgb([width as usize, height as usize], &rgb))
 }

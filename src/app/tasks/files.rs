@@ -34,23 +34,16 @@ fn may_have_dialogs() -> bool {
 }
 
 fn dialog(question: &Question) -> Option<PathBuf> {
-    let dialog = rfd::FileDialog::new();
+    let dialog = rfd::FileDialog::new().set_title(question.purpose.heading());
     let cuts =
         |d: rfd::FileDialog| d.add_filter("Designs and meshes", &endings()).add_filter("All files", &["*"]);
     let pictures = ["toml", "hdr", "exr", "png", "jpg", "jpeg"];
     match question.purpose {
-        Purpose::Open => cuts(dialog.set_title("Open a cut")).pick_file(),
-        Purpose::Compare => cuts(dialog.set_title("Compare with a cut")).pick_file(),
-        Purpose::SaveAs => {
-            cuts(dialog.set_title("Save the cut as")).set_file_name(&question.name).save_file()
-        }
-        Purpose::Light => {
-            dialog.set_title("Choose a light or a panorama").add_filter("Lights", &pictures).pick_file()
-        }
-        Purpose::Behind => {
-            dialog.set_title("Choose a background picture").add_filter("Pictures", &pictures[1..]).pick_file()
-        }
-        Purpose::Folder => dialog.set_title("Choose a folder for the files").pick_folder(),
+        Purpose::Open | Purpose::Compare => cuts(dialog).pick_file(),
+        Purpose::SaveAs => cuts(dialog).set_file_name(&question.name).save_file(),
+        Purpose::Light => dialog.add_filter("Lights", &pictures).pick_file(),
+        Purpose::Behind => dialog.add_filter("Pictures", &pictures[1..]).pick_file(),
+        Purpose::Folder => dialog.pick_folder(),
     }
 }
 

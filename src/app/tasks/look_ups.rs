@@ -3,9 +3,8 @@
 
 use super::lookup::{Lookup, LookupRequest};
 use super::runner::Turn;
-use super::{FAULT, Key, Outside, TaskAnswer};
+use super::{Key, Outside, TaskAnswer, fault};
 use crate::app::studio::Slot;
-use crate::io::Failure;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -26,17 +25,12 @@ impl Outside {
         }
         let request = Arc::new(request);
         last.insert(slot, Arc::clone(&request));
-        let (failed, lookup) = (Arc::clone(&request), Arc::clone(lookup));
-        let answer = move |request, taken| TaskAnswer::Looked(slot, request, taken);
-        self.runner.start(
-            Key::LookUp(slot),
-            Turn::After,
-            move || Some(answer(failed, Err(Failure::Output(FAULT.to_owned())))),
-            move |job| {
-                let taken = lookup.lock().unwrap_or_else(PoisonError::into_inner).picture(&request);
-                job.send(answer(request, taken));
-            },
-        );
+        let lookup = Arc::clone(lookup);
+        let failed = TaskAnswer::Looked(slot, Arc::clone(&request), Err(fault()));
+        self.runner.start(Key::LookUp(slot), Turn::After, Some(failed), move |job| {
+            let taken = lookup.lock().unwrap_or_else(PoisonError::into_inner).picture(&request);
+            job.send(TaskAnswer::Looked(slot, request, taken));
+        });
     }
 
     /// Whether pictures are being looked up.

@@ -11,7 +11,6 @@ pub mod files;
 mod look_ups;
 pub mod lookup;
 pub mod open;
-pub mod opener;
 pub mod runner;
 
 use crate::app::model::action::{Computed, DialogAction, FileAction, NoteAction};
@@ -31,7 +30,6 @@ use egui::ColorImage;
 use files::Chooser;
 use look_ups::LookUps;
 use lookup::LookupRequest;
-use opener::Opener;
 use runner::{JobHandle, TaskRunner, Turn};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -66,20 +64,22 @@ pub enum TaskAnswer {
     Looked(Slot, Arc<LookupRequest>, Result<TakenPicture, Failure>),
 }
 
-impl From<Action> for TaskAnswer {
-    fn from(action: Action) -> Self {
-        Self::Act(Box::new(action))
-    }
-}
-
-impl From<FileAction> for TaskAnswer {
-    fn from(action: FileAction) -> Self {
-        Action::File(action).into()
+impl<A: Into<Action>> From<A> for TaskAnswer {
+    fn from(action: A) -> Self {
+        Self::Act(Box::new(action.into()))
     }
 }
 
 /// The text of an error that the program itself has made.
 const FAULT: &str = "this is a fault in the program; please report it, with the design";
+
+/// Returns the error of a task that panicked.
+fn fault() -> Failure {
+    Failure::Output(FAULT.to_owned())
+}
+
+/// A function that opens a folder by its path, or a page of the web by its address, without waiting for it.
+pub type Opener = Arc<dyn Fn(&str) -> std::io::Result<()> + Send + Sync>;
 
 /// Carries out tasks.
 pub struct Outside {
@@ -128,137 +128,112 @@ impl Outside {
     }
 
     fn load_light(&mut self, name: String) {
-        let answer = |name, loaded| Action::Computed(Computed::Light(name, loaded)).into();
-        let failed = name.clone();
-        self.run(
-            Key::Light,
-            move || answer(failed, Err(Failure::Output(FAULT.to_owned()))),
-            move |_| {
-                let loaded = Lighting::load(&name).map(Arc::new).map_err(Failure::from);
-                answer(name, loaded)
-            },
-        );
+        let failed = Computed::Light(name.clone(), Err(fault()));
+        self.run(Key::Light, failed, move |_| {
+            let loaded = Lighting::load(&name).map(Arc::new).map_err(Failure::from);
+            Computed::Light(name, loaded)
+        });
     }
 
     fn read(&mut self, request: FileRequest) {
-        let failed = request.clone();
         let why = format!("{}: reading it failed", request.path.display());
-        let key = Key::Read { is_beside: request.is_beside() };
-        self.run(
-            key,
-            || FileAction::Opened(failed, Err(Failure::Input(why))).into(),
-            move |_| {
-                let read = open::read(&request);
-                FileAction::Opened(request, read).into()
-            },
-        );
+        let failed = FileAction::Opened(request.clone(), Err(Failure::Input(why)));
+        self.run(Key::Read { is_beside: request.is_beside() }, failed, move |_| {
+            let read = open::read(&request);
+            FileAction::Opened(request, read)
+        });
     }
 
     fn save(&mut self, request: SaveRequest) {
-        let failed = || FileAction::Saved(Err(Failure::Output(FAULT.to_owned())));
+        let failed = FileAction::Saved(Err(fault()));
         self.write(Key::Save, failed, move || Some(FileAction::Saved(open::save(request))));
     }
 
     fn choose_file(&mut self, question: Question) {
-        let (chooser, failed) = (Arc::clone(&self.chooser), question.clone());
-        self.run(
-            Key::Choose,
-            || FileAction::Chosen(failed, Choice::NoDialog).into(),
-            move |_| {
-                let choice = chooser(&question);
-                FileAction::Chosen(question, choice).into()
-            },
-        );
+        let chooser = Arc::clone(&self.chooser);
+        self.run(Key::Choose, FileAction::Chosen(question.clone(), Choice::NoDialog), move |_| {
+            let choice = chooser(&question);
+            FileAction::Chosen(question, choice)
+        });
     }
 
     fn keep(&mut self, job: impl FnOnce(&mut Autosave) -> Option<String> + Send + 'static) {
         let Some(safe) = self.safe.clone() else { return };
-        self.write(
-            Key::Safe,
-            || FileAction::NotKept(FAULT.to_owned()),
-            move || job(&mut safe.lock().unwrap_or_else(PoisonError::into_inner)).map(FileAction::NotKept),
-        );
+        self.write(Key::Safe, FileAction::NotKept(FAULT.to_owned()), move || {
+            job(&mut safe.lock().unwrap_or_else(PoisonError::into_inner)).map(FileAction::NotKept)
+        });
     }
 
     fn forget(&mut self, path: PathBuf) {
-        let failed = || FileAction::NotKept(FAULT.to_owned());
-        self.write(Key::Forget, failed, move || {
+        self.write(Key::Forget, FileAction::NotKept(FAULT.to_owned()), move || {
             autosave::forget(&path);
             None
         });
     }
 
     fn watch(&mut self, file: Option<(PathBuf, Stamp)>) {
-        let failed = || None;
-        self.runner.start(Key::Watch, Turn::AtOnce, failed, move |job| {
+        self.runner.start(Key::Watch, Turn::AtOnce, None, move |job| {
             file.into_iter().for_each(|(path, stamp)| open::watch(&path, stamp, job));
         });
     }
 
     fn look_into(&mut self, files: Vec<PathBuf>) {
-        let failed = || FileAction::DroppedFor(vec![]).into();
-        self.run(Key::Look, failed, move |_| FileAction::DroppedFor(open::look_into(files)).into());
+        let failed = FileAction::DroppedFor(vec![]);
+        self.run(Key::Look, failed, move |_| FileAction::DroppedFor(open::look_into(files)));
     }
 
     fn open_outside(&mut self, what: String) {
-        let (opener, failed) = (Arc::clone(&self.opener), || None);
-        self.runner.start(Key::Open, Turn::AtOnce, failed, move |job| {
+        let opener = Arc::clone(&self.opener);
+        self.runner.start(Key::Open, Turn::AtOnce, None, move |job| {
             if let Err(why) = opener(&what) {
-                let why = format!("{what} could not be opened: {why}");
-                job.send(Action::Note(NoteAction::Trouble(why)).into());
+                job.send(NoteAction::Trouble(format!("{what} could not be opened: {why}")).into());
             }
         });
     }
 
     fn make_thumbnails(&mut self, plan: ExportPlan) {
-        let failed = || None;
-        self.runner.start(Key::Thumbnails, Turn::AtOnce, failed, move |job| {
+        self.runner.start(Key::Thumbnails, Turn::AtOnce, None, move |job| {
             let hang = |shows, image| job.send(TaskAnswer::Thumbnail(shows, image));
             export::thumbnails(&plan, &hang, &|| job.is_stopped());
         });
     }
 
     fn export(&mut self, plan: ExportPlan) {
-        let answer = |event| Action::Dialog(DialogAction::Exported(event)).into();
-        let failed = move || Some(answer(ExportEvent::Ended(Err(Failure::Output(FAULT.to_owned())))));
-        self.runner.start(Key::Export, Turn::AtOnce, failed, move |job| {
+        let answer = |event| DialogAction::Exported(event).into();
+        let failed = answer(ExportEvent::Ended(Err(fault())));
+        self.runner.start(Key::Export, Turn::AtOnce, Some(failed), move |job| {
             export::run(&plan, &|event| job.send(answer(event)), &|| job.is_stopped());
         });
     }
 
     fn make_copy(&mut self, request: CopyRequest) {
         let why = "making the picture failed; try another size";
-        let failed = move || TaskAnswer::Copied(Err(Failure::Output(why.to_owned())));
+        let failed = TaskAnswer::Copied(Err(Failure::Output(why.to_owned())));
         self.run(Key::Copy, failed, move |job| {
             TaskAnswer::Copied(copying::make(&request, &|| job.is_stopped()))
         });
     }
 
-    /// Runs a job with one answer.
-    fn run(
+    /// Runs a job with one answer; `failed` is its answer where it panics.
+    fn run<A: Into<TaskAnswer>>(
         &mut self,
         key: Key,
-        failed: impl FnOnce() -> TaskAnswer + Send + 'static,
-        job: impl FnOnce(&JobHandle<TaskAnswer>) -> TaskAnswer + Send + 'static,
+        failed: A,
+        job: impl FnOnce(&JobHandle<TaskAnswer>) -> A + Send + 'static,
     ) {
-        self.runner.start(key, Turn::AtOnce, || Some(failed()), |handle| handle.send(job(handle)));
+        let job = |handle: &JobHandle<_>| handle.send(job(handle).into());
+        self.runner.start(key, Turn::AtOnce, Some(failed.into()), job);
     }
 
-    /// Runs a job that writes, once the one before it has written.
+    /// Runs a job that writes, once the one before it has written; `failed` is its answer where it panics.
     fn write(
         &mut self,
         key: Key,
-        failed: impl FnOnce() -> FileAction + Send + 'static,
+        failed: FileAction,
         job: impl FnOnce() -> Option<FileAction> + Send + 'static,
     ) {
-        self.runner.start(
-            key,
-            Turn::After,
-            || Some(failed().into()),
-            |handle| {
-                job().into_iter().for_each(|answer| handle.send(answer.into()));
-            },
-        );
+        let job = |handle: &JobHandle<_>| job().into_iter().for_each(|answer| handle.send(answer.into()));
+        self.runner.start(key, Turn::After, Some(failed.into()), job);
     }
 
     /// Waits until everything that was to be written is written.

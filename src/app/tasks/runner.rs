@@ -99,12 +99,12 @@ impl<K: Copy + Eq + Hash + Send + Sync + 'static, A: Send + 'static> TaskRunner<
         &mut self,
         key: K,
         turn: Turn,
-        failed: impl FnOnce() -> Option<A> + Send + 'static,
+        failed: Option<A>,
         job: impl FnOnce(&JobHandle<A>) + Send + 'static,
     ) {
         let work: Work<A> = Box::new(move |handle| {
             if catch_unwind(AssertUnwindSafe(|| job(handle))).is_err() {
-                failed().into_iter().for_each(|answer| handle.send(answer));
+                failed.into_iter().for_each(|answer| handle.send(answer));
             }
         });
         let lane = self.lanes.entry(key).or_default();
@@ -241,9 +241,9 @@ mod tests {
             assert!(job.is_stopped());
             job.send(1);
         };
-        runner.start("a", Turn::AtOnce, || None, older);
-        runner.start("a", Turn::AtOnce, || None, |job| job.send(2));
-        runner.start("b", Turn::AtOnce, || None, |job| job.send(3));
+        runner.start("a", Turn::AtOnce, None, older);
+        runner.start("a", Turn::AtOnce, None, |job| job.send(2));
+        runner.start("b", Turn::AtOnce, None, |job| job.send(3));
         let mut answers = some(&mut runner, &woken, 2);
         answers.sort_unstable();
         assert_eq!(answers, [2, 3]);
@@ -254,7 +254,7 @@ mod tests {
     #[test]
     fn a_job_that_panics_answers_and_is_over() {
         let (mut runner, woken) = runner();
-        runner.start("a", Turn::AtOnce, || Some(-1), |_| panic!("as it is meant to"));
+        runner.start("a", Turn::AtOnce, Some(-1), |_| panic!("as it is meant to"));
         assert_eq!(all(&mut runner, &woken), [-1]);
     }
 
@@ -271,7 +271,7 @@ mod tests {
                 held.into_iter().for_each(|held| held.recv().unwrap());
                 sender.send(number).unwrap();
             };
-            runner.start("a", Turn::After, || None, job);
+            runner.start("a", Turn::After, None, job);
         }
         free.send(()).unwrap();
         runner.finish();
@@ -281,17 +281,12 @@ mod tests {
     #[test]
     fn a_job_that_is_stopped_still_answers() {
         let (mut runner, woken) = runner();
-        runner.start(
-            "a",
-            Turn::AtOnce,
-            || None,
-            |job| {
-                while !job.is_stopped() {
-                    std::thread::yield_now();
-                }
-                job.send(7);
-            },
-        );
+        runner.start("a", Turn::AtOnce, None, |job| {
+            while !job.is_stopped() {
+                std::thread::yield_now();
+            }
+            job.send(7);
+        });
         runner.stop("a");
         assert_eq!(all(&mut runner, &woken), [7]);
     }

@@ -83,7 +83,7 @@ impl Bench {
             if setup.workspace == Workspace::default() { Self::small() } else { setup.workspace.clone() };
         let opened: Arc<Mutex<Vec<String>>> = Arc::default();
         let outside = Arc::clone(&opened);
-        let opener: crate::app::tasks::opener::Opener = Arc::new(move |what: &str| {
+        let opener: crate::app::tasks::Opener = Arc::new(move |what: &str| {
             outside.lock().unwrap().push(what.to_owned());
             Ok(())
         });

@@ -27,16 +27,12 @@ pub fn carried(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneV
     let pose = own.and_then(|(_, copy)| poses.get(copy)).filter(|_| poses.len() > 1);
     if let (Some((_, copy)), Some(pose)) = (own, pose) {
         let moved = moved(ui, *pose, response, sight);
-        if moved != *pose {
-            cx.push(Edit::Copy(copy, moved));
-        }
+        cx.actions.push_changed(pose, moved, |pose| Edit::Copy(copy, pose));
         ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
     }
     let ends = own.is_some() && (pose.is_none() || !response.dragged());
     let held = held.filter(|_| !ends);
-    if held != before {
-        cx.push(ViewAction::Hold(held));
-    }
+    cx.actions.push_changed(&before, held, ViewAction::Hold);
     pose.is_some()
 }
 

@@ -1,7 +1,7 @@
 //! Moves the eye of a view by pointer, wheel and keys.
 
-use super::arrows;
 use super::pane_view::PaneView;
+use crate::app::arrows;
 use crate::app::model::eye::Eye;
 use crate::scene::Side;
 use egui::{Key, Modifiers, PointerButton, Response, Ui};

@@ -34,9 +34,7 @@ pub fn show(model: &Model, tools: &mut ViewTools, actions: &mut Actions, ctx: &C
     let window =
         Window::new("Light path").open(&mut is_open).default_size(SIZE).default_pos(tools.following.place());
     window.min_size(vec2(400.0, 360.0)).show(ctx, |ui| contents(model, tools, ui));
-    if !is_open {
-        actions.push(ViewAction::LightPath(false));
-    }
+    actions.push_if(!is_open, ViewAction::LightPath(false));
 }
 
 /// Draws the path of the ray that is followed, or says why there is none.

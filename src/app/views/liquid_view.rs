@@ -1,8 +1,8 @@
 //! The view of a pane of liquid glass, drawn as screens draw it or traced: the pane is moved by hand.
 
-use super::arrows;
 use super::pane_context::{PaneContext, focus};
 use super::view_menu::attend;
+use crate::app::arrows;
 use crate::app::model::action::ViewAction;
 use crate::app::studio::Which;
 use egui::{Modifiers, PointerButton, Rect, Role, Sense, StrokeKind, Ui, WidgetInfo};
@@ -28,9 +28,7 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect) {
             liquid.drag(DVec2::new(way.x, -way.y) * STEP);
         }
     }
-    if liquid != cx.model.workspace.liquid {
-        cx.push(ViewAction::Liquid(liquid));
-    }
+    cx.actions.push_changed(&cx.model.workspace.liquid, liquid, ViewAction::Liquid);
     ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
     if let Some(shown) = cx.shown(Which::Present).filter(|shown| shown.shot.shows == cx.shows) {
         shown.paint(ui.painter(), body);

@@ -1,6 +1,5 @@
 //! The views of the stone and what is drawn in them.
 
-mod arrows;
 pub mod clock;
 mod copies;
 mod eye_hand;

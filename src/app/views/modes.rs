@@ -4,6 +4,7 @@
 use super::pane_context::PaneContext;
 use crate::app::model::Model;
 use crate::app::model::action::{Action, Edit, ViewAction};
+use crate::app::model::command::Command;
 use crate::app::model::eye::Eye;
 use crate::app::model::workspace::Pane;
 use crate::app::shows::Shows;
@@ -59,7 +60,7 @@ impl Mode {
             }),
             (workspace.strongest && scope.is_some()).then(|| {
                 let meaning = "Scopes show only the zone of each point's strongest light.";
-                mode("strongest exits", meaning, ViewAction::Strongest(false))
+                mode("strongest exits", meaning, Command::Strongest)
             }),
             (head > 0.0 && takes_head).then(|| {
                 let meaning = "The observer's head blocks light, here and in the figures.";
@@ -68,7 +69,7 @@ impl Mode {
             (workspace.glare && !workspace.strongest && scope.is_some()).then(|| {
                 let meaning =
                     "Scopes also show the light that the outer surface reflects, as a camera records it.";
-                mode("with glare", meaning, ViewAction::Glare(false))
+                mode("with glare", meaning, Command::Glare)
             }),
             missing.map(|name| {
                 let meaning = "The file of the background cannot be read, so nothing is behind the stone, and the strength of \
@@ -119,8 +120,8 @@ pub fn show(cx: &mut PaneContext, ui: &mut Ui, width: f32) {
         menu.response.on_hover_text(format!("Also on in this view: {}.", hidden.join(", ")));
     }
     if let Some(mode) = ended.and_then(|k| modes.into_iter().nth(k)) {
-        cx.push(ViewAction::EndStep);
-        cx.push(mode.end);
+        cx.actions.push(ViewAction::EndStep);
+        cx.actions.push(mode.end);
     }
 }
 

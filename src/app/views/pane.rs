@@ -25,9 +25,8 @@ pub fn show(cx: &mut PaneContext, ui: &mut Ui, rect: Rect) -> [u32; 2] {
         shows if shows.is_pane() => liquid_view::show(cx, ui, body),
         _ => scene_view::show(cx, ui, body, size),
     }
-    if cx.flowing != cx.model.session.flowing[cx.pane] {
-        cx.push(ViewAction::Flowing(cx.pane, cx.flowing));
-    }
+    let flow = |flowing| ViewAction::Flowing(cx.pane, flowing);
+    cx.actions.push_changed(&cx.model.session.flowing[cx.pane], cx.flowing, flow);
     let edge = ui.visuals().widgets.noninteractive.bg_stroke;
     ui.painter().rect_stroke(body, 4.0, edge, StrokeKind::Inside);
     size
@@ -44,9 +43,7 @@ fn profile(cx: &mut PaneContext, ui: &mut Ui, body: Rect) {
         Ok(stone) => drop(cx.tools.profiles[cx.pane].show(ui, body, stone, &mut changed)),
         Err(_) => absent(ui, body, "A profile"),
     }
-    if changed != *cut {
-        cx.push(Edit::Cut(changed));
-    }
+    cx.actions.push_changed(cut, changed, Edit::Cut);
     attend(cx, &under, under.contains_pointer());
 }
 

@@ -4,7 +4,7 @@ use super::gallery::Shown;
 use super::tools::ViewTools;
 use crate::app::menus::entry;
 use crate::app::model::Model;
-use crate::app::model::action::{Action, Actions};
+use crate::app::model::action::Actions;
 use crate::app::model::command::Command;
 use crate::app::model::eye::Eye;
 use crate::app::model::session::Flowing;
@@ -17,7 +17,7 @@ pub struct PaneContext<'a> {
     pub model: &'a Model,
     /// What all views need.
     pub tools: &'a mut ViewTools,
-    actions: &'a mut Actions,
+    pub actions: &'a mut Actions,
     /// The number of the view.
     pub pane: usize,
     pub shows: Shows,
@@ -30,11 +30,6 @@ impl<'a> PaneContext<'a> {
     pub fn new(model: &'a Model, tools: &'a mut ViewTools, actions: &'a mut Actions, pane: usize) -> Self {
         let (shows, flowing) = (model.workspace.panes[pane].shows, model.session.flowing[pane]);
         Self { model, tools, actions, pane, shows, flowing }
-    }
-
-    /// Adds an action.
-    pub fn push(&mut self, action: impl Into<Action>) {
-        self.actions.push(action);
     }
 
     /// Draws the entry of a command in a menu.

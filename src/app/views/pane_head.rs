@@ -48,9 +48,7 @@ fn choice(cx: &mut PaneContext, ui: &mut Ui) {
             ui.selectable_value(&mut chosen, other, other.name()).on_hover_text(other.meaning());
         }
     });
-    if chosen != shows {
-        cx.push(ViewAction::Show(pane, chosen));
-    }
+    cx.actions.push_changed(&shows, chosen, |shows| ViewAction::Show(pane, shows));
     let name = format!("View {}: {}", pane + 1, shows.name());
     let response = shown.response.on_hover_text(shows.meaning());
     response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
@@ -63,9 +61,7 @@ fn from_right(cx: &mut PaneContext, ui: &mut Ui) {
         let name = if workspace.large == Some(pane) { "All views" } else { "Enlarge" };
         let meaning =
             format!("Shows view {} alone, or all views again; a double click does the same.", pane + 1);
-        if ui.small_button(name).on_hover_text(meaning).clicked() {
-            cx.push(ViewAction::Enlarge(pane));
-        }
+        cx.actions.push_if(ui.small_button(name).on_hover_text(meaning).clicked(), ViewAction::Enlarge(pane));
     }
     if shows == Shows::Refraction {
         refraction_view::choices(&mut cx.flowing, ui);
@@ -74,7 +70,7 @@ fn from_right(cx: &mut PaneContext, ui: &mut Ui) {
     if shows.is_seen() && workspace.panes[pane].own.is_none() && has_room(ui, 80.0) {
         let linked = ui.checkbox(&mut true, "Linked");
         if linked.on_hover_text("Tilts and zooms together with all other linked views.").changed() {
-            cx.push(ViewAction::Link(pane, false));
+            cx.actions.push(ViewAction::Link(pane, false));
         }
     }
     if (shows.is_seen() || shows == Shows::TracedPane) && has_room(ui, 64.0) {

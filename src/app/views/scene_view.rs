@@ -34,9 +34,7 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect, size: [u32; 2]) {
     cx.tools.attention.is_picture_focused |= response.has_focus();
     if !copies::carried(cx, ui, &response, &sight) {
         let moved = eye_hand::moved(eye, ui, &response, &sight, moves_background);
-        if moved != eye {
-            cx.push(ViewAction::Eye(cx.pane, moved));
-        }
+        cx.actions.push_changed(&eye, moved, |eye| ViewAction::Eye(cx.pane, eye));
     }
     attend(cx, &response, response.hovered() || response.has_focus());
     let is_alone = !shows.has_company() || model.is_alone();

@@ -5,8 +5,8 @@ use super::gallery::Gallery;
 use super::probe::ProbeCache;
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
+use crate::app::model::motion::WaveCache;
 use crate::app::model::ordering::Orders;
-use crate::app::model::stones::Stones;
 use crate::app::profile_view::ProfileView;
 use crate::app::studio::Paper;
 
@@ -16,7 +16,7 @@ pub struct ViewTools {
     /// The pictures of the views.
     pub gallery: Gallery,
     /// The stones as the views show them.
-    pub stones: Stones,
+    pub waves: WaveCache,
     /// Finds what lies under the pointer.
     pub probe: ProbeCache,
     /// The drawing of the stone from the side, in each view.
@@ -32,7 +32,7 @@ pub struct ViewTools {
 impl ViewTools {
     /// Returns what makes the orders of pictures.
     pub fn orders<'a>(&'a mut self, model: &'a Model) -> Orders<'a> {
-        Orders { model, stones: &mut self.stones, paper: self.paper }
+        Orders { model, waves: &mut self.waves, paper: self.paper }
     }
 
     /// Whether a handle of a profile is dragged.
@@ -61,9 +61,7 @@ impl Attention {
         if let Some(pane) = hovered.filter(|&pane| pane != model.session.hovered) {
             actions.push(ViewAction::Hover(pane));
         }
-        if self.message != model.session.message {
-            actions.push(ViewAction::Message(self.message.clone()));
-        }
+        actions.push_changed(&model.session.message, self.message.clone(), ViewAction::Message);
     }
 }
 

@@ -1,6 +1,7 @@
 //! The menu of a view, which the right mouse button opens.
 
 use super::pane_context::PaneContext;
+use crate::app::menus::choose;
 use crate::app::model::action::{DialogAction, ViewAction};
 use crate::app::model::command::Command;
 use crate::app::shows::Shows;
@@ -33,9 +34,7 @@ pub fn attend(cx: &mut PaneContext, response: &Response, is_hovered: bool) {
         cx.tools.attention.menu = Some(cx.pane);
         contents(cx, ui);
     });
-    if response.double_clicked() {
-        cx.push(ViewAction::Enlarge(cx.pane));
-    }
+    cx.actions.push_if(response.double_clicked(), ViewAction::Enlarge(cx.pane));
     if is_hovered {
         cx.tools.attention.hovered = Some(cx.pane);
     }
@@ -45,11 +44,8 @@ fn contents(cx: &mut PaneContext, ui: &mut Ui) {
     let (shows, pane, workspace) = (cx.shows, cx.pane, &cx.model.workspace);
     ui.menu_button("Show", |ui| {
         for other in Shows::ALL {
-            let choice = ui.selectable_label(shows == other, other.name());
-            if choice.on_hover_text(other.meaning()).clicked() {
-                cx.push(ViewAction::Show(pane, other));
-                ui.close();
-            }
+            let entry = ui.selectable_label(shows == other, other.name()).on_hover_text(other.meaning());
+            choose(cx.actions, ui, &entry, ViewAction::Show(pane, other));
         }
     });
     if shows.takes_overlay() {
@@ -60,27 +56,23 @@ fn contents(cx: &mut PaneContext, ui: &mut Ui) {
     if can_copy(cx) {
         ui.menu_button("Copy picture at size", |ui| sizes(cx, ui));
     }
-    if Shows::EXPORTED.contains(&shows) && ui.button("Export this view…").clicked() {
-        cx.push(DialogAction::Export(Some(shows)));
-        ui.close();
+    if Shows::EXPORTED.contains(&shows) {
+        let entry = ui.button("Export this view…");
+        choose(cx.actions, ui, &entry, DialogAction::Export(Some(shows)));
     }
     ui.separator();
     cx.entry(ui, Command::ResetView);
     if workspace.layout.panes() > 1 {
         let name = if workspace.large == Some(pane) { "Show all views" } else { "Show alone" };
-        if ui.button(name).clicked() {
-            cx.push(ViewAction::Enlarge(pane));
-            ui.close();
-        }
+        let entry = ui.button(name);
+        choose(cx.actions, ui, &entry, ViewAction::Enlarge(pane));
     }
 }
 
 fn sizes(cx: &mut PaneContext, ui: &mut Ui) {
     for side in SIZES {
         let about = "Pixels of the longer side. The picture is made in this size and copied once it is done.";
-        if ui.button(format!("{side} pixels")).on_hover_text(about).clicked() {
-            cx.push(ViewAction::CopyAt(cx.pane, side));
-            ui.close();
-        }
+        let entry = ui.button(format!("{side} pixels")).on_hover_text(about);
+        choose(cx.actions, ui, &entry, ViewAction::CopyAt(cx.pane, side));
     }
 }

@@ -9,7 +9,7 @@ use crate::app::studio::Which;
 use crate::io::background::BackgroundRef;
 
 /// Begins to work on another document, under the present light.
-pub fn begin(model: &mut Model, mut document: Document) -> Vec<Task> {
+pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
     let work = &model.document.work;
     document.begin(&work.light, work.exposure, work.head);
     model.document = document;
@@ -30,60 +30,41 @@ pub fn begin(model: &mut Model, mut document: Document) -> Vec<Task> {
     if session.compared.as_ref().is_some_and(|c| c.is_saved) {
         compare_no_more(model);
     }
-    safe::note(model)
+    safe::note(model, tasks);
 }
 
 /// Begins a document that is the present one, read again: no view moves.
-pub fn begin_again(model: &mut Model, mut document: Document) -> Vec<Task> {
+pub fn begin_again(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
     let (workspace, framing) = (model.workspace.clone(), model.session.framing.clone());
     document.take_copies(&model.document);
-    let tasks = begin(model, document);
+    begin(model, tasks, document);
     (model.workspace, model.session.framing) = (workspace, framing);
     model.session.notes.say("The file was changed by another program and has been read again.");
-    tasks
 }
 
 /// Begins a design from a cut that comes with the program.
-pub fn begin_library(model: &mut Model, name: &str) -> Vec<Task> {
-    match Document::of_library(name) {
-        Ok(document) => {
-            model.workspace.last = None;
-            begin(model, document)
-        }
-        Err(why) => {
-            model.session.notes.trouble(why);
-            vec![]
-        }
-    }
+pub fn begin_library(model: &mut Model, tasks: &mut Vec<Task>, name: &str) {
+    let document = Document::of_library(name);
+    let Some(document) = model.session.notes.ok_or_report(document) else { return };
+    model.workspace.last = None;
+    begin(model, tasks, document);
 }
 
 /// Begins a scene that comes with the program.
-pub fn begin_preset(model: &mut Model, name: &str) -> Vec<Task> {
-    match Preset::of_library(name) {
-        Ok(preset) => {
-            let tasks = begin_scene(model, preset);
-            // The scene is meant to be seen as a render.
-            model.workspace.enlarge_render();
-            model.session.motion.is_on = PRESETS.iter().any(|known| known.name == name && known.moves);
-            tasks
-        }
-        Err(why) => {
-            model.session.notes.trouble(why);
-            vec![]
-        }
-    }
+pub fn begin_preset(model: &mut Model, tasks: &mut Vec<Task>, name: &str) {
+    let preset = Preset::of_library(name);
+    let Some(preset) = model.session.notes.ok_or_report(preset) else { return };
+    begin_scene(model, tasks, preset);
+    // The scene is meant to be seen as a render.
+    model.workspace.enlarge_render();
+    model.session.motion.is_on = PRESETS.iter().any(|known| known.name == name && known.moves);
 }
 
 /// Begins to work on a scene: its design, which is not saved anywhere yet, its copies, its light and its backplate.
-pub fn begin_scene(model: &mut Model, preset: Preset) -> Vec<Task> {
+pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset) {
     let Preset { design, company, scene, wavelengths } = preset;
-    let mut document = match Document::new(design, None) {
-        Ok(document) => document,
-        Err(why) => {
-            model.session.notes.trouble(why.to_string());
-            return vec![];
-        }
-    };
+    let document = Document::new(design, None);
+    let Some(mut document) = model.session.notes.ok_or_report(document) else { return };
     let laid = company.poses(document.specimen().solid().vertices(), None);
     let layers = if laid == company.poses { "" } else { ", some of them farther back so that none overlap" };
     document.work.company = company;
@@ -93,14 +74,13 @@ pub fn begin_scene(model: &mut Model, preset: Preset) -> Vec<Task> {
         let light = if light.is_file() { std::path::absolute(&light).unwrap_or(light) } else { light };
         model.document.work.light = light.to_string_lossy().into_owned();
     }
-    let tasks = begin(model, document);
+    begin(model, tasks, document);
     let Model { workspace, session, .. } = model;
     // The workspace cannot hold plain colours.
     let behind = scene.background.as_ref().filter(|behind| !matches!(behind, BackgroundRef::Plain(_)));
     workspace.enter_scene(behind.map(ToString::to_string), wavelengths);
     (workspace.behind_mm, workspace.strength) = (scene.background_distance_mm, scene.strength);
     session.notes.say(&format!("{}: renders show all copies{layers}; other views show one", scene.name));
-    tasks
 }
 
 /// Ends the comparison: forgets the design compared with, and its figures.

@@ -56,23 +56,23 @@ impl Model {
 }
 
 /// Carries out a command, if it is possible.
-pub fn run(model: &mut Model, command: Command) -> Vec<Task> {
+pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
     if !model.is_possible(command) {
-        return vec![];
+        return;
     }
     model.session.views.settle();
     match command {
-        Command::Open => files::choose(model, Purpose::Open),
-        Command::Save => files::save(model),
-        Command::SaveAs => files::choose(model, Purpose::SaveAs),
-        Command::CompareFile => files::choose(model, Purpose::Compare),
-        Command::Quit => files::change(model, FileAction::Ask(Then::Close)),
-        Command::Export => dialogs::answer(model, DialogAction::Export(None)),
-        Command::CopyPicture => vec![Task::Window(WindowTask::CopyShown(model.active()))],
-        Command::FullScreen => vec![Task::Window(WindowTask::FullScreen)],
+        Command::Open => files::choose(model, tasks, Purpose::Open),
+        Command::Save => files::save(model, tasks),
+        Command::SaveAs => files::choose(model, tasks, Purpose::SaveAs),
+        Command::CompareFile => files::choose(model, tasks, Purpose::Compare),
+        Command::Quit => files::change(model, tasks, FileAction::Ask(Then::Close)),
+        Command::Export => dialogs::answer(model, tasks, DialogAction::Export(None)),
+        Command::CopyPicture => tasks.push(Task::Window(WindowTask::CopyShown(model.active()))),
+        Command::FullScreen => tasks.push(Task::Window(WindowTask::FullScreen)),
         Command::ResetLayout => {
             model.workspace.reset_layout();
-            vec![Task::Window(WindowTask::ForgetPanelWidths)]
+            tasks.push(Task::Window(WindowTask::ForgetPanelWidths));
         }
         Command::LayOut => edits::edit(model, Edit::LayOut(model.document.work.company.poses.len())),
         Command::Undo | Command::Redo => {
@@ -82,12 +82,8 @@ pub fn run(model: &mut Model, command: Command) -> Vec<Task> {
                 model.document.redo()
             }
             model.document.update();
-            vec![]
         }
-        other => {
-            look(model, other);
-            vec![]
-        }
+        other => look(model, other),
     }
 }
 

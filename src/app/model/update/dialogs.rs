@@ -14,49 +14,48 @@ use crate::app::model::recovery::{KeptScene, RecoveredWork};
 use crate::app::model::task::Task;
 
 /// Takes an answer to the dialog that is open, or opens one.
-pub fn answer(model: &mut Model, answer: DialogAction) -> Vec<Task> {
+pub fn answer(model: &mut Model, tasks: &mut Vec<Task>, answer: DialogAction) {
     match answer {
         DialogAction::Export(view) => {
-            return export(model, |selection| {
+            export(model, tasks, |selection| {
                 if let Some(view) = view {
                     selection.views = vec![view];
                 }
             });
         }
-        DialogAction::Leave => return leave(model),
-        DialogAction::Keep => return keep(model),
+        DialogAction::Leave => leave(model, tasks),
+        DialogAction::Keep => keep(model, tasks),
         DialogAction::GiveUp => {
             if let Some(Dialog::Unsaved(then) | Dialog::Moved(then)) = model.session.dialog.take() {
-                return files::then(model, then);
+                files::then(model, tasks, then);
             }
         }
         DialogAction::Recover => {
             if let Some(Dialog::Recover(found)) = model.session.dialog.take() {
-                return recover(model, &found);
+                recover(model, tasks, &found);
             }
         }
         DialogAction::Forget => {
             if let Some(Dialog::Recover(found)) = model.session.dialog.take() {
-                return vec![Task::Forget(found.file)];
+                tasks.push(Task::Forget(found.file));
             }
         }
         DialogAction::ReadAgain => {
             model.session.dialog = None;
             if let Some(path) = model.document.path().map(std::path::Path::to_owned) {
-                return files::change(model, FileAction::Open(path, OpeningPurpose::Again));
+                files::change(model, tasks, FileAction::Open(path, OpeningPurpose::Again));
             }
         }
         DialogAction::Accept => {
             if let Some(Dialog::Path(form)) = model.session.dialog.take() {
-                return files::chosen(model, form.purpose, form.document, form.path());
+                files::chosen(model, tasks, form.purpose, form.document, form.path());
             }
         }
-        DialogAction::Write => return write(model),
-        DialogAction::Stop => return stop(model),
+        DialogAction::Write => write(model, tasks),
+        DialogAction::Stop => stop(model, tasks),
         DialogAction::Exported(event) => exported(model, event),
         typed => fill_in(model, typed),
     }
-    vec![]
 }
 
 /// Stores what is typed or chosen in the open dialog.
@@ -78,70 +77,58 @@ fn fill_in(model: &mut Model, typed: DialogAction) {
 }
 
 /// Leaves the dialog. A design whose path was asked for is not saved, and what waited for that is not done.
-fn leave(model: &mut Model) -> Vec<Task> {
+fn leave(model: &mut Model, tasks: &mut Vec<Task>) {
     match model.session.dialog.take() {
-        Some(Dialog::Path(_)) => {
-            model.session.after_save = None;
-            vec![]
-        }
-        Some(Dialog::Export(_)) => vec![Task::StopThumbnails],
-        _ => vec![],
+        Some(Dialog::Path(_)) => model.session.after_save = None,
+        Some(Dialog::Export(_)) => tasks.push(Task::StopThumbnails),
+        _ => {}
     }
 }
 
-fn keep(model: &mut Model) -> Vec<Task> {
+fn keep(model: &mut Model, tasks: &mut Vec<Task>) {
     match model.session.dialog.take() {
-        Some(Dialog::Unsaved(then)) => files::save_then(model, then),
-        Some(Dialog::Moved(_)) => export(model, |selection| selection.scene = true),
-        other => {
-            model.session.dialog = other;
-            vec![]
-        }
+        Some(Dialog::Unsaved(then)) => files::save_then(model, tasks, then),
+        Some(Dialog::Moved(_)) => export(model, tasks, |selection| selection.scene = true),
+        other => model.session.dialog = other,
     }
 }
 
-fn recover(model: &mut Model, found: &RecoveredWork) -> Vec<Task> {
-    let mut document = match Document::recovered(found) {
-        Ok(document) => document,
-        Err(why) => {
-            model.session.notes.trouble(why);
-            return vec![];
-        }
-    };
+fn recover(model: &mut Model, tasks: &mut Vec<Task>, found: &RecoveredWork) {
+    let document = Document::recovered(found);
+    let Some(mut document) = model.session.notes.ok_or_report(document) else { return };
     let KeptScene { company, behind, behind_mm, strength } = found.around.clone();
     document.work.company = company;
-    let mut tasks = begin(model, document);
+    begin(model, tasks, document);
     let workspace = &mut model.workspace;
     workspace.behind = behind.or(workspace.behind.take());
     (workspace.behind_mm, workspace.strength) = (behind_mm, strength.unwrap_or(1.0));
-    tasks.extend(safe::note(model));
+    safe::note(model, tasks);
     // The work is kept anew before the file that the crash left is removed.
     match tasks.last_mut() {
         Some(Task::Keep(unsaved)) => unsaved.replaces = Some(found.file.clone()),
         _ => tasks.push(Task::Forget(found.file.clone())),
     }
-    tasks
 }
 
-fn export(model: &mut Model, select: impl FnOnce(&mut Selection)) -> Vec<Task> {
+fn export(model: &mut Model, tasks: &mut Vec<Task>, select: impl FnOnce(&mut Selection)) {
     let mut form = ExportForm { plan: export_plan(model), run: None };
     select(&mut form.plan.selection);
     let plan = Box::new(form.plan.clone());
     model.session.dialog = Some(Dialog::Export(Box::new(form)));
-    vec![Task::Thumbnails(plan)]
+    tasks.push(Task::Thumbnails(plan));
 }
 
-fn write(model: &mut Model) -> Vec<Task> {
-    let Some(Dialog::Export(export)) = &mut model.session.dialog else { return vec![] };
+fn write(model: &mut Model, tasks: &mut Vec<Task>) {
+    let Some(Dialog::Export(export)) = &mut model.session.dialog else { return };
     export.run = Some(ExportRun::of(&export.plan));
-    vec![Task::Export(Box::new(export.plan.clone()))]
+    tasks.push(Task::Export(Box::new(export.plan.clone())));
 }
 
-fn stop(model: &mut Model) -> Vec<Task> {
-    let Some(Dialog::Export(export)) = &mut model.session.dialog else { return vec![] };
-    let Some(run) = export.run.as_mut().filter(|run| run.end.is_none()) else { return vec![] };
+fn stop(model: &mut Model, tasks: &mut Vec<Task>) {
+    let Some(Dialog::Export(export)) = &mut model.session.dialog else { return };
+    let Some(run) = export.run.as_mut().filter(|run| run.end.is_none()) else { return };
     run.is_stopped = true;
-    vec![Task::StopExport]
+    tasks.push(Task::StopExport);
 }
 
 fn exported(model: &mut Model, event: ExportEvent) {

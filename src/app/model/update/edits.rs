@@ -3,13 +3,12 @@
 use crate::app::model::Model;
 use crate::app::model::action::Edit;
 use crate::app::model::extent;
-use crate::app::model::task::Task;
 use crate::scene::{Copies, Pose};
 use glam::DVec3;
 use std::sync::Arc;
 
 /// Changes the work, and builds the stone that comes of it.
-pub fn edit(model: &mut Model, edit: Edit) -> Vec<Task> {
+pub fn edit(model: &mut Model, edit: Edit) {
     let work = &mut model.document.work;
     match edit {
         Edit::Name(name) => work.design.rename(name),
@@ -40,7 +39,6 @@ pub fn edit(model: &mut Model, edit: Edit) -> Vec<Task> {
         }
     }
     model.document.update();
-    vec![]
 }
 
 /// Lays `count` copies out anew, each turned as it was.

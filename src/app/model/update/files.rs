@@ -21,54 +21,53 @@ const DOUBTFUL: &str = "The shape of this mesh does not show clearly which way i
     wrong way, choose another direction at Table faces in the design panel.";
 
 /// Performs a file action.
-pub fn change(model: &mut Model, change: FileAction) -> Vec<Task> {
+pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: FileAction) {
     match change {
-        FileAction::Ask(then) => ask_before(model, then),
-        FileAction::Choose(purpose) => choose(model, purpose),
-        FileAction::Chosen(question, choice) => answered(model, question, choice),
-        FileAction::Open(path, purpose) => open(model, path, purpose),
-        FileAction::OpenWith(request) => open_with(model, request),
-        FileAction::Opened(request, read) => opened(model, request, read),
-        FileAction::ReadMesh(mesh) => match model.document.work.mesh.as_ref().map(|mesh| mesh.path.clone()) {
-            Some(path) => open_with(model, FileRequest { purpose: OpeningPurpose::Otherwise, path, mesh }),
-            None => vec![],
-        },
-        FileAction::Saved(saved) => is_saved(model, saved),
+        FileAction::Ask(then) => ask_before(model, tasks, then),
+        FileAction::Choose(purpose) => choose(model, tasks, purpose),
+        FileAction::Chosen(question, choice) => answered(model, tasks, question, choice),
+        FileAction::Open(path, purpose) => open(model, tasks, path, purpose),
+        FileAction::OpenWith(request) => open_with(model, tasks, request),
+        FileAction::Opened(request, read) => opened(model, tasks, request, read),
+        FileAction::ReadMesh(mesh) => {
+            if let Some(path) = model.document.work.mesh.as_ref().map(|mesh| mesh.path.clone()) {
+                open_with(model, tasks, FileRequest { purpose: OpeningPurpose::Otherwise, path, mesh });
+            }
+        }
+        FileAction::Saved(saved) => is_saved(model, tasks, saved),
         FileAction::OnDisk(path, stamp) => {
             if model.document.path() == Some(&path) {
                 model.session.on_disk = Some(stamp);
             }
-            vec![]
         }
         FileAction::Dropped(files) => {
             model.session.awaited.dropped = true;
-            vec![Task::LookInto(files)]
+            tasks.push(Task::LookInto(files));
         }
-        FileAction::DroppedFor(files) => dropped(model, files),
+        FileAction::DroppedFor(files) => dropped(model, tasks, files),
         FileAction::NotKept(why) => {
             model.session.notes.trouble(format!("the autosave of unsaved work failed: {why}"));
-            vec![]
         }
         FileAction::Found(found) => {
             if let Some(first) = found.into_iter().next() {
                 model.session.dialog = Some(Dialog::Recover(Box::new(first)));
             }
-            vec![]
         }
-        FileAction::Close => close(model),
+        FileAction::Close => close(model, tasks),
         FileAction::Ended => {
             // Where the system took the window away without asking the user, the work is kept for the next start.
             let is_safe = !model.document.is_changed() && !model.document.has_moved_copies();
-            if model.session.may_close || is_safe { safe::empty(model) } else { vec![] }
+            if model.session.may_close || is_safe {
+                safe::empty(model, tasks);
+            }
         }
-        FileAction::OpenOutside(what) => vec![Task::OpenOutside(what)],
+        FileAction::OpenOutside(what) => tasks.push(Task::OpenOutside(what)),
     }
 }
 
-/// Returns the tasks that the present state needs: to load another light, to watch another file, or to read the open file
+/// Adds the tasks that the present state needs: to load another light, to watch another file, or to read the open file
 /// again because another program has changed it.
-pub fn wanted(model: &mut Model) -> Vec<Task> {
-    let mut tasks = vec![];
+pub fn wanted(model: &mut Model, tasks: &mut Vec<Task>) {
     let light = &mut model.session.light;
     let name = &model.document.work.light;
     if light.name != *name && light.loading.as_ref() != Some(name) {
@@ -81,28 +80,26 @@ pub fn wanted(model: &mut Model) -> Vec<Task> {
     }
     if model.session.dialog.is_none() && !model.session.awaited.saving {
         let stamp = model.session.on_disk.take().filter(|stamp| *stamp != model.document.stamp());
-        tasks.extend(stamp.map_or_else(Vec::new, |stamp| {
+        if let Some(stamp) = stamp {
             model.document.accept_outside(stamp);
-            changed_outside(model)
-        }));
+            changed_outside(model, tasks);
+        }
     }
-    tasks
 }
 
-fn changed_outside(model: &mut Model) -> Vec<Task> {
+fn changed_outside(model: &mut Model, tasks: &mut Vec<Task>) {
     if model.document.is_lost() {
         model.session.notes.warn("The file no longer exists; save the design to keep it.".into());
     } else if model.document.is_changed() {
         model.session.dialog = Some(Dialog::ChangedOutside);
     } else if let Some(path) = model.document.path().map(Path::to_owned) {
         // No change of the user's is lost, so the new file is read without a question.
-        return open(model, path, OpeningPurpose::Again);
+        open(model, tasks, path, OpeningPurpose::Again);
     }
-    vec![]
 }
 
 /// Performs a step that would lose unsaved work; asks first where there is any.
-fn ask_before(model: &mut Model, next: Then) -> Vec<Task> {
+fn ask_before(model: &mut Model, tasks: &mut Vec<Task>, next: Then) {
     if model.session.dialog.as_ref().is_some_and(Dialog::insists) {
         model.session.notes.say("Answer the open dialog first.");
     } else if model.document.is_changed() {
@@ -110,30 +107,31 @@ fn ask_before(model: &mut Model, next: Then) -> Vec<Task> {
     } else if model.document.has_moved_copies() {
         model.session.dialog = Some(Dialog::Moved(next));
     } else {
-        return then(model, next);
+        then(model, tasks, next);
     }
-    vec![]
 }
 
 /// Carries out what waited for the answer to a question.
-pub fn then(model: &mut Model, then: Then) -> Vec<Task> {
+pub fn then(model: &mut Model, tasks: &mut Vec<Task>, then: Then) {
     match then {
-        Then::Open(path, mesh) => open_with(model, FileRequest { purpose: OpeningPurpose::Anew, path, mesh }),
-        Then::Library(name) => begin_library(model, &name),
-        Then::Preset(name) => begin_preset(model, &name),
+        Then::Open(path, mesh) => {
+            open_with(model, tasks, FileRequest { purpose: OpeningPurpose::Anew, path, mesh })
+        }
+        Then::Library(name) => begin_library(model, tasks, &name),
+        Then::Preset(name) => begin_preset(model, tasks, &name),
         Then::Close => {
             model.session.may_close = true;
-            vec![Task::Window(WindowTask::Close)]
+            tasks.push(Task::Window(WindowTask::Close));
         }
     }
 }
 
-fn close(model: &mut Model) -> Vec<Task> {
+fn close(model: &mut Model, tasks: &mut Vec<Task>) {
     let session = &mut model.session;
     if session.dialog.as_ref().is_some_and(Dialog::insists) {
         session.notes.say("Answer the open dialog first, or stop the export.");
     } else if session.may_close {
-        return vec![];
+        return;
     } else if session.awaited.saving {
         session.after_save = Some(Then::Close);
     } else if model.document.is_changed() {
@@ -141,9 +139,9 @@ fn close(model: &mut Model) -> Vec<Task> {
     } else if model.document.has_moved_copies() {
         session.dialog = Some(Dialog::Moved(Then::Close));
     } else {
-        return vec![];
+        return;
     }
-    vec![Task::Window(WindowTask::StayOpen)]
+    tasks.push(Task::Window(WindowTask::StayOpen));
 }
 
 /// Whether a design can be saved under this name.
@@ -152,51 +150,44 @@ fn holds_designs(path: &Path) -> bool {
 }
 
 /// Asks the user for a file.
-pub fn choose(model: &mut Model, purpose: Purpose) -> Vec<Task> {
+pub fn choose(model: &mut Model, tasks: &mut Vec<Task>, purpose: Purpose) {
     if model.session.awaited.choosing.is_some() {
         model.session.notes.say("Answer the open file dialog first.");
-        return vec![];
+        return;
     }
     model.session.after_save = None;
     model.session.awaited.choosing = Some(purpose);
     let question = Question { purpose, name: suggested(model), document: model.session.begun };
-    vec![Task::ChooseFile(question)]
+    tasks.push(Task::ChooseFile(question));
 }
 
 /// Returns the name that is proposed for a new file.
 fn suggested(model: &Model) -> String {
-    let path = model.document.path();
-    let own =
-        path.map(|path| if holds_designs(path) { path.to_owned() } else { path.with_extension("toml") });
-    own.as_deref().and_then(Path::file_name).map_or_else(
-        || format!("{}.toml", model.document.work.design.name.to_lowercase().replace([' ', '/'], "-")),
-        |n| n.to_string_lossy().into_owned(),
-    )
+    let document = &model.document;
+    let is_design = document.path().is_some_and(holds_designs);
+    if is_design { document.title() } else { format!("{}.toml", document.stem()) }
 }
 
-fn answered(model: &mut Model, question: Question, choice: Choice) -> Vec<Task> {
+fn answered(model: &mut Model, tasks: &mut Vec<Task>, question: Question, choice: Choice) {
     model.session.awaited.choosing = None;
     match choice {
-        Choice::File(path) => chosen(model, question.purpose, question.document, path),
+        Choice::File(path) => chosen(model, tasks, question.purpose, question.document, path),
         // The export dialog has its own field for the folder.
         Choice::NoDialog if model.session.dialog.is_none() => {
-            let here = || std::env::current_dir().unwrap_or_default();
-            let folder = model.document.path().and_then(Path::parent).map_or_else(here, Path::to_owned);
+            let folder = model.document.folder();
             let is_new = question.purpose == Purpose::SaveAs;
             let begin = if is_new { folder.join(suggested(model)) } else { folder };
             model.session.dialog =
                 Some(Dialog::Path(PathForm::new(question.purpose, model.session.begun, &begin)));
-            vec![]
         }
         Choice::NoDialog | Choice::GivenUp => {
             model.session.after_save = None;
-            vec![]
         }
     }
 }
 
 /// Takes the file that was chosen for the document of this number.
-pub fn chosen(model: &mut Model, purpose: Purpose, document: u64, path: PathBuf) -> Vec<Task> {
+pub fn chosen(model: &mut Model, tasks: &mut Vec<Task>, purpose: Purpose, document: u64, path: PathBuf) {
     match purpose {
         Purpose::SaveAs if document != model.session.begun => {
             model
@@ -204,10 +195,10 @@ pub fn chosen(model: &mut Model, purpose: Purpose, document: u64, path: PathBuf)
                 .notes
                 .trouble("The design was not saved, because another design was opened meanwhile.");
         }
-        Purpose::Open => return ask_before(model, Then::open(path)),
-        Purpose::SaveAs => return save_as(model, path),
-        Purpose::Compare => return open(model, path, OpeningPurpose::Beside),
-        Purpose::Light => return super::edits::edit(model, Edit::Light(path.display().to_string())),
+        Purpose::Open => ask_before(model, tasks, Then::open(path)),
+        Purpose::SaveAs => save_as(model, tasks, path),
+        Purpose::Compare => open(model, tasks, path, OpeningPurpose::Beside),
+        Purpose::Light => super::edits::edit(model, Edit::Light(path.display().to_string())),
         Purpose::Behind => model.workspace.behind = Some(path.display().to_string()),
         Purpose::Folder => {
             if let Some(Dialog::Export(export)) = &mut model.session.dialog {
@@ -215,7 +206,6 @@ pub fn chosen(model: &mut Model, purpose: Purpose, document: u64, path: PathBuf)
             }
         }
     }
-    vec![]
 }
 
 impl Model {
@@ -228,37 +218,31 @@ impl Model {
     }
 }
 
-fn open(model: &mut Model, path: PathBuf, purpose: OpeningPurpose) -> Vec<Task> {
+fn open(model: &mut Model, tasks: &mut Vec<Task>, path: PathBuf, purpose: OpeningPurpose) {
     // A mesh that has changed is read as before; a design that was made of it and saved elsewhere is not a mesh.
     let is_mesh = model.document.work.mesh.as_ref().is_some_and(|mesh| mesh.path == path);
     let again = model.mesh_options().filter(|_| purpose == OpeningPurpose::Again && is_mesh);
-    open_with(model, FileRequest { purpose, path, mesh: again.unwrap_or_default() })
+    open_with(model, tasks, FileRequest { purpose, path, mesh: again.unwrap_or_default() })
 }
 
 /// Opens a file; another that is still being read for the same purpose is dropped.
-fn open_with(model: &mut Model, request: FileRequest) -> Vec<Task> {
+fn open_with(model: &mut Model, tasks: &mut Vec<Task>, request: FileRequest) {
     let opening = &mut model.session.awaited.opening;
     opening.retain(|other| other.request.is_beside() != request.is_beside());
     opening.push(Opening { request: request.clone(), work: model.document.work.clone() });
-    vec![Task::Read(request)]
+    tasks.push(Task::Read(request));
 }
 
-fn opened(model: &mut Model, request: FileRequest, read: Result<OpenedFile, Failure>) -> Vec<Task> {
+fn opened(model: &mut Model, tasks: &mut Vec<Task>, request: FileRequest, read: Result<OpenedFile, Failure>) {
     let all = &mut model.session.awaited.opening;
-    let Some(place) = all.iter().position(|opening| opening.request == request) else { return vec![] };
+    let Some(place) = all.iter().position(|opening| opening.request == request) else { return };
     let opening = all.remove(place);
-    let file = match read {
-        Ok(file) => file,
-        Err(why) => {
-            model.session.notes.trouble(why);
-            return vec![];
-        }
-    };
+    let Some(file) = model.session.notes.ok_or_report(read) else { return };
     // The user has not given up what was changed while the file was being read.
     let is_later = model.document.work != opening.work;
     match (request.purpose, file) {
         (OpeningPurpose::Anew, _) if is_later => {
-            return ask_before(model, Then::Open(request.path, request.mesh));
+            ask_before(model, tasks, Then::Open(request.path, request.mesh));
         }
         (OpeningPurpose::Again, _) if is_later => model.session.dialog = Some(Dialog::ChangedOutside),
         (OpeningPurpose::Beside, OpenedFile::Design(document)) => {
@@ -272,77 +256,63 @@ fn opened(model: &mut Model, request: FileRequest, read: Result<OpenedFile, Fail
                 model.document.update();
             }
         }
-        (OpeningPurpose::Again, OpenedFile::Design(document)) => return begin_again(model, *document),
+        (OpeningPurpose::Again, OpenedFile::Design(document)) => begin_again(model, tasks, *document),
         (OpeningPurpose::Anew, OpenedFile::Design(document)) => {
             model.workspace.remember(&request.path);
             let is_doubtful = document.work.mesh.as_ref().is_some_and(|mesh| mesh.is_doubtful);
-            let tasks = begin(model, *document);
+            begin(model, tasks, *document);
             if is_doubtful {
                 model.session.notes.say(DOUBTFUL);
             }
-            return tasks;
         }
         (_, OpenedFile::Scene(preset)) => {
-            let tasks = begin_scene(model, *preset);
+            begin_scene(model, tasks, *preset);
             model.workspace.remember(&request.path);
-            return tasks;
         }
     }
-    vec![]
 }
 
 /// Saves the document; asks for a file where it has none that holds designs.
-pub fn save(model: &mut Model) -> Vec<Task> {
+pub fn save(model: &mut Model, tasks: &mut Vec<Task>) {
     match model.document.path().map(Path::to_owned) {
-        Some(path) if holds_designs(&path) => save_as(model, path),
+        Some(path) if holds_designs(&path) => save_as(model, tasks, path),
         // A scan stays as it was: the design that was made of it is saved as another file.
-        _ => choose(model, Purpose::SaveAs),
+        _ => choose(model, tasks, Purpose::SaveAs),
     }
 }
 
 /// Saves the document, and then does what waited for that.
-pub fn save_then(model: &mut Model, then: Then) -> Vec<Task> {
-    let tasks = save(model);
+pub fn save_then(model: &mut Model, tasks: &mut Vec<Task>, then: Then) {
+    save(model, tasks);
     if model.session.awaited.saving || model.session.awaited.choosing == Some(Purpose::SaveAs) {
         model.session.after_save = Some(then);
     }
-    tasks
 }
 
-fn save_as(model: &mut Model, path: PathBuf) -> Vec<Task> {
+fn save_as(model: &mut Model, tasks: &mut Vec<Task>, path: PathBuf) {
     if path.extension().is_some() && !holds_designs(&path) {
         let name = path.display();
         model.session.notes.trouble(format!(
             "{name}: designs are saved as .toml, .asc, .gem or .gcs; `brillianteer convert` writes meshes"
         ));
         model.session.after_save = None;
-        return vec![];
+        return;
     }
     model.document.update();
-    match model.document.to_save(path) {
-        Ok(request) => {
-            model.session.awaited.saving = true;
-            vec![Task::Save(Box::new(request))]
-        }
-        Err(why) => {
-            model.session.notes.trouble(why);
-            model.session.after_save = None;
-            vec![]
-        }
-    }
+    let request = model.document.to_save(path);
+    let Some(request) = model.session.notes.ok_or_report(request) else {
+        model.session.after_save = None;
+        return;
+    };
+    model.session.awaited.saving = true;
+    tasks.push(Task::Save(Box::new(request)));
 }
 
-fn is_saved(model: &mut Model, saved: Result<SavedDesign, Failure>) -> Vec<Task> {
+fn is_saved(model: &mut Model, tasks: &mut Vec<Task>, saved: Result<SavedDesign, Failure>) {
     let Model { document, workspace, session } = model;
     session.awaited.saving = false;
     let waiting = session.after_save.take();
-    let saved = match saved {
-        Ok(saved) => saved,
-        Err(why) => {
-            session.notes.trouble(why);
-            return vec![];
-        }
-    };
+    let Some(saved) = session.notes.ok_or_report(saved) else { return };
     session.notes.clear();
     session.notes.say(&format!("Saved {}", saved.path.display()));
     if !saved.lost.is_empty() {
@@ -355,18 +325,20 @@ fn is_saved(model: &mut Model, saved: Result<SavedDesign, Failure>) -> Vec<Task>
     if let Some(Compared { is_saved: true, .. }) = session.compared {
         session.compared = Compared::of_saved(document).ok();
     }
-    let mut tasks = if document.is_changed() { vec![] } else { safe::empty(model) };
-    tasks.extend(waiting.into_iter().flat_map(|then| ask_before(model, then)));
-    tasks
+    if !document.is_changed() {
+        safe::empty(model, tasks);
+    }
+    if let Some(next) = waiting {
+        ask_before(model, tasks, next);
+    }
 }
 
-fn dropped(model: &mut Model, files: Vec<(PathBuf, Purpose)>) -> Vec<Task> {
+fn dropped(model: &mut Model, tasks: &mut Vec<Task>, files: Vec<(PathBuf, Purpose)>) {
     let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     model.session.awaited.dropped = false;
-    let mut tasks = vec![];
     let mut to_open = files.iter().filter(|(_, purpose)| *purpose == Purpose::Open);
     if let Some((path, _)) = to_open.next() {
-        tasks.extend(ask_before(model, Then::open(path.clone())));
+        ask_before(model, tasks, Then::open(path.clone()));
         let more = to_open.count();
         if more > 0 {
             let files = if more == 1 { "file was" } else { "files were" };
@@ -384,8 +356,7 @@ fn dropped(model: &mut Model, files: Vec<(PathBuf, Purpose)>) -> Vec<Task> {
                 name(&path)
             ),
         };
-        tasks.extend(chosen(model, purpose, model.session.begun, path));
+        chosen(model, tasks, purpose, model.session.begun, path);
         model.session.notes.say(&text);
     }
-    tasks
 }

@@ -17,21 +17,26 @@ use super::task::Task;
 
 /// Changes a model by an action; returns what is to be done outside because of it.
 pub fn update(model: &mut Model, action: Action) -> Vec<Task> {
-    let mut tasks = match action {
-        Action::Do(command) => commands::run(model, command),
-        Action::Edit(edit) => edits::edit(model, edit),
-        Action::View(change) => views::change(model, change),
-        Action::File(change) => files::change(model, change),
-        Action::Dialog(answer) => dialogs::answer(model, answer),
-        Action::Note(note) => noted(model, note),
-        Action::Computed(computed) => computed_is(model, computed),
-        Action::Frame(end) => end_frame(model, end),
-    };
-    tasks.extend(files::wanted(model));
+    let mut tasks = vec![];
+    perform(model, &mut tasks, action);
+    files::wanted(model, &mut tasks);
     tasks
 }
 
-fn noted(model: &mut Model, note: NoteAction) -> Vec<Task> {
+fn perform(model: &mut Model, tasks: &mut Vec<Task>, action: Action) {
+    match action {
+        Action::Do(command) => commands::run(model, tasks, command),
+        Action::Edit(edit) => edits::edit(model, edit),
+        Action::View(change) => views::change(model, tasks, change),
+        Action::File(change) => files::change(model, tasks, change),
+        Action::Dialog(answer) => dialogs::answer(model, tasks, answer),
+        Action::Note(note) => noted(model, note),
+        Action::Computed(computed) => computed_is(model, tasks, computed),
+        Action::Frame(end) => end_frame(model, tasks, end),
+    }
+}
+
+fn noted(model: &mut Model, note: NoteAction) {
     let notes = &mut model.session.notes;
     match note {
         NoteAction::Say(text) => notes.say(&text),
@@ -40,10 +45,9 @@ fn noted(model: &mut Model, note: NoteAction) -> Vec<Task> {
         NoteAction::DismissAll => (0..notes.troubles().len()).rev().for_each(|which| notes.dismiss(which)),
         NoteAction::List(is_open) => notes.is_open = is_open,
     }
-    vec![]
 }
 
-fn computed_is(model: &mut Model, computed: Computed) -> Vec<Task> {
+fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
     let session = &mut model.session;
     match computed {
         Computed::Light(name, loaded) => {
@@ -71,25 +75,23 @@ fn computed_is(model: &mut Model, computed: Computed) -> Vec<Task> {
         }
         Computed::Order(order) => {
             session.ordered = (*order).clone();
-            return vec![Task::Trace(order)];
+            tasks.push(Task::Trace(order));
         }
     }
-    vec![]
 }
 
 /// Builds the stone of a design that was changed; between two gestures, what was changed becomes a step.
-fn end_frame(model: &mut Model, end: FrameEnd) -> Vec<Task> {
+fn end_frame(model: &mut Model, tasks: &mut Vec<Task>, end: FrameEnd) {
     model.document.update();
     if end.is_gesture {
-        return vec![];
+        return;
     }
     model.session.framing.settle(model.document.specimen());
     model.workspace.eye.settle();
     model.workspace.panes.iter_mut().filter_map(|p| p.own.as_mut()).for_each(super::eye::Eye::settle);
     model.session.views.note(&model.workspace, end.now);
     model.document.settle();
-    match model.session.safe.noted == model.document.work {
-        true => vec![],
-        false => safe::note(model),
+    if model.session.safe.noted != model.document.work {
+        safe::note(model, tasks);
     }
 }

@@ -8,16 +8,16 @@ use crate::app::model::work::Work;
 /// Writes the present work to the autosave, and stores its light, exposure and head in the workspace.
 ///
 /// A design that makes no stone does not replace the last one that does.
-pub fn note(model: &mut Model) -> Vec<Task> {
+pub fn note(model: &mut Model, tasks: &mut Vec<Task>) {
     let Model { document, workspace, session } = model;
     session.safe.noted = document.work.clone();
     let Work { light, exposure, head, .. } = &document.work;
     (workspace.light, workspace.exposure, workspace.head) = (light.clone(), *exposure, *head);
     if !document.is_changed() && !document.has_moved_copies() {
-        return empty(model);
+        return empty(model, tasks);
     }
     if !session.safe.is_on || document.fault().is_some() {
-        return vec![];
+        return;
     }
     session.safe.is_kept = true;
     let around = KeptScene {
@@ -27,13 +27,17 @@ pub fn note(model: &mut Model) -> Vec<Task> {
         strength: Some(workspace.strength),
     };
     let path = document.path().map(std::path::Path::to_owned);
-    vec![Task::Keep(Box::new(UnsavedWork { work: document.work.clone(), around, path, replaces: None }))]
+    tasks.push(Task::Keep(Box::new(UnsavedWork {
+        work: document.work.clone(),
+        around,
+        path,
+        replaces: None,
+    })));
 }
 
 /// Removes the autosave, because the work is saved or discarded.
-pub fn empty(model: &mut Model) -> Vec<Task> {
-    match std::mem::take(&mut model.session.safe.is_kept) {
-        true => vec![Task::EmptySafe],
-        false => vec![],
+pub fn empty(model: &mut Model, tasks: &mut Vec<Task>) {
+    if std::mem::take(&mut model.session.safe.is_kept) {
+        tasks.push(Task::EmptySafe);
     }
 }

@@ -307,10 +307,10 @@ fn a_light_is_loaded_once_and_one_that_cannot_be_loaded_leaves_the_last() {
 fn a_picture_that_is_not_made_for_the_clipboard_is_reported() {
     let mut bench = Bench::new();
     assert!(bench.act(ViewAction::CopyAt(1, 512)).is_empty(), "nothing was ordered yet");
-    let mut stones = Default::default();
+    let mut waves = Default::default();
     let mut orders = crate::app::model::ordering::Orders {
         model: &bench.model,
-        stones: &mut stones,
+        waves: &mut waves,
         paper: Paper::default(),
     };
     let shot = orders.shot(1, Which::Present, [64, 32]).unwrap();

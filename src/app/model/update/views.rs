@@ -8,7 +8,7 @@ use crate::app::studio::{Paper, Shot, Which};
 use crate::scene::Film;
 
 /// Performs a change of the views.
-pub fn change(model: &mut Model, change: ViewAction) -> Vec<Task> {
+pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: ViewAction) {
     let Model { workspace, session, .. } = model;
     match change {
         ViewAction::Show(pane, shows) => workspace.show(pane, shows),
@@ -21,8 +21,6 @@ pub fn change(model: &mut Model, change: ViewAction) -> Vec<Task> {
         }
         ViewAction::EndPerspective(pane) => workspace.panes[pane].is_near = false,
         ViewAction::Overlay(name) => workspace.overlay = name,
-        ViewAction::Strongest(is_on) => workspace.strongest = is_on,
-        ViewAction::Glare(is_on) => workspace.glare = is_on,
         ViewAction::EndStep => session.views.settle(),
         ViewAction::Distance(distance) => workspace.distance = distance,
         ViewAction::Wavelengths(count) => workspace.wavelengths = count,
@@ -35,10 +33,9 @@ pub fn change(model: &mut Model, change: ViewAction) -> Vec<Task> {
         ViewAction::Panel { side, has_room_for_both, is_open } => {
             workspace.panels.set(side, has_room_for_both, is_open);
         }
-        ViewAction::CopyAt(pane, side) => return copy_at(model, pane, side),
+        ViewAction::CopyAt(pane, side) => copy_at(model, tasks, pane, side),
         passing => pass(model, passing),
     }
-    vec![]
 }
 
 /// Changes what is not kept between starts: pointer, keys, motion and the followed ray.
@@ -61,7 +58,7 @@ fn pass(model: &mut Model, change: ViewAction) {
 }
 
 /// Asks for the picture of a view with `side` pixels along its longer side.
-fn copy_at(model: &mut Model, pane: usize, side: u32) -> Vec<Task> {
+fn copy_at(model: &mut Model, tasks: &mut Vec<Task>, pane: usize, side: u32) {
     let shows = model.workspace.panes[pane].shows;
     let own = (pane, Which::Present);
     let shot =
@@ -71,12 +68,12 @@ fn copy_at(model: &mut Model, pane: usize, side: u32) -> Vec<Task> {
         (_, Some(shot)) => CopyOriginal::Shot(Box::new(scaled(shot, side))),
         (_, None) => {
             model.session.notes.say("This view has no picture to copy.");
-            return vec![];
+            return;
         }
     };
     model.session.awaited.copying = Some(shows.name());
     model.session.notes.say(&format!("Making a picture of {side} pixels…"));
-    vec![Task::MakeCopy(CopyRequest { original, side })]
+    tasks.push(Task::MakeCopy(CopyRequest { original, side }));
 }
 
 /// Returns the same shot with `side` pixels along its longer side.

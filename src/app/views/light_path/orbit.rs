@@ -1,7 +1,8 @@
 //! The direction from which the drawing shows the stone.
 
+use crate::app::arrows;
 use crate::math::Basis;
-use egui::{EventFilter, Key, Response, Ui, Vec2, vec2};
+use egui::{Key, Response, Ui, Vec2, vec2};
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
@@ -45,8 +46,7 @@ impl Orbit {
         if !response.has_focus() {
             return;
         }
-        let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
-        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+        arrows::keep(ui, response.id);
         let pressed = |key| ui.input(|input| input.num_presses(key)) as f32;
         let right = pressed(Key::ArrowRight) - pressed(Key::ArrowLeft);
         let down = pressed(Key::ArrowDown) - pressed(Key::ArrowUp);
