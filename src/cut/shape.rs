@@ -18,7 +18,7 @@ pub enum Cut {
     Planes(Vec<(String, Plane)>),
     /// Triangles that enclose a solid that is not convex.
     Mesh(MeshShape),
-    /// A glass shape.
+    /// A shape of glass that is no gem: pill, prism, cube or wavy plate, by its dimensions.
     Glass(Glass),
 }
 

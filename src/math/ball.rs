@@ -3,7 +3,7 @@
 use super::bounds;
 use glam::DVec3;
 
-/// A ball around a solid.
+/// A ball that encloses a solid, in the solid's units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ball {
     /// The middle.

@@ -1,5 +1,4 @@
 //! Helpers of several tests: stones from cut files, random stones, figures by zone.
-#![allow(dead_code, reason = "each test file uses its part")]
 
 pub mod maps;
 pub mod meshes;

@@ -1,5 +1,4 @@
 //! Compares pictures by a card with pictures by rays in f64, pixel by pixel.
-#![allow(dead_code, reason = "each test uses its part")]
 
 use super::aset;
 use brillianteer::math::SolidRef;

@@ -1,5 +1,4 @@
 //! Takes pictures under light by every tracer.
-#![allow(dead_code, reason = "each test uses its part")]
 
 use brillianteer::math::Polytope;
 use brillianteer::optics::{material, strata};

@@ -37,7 +37,7 @@ pub enum Action {
     File(FileAction),
     /// Answers the open dialog, or opens one.
     Dialog(DialogAction),
-    /// Adds or removes messages.
+    /// Adds a message that the window shows, or removes one.
     Note(NoteAction),
     /// Hands in a result of the studio or of a task.
     Computed(Computed),
@@ -62,11 +62,11 @@ pub enum Edit {
         distance: f64,
     },
     Material(MaterialRef),
-    /// In mm.
+    /// Sets the diameter by which the design is scaled, in mm.
     Diameter(f64),
     /// The name or the file of the light in renders.
     Light(String),
-    /// In stops.
+    /// Sets the exposure of renders, in stops: one more doubles the light.
     Exposure(f64),
     /// The half angle of the observer's head, degrees; 0 for none.
     Head(f64),
@@ -204,7 +204,7 @@ pub enum DialogAction {
     Exported(ExportEvent),
 }
 
-/// A change of the messages.
+/// What is done to the messages that the window shows.
 #[derive(Debug)]
 pub enum NoteAction {
     /// Shows a note in the status line.

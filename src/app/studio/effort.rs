@@ -27,7 +27,7 @@ pub struct Refinement {
     pub unresolved: f64,
 }
 
-/// A fair picture.
+/// How well a fair picture is traced, the second of the grades: at full size, with one pass and eight bands.
 pub(super) const FAIR: Effort = Effort {
     refinement: Some(Refinement { samples: 1, after: 0, unresolved: 1e-2 }),
     ..Effort::rough(5e-3, 1.0, 8)

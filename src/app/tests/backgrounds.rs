@@ -156,7 +156,7 @@ fn liquid_glass_is_drawn_and_traced_as_strong_as_it_is_set() {
 /// Measures how long a look-up takes. This is ignored by default, because measuring takes time:
 /// `cargo test --release --lib backgrounds -- --ignored --nocapture`
 #[test]
-#[ignore = "takes time to take time"]
+#[ignore = "measures times, which needs two idle cores"]
 fn looking_up_keeps_up_with_the_window() {
     let mut workspace = Bench::small();
     workspace.layout = PaneLayout::One;

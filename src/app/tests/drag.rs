@@ -44,7 +44,7 @@ fn drag(name: &str, mut change: impl FnMut(&mut Editor, u32)) {
 }
 
 #[test]
-#[ignore = "takes time to take time"]
+#[ignore = "measures times, which takes a minute of two idle cores"]
 fn the_views_follow_the_hand() {
     drag("crown angle", |editor, k| {
         if let Cut::RoundBrilliant(brilliant) = &mut editor.model.document.work.design.cut {

@@ -1,6 +1,6 @@
 //! A design as the writer of any format returns it.
 
-/// A design encoded as a file.
+/// The bytes of a design's file, and what the format could not keep.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EncodedDesign {
     /// The content of the file.

@@ -417,7 +417,7 @@ fn what_is_no_shape_is_refused_with_what_is_at_fault() {
 
 /// Prints steps and times: `cargo test --release field_times -- --ignored --nocapture`.
 #[test]
-#[ignore = "measures"]
+#[ignore = "prints steps and times for a person to read"]
 #[allow(clippy::print_stdout, reason = "what it measures is read by a person")]
 fn field_times() {
     for (seed, field) in (90..).zip(forms()) {

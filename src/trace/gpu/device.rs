@@ -90,9 +90,9 @@ pub struct Gpu {
 /// What has gone wrong with a card.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Fault {
-    /// Its memory ran out.
+    /// The card's memory ran out; the text is the driver's message.
     OutOfMemory(String),
-    /// It was lost, or its driver refused what it was given.
+    /// The card was lost, or its driver refused the work; the text is the driver's message.
     Failed(String),
 }
 

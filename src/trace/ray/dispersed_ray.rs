@@ -7,7 +7,7 @@ use glam::DVec3;
 #[derive(Clone, Copy)]
 pub(super) struct DispersedRay {
     pub origin: DVec3,
-    /// Its unit direction.
+    /// The direction in which the ray travels, of length 1.
     pub direction: DVec3,
     /// The change of its direction.
     pub sweep: DVec3,

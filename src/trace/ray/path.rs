@@ -34,7 +34,7 @@ pub struct Step {
 pub struct Leaving {
     /// Its share of the ray's light.
     pub share: f64,
-    /// Its unit direction.
+    /// The direction in which the light travels, of length 1.
     pub direction: DVec3,
     /// The distance after which it enters the solid again, where it does: the path ends there, the light does not.
     pub again: Option<f64>,

@@ -24,7 +24,7 @@ pub struct SceneTracer {
 pub struct WaitingRay {
     /// The point where it begins.
     pub origin: DVec3,
-    /// Its unit direction.
+    /// The direction in which the light travels, of length 1.
     pub direction: DVec3,
     /// The change of that direction over the medium's spread of indices.
     pub sweep: DVec3,

@@ -22,7 +22,7 @@ pub struct SceneProbe<'a> {
 pub struct ProbeRay {
     /// The point where it begins.
     pub origin: DVec3,
-    /// Its unit direction.
+    /// The direction in which the light travels, of length 1.
     pub direction: DVec3,
     /// The index of the stone that it meets first.
     pub stone: usize,

@@ -1,6 +1,6 @@
 //! Mesh files: what is written reads back, faults are reported, and real files open.
 
-#![allow(clippy::print_stdout, reason = "what was measured is told")]
+#![allow(clippy::print_stdout, reason = "a test prints what it measured")]
 
 mod broken;
 mod faults;
