@@ -45,7 +45,7 @@ pub(crate) use implicit::SurfaceParts;
 pub use implicit::{ImplicitForm, ImplicitSurface, ImplicitSurfaceError, Jet, MOST_WAVES, STEEPEST};
 pub use mesh::{Mesh, triangulate};
 pub use plane::Plane;
-pub use polygon::{area, centroid, clip, contains};
+pub use polygon::{area, centroid, clip, contains, point_in_polygon};
 pub use polytope::{Facet, Polytope};
 pub use polytope_build::PolytopeError;
 pub use pose::Pose;

@@ -24,6 +24,28 @@ pub fn centroid(corners: &[DVec2]) -> DVec2 {
     if twice.abs() > f64::MIN_POSITIVE { first + moment / (3.0 * twice) } else { mean }
 }
 
+/// Returns the point of a convex polygon, of this area, for a place of the unit square: places that are spread evenly give
+/// points that are spread evenly.
+pub fn point_in_polygon(corners: &[DVec2], area: f64, place: DVec2) -> DVec2 {
+    let Some((&first, rest)) = corners.split_first() else { return DVec2::ZERO };
+    let mut left = 2.0 * area * place.x;
+    let mut point = first;
+    for w in rest.windows(2) {
+        let (a, b) = (w[0] - first, w[1] - first);
+        let twice = a.perp_dot(b);
+        if twice > 0.0 {
+            // Within the triangle, lines through `first` are chosen by area, then points on them by area.
+            let part = (left / twice).min(1.0);
+            point = first + (a + (b - a) * part) * place.y.sqrt();
+        }
+        if left <= twice {
+            break;
+        }
+        left -= twice;
+    }
+    point
+}
+
 /// Whether `p` lies inside by more than `margin` (a negative margin allows points that far outside).
 pub fn contains(corners: &[DVec2], p: DVec2, margin: f64) -> bool {
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));

@@ -1,5 +1,6 @@
 //! The figures of one view, and how they are summed up from exact beams.
 
+use super::estimated::Estimate;
 use crate::scene::Scope;
 use crate::trace::beam::Beams;
 
@@ -34,6 +35,8 @@ pub struct Figures {
     pub beams: usize,
     /// The largest standard error of any zone; 0 for beams, which sample nothing.
     pub standard_error: f64,
+    /// The estimated part of the figures, which they contain; `None` where all of them is exact or sampled.
+    pub estimate: Option<Estimate>,
 }
 
 impl Figures {
@@ -60,6 +63,9 @@ impl Figures {
         for zones in [&mut self.surface, &mut self.transmitted, &mut self.strongest_exit_area] {
             let next = zones.remove(k + 1);
             zones[k] += next;
+        }
+        if let Some(estimate) = &mut self.estimate {
+            estimate.join(k);
         }
     }
 }
@@ -95,5 +101,6 @@ pub fn by_beams(beams: &Beams, scope: &Scope) -> Figures {
         unresolved: beams.unresolved(),
         beams: beams.len(),
         standard_error: 0.0,
+        estimate: None,
     }
 }

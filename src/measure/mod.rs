@@ -2,10 +2,12 @@
 //!
 //! [`measure`](crate::measure()) takes a design to its figures in one call.
 
+mod estimated;
 mod figures;
 mod measured;
 mod sampled;
 
+pub use estimated::{Estimate, by_beams_and_rays};
 pub use figures::{Figures, Zones, by_beams};
 pub use measured::{Bounds, LATTICE, Measured, UNRESOLVED, Zone, measured};
 #[cfg(feature = "gpu")]

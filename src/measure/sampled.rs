@@ -216,6 +216,7 @@ fn summary(lattices: &[Tally], silhouette_area: f64) -> Figures {
         absorbed: share(&all.absorbed),
         unresolved: share(&all.unresolved),
         beams: all.hits as usize,
+        estimate: None,
         standard_error: error(|t| &t.surface).max(error(|t| &t.transmitted)).max(error(|t| &t.strongest)),
     }
 }

@@ -8,6 +8,7 @@ pub mod gpu;
 pub mod ray;
 pub mod sampling;
 mod scope_shot;
+pub mod tail;
 
 pub use scope_shot::ScopeShot;
 use std::ops::ControlFlow;

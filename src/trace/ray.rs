@@ -19,7 +19,7 @@ pub use self::camera::Camera;
 use self::dispersed_ray::{Arrival, DispersedRay};
 use self::facets::{FacetSearch, Planes, SmoothFacets, SolidFacets, TriangleFacets, Wavy};
 pub use self::instance_tracer::InstanceTracer;
-use self::light::PathLight;
+pub(in crate::trace) use self::light::PathLight;
 use self::path::{ExitLight, SurfaceEvent};
 pub use self::path::{Leaving, Path, Step};
 pub use self::scene_tracer::{ByRays, First, SceneTracer, WaitingRay};
@@ -155,6 +155,27 @@ impl StoneTracer {
         }
     }
 
+    /// Follows light on from a point inside a stone until no more than `least_weight` of it is left, and calls `meets` for
+    /// each facet. The light begins with the share that absorption has left along `path`, the way so far. Light that leaves
+    /// is not followed.
+    pub(super) fn follow_inside(
+        &self,
+        (origin, direction): (DVec3, DVec3),
+        (light, path): (PathLight, f64),
+        least_weight: f64,
+        meets: impl FnMut(SurfaceEvent),
+    ) -> Loss {
+        let ray = DispersedRay { origin, direction, sweep: DVec3::ZERO, shift: DVec3::ZERO };
+        let left = self.medium.transmittance(path);
+        let inside = Inbound { met: (0, 0.0), ray, light, left, path, bounce: 0 };
+        match &self.shape {
+            SolidFacets::Planes(planes) => self.bounce(&**planes, inside, least_weight, meets),
+            SolidFacets::Triangles(triangles) => self.bounce(triangles, inside, least_weight, meets),
+            SolidFacets::Smooth(smooth) => self.bounce(smooth, inside, least_weight, meets),
+            SolidFacets::Wavy(wavy) => self.bounce(wavy, inside, least_weight, meets),
+        }
+    }
+
     /// Follows light through a solid that never takes back what has left it.
     fn chain<F: FacetSearch>(&self, facets: &F, start: Inbound, mut leave: impl FnMut(Exit)) -> Option<Loss> {
         self.passage(facets, start, |meeting| {
@@ -214,7 +235,7 @@ impl StoneTracer {
             onward: light.weight() * left,
         });
         let ray = DispersedRay { origin: point, direction: inward, sweep: swept, shift };
-        Some(self.bounce(facets, Inbound { ray, light, ..inbound }, meets))
+        Some(self.bounce(facets, Inbound { ray, light, ..inbound }, self.options.least_weight, meets))
     }
 
     /// Follows light inside the stone; its ray begins at the point where it has entered.
@@ -222,12 +243,13 @@ impl StoneTracer {
         &self,
         facets: &F,
         inside: Inbound,
+        least_weight: f64,
         mut meets: impl FnMut(SurfaceEvent),
     ) -> Loss {
         let Inbound { mut ray, mut light, mut left, mut path, .. } = inside;
         let mut rest = Loss { bounces: inside.bounce, ..Loss::default() };
         let mut remaining = light.weight() * left;
-        while remaining > self.options.least_weight && rest.bounces < self.options.most_bounces {
+        while remaining > least_weight && rest.bounces < self.options.most_bounces {
             let DispersedRay { origin, direction, sweep, .. } = ray;
             let Some((facet, distance)) = facets.next(origin, direction) else { break };
             let Arrival { point, normal, shift, of_normal } = ray.arrival(facets, facet, distance);

@@ -14,6 +14,16 @@ pub struct Cell {
     pub undecided: bool,
 }
 
+/// The strongest of the exits on the way of a beam, from where it enters to its end.
+#[derive(Clone, Copy)]
+pub(in crate::trace) struct StrongestExit {
+    pub weight: f64,
+    /// The id of the beam that ends at this exit; `None` where no light has left the stone yet.
+    pub exit: Option<u32>,
+    /// Whether no light that is still inside can outshine it.
+    pub is_decided: bool,
+}
+
 impl Beams {
     /// Returns the map of strongest exits of one domain of the symmetry: at each point, the exit direction that lights it
     /// most.
@@ -21,33 +31,44 @@ impl Beams {
     /// A cell is complete as soon as no light that is still inside can outshine the best exit so far. In a stone that
     /// absorbs, weights are means over outlines, so that the map is exact only as far as absorption is even in each.
     pub fn strongest_exits(&self) -> Vec<Cell> {
-        let n = self.nodes.len();
-        let mut best: Vec<(f64, u32)> = vec![(0.0, ROOT); n];
-        let mut decided = vec![false; n];
-        let mut parted = vec![false; n];
-        for (id, beam) in self.iter().enumerate() {
-            if let Some(parent) = beam.parent.map(|p| p as usize) {
-                parted[parent] = true;
-                best[id] = best[parent];
-                decided[id] = decided[parent];
-                if beam.weight > best[id].0 {
-                    best[id] = (beam.weight, id as u32);
-                }
-            }
-            decided[id] |= beam.onward <= best[id].0;
-        }
+        let (best, parted) = (self.strongest_so_far(), self.parted());
         let open_above = |id: usize| match self.nodes[id].parent {
             ROOT => true,
-            parent => !decided[parent as usize],
+            parent => !best[parent as usize].is_decided,
         };
-        (0..n)
-            .filter(|&id| open_above(id) && (decided[id] || !parted[id]))
+        (0..best.len())
+            .filter(|&id| open_above(id) && (best[id].is_decided || !parted[id]))
             .map(|id| Cell {
                 outline: id as u32,
-                strongest: (best[id].1 != ROOT).then_some(best[id].1),
-                undecided: !decided[id],
+                strongest: best[id].exit,
+                undecided: !best[id].is_decided,
             })
             .collect()
+    }
+
+    /// Returns, for each beam, the strongest exit on its way.
+    pub(in crate::trace) fn strongest_so_far(&self) -> Vec<StrongestExit> {
+        let mut best = vec![StrongestExit { weight: 0.0, exit: None, is_decided: false }; self.nodes.len()];
+        for (id, beam) in self.iter().enumerate() {
+            if let Some(parent) = beam.parent {
+                best[id] = best[parent as usize];
+                if beam.weight > best[id].weight {
+                    best[id].weight = beam.weight;
+                    best[id].exit = Some(id as u32);
+                }
+            }
+            best[id].is_decided |= beam.onward <= best[id].weight;
+        }
+        best
+    }
+
+    /// Returns, for each beam, whether it was split further.
+    fn parted(&self) -> Vec<bool> {
+        let mut parted = vec![false; self.nodes.len()];
+        for parent in self.nodes.iter().map(|n| n.parent).filter(|&p| p != ROOT) {
+            parted[parent as usize] = true;
+        }
+        parted
     }
 
     /// Returns the share of the silhouette's area in cells whose strongest exit is not certain, or that have none.
@@ -61,10 +82,7 @@ impl Beams {
     /// Returns the ids of the beams that were not split further, in one domain: the finest subdivision of the image. The
     /// light of a point is that of such a beam and of all beams that this one came from.
     pub fn leaves(&self) -> impl Iterator<Item = u32> {
-        let mut parted = vec![false; self.nodes.len()];
-        for parent in self.nodes.iter().map(|n| n.parent).filter(|&p| p != ROOT) {
-            parted[parent as usize] = true;
-        }
+        let parted = self.parted();
         (0..self.nodes.len() as u32).filter(move |&id| !parted[id as usize])
     }
 }

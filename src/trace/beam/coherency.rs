@@ -1,13 +1,14 @@
 //! The polarisation of a beam that began unpolarised.
 
 use crate::optics::Fresnel;
+use num_complex::Complex64;
 
 /// The coherency matrix J J† / 2 of a beam with Jones matrix J (Born & Wolf, Principles of Optics, 7th ed., §10.9), along s
 /// (perpendicular to the plane of incidence) and p = direction × s. Its trace is the beam's weight.
 ///
 /// For light that begins unpolarised these four numbers say all that J does.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Coherency {
+pub(in crate::trace) struct Coherency {
     ss: f64,
     pp: f64,
     /// Real and imaginary part of the s p* element.
@@ -26,6 +27,15 @@ impl Coherency {
     /// Returns the beam's weight.
     pub fn weight(&self) -> f64 {
         self.ss + self.pp
+    }
+
+    /// Returns two fields, each as its parts along s and p, that together are this light: the mean of their coherency
+    /// matrices is this matrix (its Cholesky decomposition).
+    pub fn fields(&self) -> [[Complex64; 2]; 2] {
+        let s = (2.0 * self.ss).sqrt();
+        let p = if s > 0.0 { Complex64::new(self.re, -self.im) * 2.0 / s } else { Complex64::ZERO };
+        let rest = (2.0 * self.pp - p.norm_sqr()).max(0.0).sqrt();
+        [[s.into(), p], [Complex64::ZERO, rest.into()]]
     }
 
     /// Returns light of the same weight without polarisation.

@@ -16,7 +16,7 @@ const SQUARE_ON: f64 = 1e-9;
 
 /// A beam that is still to be followed from its last facet on.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Front {
+pub(in crate::trace) struct Front {
     pub node: u32,
     pub bounces: u32,
     pub ray: Ray,

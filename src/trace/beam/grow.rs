@@ -5,6 +5,7 @@
 //! its own, in any order and on any core, with the same result.
 
 use super::coherency::Coherency;
+use super::effort::Effort;
 use super::follow::{Follower, Front, Growth, SLIVER, s_axis};
 use super::split::{Ray, opposites};
 use super::tree::{BeamNode, Beams, ROOT};
@@ -49,6 +50,9 @@ const AT_ONCE: usize = 64;
 /// overshoot.
 const STEPS: std::ops::RangeInclusive<f64> = 0.25..=0.8;
 
+/// The factor by which the level of energy falls where more beams are worth their time.
+const EFFORT_STEP: f64 = 0.6;
+
 /// Follows light from the eye into a stone until at most `options.unresolved` of it is left.
 ///
 /// Tracing ends earlier where there are too many beams, or where all that is left is caught for ever; [`Beams::unresolved`]
@@ -63,10 +67,33 @@ pub fn trace(
     options: &BeamOptions,
     watch: Watch,
 ) -> Result<Beams, Stopped> {
+    Ok(grow(polytope, medium, view, options, None, watch)?.beams)
+}
+
+/// Beams, and the light that they have left unresolved.
+pub struct GrownBeams {
+    /// The beams.
+    pub beams: Beams,
+    pub(in crate::trace) open: Vec<Front>,
+}
+
+/// Follows light as [`trace`] does and keeps what is left. With a standard error, tracing goes on until rays that estimate
+/// what is left to that error take less time than more beams would: see [`Effort`](super::effort::Effort).
+///
+/// # Errors
+/// [`Stopped`] when `watch` asks to stop.
+pub fn grow(
+    polytope: &Polytope,
+    medium: Medium,
+    view: &View,
+    options: &BeamOptions,
+    standard_error: Option<f64>,
+    watch: Watch,
+) -> Result<GrownBeams, Stopped> {
     let mut tracer = Tracer::new(polytope, medium, view, options);
     tracer.enter();
-    tracer.run(options, watch)?;
-    Ok(tracer.beams)
+    tracer.run(options, standard_error.map(Effort::to), watch)?;
+    Ok(GrownBeams { beams: tracer.beams, open: tracer.fronts })
 }
 
 struct Tracer<'a> {
@@ -148,7 +175,7 @@ impl<'a> Tracer<'a> {
         self.fronts.push(Front { node, bounces: 0, ray, light, s, energy });
     }
 
-    fn run(&mut self, options: &BeamOptions, watch: Watch) -> Result<(), Stopped> {
+    fn run(&mut self, options: &BeamOptions, mut effort: Option<Effort>, watch: Watch) -> Result<(), Stopped> {
         let whole = self.beams.silhouette_area / f64::from(self.beams.symmetry.order());
         let goal = options.unresolved.max(0.0) * whole;
         let mut level = whole / 64.0;
@@ -161,10 +188,14 @@ impl<'a> Tracer<'a> {
                 return Err(Stopped);
             }
             let movable = self.fronts.iter().any(|f| f.bounces < MOST_BOUNCES && f.energy > 0.0);
-            if left <= goal || !movable || self.beams.nodes.len() > options.most_beams {
+            let is_enough = effort.as_mut().is_none_or(|e| e.suffices(self.beams.nodes.len(), left / whole));
+            if left <= goal && is_enough || !movable || self.beams.nodes.len() > options.most_beams {
                 break;
             }
-            level = next_level(level, left, &mut before, goal);
+            level = match left <= goal {
+                true => level * EFFORT_STEP,
+                false => next_level(level, left, &mut before, goal),
+            };
             self.follow_above(level, options.most_beams, &|| watch(done))?;
         }
         for front in &self.fronts {

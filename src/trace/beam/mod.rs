@@ -8,6 +8,7 @@
 
 mod cells;
 mod coherency;
+mod effort;
 mod follow;
 mod grow;
 mod split;
@@ -15,5 +16,6 @@ mod sweep;
 mod tree;
 
 pub use cells::Cell;
-pub use grow::{BeamOptions, trace};
+pub use grow::{BeamOptions, GrownBeams, grow, trace};
+pub(in crate::trace) use follow::Front;
 pub use tree::{Beam, Beams};

@@ -17,7 +17,7 @@ const NONE: u32 = u32::MAX;
 
 /// A beam on its way from a facet: where the ray of each image point starts, and the one direction of all its rays.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Ray {
+pub(in crate::trace) struct Ray {
     /// The start of the ray at the image's origin, and its changes along the image's axes.
     pub origin: [DVec3; 3],
     /// Unit direction.

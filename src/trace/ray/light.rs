@@ -6,14 +6,14 @@ use num_complex::Complex64;
 
 /// The light of a ray between two facets: a weight, or the fields that the eye's two polarisations have become.
 #[derive(Clone, Copy)]
-pub(super) enum PathLight {
+pub(in crate::trace) enum PathLight {
     Unpolarised(f64),
     Fields([ElectricField; 2]),
 }
 
 /// A complex electric field in space, perpendicular to its ray.
 #[derive(Clone, Copy)]
-pub(super) struct ElectricField {
+pub(in crate::trace) struct ElectricField {
     re: DVec3,
     im: DVec3,
 }
@@ -55,6 +55,11 @@ impl PathLight {
         }
         let (a, b) = direction.any_orthonormal_pair();
         Self::Fields([a, b].map(|axis| ElectricField { re: axis * weight.sqrt(), im: DVec3::ZERO }))
+    }
+
+    /// Returns light of two fields, each given by its parts along two axes.
+    pub fn of_fields(fields: [[Complex64; 2]; 2], [x, y]: [DVec3; 2]) -> Self {
+        Self::Fields(fields.map(|[a, b]| ElectricField::of([(a, x), (b, y)])))
     }
 
     #[inline]

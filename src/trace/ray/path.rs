@@ -54,7 +54,7 @@ pub struct Path {
 }
 
 /// A facet that the tracer's loop comes to, and what becomes of the light there.
-pub(super) struct SurfaceEvent {
+pub(in crate::trace) struct SurfaceEvent {
     pub facet: u32,
     pub point: DVec3,
     pub path: f64,
@@ -70,7 +70,7 @@ pub(super) struct SurfaceEvent {
 }
 
 /// The light that leaves at a surface event, as in [`Exit`].
-pub(super) struct ExitLight {
+pub(in crate::trace) struct ExitLight {
     pub direction: DVec3,
     pub sweep: DVec3,
     /// The displacement of the point over the spread of wavelengths.

@@ -1,0 +1,247 @@
+//! The figures of one view by exact beams, and an estimate of the light that the beams leave.
+//!
+//! All places of the light that is left are divided into strata of equal weight, with two rays in each, so that the scatter
+//! within the strata gives the variance of the sum (Cochran, Sampling Techniques, 3rd ed. 1977, §5A.12 on collapsed strata
+//! uses the same difference of pairs). Every number of a ray follows from its stratum, so that figures repeat on any number
+//! of cores.
+
+use super::figures::{Figures, Zones, by_beams};
+use crate::math::Polytope;
+use crate::scene::Scope;
+use crate::trace::beam::GrownBeams;
+use crate::trace::tail::Tail;
+use crate::trace::{Stopped, Watch};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+/// The strata of the first estimate, which says how many are needed.
+const FIRST: u64 = 128;
+
+/// The most strata.
+const MOST: u64 = 1 << 20;
+
+/// Strata that are sampled as one piece of work. It does not depend on the number of cores, as the result must not.
+const PIECE: u64 = 64;
+
+/// How many times as large as that of light the standard error of areas may be. Much more area is undecided than light is
+/// left, so the same error would take many times the rays.
+const OF_AREAS: f64 = 10.0;
+
+/// How many more strata are taken than the last estimate says are needed.
+const SPARE: f64 = 1.1;
+
+/// An estimate of the light that exact beams have left, by rays.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimate {
+    /// Light of the rest that leaves the stone, by the band that it comes from, as a part of the silhouette.
+    pub transmitted: Zones,
+    /// The part of the silhouette that beams have left undecided, by the band of the strongest exit.
+    pub strongest_exit_area: Zones,
+    /// Light of the rest that is absorbed.
+    pub absorbed: f64,
+    /// Light of the rest that rays did not follow to its end either.
+    pub unresolved: f64,
+    /// The number of rays.
+    pub rays: u64,
+    /// The standard error of `absorbed`.
+    pub absorbed_error: f64,
+    /// The covariances of the errors of `transmitted`, row by row.
+    covariance: Vec<f64>,
+    /// The variances of the errors of `strongest_exit_area`.
+    area_variance: Vec<f64>,
+}
+
+impl Estimate {
+    /// Returns the standard error of the light of several bands together.
+    pub fn standard_error_of(&self, bands: impl Iterator<Item = usize> + Clone) -> f64 {
+        let n = self.transmitted.len();
+        let pairs = bands.clone().flat_map(|i| bands.clone().map(move |j| (i, j)));
+        pairs.map(|(i, j)| self.covariance[i * n + j]).sum::<f64>().max(0.0).sqrt()
+    }
+
+    /// Returns the standard error of the light of each band.
+    pub fn standard_errors(&self) -> Zones {
+        (0..self.transmitted.len()).map(|band| self.standard_error_of(std::iter::once(band))).collect()
+    }
+
+    /// Returns the standard error of the area of strongest exits of each band.
+    pub fn area_errors(&self) -> Zones {
+        self.area_variance.iter().map(|variance| variance.sqrt()).collect()
+    }
+
+    /// Returns the largest standard error of the light of any band.
+    pub fn standard_error(&self) -> f64 {
+        self.standard_errors().into_iter().fold(0.0, f64::max)
+    }
+
+    /// Adds the zone after `k` to zone `k`.
+    pub(super) fn join(&mut self, k: usize) {
+        let n = self.transmitted.len();
+        let of = |i: usize, j: usize| self.covariance[i * n + j];
+        let kept: Vec<usize> = (0..n).filter(|&i| i != k + 1).collect();
+        let group = |i: usize| if i == k { vec![k, k + 1] } else { vec![i] };
+        let joined = kept.iter().flat_map(|&i| {
+            kept.iter().map(move |&j| (group(i), group(j)))
+        });
+        let covariance =
+            joined.map(|(a, b)| a.iter().flat_map(|&i| b.iter().map(move |&j| of(i, j))).sum()).collect();
+        self.covariance = covariance;
+        for zones in [&mut self.transmitted, &mut self.strongest_exit_area, &mut self.area_variance] {
+            let next = zones.remove(k + 1);
+            zones[k] += next;
+        }
+    }
+}
+
+/// Sums up exact beams to the figures under a scope, and adds an estimate of the light that they have left, whose standard
+/// error is at most `standard_error` in each zone, a part of the silhouette's light.
+///
+/// # Errors
+/// [`Stopped`] when `watch` asks to stop.
+pub fn by_beams_and_rays(
+    polytope: &Polytope,
+    grown: &GrownBeams,
+    scope: &Scope,
+    standard_error: f64,
+    watch: Watch,
+) -> Result<Figures, Stopped> {
+    let mut figures = by_beams(&grown.beams, scope);
+    let Some(tail) = Tail::new(polytope, grown) else { return Ok(figures) };
+    let sampler = Sampler { tail: &tail, scope, zenith: grown.beams.zenith };
+    let mut strata = FIRST;
+    loop {
+        if watch((FIRST as f64 / strata as f64).min(1.0)).is_break() {
+            return Err(Stopped);
+        }
+        let estimate = sampler.estimate(strata);
+        let area_error = estimate.area_errors().into_iter().fold(0.0, f64::max) / OF_AREAS;
+        let excess = estimate.standard_error().max(area_error) / standard_error;
+        if excess <= 1.0 || strata >= MOST {
+            figures.take_in(estimate);
+            return Ok(figures);
+        }
+        strata = ((strata as f64 * excess * excess * SPARE).ceil() as u64).clamp(strata + 1, MOST);
+    }
+}
+
+impl Figures {
+    /// Adds what was estimated to what is certain.
+    fn take_in(&mut self, estimate: Estimate) {
+        let add = |to: &mut Zones, from: &Zones| to.iter_mut().zip(from).for_each(|(a, b)| *a += b);
+        add(&mut self.transmitted, &estimate.transmitted);
+        add(&mut self.strongest_exit_area, &estimate.strongest_exit_area);
+        self.absorbed += estimate.absorbed;
+        self.strongest_exit_undecided =
+            (self.strongest_exit_undecided - estimate.strongest_exit_area.iter().sum::<f64>()).max(0.0);
+        self.standard_error = estimate.standard_error();
+        self.estimate = Some(estimate);
+    }
+}
+
+struct Sampler<'a> {
+    tail: &'a Tail<'a>,
+    scope: &'a Scope,
+    zenith: DVec3,
+}
+
+/// Sums over strata of the means of their two rays, and of the products of half their differences.
+#[derive(Clone)]
+struct Sums {
+    means: Vec<f64>,
+    products: Vec<f64>,
+}
+
+impl Sampler<'_> {
+    /// Estimates by two rays in each of these strata.
+    fn estimate(&self, strata: u64) -> Estimate {
+        let bands = self.scope.bands.len();
+        let pieces: Vec<Sums> = (0..strata.div_ceil(PIECE))
+            .into_par_iter()
+            .map(|piece| self.piece(piece * PIECE..((piece + 1) * PIECE).min(strata), strata))
+            .collect();
+        let sums = pieces.into_iter().fold(Sums::new(bands), Sums::and);
+        let n = strata as f64;
+        let mean = |k: usize| sums.means[k] / n;
+        let of_products = |k: usize| sums.products[k] / (n * n);
+        Estimate {
+            transmitted: (0..bands).map(mean).collect(),
+            strongest_exit_area: (bands..2 * bands).map(mean).collect(),
+            absorbed: mean(2 * bands),
+            unresolved: mean(2 * bands + 1),
+            rays: 2 * strata,
+            absorbed_error: of_products(bands * bands + bands).sqrt(),
+            covariance: (0..bands * bands).map(of_products).collect(),
+            area_variance: (bands * bands..bands * bands + bands).map(of_products).collect(),
+        }
+    }
+
+    fn piece(&self, range: std::ops::Range<u64>, strata: u64) -> Sums {
+        let bands = self.scope.bands.len();
+        let mut sums = Sums::new(bands);
+        let mut pair = [vec![0.0; 2 * bands + 2], vec![0.0; 2 * bands + 2]];
+        for stratum in range {
+            for (which, values) in (0..).zip(&mut pair) {
+                self.ray((stratum, strata), 2 * stratum + which, values);
+            }
+            sums.add(&pair, bands);
+        }
+        sums
+    }
+
+    /// Leaves in `values` what one ray says: light by bands, area by bands, light that is absorbed, light that is not
+    /// followed.
+    fn ray(&self, (stratum, strata): (u64, u64), number: u64, values: &mut [f64]) {
+        let bands = self.scope.bands.len();
+        values.fill(0.0);
+        let [place, x, y, luck] = [0, 1, 2, 3].map(|k| unit(mixed((4 * number + k) ^ strata.rotate_left(40))));
+        let place = (stratum as f64 + place) / strata as f64;
+        let ray = self.tail.follow(place, DVec2::new(x, y), luck, |direction, share| {
+            values[self.scope.band(direction, self.zenith)] += share;
+        });
+        values[2 * bands] = ray.absorbed;
+        values[2 * bands + 1] = ray.unresolved;
+        values.iter_mut().for_each(|value| *value *= ray.light);
+        if let Some(exit) = ray.strongest {
+            values[bands + self.scope.band(exit, self.zenith)] = ray.area;
+        }
+    }
+}
+
+impl Sums {
+    fn new(bands: usize) -> Self {
+        Self { means: vec![0.0; 2 * bands + 2], products: vec![0.0; bands * bands + bands + 1] }
+    }
+
+    fn add(&mut self, [a, b]: &[Vec<f64>; 2], bands: usize) {
+        self.means.iter_mut().zip(a.iter().zip(b)).for_each(|(sum, (a, b))| *sum += (a + b) / 2.0);
+        let half = |k: usize| (a[k] - b[k]) / 2.0;
+        for i in 0..bands {
+            for j in 0..bands {
+                self.products[i * bands + j] += half(i) * half(j);
+            }
+        }
+        for k in bands..=2 * bands {
+            self.products[bands * bands + k - bands] += half(k).powi(2);
+        }
+    }
+
+    fn and(mut self, other: Self) -> Self {
+        let add = |to: &mut [f64], from: &[f64]| to.iter_mut().zip(from).for_each(|(a, b)| *a += b);
+        add(&mut self.means, &other.means);
+        add(&mut self.products, &other.products);
+        self
+    }
+}
+
+/// Returns a number whose bits look random, for each number another (SplitMix64: Steele, Lea and Flood 2014).
+fn mixed(number: u64) -> u64 {
+    let z = number.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+/// Returns a number from 0 to below 1 out of random bits.
+fn unit(bits: u64) -> f64 {
+    (bits >> 11) as f64 / (1_u64 << 53) as f64
+}
