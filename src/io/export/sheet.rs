@@ -67,7 +67,7 @@ impl ScopeSheet<'_> {
     /// Returns the job of this picture, with these readings, on a square of `size` pixels.
     pub fn job(&self, size: u32, readings: Vec<Reading>) -> Job {
         let solid = self.viewing.specimen.solid();
-        let reach = Camera::new(&self.viewing.viewpoint.view(), solid).reach(solid).unwrap_or(1.0);
+        let reach = Camera::new(&self.viewing.view(), solid).reach(solid).unwrap_or(1.0);
         let (scope, medium, glare) = (self.scope.clone(), self.viewing.medium, self.glare);
         let product = Product::Scope(ScopeProduct { scope, medium, glare, readings });
         self.viewing.job(Film::reaching(reach, size), product, UNRESOLVED)
