@@ -1,6 +1,7 @@
 //! Plans which tracer makes a picture or figures. No other place decides this.
 
 use super::card::{Backend, Card, NoCard};
+use super::check::JobError;
 use super::job::{Job, LightProduct, Product, Steps};
 use crate::math::{NotConvex, SolidRef};
 use crate::scene::{Projection, View};
@@ -49,6 +50,9 @@ pub enum CardWorth {
 /// Why a job cannot be done, or not by exact beams.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Unfit {
+    /// The job makes no sense, whatever traces it.
+    #[error(transparent)]
+    Job(#[from] JobError),
     /// The eye of a perspective is beside or inside the stone, so that no tracer can show it.
     #[error("the eye of the perspective is not in front of the whole stone; move it farther away")]
     Eye,
