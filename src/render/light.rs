@@ -68,7 +68,7 @@ impl Exposure<'_> {
             }
             #[cfg(feature = "gpu")]
             Backend::Card(gpu) => {
-                let environment = GpuEnvironment::new(gpu, &lit_scene.environment);
+                let environment = GpuEnvironment::new(gpu, &lit_scene.environment)?;
                 let prepare = |rows| Ok(ByCard::new(gpu, lit_scene, &environment, rows, self.strata.len())?);
                 expose(lit_scene, sampled, ByCard::most_rows(width), prepare, self.watch)
             }
@@ -101,7 +101,7 @@ impl Exposure<'_> {
             Backend::Rays => self.add_up(ByRays::new(self.lit_scene, rows), (backend, first, hidden), each),
             #[cfg(feature = "gpu")]
             Backend::Card(gpu) => {
-                let environment = GpuEnvironment::new(gpu, &self.lit_scene.environment);
+                let environment = GpuEnvironment::new(gpu, &self.lit_scene.environment)?;
                 let strips = Strips::new(gpu, &self.lit_scene, &environment, self.strata.len())?;
                 self.add_up(strips, (backend, first, hidden), each)
             }
