@@ -121,7 +121,7 @@ impl Exposure<'_> {
             let pass = self.sampling.pass(self.lit_scene.scene, &self.strata, first.wrapping_add(number));
             image.add_pass(&pass, &done)?;
             let taken = number + 1;
-            if taken > hidden && (taken.is_power_of_two() || taken == count) {
+            if taken == count || taken > hidden && taken.is_power_of_two() {
                 last = seen(&self.lit_scene, &image)?;
                 let (picture, rest) = (&last.0, last.1);
                 each(Partial::Picture { picture, rest, backend }).map_err(Halt::Each)?;

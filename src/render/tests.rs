@@ -294,6 +294,12 @@ fn a_picture_in_strips_is_the_last_of_those_that_grow_clearer() {
 }
 
 #[test]
+fn the_last_pass_is_shown_even_where_all_are_hidden() {
+    let hidden = job(alone(), light(Steps::Passes { first: 0, hidden: 9 }));
+    assert_eq!(lit(&hidden), lit(&job(alone(), light(Steps::Strips))));
+}
+
+#[test]
 fn both_readings_come_whole_and_from_one_trace() {
     for tracer in [Wanted::Beams, Wanted::Rays] {
         let mut job =
