@@ -140,10 +140,11 @@ impl<'a> PictureSetup<'a> {
                 "--strength {}: exact beams cannot mix refracted and straight rays: use --tracer ray, or --strength 1",
                 self.strength
             )),
-            _ => Failure::Usage(
+            Unfit::NotAlone => Failure::Usage(
                 "exact beams are for one convex stone, parallel rays and no pattern or photograph behind: use --tracer ray"
                     .into(),
             ),
+            other => Failure::Usage(other.to_string()),
         })?;
         Ok(plan.backend.description())
     }

@@ -70,7 +70,7 @@ pub enum Steps {
     Passes {
         /// The number of the first pass. Passes of other numbers take other places in the pixels.
         first: u32,
-        /// The number of passes of which nothing is shown, because a picture as good is in sight.
+        /// The number of passes of which nothing is shown, because a picture as good is in sight; the last is always shown.
         hidden: u32,
     },
     /// By the beams of one wavelength, spread to the others to first order; for a picture that is about to change. Rays

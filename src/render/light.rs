@@ -68,7 +68,7 @@ impl Exposure<'_> {
             }
             #[cfg(feature = "gpu")]
             Backend::Card(gpu) => {
-                let environment = GpuEnvironment::new(gpu, &lit_scene.environment);
+                let environment = GpuEnvironment::new(gpu, &lit_scene.environment)?;
                 let prepare = |rows| Ok(ByCard::new(gpu, lit_scene, &environment, rows, self.strata.len())?);
                 expose(lit_scene, sampled, ByCard::most_rows(width), prepare, self.watch)
             }
@@ -101,7 +101,7 @@ impl Exposure<'_> {
             Backend::Rays => self.add_up(ByRays::new(self.lit_scene, rows), (backend, first, hidden), each),
             #[cfg(feature = "gpu")]
             Backend::Card(gpu) => {
-                let environment = GpuEnvironment::new(gpu, &self.lit_scene.environment);
+                let environment = GpuEnvironment::new(gpu, &self.lit_scene.environment)?;
                 let strips = Strips::new(gpu, &self.lit_scene, &environment, self.strata.len())?;
                 self.add_up(strips, (backend, first, hidden), each)
             }
@@ -121,7 +121,7 @@ impl Exposure<'_> {
             let pass = self.sampling.pass(self.lit_scene.scene, &self.strata, first.wrapping_add(number));
             image.add_pass(&pass, &done)?;
             let taken = number + 1;
-            if taken > hidden && (taken.is_power_of_two() || taken == count) {
+            if taken == count || taken > hidden && taken.is_power_of_two() {
                 last = seen(&self.lit_scene, &image)?;
                 let (picture, rest) = (&last.0, last.1);
                 each(Partial::Picture { picture, rest, backend }).map_err(Halt::Each)?;

@@ -4,6 +4,7 @@
 mod beam_cache;
 mod behind_glass;
 mod card;
+mod check;
 mod job;
 mod light;
 mod measure;
@@ -16,6 +17,7 @@ mod surroundings;
 mod tests;
 
 pub use card::{Backend, Card, NoCard};
+pub use check::{JobError, OutOfRange};
 pub use job::{
     FiguresProduct, Job, LightProduct, MapProduct, PaneProduct, Product, Quality, Reading, ScopeProduct,
     Steps,

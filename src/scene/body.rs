@@ -52,9 +52,9 @@ impl Body {
     /// facets have no names.
     pub fn name(&self, facet: u32) -> String {
         match self {
-            Self::Stone(stone) if !stone.names().is_empty() => stone.name(facet).replace('_', " "),
+            Self::Stone(stone) => stone.name(facet).replace('_', " "),
             Self::Glass(smooth) => smooth.field().facets()[facet as usize].to_owned(),
-            Self::Stone(_) | Self::Mesh(_) => format!("facet {}", facet + 1),
+            Self::Mesh(_) => format!("facet {}", facet + 1),
         }
     }
 }

@@ -27,7 +27,7 @@ pub use light::{Dome, Lamp, LampField, Light, LightError, MOST_LAMPS, PanoramaRe
 pub use lights::{LIGHTS, light};
 pub use medium::Medium;
 pub use overlap::overlapping;
-pub use panorama::Panorama;
+pub use panorama::{Panorama, PanoramaError};
 pub use scope::{ASET_CONE, Backing, Band, Glare, MOST_BANDS, Scope, ScopeError, elevation_deg};
 pub use specimen::{Specimen, SpecimenError};
 pub use stone::Stone;

@@ -125,7 +125,7 @@ impl Shoot {
     pub fn by_card(&self, gpu: &Gpu) -> (Linear, Remainder) {
         let strata = strata(self.wavelengths, &self.light.spectrum, true);
         self.with(|lit_scene| {
-            let around = GpuEnvironment::new(gpu, &lit_scene.environment);
+            let around = GpuEnvironment::new(gpu, &lit_scene.environment).unwrap();
             let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, lit_scene, &around, rows, strata.len())?);
             // The picture is traced in strips, as large pictures are.
             expose(lit_scene, (&strata, self.looks()), 40, prepare, &unwatched).unwrap()

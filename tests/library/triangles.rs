@@ -186,7 +186,7 @@ mod by_card {
     fn by_card_of(gpu: &Gpu, stones: Vec<Instance>, light: &Light) -> (Linear, Remainder) {
         taken(stones, light, |lit_scene| {
             let strata = strata(2, &light.spectrum, true);
-            let around = GpuEnvironment::new(gpu, &lit_scene.environment);
+            let around = GpuEnvironment::new(gpu, &lit_scene.environment).unwrap();
             let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, lit_scene, &around, rows, strata.len())?);
             expose(lit_scene, (&strata, Sampling::of(1)), SIZE, prepare, &unwatched).unwrap()
         })

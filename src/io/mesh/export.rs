@@ -79,12 +79,12 @@ impl Faces<'_> {
 fn faces(body: &Body) -> Faces<'_> {
     match body {
         Body::Stone(stone) => {
-            let mut triangles = vec![vec![]; stone.names().len()];
+            let mut triangles = vec![vec![]; stone.polytope.facets().len()];
             let mesh = triangulate(&stone.polytope);
             mesh.triangles.iter().zip(&mesh.facets).for_each(|(t, &f)| triangles[f as usize].push(*t));
-            let named = stone.polytope.facets().iter().zip(stone.names()).zip(triangles);
-            let face = named.map(|((facet, name), triangles)| Face {
-                name: Some(name.as_str()),
+            let facets = stone.polytope.facets().iter().zip(triangles).enumerate();
+            let face = facets.map(|(place, (facet, triangles))| Face {
+                name: stone.names().get(place).map(String::as_str),
                 normals: vec![facet.plane.normal; facet.outline.len()],
                 corners: facet.outline.clone(),
                 triangles,

@@ -54,6 +54,7 @@ fn stage<'a>(gpu: &'a Gpu, shot: &ScopeShot, rows: u32) -> Result<Stage<'a>, Gpu
     entries.push(wgpu::BindGroupEntry { binding: 6, resource: bands.as_entire_binding() });
     let eye = GpuCamera { view: shot.view, film: shot.film, reach, options: shot.options };
     let frame = eye.frame(gpu, &solids, 1);
+    solids.enough(gpu, frame.counts[2], shot.options.most_bounces)?;
     Stage::new::<ScopePixel>(
         gpu,
         gpu.scopes.pipeline(&gpu.device, solids.surfaces.facets),
@@ -65,7 +66,7 @@ fn stage<'a>(gpu: &'a Gpu, shot: &ScopeShot, rows: u32) -> Result<Stage<'a>, Gpu
 
 fn bands(shot: &ScopeShot) -> Bands {
     let mut borders = [2.0_f32; MOST_BANDS];
-    for (border, band) in borders.iter_mut().zip(&shot.scope.bands[1..]) {
+    for (border, band) in borders.iter_mut().zip(shot.scope.bands.iter().skip(1)) {
         *border = band.from.to_radians().sin() as f32;
     }
     let [a, b, c, d, e, f, g, h] = borders;
