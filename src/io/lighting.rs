@@ -83,17 +83,17 @@ mod tests {
     #[test]
     fn what_is_no_light_is_told() {
         let folder = tempfile::tempdir().unwrap();
-        let told = |name: &str| refused(folder.path().join(name).to_str().unwrap()).to_string();
+        let message = |name: &str| refused(folder.path().join(name).to_str().unwrap()).to_string();
         assert_eq!(refused("stuido").to_string(), "no light 'stuido'; did you mean 'studio'?");
         assert!(matches!(refused("stuido"), NameOrFileError::Unknown(_)));
         assert!(refused("moonlight").to_string().contains("studio, dome, "));
-        assert!(told("none.toml").ends_with("none.toml: there is no such file"));
-        assert!(told("none.exr").ends_with("none.exr: there is no such file"));
+        assert!(message("none.toml").ends_with("none.toml: there is no such file"));
+        assert!(message("none.exr").ends_with("none.exr: there is no such file"));
         std::fs::write(folder.path().join("bad.toml"), "name = \"x\"\nhead = 95\n").unwrap();
-        assert!(told("bad.toml").contains("bad.toml:2: light 1: head is 95"));
+        assert!(message("bad.toml").contains("bad.toml:2: light 1: head is 95"));
         std::fs::write(folder.path().join("lost.toml"), "name = \"x\"\npanorama.file = \"y.hdr\"\n").unwrap();
-        assert!(told("lost.toml").ends_with("y.hdr: there is no such file"));
+        assert!(message("lost.toml").ends_with("y.hdr: there is no such file"));
         std::fs::write(folder.path().join("bytes.hdr"), [0xff; 99]).unwrap();
-        assert!(told("bytes.hdr").contains("not a picture of a known format"));
+        assert!(message("bytes.hdr").contains("not a picture of a known format"));
     }
 }

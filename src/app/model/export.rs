@@ -206,13 +206,13 @@ impl ExportPlan {
         let view = View { side: shows.side().unwrap_or(seen.side), ..seen };
         let shot = Shot { shows, view, ..self.shot.clone() };
         let size = [size; 2];
-        if shows.has_company() && self.shot.company.as_slice() != [Pose::STILL] {
+        if shows.has_copies() && self.shot.copies.as_slice() != [Pose::STILL] {
             let fit = FramingFit::reaching(self.reach);
             return Shot { film: fit.film(size), whole: fit.whole(size), ..shot };
         }
         let specimen = Arc::clone(&self.upright);
         let fit = Framing::new(&specimen).fit(&shot.view);
         let (film, whole) = (fit.film(size), fit.whole(size));
-        Shot { film, whole, specimen, company: vec![Pose::STILL], ..shot }
+        Shot { film, whole, specimen, copies: vec![Pose::STILL], ..shot }
     }
 }

@@ -179,8 +179,8 @@ mod tests {
         };
         let said = |unresolved, open, aim| {
             let said = std::cell::RefCell::new(String::new());
-            let tell = |told: Event| {
-                if let Event::Warning(text) = told {
+            let tell = |event: Event| {
+                if let Event::Warning(text) = event {
                     *said.borrow_mut() = text.to_owned();
                 }
                 Ok(())

@@ -1,7 +1,7 @@
 //! Traces pictures in scopes on a graphics card.
 
 use super::device::{Gpu, GpuError};
-use super::gpu_types::{Bands, Medium as MediumAtDoor, ScopePixel, with};
+use super::gpu_types::{Bands, Medium, ScopePixel, with};
 use super::limits::MOST_BANDS;
 use super::solids::Solids;
 use super::stage::{GpuCamera, Stage};
@@ -48,7 +48,7 @@ fn stage<'a>(gpu: &'a Gpu, shot: &ScopeShot, rows: u32) -> Result<Stage<'a>, Gpu
     let reach = shot.solid.reach();
     let solids = Solids::new(gpu, &[PosedSolid { solid: shot.solid, pose: Pose::STILL }])?;
     let bands = gpu.buffer("bands", bytemuck::bytes_of(&bands(shot)), wgpu::BufferUsages::UNIFORM);
-    let medium = MediumAtDoor::new(&shot.medium, solids.units[0]);
+    let medium = Medium::new(&shot.medium, solids.units[0]);
     let media = gpu.buffer("media", bytemuck::bytes_of(&medium), wgpu::BufferUsages::STORAGE);
     let mut entries = solids.entries(&media);
     entries.push(wgpu::BindGroupEntry { binding: 6, resource: bands.as_entire_binding() });

@@ -57,19 +57,21 @@ pub(super) fn read_text(bytes: &[u8]) -> Result<ParsedMesh, Fault> {
     let closed = std::io::Read::chain(lines, &b"endsolid stone\n"[..]);
     let surface = triangles(&mut Rewound::new(FIRST, closed))
         .map_err(|(_, message)| Fault::line(line.get().max(1), message))?;
-    let told = |n: usize| format!("{n} solids are in this file; they are read as one surface");
-    let warnings = (solids > 1).then(|| told(solids)).into_iter().collect();
+    let warnings = (solids > 1)
+        .then(|| format!("{solids} solids are in this file; they are read as one surface"))
+        .into_iter()
+        .collect();
     Ok(ParsedMesh { surface, warnings, name, ..ParsedMesh::default() })
 }
 
 /// Reads all triangles, each with corners of its own; else returns the number, from 1, of the triangle that cannot be read,
 /// and why.
 fn triangles<R: std::io::Read + std::io::Seek>(reader: &mut R) -> Result<Surface, (usize, String)> {
-    let told = |number: usize, error: std::io::Error| (number, format!("this cannot be read: {error}"));
-    let list = stl_io::create_stl_reader(reader).map_err(|error| told(1, error))?;
+    let unreadable = |number: usize, error: std::io::Error| (number, format!("this cannot be read: {error}"));
+    let list = stl_io::create_stl_reader(reader).map_err(|error| unreadable(1, error))?;
     let (mut vertices, mut triangles) = (vec![], vec![]);
     for (number, triangle) in (1..).zip(list) {
-        let triangle = triangle.map_err(|error| told(number, error))?;
+        let triangle = triangle.map_err(|error| unreadable(number, error))?;
         let corners = triangle.vertices.map(|v| v.0.map(f64::from));
         if let Some(bad) = corners.iter().find(|c| !c.iter().all(|x| x.is_finite())) {
             return Err((

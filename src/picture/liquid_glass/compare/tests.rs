@@ -6,9 +6,9 @@ use crate::picture::liquid_glass::tests::{apart, even, full, none, pattern};
 use crate::trace::unwatched;
 
 /// Compares a pane with the traced one in this light.
-fn traced(pane: &GlassPane, background: &Panorama, light: &Light, looks: u32) -> Comparison {
+fn traced(pane: &GlassPane, background: &Panorama, light: &Light, passes: u32) -> Comparison {
     let bands = strata(4, &Illuminant::D65, true);
-    let around = PaneLighting { sky: &EnvironmentMap::new(light, None), gap: 0.02, strata: &bands, looks };
+    let around = PaneLighting { map: &EnvironmentMap::new(light, None), gap: 0.02, strata: &bands, passes };
     compare(pane, background, &around, &unwatched).unwrap()
 }
 
@@ -74,10 +74,10 @@ fn the_cost_tells_glass_from_its_approximation() {
     let nowhere = GlassPane { corner: DVec2::splat(500.0), ..full() };
     let bands = strata(2, &Illuminant::D65, true);
     let around = PaneLighting {
-        sky: &EnvironmentMap::new(&Light::white(), None),
+        map: &EnvironmentMap::new(&Light::white(), None),
         gap: 0.02,
         strata: &bands,
-        looks: 1,
+        passes: 1,
     };
     assert_eq!(compare(&nowhere, &pattern(false), &around, &unwatched), Err(PaneError::Nowhere));
 }
