@@ -18,7 +18,7 @@ mod imported;
 pub use encoded::EncodedDesign;
 pub use imported::ImportedDesign;
 
-/// A format of design files. The program's help says what is said here.
+/// A format of design files. clap prints these comments as the option's help.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum DesignFormat {

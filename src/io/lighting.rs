@@ -1,6 +1,6 @@
 //! Loads the light that stones are seen in: one that comes with the program, a light file, or a panorama.
 
-use super::{NameOrFileError, light_file, panorama};
+use super::{NameOrFileError, light_file, nearest, panorama};
 use crate::scene::{LIGHTS, Light, light};
 use crate::trace::environment::EnvironmentMap;
 pub use crate::trace::environment::Lighting;
@@ -36,10 +36,8 @@ fn sky(light: &Light, folder: Option<&Path>) -> Result<(EnvironmentMap, Vec<Stri
 
 /// Returns the message about a name that no light has.
 pub fn unknown(name: &str) -> String {
-    const SLIPS: usize = 3;
-    let near = LIGHTS.iter().map(|n| (strsim::damerau_levenshtein(&name.to_lowercase(), n), n)).min();
-    let hint = match near.filter(|(slips, _)| *slips <= SLIPS) {
-        Some((_, near)) => format!("; did you mean '{near}'?"),
+    let hint = match nearest(&name.to_lowercase(), &LIGHTS) {
+        Some(near) => format!("; did you mean '{near}'?"),
         None => format!("; known: {}, or give a light file or a panorama", LIGHTS.join(", ")),
     };
     format!("no light '{name}'{hint}")

@@ -42,8 +42,8 @@ impl Default for Copies {
 impl Copies {
     /// Scatters `count` copies, 1 to [`MOST_COPIES`], in the plane across the axis, without any two touching.
     ///
-    /// `corners` are those of the body, and each copy is turned as the body is. Another `number` scatters the copies
-    /// otherwise. A single copy stays in the middle.
+    /// `corners` are those of the body, and each copy is turned as the body is. A different `number` gives a
+    /// different arrangement. A single copy stays in the middle.
     pub fn scattered(count: usize, corners: &[DVec3], number: u64) -> Self {
         let count = count.clamp(1, MOST_COPIES);
         if count == 1 {

@@ -5,7 +5,7 @@ use crate::app::shows::Shows;
 use crate::app::studio::Shot;
 use crate::io::Failure;
 use crate::io::export::{Export, OutputFormat, Outputs, Viewing};
-use crate::io::refraction::{self, Coding, MOST_BANDS, MOST_PIXELS};
+use crate::io::refraction::{self, Coding, MOST_MAP_BANDS, MOST_MAP_PIXELS};
 use crate::optics::line;
 use crate::picture::named;
 use crate::render::{Renderer, Wanted};
@@ -178,14 +178,14 @@ impl ExportPlan {
     /// # Errors
     /// The text says what keeps them from being written.
     pub fn files(&self) -> Result<Vec<PathBuf>, Failure> {
-        if self.selection.map && self.selection.size > MOST_PIXELS {
+        if self.selection.map && self.selection.size > MOST_MAP_PIXELS {
             return Err(Failure::Usage(format!(
-                "A refraction map can be at most {MOST_PIXELS} pixels wide and high; choose a smaller size."
+                "A refraction map can be at most {MOST_MAP_PIXELS} pixels wide and high; choose a smaller size."
             )));
         }
-        if self.selection.map && self.selection.bands * self.selection.places > MOST_BANDS {
+        if self.selection.map && self.selection.bands * self.selection.places > MOST_MAP_BANDS {
             let problem = format!(
-                "The number of bands times the number of places can be at most {MOST_BANDS}; \
+                "The number of bands times the number of places can be at most {MOST_MAP_BANDS}; \
                 choose fewer."
             );
             return Err(Failure::Usage(problem));

@@ -260,6 +260,9 @@ mod tests {
             let mut older: serde_json::Value =
                 serde_json::from_slice(&std::fs::read(&found.file).unwrap()).unwrap();
             older.as_object_mut().unwrap().remove("read").unwrap();
+            let around = older["around"].as_object_mut().unwrap();
+            let copies = around.remove("copies").unwrap();
+            around.insert("company".to_owned(), copies);
             std::fs::write(&found.file, older.to_string()).unwrap();
             let found = Autosave::new(folder.path().join("safe")).found().remove(0);
             assert!(found.mesh.is_none() && matches!(found.design.cut, Cut::Mesh(_) | Cut::Planes(_)));

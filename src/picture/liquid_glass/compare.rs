@@ -27,9 +27,6 @@ const INDEX: f64 = 0.5;
 /// The Abbe number at strength 100.
 const ABBE: f64 = 55.0;
 
-/// The most rows that rays are traced for at once: memory holds what they have seen so far.
-const ROWS: u32 = 256;
-
 /// Share of light that glass of index 1.5 reflects at normal incidence.
 const SQUARE_ON: f64 = 0.04;
 
@@ -108,13 +105,14 @@ pub fn compare(
     watch: Watch,
 ) -> Result<Comparison, PaneError> {
     let scene = PaneScene::new(pane, background)?;
+    let half = |done: f64| move |part: f64| watch(done + part / 2.0);
     let plane = Backdrop { distance: scene.distance(around.gap), size: scene.size, both_sides: false };
     let bands = strata(3, &Illuminant::D65, true);
     let survey = Survey { bands: &bands, places: 1, shades: &[], passes: 1 };
     let (map, carried) = scene.with_lit_scene(background, around, |lit_scene| {
-        RefractionMap::trace(lit_scene, &plane, &survey, watch)
+        RefractionMap::trace(lit_scene, &plane, &survey, &half(0.0))
     })?;
-    let traced = scene.traced(background, around, watch)?;
+    let traced = scene.traced(background, around, &half(0.5))?;
     let pane = approximated(pane, background, around.passes);
     let cost = Cost { behind: carried.behind, ..scene.cost(&map, &pane, &traced) };
     Ok(Comparison { pane, traced, cost })
@@ -227,7 +225,7 @@ impl<'a> PaneScene<'a> {
         let sampled = (around.strata, Sampling::of(around.passes.max(1)));
         let (piece, _) = self.with_lit_scene(background, around, |lit_scene| {
             let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
-            spectral::expose(lit_scene, sampled, ROWS, prepare, watch)
+            spectral::expose(lit_scene, sampled, ByRays::MOST_ROWS, prepare, watch)
         })?;
         let (mut picture, tint) = (plain(background), self.pane.effective());
         for (k, at, middle) in self.pixels(background.width) {

@@ -2,7 +2,7 @@
 
 use super::device::{Gpu, GpuError};
 use super::gpu_types::{Bands, Medium, ScopePixel, with};
-use super::limits::MOST_BANDS;
+use super::limits::MOST_CARD_BANDS;
 use super::solids::Solids;
 use super::stage::{GpuCamera, Stage};
 use crate::math::{Pose, PosedSolid};
@@ -42,8 +42,8 @@ impl Gpu {
 
 fn stage<'a>(gpu: &'a Gpu, shot: &ScopeShot, rows: u32) -> Result<Stage<'a>, GpuError> {
     let count = shot.scope.bands.len();
-    if count > MOST_BANDS {
-        return Err(GpuError::TooManyBands { count, most: MOST_BANDS });
+    if count > MOST_CARD_BANDS {
+        return Err(GpuError::TooManyBands { count, most: MOST_CARD_BANDS });
     }
     let reach = shot.solid.reach();
     let solids = Solids::new(gpu, &[PosedSolid { solid: shot.solid, pose: Pose::STILL }])?;
@@ -64,7 +64,7 @@ fn stage<'a>(gpu: &'a Gpu, shot: &ScopeShot, rows: u32) -> Result<Stage<'a>, Gpu
 }
 
 fn bands(shot: &ScopeShot) -> Bands {
-    let mut borders = [2.0_f32; MOST_BANDS];
+    let mut borders = [2.0_f32; MOST_CARD_BANDS];
     for (border, band) in borders.iter_mut().zip(&shot.scope.bands[1..]) {
         *border = band.from.to_radians().sin() as f32;
     }

@@ -147,6 +147,9 @@ pub struct ByRays<'a> {
 }
 
 impl<'a> ByRays<'a> {
+    /// The most rows to trace at once: the sums of their passes are held in memory.
+    pub const MOST_ROWS: u32 = 256;
+
     /// Prepares some rows of a picture.
     pub fn new(lit_scene: LitScene<'a>, rows: Range<u32>) -> Self {
         Self {
