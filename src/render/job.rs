@@ -233,6 +233,6 @@ impl MapProduct {
     pub(super) fn surveyed<T>(&self, passes: u32, work: impl FnOnce(&Survey) -> T) -> T {
         let bands = |count| strata(count, &self.surroundings.lighting.light.spectrum, self.adapted);
         let (bands, shades) = (bands(self.bands), bands(self.shades));
-        work(&Survey { bands: &bands, places: self.places, shades: &shades, looks: passes })
+        work(&Survey { bands: &bands, places: self.places, shades: &shades, passes })
     }
 }

@@ -16,9 +16,6 @@ use crate::trace::sampling::{LitScene, ProgressiveImage, Sampling};
 use crate::trace::sampling::{RadiancePixel, SamplePass};
 use std::ops::Range;
 
-/// How many rows point rays trace at once: the sums of their passes are held in memory.
-const ROWS_OF_RAYS: u32 = 256;
-
 /// A picture under light that is being traced.
 struct Exposure<'a> {
     job: &'a Job,
@@ -64,7 +61,7 @@ impl Exposure<'_> {
             }
             Backend::Rays => {
                 let prepare = |rows| Ok(ByRays::new(*lit_scene, rows));
-                expose(lit_scene, sampled, ROWS_OF_RAYS, prepare, self.watch)
+                expose(lit_scene, sampled, ByRays::MOST_ROWS, prepare, self.watch)
             }
             #[cfg(feature = "gpu")]
             Backend::Card(gpu) => {

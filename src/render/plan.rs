@@ -8,11 +8,11 @@ use crate::scene::{Projection, View};
 use crate::trace::ray::Camera;
 use serde::{Deserialize, Serialize};
 
-/// The tracer that a person or a program wants. The program's help says what is said here.
+/// The tracer that a person or a program wants. clap prints these comments as the option's help.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Wanted {
-    /// The quickest: exact beams, or for renders a graphics card where there is one; rays where beams do not apply.
+    /// The quickest: exact beams; a graphics card for renders and where beams do not apply; else rays.
     #[default]
     #[cfg_attr(feature = "cli", value(name = "auto"))]
     Quickest,

@@ -19,7 +19,7 @@ use std::sync::Arc;
 pub struct Renderer {
     card: Card,
     pub(super) beams: BeamCache,
-    /// Whether it was said that no card is used.
+    /// Whether the caller was notified that no card is used.
     is_noted: bool,
 }
 

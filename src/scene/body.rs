@@ -23,7 +23,7 @@ impl Body {
     pub fn solid(&self) -> SolidRef<'_> {
         match self {
             Self::Stone(stone) => SolidRef::Convex(&stone.polytope),
-            Self::Mesh(shell) => SolidRef::Triangles(shell),
+            Self::Mesh(mesh) => SolidRef::Triangles(mesh),
             Self::Glass(smooth) => SolidRef::Smooth(smooth),
         }
     }
@@ -72,8 +72,8 @@ impl From<Polytope> for Body {
 }
 
 impl From<Arc<TriangleMesh>> for Body {
-    fn from(shell: Arc<TriangleMesh>) -> Self {
-        Self::Mesh(shell)
+    fn from(mesh: Arc<TriangleMesh>) -> Self {
+        Self::Mesh(mesh)
     }
 }
 

@@ -21,7 +21,7 @@ pub use crate::math::Pose;
 pub use body::Body;
 pub use copies::{Copies, MOST_COPIES, middle};
 pub use film::Film;
-pub use instance::{Instance, Scene};
+pub use instance::{Instance, MOST_STONES, Scene};
 pub use layout::Layout;
 pub use light::{Dome, Lamp, LampField, Light, LightError, MOST_LAMPS, PanoramaRef, SoftBox, toward};
 pub use lights::{LIGHTS, light};

@@ -58,7 +58,7 @@ impl Document {
         let specimen = Arc::new(Specimen::new(design.clone())?);
         let work = Work {
             design: design.clone(),
-            company: Copies::default(),
+            copies: Copies::default(),
             light: FIRST_LIGHT.to_owned(),
             exposure: 0.0,
             head: 0.0,
@@ -151,18 +151,18 @@ impl Document {
 
     /// Takes over the copies of another document, and whether they count as kept.
     pub fn take_copies(&mut self, other: &Self) {
-        self.work.company.clone_from(&other.work.company);
+        self.work.copies.clone_from(&other.work.copies);
         self.laid.clone_from(&other.laid);
     }
 
     /// Marks the present places of the copies as saved.
     pub fn keep_copies(&mut self) {
-        self.laid.clone_from(&self.work.company);
+        self.laid.clone_from(&self.work.copies);
     }
 
     /// Whether copies have been moved since they were read or last saved.
     pub fn has_moved_copies(&self) -> bool {
-        self.laid != self.work.company
+        self.laid != self.work.copies
     }
 
     /// Builds the stone after a change, or notes why there is none.

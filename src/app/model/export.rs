@@ -5,7 +5,7 @@ use crate::app::shows::Shows;
 use crate::app::studio::Shot;
 use crate::io::Failure;
 use crate::io::export::{Export, OutputFormat, Outputs, Viewing};
-use crate::io::refraction::{self, Coding, MOST_BANDS, MOST_PIXELS};
+use crate::io::refraction::{self, Coding, MOST_MAP_BANDS, MOST_MAP_PIXELS};
 use crate::optics::line;
 use crate::picture::named;
 use crate::render::{Renderer, Wanted};
@@ -178,14 +178,14 @@ impl ExportPlan {
     /// # Errors
     /// The text says what keeps them from being written.
     pub fn files(&self) -> Result<Vec<PathBuf>, Failure> {
-        if self.selection.map && self.selection.size > MOST_PIXELS {
+        if self.selection.map && self.selection.size > MOST_MAP_PIXELS {
             return Err(Failure::Usage(format!(
-                "A refraction map can be at most {MOST_PIXELS} pixels wide and high; choose a smaller size."
+                "A refraction map can be at most {MOST_MAP_PIXELS} pixels wide and high; choose a smaller size."
             )));
         }
-        if self.selection.map && self.selection.bands * self.selection.places > MOST_BANDS {
+        if self.selection.map && self.selection.bands * self.selection.places > MOST_MAP_BANDS {
             let problem = format!(
-                "The number of bands times the number of places can be at most {MOST_BANDS}; \
+                "The number of bands times the number of places can be at most {MOST_MAP_BANDS}; \
                 choose fewer."
             );
             return Err(Failure::Usage(problem));
@@ -206,13 +206,13 @@ impl ExportPlan {
         let view = View { side: shows.side().unwrap_or(seen.side), ..seen };
         let shot = Shot { shows, view, ..self.shot.clone() };
         let size = [size; 2];
-        if shows.has_company() && self.shot.company.as_slice() != [Pose::STILL] {
+        if shows.has_copies() && self.shot.copies.as_slice() != [Pose::STILL] {
             let fit = FramingFit::reaching(self.reach);
             return Shot { film: fit.film(size), whole: fit.whole(size), ..shot };
         }
         let specimen = Arc::clone(&self.upright);
         let fit = Framing::new(&specimen).fit(&shot.view);
         let (film, whole) = (fit.film(size), fit.whole(size));
-        Shot { film, whole, specimen, company: vec![Pose::STILL], ..shot }
+        Shot { film, whole, specimen, copies: vec![Pose::STILL], ..shot }
     }
 }

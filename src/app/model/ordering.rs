@@ -67,8 +67,8 @@ impl Orders<'_> {
         if shows == Shows::Diagram && specimen.stone().is_err() {
             return None;
         }
-        let (specimen, company) = match shows.has_company() {
-            true => self.model.company(which, self.waves)?,
+        let (specimen, copies) = match shows.has_copies() {
+            true => self.model.copies(which, self.waves)?,
             false => (specimen, vec![Pose::STILL]),
         };
         Some(Shot {
@@ -80,7 +80,7 @@ impl Orders<'_> {
             smoothing: workspace.smoothing,
             overlay: workspace.overlay().filter(|_| shows.takes_overlay()),
             paper: self.paper,
-            company,
+            copies,
             ..self.plain(shows, view, specimen)
         })
     }
@@ -88,10 +88,10 @@ impl Orders<'_> {
     /// Returns what a render shows in a view.
     pub fn render(&mut self, view: View) -> Shot {
         let alone = (Arc::clone(self.model.document.specimen()), vec![Pose::STILL]);
-        let (specimen, company) = self.model.company(Which::Present, self.waves).unwrap_or(alone);
+        let (specimen, copies) = self.model.copies(Which::Present, self.waves).unwrap_or(alone);
         let fit = self.model.fit(Shows::Render, &view);
         let plain = self.plain(Shows::Render, view, specimen);
-        Shot { film: fit.film([1, 1]), whole: fit.whole([1, 1]), company, ..plain }
+        Shot { film: fit.film([1, 1]), whole: fit.whole([1, 1]), copies, ..plain }
     }
 
     /// Returns a shot of one stone at rest, with the light and the backplate of the model.
@@ -114,7 +114,7 @@ impl Orders<'_> {
             behind: workspace.background(),
             distance: workspace.behind_mm.map_or(BEHIND, |mm| mm / document.specimen().unit_mm()),
             strength: workspace.strength(),
-            company: vec![Pose::STILL],
+            copies: vec![Pose::STILL],
             smoothing: Smoothing::None,
             head: document.work.head,
             overlay: None,

@@ -25,7 +25,7 @@ pub fn export_plan(model: &Model) -> ExportPlan {
     };
     // Renders are as large as in their view, or smaller, so that no copy is left out.
     let turned = Pose::turned(shot.view.turn);
-    let poses = shot.company.iter().map(|pose| turned.after(pose)).collect();
+    let poses = shot.copies.iter().map(|pose| turned.after(pose)).collect();
     let copies = Copies::at(poses, shot.specimen.solid().vertices());
     let reach = model.reach(Shows::Render).max(copies.reach(0.0));
     let selection = session.selection.clone();

@@ -49,7 +49,7 @@ pub fn coarser(film: &Film, factor: f64) -> Film {
 /// Returns the distance of the backplate behind the middle, in girdle radii: that of the shot, but behind all bodies however
 /// they are turned.
 pub fn hung(shot: &Shot) -> f64 {
-    let farthest = shot.company.iter().map(|pose| pose.at.length()).fold(0.0, f64::max);
+    let farthest = shot.copies.iter().map(|pose| pose.at.length()).fold(0.0, f64::max);
     shot.distance.max(farthest + shot.specimen.radius)
 }
 
@@ -65,7 +65,7 @@ impl Shot {
     fn scene(&self) -> Arc<Scene> {
         let placed =
             |pose: &Pose| Instance::of(&self.specimen.body, self.specimen.material.clone(), "").moved(pose);
-        let instances = self.company.iter().map(placed).collect();
+        let instances = self.copies.iter().map(placed).collect();
         Arc::new(Scene { instances, unit_mm: self.specimen.unit_mm() })
     }
 

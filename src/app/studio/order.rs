@@ -68,7 +68,7 @@ pub struct Shot {
     /// How much of the way refraction is followed: 1 is physics.
     pub strength: f64,
     /// The poses of the copies of the stone in a render, at least one. Other pictures show a single stone.
-    pub company: Vec<Pose>,
+    pub copies: Vec<Pose>,
     /// How a render's edges are smoothed.
     pub smoothing: Smoothing,
     /// The half angle of the observer's head in scopes, in degrees; 0 for no head.
@@ -125,10 +125,10 @@ impl Shot {
         let numbers = [self.distance, self.whole.pixel, self.strength];
         if self.shows == Shows::Refraction {
             let numbers = [numbers[0], numbers[1], 1.0];
-            return (self.exposure, 0, false, None, numbers, &self.company, Smoothing::None);
+            return (self.exposure, 0, false, None, numbers, &self.copies, Smoothing::None);
         }
         let Self { exposure, bands, jitter, smoothing, .. } = *self;
-        (exposure, bands, jitter, self.behind.as_ref(), numbers, &self.company, smoothing)
+        (exposure, bands, jitter, self.behind.as_ref(), numbers, &self.copies, smoothing)
     }
 }
 

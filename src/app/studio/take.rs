@@ -171,7 +171,7 @@ mod tests {
             jitter: true,
             behind: None,
             strength: 1.0,
-            company: vec![Pose::STILL],
+            copies: vec![Pose::STILL],
             distance: BEHIND,
             smoothing: Smoothing::None,
             exposure: 0.0,

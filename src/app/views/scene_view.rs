@@ -37,7 +37,7 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect, size: [u32; 2]) {
         cx.actions.push_changed(&eye, moved, |eye| ViewAction::Eye(cx.pane, eye));
     }
     attend(cx, &response, response.hovered() || response.has_focus());
-    let is_alone = !shows.has_company() || model.is_alone();
+    let is_alone = !shows.has_copies() || model.is_alone();
     clicked(cx, ui, is_alone, &response, &sight);
     match is_alone {
         true => hover(cx, ui, &response, &sight),

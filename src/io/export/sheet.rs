@@ -132,7 +132,7 @@ impl SheetFile {
     ) -> Result<Self, Failure> {
         let path =
             outputs.path(&sheet.suffix, &format!("{}{}", sheet.name, kind(reading)), OutputFormat::Png);
-        let [how, told] = match open {
+        let [how, in_caption] = match open {
             Some(open) => [how(reading, open), in_percent(reading, open)],
             None => {
                 let least_weight = job.quality.rays.least_weight;
@@ -142,7 +142,7 @@ impl SheetFile {
         };
         let [width, height] = job.film.size;
         let (below, caption) = match outputs.caption {
-            true => pixels(&sheet.caption(reading, &told), width)?,
+            true => pixels(&sheet.caption(reading, &in_caption), width)?,
             false => (0, vec![]),
         };
         let description = sheet.description(&remark(reading, sheet.glare), &how);

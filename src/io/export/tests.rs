@@ -60,8 +60,8 @@ fn written(export: &Export) -> (Vec<PathBuf>, Vec<String>, Vec<f64>) {
         parts.lock().unwrap().push(part);
         ControlFlow::Continue(())
     };
-    let tell = |told: Event| {
-        match told {
+    let tell = |event: Event| {
+        match event {
             Event::Written(path) => files.lock().unwrap().push(path.to_owned()),
             Event::Begun(text) | Event::Note(text) | Event::Warning(text) => {
                 texts.lock().unwrap().push(text.to_owned());
@@ -94,8 +94,8 @@ fn the_files_are_those_that_are_written_and_told_in_their_order() {
         let export = Export { viewing, outputs: &outputs };
         let files = export.files(&Renderer::default()).unwrap();
         assert_eq!((files.len(), found(&outputs.folder).len()), (count, 0));
-        let (told, _, parts) = written(&export);
-        assert_eq!(told, files);
+        let (reported, _, parts) = written(&export);
+        assert_eq!(reported, files);
         let mut sorted = files;
         sorted.sort();
         assert_eq!(found(&outputs.folder).into_keys().collect::<Vec<_>>(), sorted);
@@ -179,7 +179,7 @@ fn who_is_told_may_end_the_work() {
     let specimen = specimen();
     let folder = tempfile::tempdir().unwrap();
     let outputs = outputs(folder.path(), &["profile", "diagram"], &[OutputFormat::Svg]);
-    let tell = |told: Event| match told {
+    let tell = |event: Event| match event {
         Event::Written(path) => Err(Failure::Output(path.display().to_string())),
         _ => Ok(()),
     };

@@ -7,7 +7,7 @@
 
 mod ply;
 
-use super::file::{MaterialHint, Statement, rounded};
+use super::file::{MaterialHint, STL_HEADER, Statement, rounded};
 use crate::cut::MaterialRef;
 use crate::math::{Surface, triangulate};
 use crate::scene::Body;
@@ -27,9 +27,6 @@ const DIGITS: f64 = 15.0;
 
 /// The most decimals of an OBJ's coordinates, which the least f64 above 0 needs.
 const MOST_DECIMALS: f64 = 340.0;
-
-/// The size of a binary STL's header, in bytes.
-const STL_HEADER: usize = 80;
 
 /// The most bytes of a statement in formats that set no other limit.
 const LONGEST: usize = 400;

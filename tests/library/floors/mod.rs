@@ -88,9 +88,9 @@ const ROOMS: [Room; 7] = [
         folder: "io/refraction",
         door: &[
             "Coding",
-            "MOST_BANDS",
+            "MOST_MAP_BANDS",
+            "MOST_MAP_PIXELS",
             "MOST_MEGABYTES",
-            "MOST_PIXELS",
             "MOST_PLACES",
             "Page",
             "code_of",

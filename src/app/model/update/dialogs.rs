@@ -96,8 +96,8 @@ fn keep(model: &mut Model, tasks: &mut Vec<Task>) {
 fn recover(model: &mut Model, tasks: &mut Vec<Task>, found: &RecoveredWork) {
     let document = Document::recovered(found);
     let Some(mut document) = model.session.notes.ok_or_report(document) else { return };
-    let KeptScene { company, behind, behind_mm, strength } = found.around.clone();
-    document.work.company = company;
+    let KeptScene { copies, behind, behind_mm, strength } = found.around.clone();
+    document.work.copies = copies;
     begin(model, tasks, document);
     let workspace = &mut model.workspace;
     workspace.behind = behind.or(workspace.behind.take());

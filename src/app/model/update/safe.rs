@@ -21,7 +21,7 @@ pub fn note(model: &mut Model, tasks: &mut Vec<Task>) {
     }
     session.safe.is_kept = true;
     let around = KeptScene {
-        company: document.work.company.clone(),
+        copies: document.work.copies.clone(),
         behind: workspace.behind.clone(),
         behind_mm: workspace.behind_mm,
         strength: Some(workspace.strength),
