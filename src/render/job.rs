@@ -221,6 +221,14 @@ impl Job {
     }
 }
 
+/// Returns the note of a picture that follows refraction only by a part, which is not physics; it begins with a semicolon,
+/// and is empty where the strength is 1.
+pub fn mixture_note(strength: f64) -> String {
+    let note =
+        || format!("; strength {strength}: refracted and straight rays are mixed, which is not physics");
+    (strength < 1.0).then(note).unwrap_or_default()
+}
+
 impl LightProduct {
     /// Returns the strata of wavelengths that are traced.
     pub fn strata(&self) -> Vec<Stratum> {

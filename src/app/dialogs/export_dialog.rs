@@ -114,7 +114,7 @@ fn settings(ui: &mut Ui, export: &ExportForm, selection: &mut Selection, actions
                 (OutputFormat::Png, "PNG", "Pictures. Each scope gives two: its energy and its strongest exits."),
                 (OutputFormat::Svg, "SVG", "Drawings, and scopes with each virtual facet as a polygon."),
                 (OutputFormat::Exr, "EXR", "The energy of every zone as linear 32-bit numbers."),
-                (OutputFormat::Json, "JSON", "The figures of this view."),
+                (OutputFormat::Json, "JSON", "The figures that the panel shows, of the table side."),
             ] {
                 let mut wanted = selection.formats.contains(&format);
                 if ui.checkbox(&mut wanted, name).on_hover_text(meaning).changed() {

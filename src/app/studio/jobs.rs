@@ -6,13 +6,12 @@ use crate::app::lookup::backdrop;
 use crate::io::background::BackgroundRef;
 use crate::measure::Bounds;
 use crate::optics::line;
-use crate::picture::Backdrop;
-use crate::picture::filling;
+use crate::picture::{Backdrop, Scoped, filling};
 use crate::render::{
     FiguresProduct, HungPicture, Job, LightProduct, MapProduct, PaneProduct, Product, Quality, Reading,
     ScopeProduct, Steps, Surroundings, Wanted,
 };
-use crate::scene::{ASET_CONE, Backing, Film, Instance, Panorama, Pose, Scene, Scope, View};
+use crate::scene::{Film, Instance, Panorama, Pose, Scene, Scope, View};
 use crate::trace::beam::BeamOptions;
 use glam::DVec2;
 use std::sync::Arc;
@@ -167,7 +166,7 @@ impl FiguresOrder {
     }
 
     fn job_in(&self, view: View, quality: Quality) -> Job {
-        let scope = Scope::aset(ASET_CONE, Backing::Black).with_head(self.head);
+        let scope = Scoped::aset().with_head(self.head);
         let medium = self.specimen.medium(line::SODIUM_D);
         let product = Product::Figures(FiguresProduct { scope, medium });
         Job { scene: Arc::new(Scene::alone(&self.specimen)), view, film: Film::NONE, product, quality }

@@ -107,12 +107,15 @@ impl PartialEq for Shot {
         }
         let by_light = matches!(self.shows, Shows::Render | Shows::Refraction);
         let seen = self.shows != Shows::Diagram;
-        let has_glare = seen && !by_light && !self.strongest;
+        let scoped = self.shows.scoped();
+        let takes_head = scoped.as_ref().is_some_and(|scoped| scoped.takes_head);
+        let has_glare = scoped.is_some() && !self.strongest;
         Arc::ptr_eq(&self.specimen, &other.specimen)
-            && (self.shows, self.strongest, self.overlay, self.film.size)
-                == (other.shows, other.strongest, other.overlay, other.film.size)
+            && (self.shows, self.overlay, self.film.size) == (other.shows, other.overlay, other.film.size)
             && (seen || self.paper == other.paper)
-            && (!seen || (self.view, self.film, self.head) == (other.view, other.film, other.head))
+            && (!seen || (self.view, self.film) == (other.view, other.film))
+            && (scoped.is_none() || self.strongest == other.strongest)
+            && (!takes_head || self.head == other.head)
             && (!has_glare || self.glare == other.glare)
             && (seen || self.title == other.title)
             && (!by_light || (Arc::ptr_eq(&self.light, &other.light) && self.manner() == other.manner()))

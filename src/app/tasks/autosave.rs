@@ -12,6 +12,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fs::File;
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -148,7 +149,7 @@ fn stand_in() -> (String, Plane) {
 fn orphan(path: PathBuf) -> Option<RecoveredWork> {
     let file = File::open(&path).ok()?;
     file.try_lock().ok()?;
-    let mut kept: Kept = serde_json::from_reader(&file).ok()?;
+    let mut kept: Kept = serde_json::from_reader(BufReader::new(&file)).ok()?;
     if !(1..=MOST_COPIES).contains(&kept.around.copies.poses.len()) {
         kept.around.copies = Copies::default();
     }

@@ -92,11 +92,7 @@ impl Viewing<'_> {
     /// # Errors
     /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact beams do not fit.
     pub fn check(&self, renderer: &Renderer) -> Result<bool, Failure> {
-        self.plans_beams(renderer).map_err(|why| match why {
-            Unfit::Eye => Failure::Input(format!("{}: {why}", self.file)),
-            Unfit::NotConvex(_) => Failure::Usage(format!("{}: {why}", self.file)),
-            _ => Failure::Usage(why.to_string()),
-        })
+        self.plans_beams(renderer).map_err(|why| Failure::of_unfit(&why, self.file))
     }
 
     /// Returns the convex stone, for outputs that only convex stones have.
