@@ -67,8 +67,8 @@ pub struct Awaited {
     pub choosing: Option<Purpose>,
     /// The files that are being opened.
     pub opening: Vec<Opening>,
-    /// Whether the design is being saved.
-    pub saving: bool,
+    /// The number of the document that is being saved.
+    pub saving: Option<u64>,
     /// Whether dropped files are being looked into.
     pub dropped: bool,
     /// The view whose picture is being made for the clipboard, by the name of what it shows.

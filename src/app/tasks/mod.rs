@@ -145,8 +145,9 @@ impl Outside {
     }
 
     fn save(&mut self, request: SaveRequest) {
-        let failed = FileAction::Saved(Err(fault()));
-        self.write(Key::Save, failed, move || Some(FileAction::Saved(open::save(request))));
+        let document = request.document;
+        let failed = FileAction::Saved(document, Err(fault()));
+        self.write(Key::Save, failed, move || Some(FileAction::Saved(document, open::save(request))));
     }
 
     fn choose_file(&mut self, question: Question) {

@@ -34,7 +34,7 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: FileAction) {
                 open_with(model, tasks, FileRequest { purpose: OpeningPurpose::Otherwise, path, mesh });
             }
         }
-        FileAction::Saved(saved) => is_saved(model, tasks, saved),
+        FileAction::Saved(document, saved) => is_saved(model, tasks, document, saved),
         FileAction::OnDisk(path, stamp) => {
             if model.document.path() == Some(&path) {
                 model.session.on_disk = Some(stamp);
@@ -78,7 +78,7 @@ pub fn wanted(model: &mut Model, tasks: &mut Vec<Task>) {
         model.session.watched = model.document.path().map(Path::to_owned);
         tasks.push(Task::Watch(model.session.watched.clone().map(|path| (path, model.document.stamp()))));
     }
-    if model.session.dialog.is_none() && !model.session.awaited.saving {
+    if model.session.dialog.is_none() && model.session.awaited.saving.is_none() {
         let stamp = model.session.on_disk.take().filter(|stamp| *stamp != model.document.stamp());
         if let Some(stamp) = stamp {
             model.document.accept_outside(stamp);
@@ -132,7 +132,7 @@ fn close(model: &mut Model, tasks: &mut Vec<Task>) {
         session.notes.say("Answer the open dialog first, or stop the export.");
     } else if session.may_close {
         return;
-    } else if session.awaited.saving {
+    } else if session.awaited.saving.is_some() {
         session.after_save = Some(Then::Close);
     } else if model.document.is_changed() {
         session.dialog = Some(Dialog::Unsaved(Then::Close));
@@ -284,7 +284,7 @@ pub fn save(model: &mut Model, tasks: &mut Vec<Task>) {
 /// Saves the document, and then does what waited for that.
 pub fn save_then(model: &mut Model, tasks: &mut Vec<Task>, then: Then) {
     save(model, tasks);
-    if model.session.awaited.saving || model.session.awaited.choosing == Some(Purpose::SaveAs) {
+    if model.session.awaited.saving.is_some() || model.session.awaited.choosing == Some(Purpose::SaveAs) {
         model.session.after_save = Some(then);
     }
 }
@@ -299,26 +299,42 @@ fn save_as(model: &mut Model, tasks: &mut Vec<Task>, path: PathBuf) {
         return;
     }
     model.document.update();
-    let request = model.document.to_save(path);
+    let document = model.session.begun;
+    let request = model.document.to_save(document, path);
     let Some(request) = model.session.notes.ok_or_report(request) else {
         model.session.after_save = None;
         return;
     };
-    model.session.awaited.saving = true;
+    model.session.awaited.saving = Some(document);
     tasks.push(Task::Save(Box::new(request)));
 }
 
-fn is_saved(model: &mut Model, tasks: &mut Vec<Task>, saved: Result<SavedDesign, Failure>) {
-    let Model { document, workspace, session } = model;
-    session.awaited.saving = false;
-    let waiting = session.after_save.take();
+/// Reports that a document was saved, and where it is still open, takes note of its file.
+fn is_saved(model: &mut Model, tasks: &mut Vec<Task>, document: u64, saved: Result<SavedDesign, Failure>) {
+    let session = &mut model.session;
+    let is_awaited = session.awaited.saving.take_if(|awaited| *awaited == document).is_some();
+    let waiting = if is_awaited { session.after_save.take() } else { None };
     let Some(saved) = session.notes.ok_or_report(saved) else { return };
-    session.notes.clear();
+    let is_open = document == session.begun;
+    if is_open {
+        session.notes.clear();
+    }
     session.notes.say(&format!("Saved {}", saved.path.display()));
     if !saved.lost.is_empty() {
         let (name, lost) = (saved.path.display(), saved.lost.join("; "));
         session.notes.warn(format!("{name}: {lost}. Save it as .toml to keep everything."));
     }
+    if is_open {
+        take_saved(model, tasks, saved);
+    }
+    if let Some(next) = waiting {
+        ask_before(model, tasks, next);
+    }
+}
+
+/// Takes note that the present document is saved in a file.
+fn take_saved(model: &mut Model, tasks: &mut Vec<Task>, saved: SavedDesign) {
+    let Model { document, workspace, session } = model;
     workspace.remember(&saved.path);
     document.take_saved(saved);
     session.on_disk = None;
@@ -327,9 +343,6 @@ fn is_saved(model: &mut Model, tasks: &mut Vec<Task>, saved: Result<SavedDesign,
     }
     if !document.is_changed() {
         safe::empty(model, tasks);
-    }
-    if let Some(next) = waiting {
-        ask_before(model, tasks, next);
     }
 }
 

@@ -1,5 +1,7 @@
 //! Tests of the editor without a window: what its state becomes by actions, and which tasks come of them.
 
+mod late;
+
 use super::update;
 use crate::app::model::action::{Computed, DialogAction, Edit, FileAction, FrameEnd, ViewAction};
 use crate::app::model::choosing::{Choice, Purpose};
@@ -65,11 +67,9 @@ impl Bench {
 
     /// Saves the design that a task is to save.
     fn save(&mut self, tasks: Vec<Task>) -> Vec<Task> {
-        let saved = tasks.into_iter().find_map(|task| match task {
-            Task::Save(request) => Some(open::save(*request)),
-            _ => None,
-        });
-        self.act(FileAction::Saved(saved.unwrap()))
+        let save = |task| if let Task::Save(request) = task { Some(request) } else { None };
+        let request = tasks.into_iter().find_map(save).unwrap();
+        self.act(FileAction::Saved(request.document, open::save(*request)))
     }
 
     fn diameter(&self) -> f64 {
@@ -163,10 +163,10 @@ fn a_design_without_a_file_is_saved_where_the_user_says_and_what_waited_for_it_f
     assert_eq!((question.purpose, question.name.as_str()), (Purpose::SaveAs, "tolkowsky-1919.toml"));
     let path = folder.path().join("mine.toml");
     let tasks = bench.act(FileAction::Chosen(question, Choice::File(path.clone())));
-    assert!(bench.model.session.awaited.saving);
+    assert!(bench.model.session.awaited.saving.is_some());
     bench.save(tasks);
     assert_eq!(bench.model.document.work.design.name, "Modern ideal");
-    assert!(!bench.model.session.awaited.saving);
+    assert!(bench.model.session.awaited.saving.is_none());
     assert_eq!(cut_file::read(&path).unwrap().diameter_mm, 7.0);
 }
 
@@ -281,10 +281,11 @@ fn what_the_program_saves_itself_is_no_change_by_others() {
     bench.act(Edit::Name("longer than before".to_owned()));
     let tasks = bench.act(Command::Save);
     let Some(Task::Save(request)) = tasks.into_iter().next() else { panic!() };
-    let saved = open::save(*request);
+    let (document, saved) = (request.document, open::save(*request));
     // The file is seen before the answer comes.
     bench.act(FileAction::OnDisk(path.clone(), Stamp::of(&path)));
-    assert!(bench.act(FileAction::Saved(saved)).iter().all(|task| !matches!(task, Task::Read(_))));
+    let tasks = bench.act(FileAction::Saved(document, saved));
+    assert!(tasks.iter().all(|task| !matches!(task, Task::Read(_))));
     assert!(bench.act(FileAction::OnDisk(path.clone(), Stamp::of(&path))).is_empty());
     assert!(bench.dialog().is_none() && bench.model.session.notes.troubles().is_empty());
 }
@@ -330,7 +331,7 @@ fn an_answer_for_a_design_that_is_gone_is_not_saved_over_the_next() {
     let Some(Task::ChooseFile(question)) = tasks.into_iter().next() else { panic!() };
     bench.act(FileAction::Ask(Then::Library("modern-ideal".to_owned())));
     let tasks = bench.act(FileAction::Chosen(question, Choice::File("late.toml".into())));
-    assert!(tasks.is_empty() && !bench.model.session.awaited.saving);
+    assert!(tasks.is_empty() && bench.model.session.awaited.saving.is_none());
     assert!(bench.model.session.notes.troubles()[0].text.starts_with("The design was not saved"));
 }
 

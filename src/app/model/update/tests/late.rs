@@ -1,0 +1,50 @@
+//! Tests of answers that come late: for another document than the one that is open by then, or under an open dialog.
+
+use super::*;
+
+/// Asks for a file to save to, and answers with `path`.
+fn save_as(bench: &mut Bench, path: &Path) -> Vec<Task> {
+    let tasks = bench.act(Command::SaveAs);
+    let Some(Task::ChooseFile(question)) = tasks.into_iter().next() else { panic!() };
+    bench.act(FileAction::Chosen(question, Choice::File(path.to_owned())))
+}
+
+/// Begins a design from a cut that comes with the program.
+fn begin_another(bench: &mut Bench) -> Vec<Task> {
+    bench.act(FileAction::Ask(Then::Library("modern-ideal".to_owned())))
+}
+
+#[test]
+fn a_design_that_is_saved_late_gives_the_next_one_no_file_and_what_waits_for_that_one_goes_on_waiting() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bench = Bench::new();
+    let late = save_as(&mut bench, &folder.path().join("first.toml"));
+    begin_another(&mut bench);
+    bench.act(Edit::Diameter(7.0));
+    let second = folder.path().join("second.toml");
+    let tasks = save_as(&mut bench, &second);
+    bench.act(FileAction::Close);
+    let after = bench.save(late);
+    assert!(!has(&after, |task| matches!(task, Task::Window(_))), "the design that is open is not saved yet");
+    let document = &bench.model.document;
+    assert!(
+        document.path().is_none() && document.is_changed() && document.work.design.name == "Modern ideal"
+    );
+    assert!(folder.path().join("first.toml").exists());
+    let after = bench.save(tasks);
+    assert!(bench.model.document.path() == Some(&second) && bench.model.session.awaited.saving.is_none());
+    assert!(has(&after, |task| matches!(task, Task::Window(WindowTask::Close))));
+}
+
+#[test]
+fn the_window_that_is_to_close_waits_for_a_design_that_is_no_longer_open_to_be_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bench = Bench::new();
+    let late = save_as(&mut bench, &folder.path().join("first.toml"));
+    begin_another(&mut bench);
+    let stays = |task: &Task| matches!(task, Task::Window(WindowTask::StayOpen));
+    assert!(has(&bench.act(FileAction::Close), stays));
+    let after = bench.save(late);
+    assert!(has(&after, |task| matches!(task, Task::Window(WindowTask::Close))));
+    assert!(bench.model.document.path().is_none());
+}
