@@ -190,6 +190,7 @@ fn answered(model: &mut Model, tasks: &mut Vec<Task>, question: Question, choice
 pub fn chosen(model: &mut Model, tasks: &mut Vec<Task>, purpose: Purpose, document: u64, path: PathBuf) {
     match purpose {
         Purpose::SaveAs if document != model.session.begun => {
+            model.session.after_save = None;
             model
                 .session
                 .notes

@@ -1,12 +1,18 @@
 //! Tests of answers that come late: for another document than the one that is open by then, or under an open dialog.
 
 use super::*;
+use crate::app::model::choosing::Question;
 
 /// Asks for a file to save to, and answers with `path`.
 fn save_as(bench: &mut Bench, path: &Path) -> Vec<Task> {
-    let tasks = bench.act(Command::SaveAs);
-    let Some(Task::ChooseFile(question)) = tasks.into_iter().next() else { panic!() };
+    let question = question(bench.act(Command::SaveAs));
     bench.act(FileAction::Chosen(question, Choice::File(path.to_owned())))
+}
+
+/// Returns the question of the file dialog that a task opens.
+fn question(tasks: Vec<Task>) -> Question {
+    let asked = |task| if let Task::ChooseFile(question) = task { Some(question) } else { None };
+    tasks.into_iter().find_map(asked).unwrap()
 }
 
 /// Begins a design from a cut that comes with the program.
@@ -47,4 +53,24 @@ fn the_window_that_is_to_close_waits_for_a_design_that_is_no_longer_open_to_be_s
     let after = bench.save(late);
     assert!(has(&after, |task| matches!(task, Task::Window(WindowTask::Close))));
     assert!(bench.model.document.path().is_none());
+}
+
+#[test]
+fn what_waited_for_a_document_to_be_saved_is_not_done_once_another_is_open() {
+    let mut bench = Bench::new();
+    let close_and_save = |bench: &mut Bench| {
+        bench.act(Edit::Diameter(7.0));
+        bench.act(Command::Quit);
+        let tasks = bench.act(DialogAction::Keep);
+        assert_eq!(bench.model.session.after_save, Some(Then::Close));
+        tasks
+    };
+    let late = question(close_and_save(&mut bench));
+    begin_another(&mut bench);
+    bench.act(DialogAction::GiveUp);
+    assert_eq!((bench.model.session.begun, &bench.model.session.after_save), (1, &None));
+    // The dialog that asks for the file of the first design is still open, and no second one opens.
+    assert!(close_and_save(&mut bench).is_empty());
+    bench.act(FileAction::Chosen(late, Choice::File("late.toml".into())));
+    assert_eq!(bench.model.session.after_save, None);
 }
