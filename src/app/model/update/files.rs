@@ -78,7 +78,10 @@ pub fn wanted(model: &mut Model, tasks: &mut Vec<Task>) {
         model.session.watched = model.document.path().map(Path::to_owned);
         tasks.push(Task::Watch(model.session.watched.clone().map(|path| (path, model.document.stamp()))));
     }
-    if model.session.dialog.is_none() && model.session.awaited.saving.is_none() {
+    let awaited = &model.session.awaited;
+    // Reading the open file again would drop the other file that is being opened in its place.
+    let is_replaced = awaited.opening.iter().any(|opening| opening.request.purpose == OpeningPurpose::Anew);
+    if model.session.dialog.is_none() && awaited.saving.is_none() && !is_replaced {
         let stamp = model.session.on_disk.take().filter(|stamp| *stamp != model.document.stamp());
         if let Some(stamp) = stamp {
             model.document.accept_outside(stamp);

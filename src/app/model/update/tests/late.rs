@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::app::model::choosing::Question;
+use crate::cut::Design;
 
 /// Asks for a file to save to, and answers with `path`.
 fn save_as(bench: &mut Bench, path: &Path) -> Vec<Task> {
@@ -73,4 +74,40 @@ fn what_waited_for_a_document_to_be_saved_is_not_done_once_another_is_open() {
     assert!(close_and_save(&mut bench).is_empty());
     bench.act(FileAction::Chosen(late, Choice::File("late.toml".into())));
     assert_eq!(bench.model.session.after_save, None);
+}
+
+/// Writes a cut that comes with the program to a file.
+fn other_file(folder: &Path) -> PathBuf {
+    let path = folder.join("other.toml");
+    std::fs::write(&path, cut_file::write(&Document::of_library("modern-ideal").unwrap().work.design))
+        .unwrap();
+    path
+}
+
+/// Changes the open file as another program would, and reports it.
+fn change_outside(bench: &mut Bench, path: &Path) -> Vec<Task> {
+    let design = Design { name: "changed by others".to_owned(), ..bench.model.document.saved().clone() };
+    std::fs::write(path, cut_file::write(&design)).unwrap();
+    bench.act(FileAction::OnDisk(path.to_owned(), Stamp::of(path)))
+}
+
+#[test]
+fn a_change_of_the_open_file_by_others_does_not_drop_the_file_that_is_being_opened() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut bench, path) = Bench::with_file(folder.path());
+    let opening = bench.act(FileAction::Ask(Then::open(other_file(folder.path()))));
+    assert!(change_outside(&mut bench, &path).is_empty());
+    bench.read(opening);
+    assert_eq!(bench.model.document.work.design.name, "Modern ideal");
+}
+
+#[test]
+fn a_change_by_others_is_read_once_another_file_cannot_be_opened() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut bench, path) = Bench::with_file(folder.path());
+    let opening = bench.act(FileAction::Ask(Then::open(folder.path().join("nowhere.toml"))));
+    change_outside(&mut bench, &path);
+    let tasks = bench.read(opening);
+    bench.read(tasks);
+    assert_eq!(bench.model.document.work.design.name, "changed by others");
 }
