@@ -23,8 +23,9 @@ impl Orders<'_> {
     /// Returns the order of all that is in sight.
     pub fn all(&mut self, seen: &[Seen]) -> Order {
         let mut order = Order::default();
-        // What is in sight is about to go: the file that is being opened needs the processor more.
-        if self.model.session.awaited.opening.iter().any(|opening| !opening.request.is_beside()) {
+        // What is in sight is about to go: the file that is being read needs the processor more.
+        let mut opening = self.model.session.awaited.opening.iter();
+        if opening.any(|opening| !opening.request.is_beside() && opening.read.is_none()) {
             return order;
         }
         let is_compared = self.model.session.compared.is_some();

@@ -9,6 +9,7 @@ use crate::app::model::compare::Compared;
 use crate::app::model::dialog::{Dialog, PathForm, Then};
 use crate::app::model::opening::{FileRequest, OpenedFile, Opening, OpeningPurpose};
 use crate::app::model::saving::SavedDesign;
+use crate::app::model::session::Session;
 use crate::app::model::task::{Task, WindowTask};
 use crate::app::model::work::Work;
 use crate::io::Failure;
@@ -28,7 +29,7 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: FileAction) {
         FileAction::Chosen(question, choice) => answered(model, tasks, question, choice),
         FileAction::Open(path, purpose) => open(model, tasks, path, purpose),
         FileAction::OpenWith(request) => open_with(model, tasks, request),
-        FileAction::Opened(request, read) => opened(model, tasks, request, read),
+        FileAction::Opened(request, read) => is_read(model, &request, read),
         FileAction::ReadMesh(mesh) => {
             if let Some(path) = model.document.work.mesh.as_ref().map(|mesh| mesh.path.clone()) {
                 open_with(model, tasks, FileRequest { purpose: OpeningPurpose::Otherwise, path, mesh });
@@ -65,9 +66,10 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: FileAction) {
     }
 }
 
-/// Adds the tasks that the present state needs: to load another light, to watch another file, or to read the open file
+/// Opens a file that has been read, and adds the tasks that the present state needs: to load another light, to watch another file, or to read the open file
 /// again because another program has changed it.
 pub fn wanted(model: &mut Model, tasks: &mut Vec<Task>) {
+    open_read(model, tasks);
     let light = &mut model.session.light;
     let name = &model.document.work.light;
     if light.name != *name && light.loading.as_ref() != Some(name) {
@@ -233,17 +235,32 @@ fn open(model: &mut Model, tasks: &mut Vec<Task>, path: PathBuf, purpose: Openin
 fn open_with(model: &mut Model, tasks: &mut Vec<Task>, request: FileRequest) {
     let opening = &mut model.session.awaited.opening;
     opening.retain(|other| other.request.is_beside() != request.is_beside());
-    opening.push(Opening { request: request.clone(), work: model.document.work.clone() });
+    opening.push(Opening { request: request.clone(), work: model.document.work.clone(), read: None });
     tasks.push(Task::Read(request));
 }
 
-fn opened(model: &mut Model, tasks: &mut Vec<Task>, request: FileRequest, read: Result<OpenedFile, Failure>) {
-    let all = &mut model.session.awaited.opening;
-    let Some(place) = all.iter().position(|opening| opening.request == request) else { return };
-    let opening = all.remove(place);
-    let Some(file) = model.session.notes.ok_or_report(read) else { return };
+/// Takes the content of a file that was to be opened, or reports why there is none.
+fn is_read(model: &mut Model, request: &FileRequest, read: Result<OpenedFile, Failure>) {
+    let Session { awaited, notes, .. } = &mut model.session;
+    let Some(place) = awaited.opening.iter().position(|opening| opening.request == *request) else { return };
+    match notes.ok_or_report(read) {
+        Some(file) => awaited.opening[place].read = Some(file),
+        None => drop(awaited.opening.remove(place)),
+    }
+}
+
+/// Opens a file that has been read, unless it is to replace a document that a dialog is about, or that is being saved before
+/// something else is done.
+fn open_read(model: &mut Model, tasks: &mut Vec<Task>) {
+    let session = &mut model.session;
+    let must_stay =
+        session.after_save.is_some() || session.dialog.as_ref().is_some_and(Dialog::is_about_document);
+    let all = &mut session.awaited.opening;
+    let may_open = |opening: &Opening| opening.read.is_some() && (opening.request.is_beside() || !must_stay);
+    let Some(place) = all.iter().position(may_open) else { return };
+    let Opening { request, work, read: Some(file) } = all.remove(place) else { return };
     // The user has not given up what was changed while the file was being read.
-    let is_later = model.document.work != opening.work;
+    let is_later = model.document.work != work;
     match (request.purpose, file) {
         (OpeningPurpose::Anew, _) if is_later => {
             ask_before(model, tasks, Then::Open(request.path, request.mesh));

@@ -111,3 +111,52 @@ fn a_change_by_others_is_read_once_another_file_cannot_be_opened() {
     bench.read(tasks);
     assert_eq!(bench.model.document.work.design.name, "changed by others");
 }
+
+#[test]
+fn a_file_that_is_read_under_a_dialog_about_the_document_waits_until_that_is_answered() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut bench, path) = Bench::with_file(folder.path());
+    let other = other_file(folder.path());
+    let opening = bench.act(FileAction::Ask(Then::open(other.clone())));
+    bench.act(Command::Export);
+    bench.read(opening);
+    assert_eq!(bench.model.document.path(), Some(path.as_path()));
+    bench.act(DialogAction::Write);
+    bench.act(DialogAction::Exported(ExportEvent::Ended(Ok(()))));
+    assert!(matches!(bench.dialog(), Some(Dialog::Export(_))));
+    assert_eq!(bench.model.document.path(), Some(path.as_path()));
+    bench.act(DialogAction::Leave);
+    assert_eq!(bench.model.document.path(), Some(other.as_path()));
+    assert!(bench.model.session.awaited.opening.is_empty());
+}
+
+#[test]
+fn an_error_of_a_file_and_a_file_under_a_dialog_about_the_program_do_not_wait() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bench = Bench::new();
+    let opening = bench.act(FileAction::Ask(Then::open(folder.path().join("nowhere.toml"))));
+    bench.act(Command::Export);
+    bench.read(opening);
+    assert_eq!(bench.model.session.notes.troubles().len(), 1);
+    bench.act(DialogAction::Leave);
+    let other = other_file(folder.path());
+    let opening = bench.act(FileAction::Ask(Then::open(other.clone())));
+    bench.act(Command::Keys);
+    bench.read(opening);
+    assert_eq!(bench.model.document.path(), Some(other.as_path()));
+}
+
+#[test]
+fn a_file_that_is_read_while_the_window_waits_to_close_does_not_keep_it_open() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut bench, path) = Bench::with_file(folder.path());
+    bench.act(Edit::Diameter(7.0));
+    bench.act(FileAction::Ask(Then::open(other_file(folder.path()))));
+    let opening = bench.act(DialogAction::GiveUp);
+    bench.act(Command::Quit);
+    let saving = bench.act(DialogAction::Keep);
+    bench.read(opening);
+    assert_eq!(bench.model.document.path(), Some(path.as_path()));
+    let tasks = bench.save(saving);
+    assert!(has(&tasks, |task| matches!(task, Task::Window(WindowTask::Close))));
+}
