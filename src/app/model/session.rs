@@ -24,10 +24,11 @@ use std::sync::Arc;
 /// The light of renders, and the one that is being loaded.
 #[derive(Debug, Clone)]
 pub struct LoadedLight {
-    /// The name of the light, or its file.
+    /// The name of the light that renders show, or its file.
     pub name: String,
-    /// The light; the one before where that one could not be loaded.
     pub lighting: Arc<Lighting>,
+    /// The light that the program last tried to load; where it could not be loaded, `name` is another.
+    pub tried: String,
     pub loading: Option<String>,
 }
 
@@ -145,7 +146,12 @@ impl Session {
         Ok(Self {
             framing: Framing::new(document.specimen()),
             views: ViewHistory::new(workspace),
-            light: LoadedLight { name: FIRST_LIGHT.to_owned(), lighting: Arc::new(first), loading: None },
+            light: LoadedLight {
+                name: FIRST_LIGHT.to_owned(),
+                lighting: Arc::new(first),
+                tried: FIRST_LIGHT.to_owned(),
+                loading: None,
+            },
             compared: None,
             measured: SessionFigures::default(),
             ordered: Order::default(),

@@ -72,7 +72,7 @@ pub fn wanted(model: &mut Model, tasks: &mut Vec<Task>) {
     open_read(model, tasks);
     let light = &mut model.session.light;
     let name = &model.document.work.light;
-    if light.name != *name && light.loading.as_ref() != Some(name) {
+    if light.tried != *name && light.loading.as_ref() != Some(name) {
         light.loading = Some(name.clone());
         tasks.push(Task::LoadLight(name.clone()));
     }

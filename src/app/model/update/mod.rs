@@ -48,17 +48,19 @@ fn noted(model: &mut Model, note: NoteAction) {
 }
 
 fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
-    let session = &mut model.session;
+    let Model { workspace, session, .. } = model;
     match computed {
         Computed::Light(name, loaded) => {
             match loaded {
                 Ok(lighting) => {
                     lighting.warnings.iter().for_each(|warning| session.notes.say(warning));
-                    session.light.lighting = lighting;
+                    (session.light.name, session.light.lighting) = (name.clone(), lighting);
                 }
                 Err(why) => session.notes.trouble(format!("{why}; the light stays as it was")),
             }
-            (session.light.name, session.light.loading) = (name, None);
+            (session.light.tried, session.light.loading) = (name, None);
+            // The next start begins with a light that could be loaded.
+            workspace.light.clone_from(&session.light.name);
         }
         Computed::Figures(which, order, grade, figures) => {
             session.measured.figures.insert(which, ShownFigures { order, grade, figures: *figures });

@@ -3,16 +3,14 @@
 use crate::app::model::Model;
 use crate::app::model::recovery::{KeptScene, UnsavedWork};
 use crate::app::model::task::Task;
-use crate::app::model::work::Work;
 
-/// Writes the present work to the autosave, and stores its light, exposure and head in the workspace.
+/// Writes the present work to the autosave, and stores its exposure and head in the workspace.
 ///
 /// A design that makes no stone does not replace the last one that does.
 pub fn note(model: &mut Model, tasks: &mut Vec<Task>) {
     let Model { document, workspace, session } = model;
     session.safe.noted = document.work.clone();
-    let Work { light, exposure, head, .. } = &document.work;
-    (workspace.light, workspace.exposure, workspace.head) = (light.clone(), *exposure, *head);
+    (workspace.exposure, workspace.head) = (document.work.exposure, document.work.head);
     if !document.is_changed() && !document.has_moved_copies() {
         return empty(model, tasks);
     }

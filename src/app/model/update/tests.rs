@@ -7,9 +7,10 @@ use crate::app::model::action::{Computed, DialogAction, Edit, FileAction, FrameE
 use crate::app::model::choosing::{Choice, Purpose};
 use crate::app::model::command::Command;
 use crate::app::model::dialog::{Dialog, Then};
-use crate::app::model::document::Document;
+use crate::app::model::document::{Document, FIRST_LIGHT};
 use crate::app::model::exporting::ExportEvent;
 use crate::app::model::opening::{FileRequest, OpeningPurpose};
+use crate::app::model::plan::export_plan;
 use crate::app::model::saving::Stamp;
 use crate::app::model::task::WindowTask;
 use crate::app::model::workspace::Workspace;
@@ -302,6 +303,13 @@ fn a_light_is_loaded_once_and_one_that_cannot_be_loaded_leaves_the_last() {
     assert!(std::sync::Arc::ptr_eq(&before, &bench.model.session.light.lighting));
     assert!(bench.model.session.notes.troubles()[0].text.starts_with("a fault; "));
     assert!(!has(&bench.end_frame(false), is_load), "it is not loaded again and again");
+    // Exports and the next start name the light that is shown.
+    assert_eq!(export_plan(&bench.model).light, Path::new(FIRST_LIGHT));
+    assert_eq!(bench.model.workspace.light, FIRST_LIGHT);
+    bench.act(Edit::Light("dome".to_owned()));
+    bench.act(Computed::Light("dome".to_owned(), Ok(before)));
+    assert_eq!(export_plan(&bench.model).light, Path::new("dome"));
+    assert_eq!(bench.model.workspace.light, "dome");
 }
 
 #[test]
