@@ -85,6 +85,8 @@ pub struct SafeWork {
     pub is_kept: bool,
     /// The work as it was when it was last looked at for the autosave.
     pub noted: Work,
+    /// The autosave file of a crash that this work went on from; it is removed once the work is kept, saved or discarded.
+    pub replaces: Option<PathBuf>,
 }
 
 /// Everything that ends with the window.
@@ -170,7 +172,7 @@ impl Session {
             awaited: Awaited::default(),
             begun: 0,
             after_save: None,
-            safe: SafeWork { is_on: false, is_kept: false, noted: document.work.clone() },
+            safe: SafeWork { is_on: false, is_kept: false, noted: document.work.clone(), replaces: None },
             on_disk: None,
             watched: None,
             may_close: false,

@@ -29,13 +29,16 @@ pub fn note(model: &mut Model, tasks: &mut Vec<Task>) {
         work: document.work.clone(),
         around,
         path,
-        replaces: None,
+        // Of several waiting autosaves only the newest is written, so each of them removes the file of the crash.
+        replaces: session.safe.replaces.clone(),
     })));
 }
 
-/// Removes the autosave, because the work is saved or discarded.
+/// Removes the autosave, because the work is saved or discarded, and the one that the work went on from.
 pub fn empty(model: &mut Model, tasks: &mut Vec<Task>) {
-    if std::mem::take(&mut model.session.safe.is_kept) {
+    let safe = &mut model.session.safe;
+    if std::mem::take(&mut safe.is_kept) {
         tasks.push(Task::EmptySafe);
     }
+    tasks.extend(safe.replaces.take().map(Task::Forget));
 }
