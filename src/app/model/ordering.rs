@@ -46,7 +46,8 @@ impl Orders<'_> {
         let eye = self.model.workspace.eye;
         let view = eye.view(Some(Side::Table));
         let Some(specimen) = self.model.stone(which) else { return };
-        let figures = FiguresOrder { specimen, view, head: self.model.document.work.head };
+        let document = self.model.session.begun;
+        let figures = FiguresOrder { document, specimen, view, head: self.model.document.work.head };
         if which == Which::Present {
             order.tilts = Some(FiguresOrder { view: View { tilt: 0.0, ..view }, ..figures.clone() });
         }
@@ -100,6 +101,7 @@ impl Orders<'_> {
         let Model { document, workspace, session } = self.model;
         let fit = super::framing::FramingFit::reaching(1.0);
         Shot {
+            document: session.begun,
             specimen,
             title: document.work.design.name.clone(),
             shows,

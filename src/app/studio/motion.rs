@@ -140,6 +140,7 @@ mod tests {
         let moving = Motion::at(seconds);
         let (specimen, company) = moving.now(&mut WaveCache::default(), &design, &company);
         Shot {
+            document: 0,
             specimen,
             title: String::new(),
             shows: Shows::Render,

@@ -14,6 +14,7 @@ use super::Model;
 use super::action::{Action, Computed, FrameEnd, NoteAction};
 use super::figures::ShownFigures;
 use super::task::Task;
+use crate::app::studio::Which;
 
 /// Changes a model by an action; returns what is to be done outside because of it.
 pub fn update(model: &mut Model, action: Action) -> Vec<Task> {
@@ -63,9 +64,19 @@ fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
             workspace.light.clone_from(&session.light.name);
         }
         Computed::Figures(which, order, grade, figures) => {
-            session.measured.figures.insert(which, ShownFigures { order, grade, figures: *figures });
+            // The document or the comparison may have ended since the figures were ordered.
+            let is_shown = match which {
+                Which::Present => order.document == session.begun,
+                Which::Other => session.compared.is_some(),
+            };
+            if is_shown {
+                session.measured.figures.insert(which, ShownFigures { order, grade, figures: *figures });
+            }
         }
-        Computed::Tilts(order, tilts) => session.measured.tilts = Some((order, tilts)),
+        Computed::Tilts(order, tilts) if order.document == session.begun => {
+            session.measured.tilts = Some((order, tilts));
+        }
+        Computed::Tilts(..) => {}
         Computed::Copied(made) => {
             let name = session.awaited.copying.take().unwrap_or("The picture");
             match made {

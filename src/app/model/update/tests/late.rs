@@ -2,7 +2,12 @@
 
 use super::*;
 use crate::app::model::choosing::Question;
+use crate::app::model::figures::SessionFigures;
+use crate::app::model::motion::WaveCache;
+use crate::app::model::ordering::Orders;
+use crate::app::studio::{FiguresOrder, Grade};
 use crate::cut::Design;
+use crate::measure::Figures;
 
 /// Asks for a file to save to, and answers with `path`.
 fn save_as(bench: &mut Bench, path: &Path) -> Vec<Task> {
@@ -159,4 +164,42 @@ fn a_file_that_is_read_while_the_window_waits_to_close_does_not_keep_it_open() {
     assert_eq!(bench.model.document.path(), Some(path.as_path()));
     let tasks = bench.save(saving);
     assert!(has(&tasks, |task| matches!(task, Task::Window(WindowTask::Close))));
+}
+
+#[test]
+fn figures_of_a_document_or_of_a_comparison_that_has_ended_are_not_shown() {
+    let mut bench = Bench::new();
+    let ordered = |bench: &Bench| {
+        let (model, mut waves) = (&bench.model, WaveCache::default());
+        Orders { model, waves: &mut waves, paper: Paper::default() }.all(&[]).tilts.unwrap()
+    };
+    let first = ordered(&bench);
+    begin_another(&mut bench);
+    let second = ordered(&bench);
+    let take = |bench: &mut Bench, which: Which, order: &FiguresOrder| {
+        bench.act(Computed::Figures(which, order.clone(), Grade::Rough, Box::new(no_figures())));
+        bench.act(Computed::Tilts(order.clone(), vec![]));
+        let SessionFigures { figures, tilts } = &bench.model.session.measured;
+        (figures.contains_key(&which), tilts.is_some())
+    };
+    assert_eq!(take(&mut bench, Which::Present, &first), (false, false));
+    assert_eq!(take(&mut bench, Which::Present, &second), (true, true));
+    assert_eq!(take(&mut bench, Which::Other, &second), (false, true));
+    bench.act(Command::CompareSaved);
+    // The design that is compared with may have been measured under the document before.
+    assert_eq!(take(&mut bench, Which::Other, &first), (true, true));
+}
+
+fn no_figures() -> Figures {
+    Figures {
+        silhouette_area: 0.0,
+        surface: vec![],
+        transmitted: vec![],
+        strongest_exit_area: vec![],
+        strongest_exit_undecided: 0.0,
+        absorbed: 0.0,
+        unresolved: 0.0,
+        beams: 0,
+        standard_error: 0.0,
+    }
 }
