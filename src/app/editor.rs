@@ -232,7 +232,7 @@ impl Editor {
             && session.light.loading.is_none()
             && awaited.choosing.is_none()
             && awaited.opening.is_empty()
-            && !awaited.saving
+            && awaited.saving.is_none()
             && !awaited.dropped
     }
 

@@ -301,17 +301,18 @@ impl Document {
         }
     }
 
-    /// Returns the request that saves the design to `path`.
+    /// Returns the request that saves the design of this document, whose number is `document`, to `path`.
     ///
     /// # Errors
     /// Fails when the design makes no stone.
-    pub fn to_save(&self, path: PathBuf) -> Result<SaveRequest, Failure> {
+    pub fn to_save(&self, document: u64, path: PathBuf) -> Result<SaveRequest, Failure> {
         match &self.fault {
             Some(fault) => Err(Failure::Input(format!(
                 "this design is impossible, so it cannot be saved: {}",
                 impossible::by_name(fault)
             ))),
             None => Ok(SaveRequest {
+                document,
                 path,
                 design: self.work.design.clone(),
                 specimen: Arc::clone(&self.specimen),
@@ -350,7 +351,7 @@ mod tests {
         assert!(!document.is_changed() && document.path().is_none());
         crown(&mut document, 35.125);
         assert!(document.update() && document.settle() && document.is_changed());
-        document.take_saved(save(document.to_save(path.clone()).unwrap()).unwrap());
+        document.take_saved(save(document.to_save(0, path.clone()).unwrap()).unwrap());
         assert!(!document.is_changed() && document.title() == "mine.toml" && !is_changed_outside(&document));
         assert_eq!(Document::open(&path, MeshOptions::default()).unwrap().work.design, document.work.design);
         std::fs::write(&path, "format = 1").unwrap();
@@ -371,7 +372,8 @@ mod tests {
         assert!(!document.update() && document.fault().is_some() && !document.shows_last_possible());
         let path = folder.path().join("mine.toml");
         assert!(
-            document.to_save(path.clone()).unwrap_err().to_string().contains("printable") && !path.exists()
+            document.to_save(0, path.clone()).unwrap_err().to_string().contains("printable")
+                && !path.exists()
         );
     }
 
@@ -386,7 +388,7 @@ mod tests {
         assert!(Arc::ptr_eq(&stone, document.specimen()) && document.shows_last_possible());
         let path = folder.path().join("mine.toml");
         assert!(
-            document.to_save(path.clone()).unwrap_err().to_string().contains(": Crown angle: ")
+            document.to_save(0, path.clone()).unwrap_err().to_string().contains(": Crown angle: ")
                 && !path.exists()
         );
         document.undo();

@@ -23,8 +23,9 @@ impl Orders<'_> {
     /// Returns the order of all that is in sight.
     pub fn all(&mut self, seen: &[Seen]) -> Order {
         let mut order = Order::default();
-        // What is in sight is about to go: the file that is being opened needs the processor more.
-        if self.model.session.awaited.opening.iter().any(|opening| !opening.request.is_beside()) {
+        // What is in sight is about to go: the file that is being read needs the processor more.
+        let mut opening = self.model.session.awaited.opening.iter();
+        if opening.any(|opening| !opening.request.is_beside() && opening.read.is_none()) {
             return order;
         }
         let is_compared = self.model.session.compared.is_some();
@@ -45,7 +46,8 @@ impl Orders<'_> {
         let eye = self.model.workspace.eye;
         let view = eye.view(Some(Side::Table));
         let Some(specimen) = self.model.stone(which) else { return };
-        let figures = FiguresOrder { specimen, view, head: self.model.document.work.head };
+        let document = self.model.session.begun;
+        let figures = FiguresOrder { document, specimen, view, head: self.model.document.work.head };
         if which == Which::Present {
             order.tilts = Some(FiguresOrder { view: View { tilt: 0.0, ..view }, ..figures.clone() });
         }
@@ -99,6 +101,7 @@ impl Orders<'_> {
         let Model { document, workspace, session } = self.model;
         let fit = super::framing::FramingFit::reaching(1.0);
         Shot {
+            document: session.begun,
             specimen,
             title: document.work.design.name.clone(),
             shows,

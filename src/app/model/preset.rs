@@ -30,7 +30,7 @@ pub const PRESETS: [Known; 5] = [
 ];
 
 /// A scene that the editor can work on.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Preset {
     /// The design, with its material and size.
     pub design: Design,

@@ -216,7 +216,7 @@ mod tests {
         let beams =
             beam::trace(&specimen.stone().unwrap().polytope, medium, &view, &options, &unwatched).unwrap();
         let figures = by_beams(&beams, &Scoped::aset().scope);
-        ShownFigures { order: FiguresOrder { specimen, view, head: 0.0 }, grade, figures }
+        ShownFigures { order: FiguresOrder { document: 0, specimen, view, head: 0.0 }, grade, figures }
     }
 
     #[test]

@@ -140,6 +140,7 @@ mod tests {
         let moving = Motion::at(seconds);
         let (specimen, copies) = moving.now(&mut WaveCache::default(), &design, &copies);
         Shot {
+            document: 0,
             specimen,
             title: String::new(),
             shows: Shows::Render,

@@ -40,6 +40,8 @@ pub enum Smoothing {
 /// An order of one picture.
 #[derive(Debug, Clone)]
 pub struct Shot {
+    /// The number of the document that was open when the picture was ordered; it changes no pixel.
+    pub document: u64,
     /// The stone. The design in it may have an older name.
     pub specimen: Arc<Specimen>,
     /// The name of the design, which drawings show.
@@ -138,6 +140,8 @@ impl Shot {
 /// An order of the figures of a view, in the common ASET.
 #[derive(Debug, Clone)]
 pub struct FiguresOrder {
+    /// The number of the document that was open when the figures were ordered; it changes no figure.
+    pub document: u64,
     pub specimen: Arc<Specimen>,
     pub view: View,
     /// The half angle of the observer's head, in degrees; 0 for no head.

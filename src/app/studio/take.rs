@@ -158,6 +158,7 @@ mod tests {
         let projection =
             distance.map_or(Projection::Orthographic, |distance| Projection::Perspective { distance });
         Shot {
+            document: 0,
             specimen: Arc::clone(Document::first().unwrap().specimen()),
             title: String::new(),
             shows,

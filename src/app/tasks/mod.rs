@@ -146,9 +146,10 @@ impl Outside {
     }
 
     fn save(&mut self, request: SaveRequest) {
+        let document = request.document;
         let why = fault(&format!("{}: saving the design failed", request.path.display()));
-        let failed = FileAction::Saved(Err(why));
-        self.write(Key::Save, failed, move || Some(FileAction::Saved(open::save(request))));
+        let failed = FileAction::Saved(document, Err(why));
+        self.write(Key::Save, failed, move || Some(FileAction::Saved(document, open::save(request))));
     }
 
     fn choose_file(&mut self, question: Question) {

@@ -24,6 +24,8 @@ pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
     session.begun += 1;
     session.awaited.opening.retain(|opening| opening.request.is_beside());
     session.on_disk = None;
+    // It waited until the document before was saved.
+    session.after_save = None;
     // Another stone is first seen face up.
     workspace.face_up();
     session.notes.clear();
