@@ -232,7 +232,7 @@ impl Editor {
             && session.light.loading.is_none()
             && awaited.choosing.is_none()
             && awaited.opening.is_empty()
-            && !awaited.saving
+            && awaited.saving.is_none()
             && !awaited.dropped
     }
 
@@ -257,7 +257,7 @@ impl Editor {
         light_path_window::show(&self.model, &mut self.views, &mut self.actions, &ctx);
         dialogs::show(&self.model, &self.thumbnails, &mut self.actions, &ctx);
         drops::invite(&ctx);
-        let moves = |pane: usize| self.model.workspace.panes[pane].shows.has_company();
+        let moves = |pane: usize| self.model.workspace.panes[pane].shows.has_copies();
         if self.model.session.motion.is_on && seen.iter().any(|(pane, _)| moves(*pane)) {
             self.actions.push(ViewAction::Advance(clock::step(&ctx)));
         }

@@ -20,7 +20,7 @@ mod tests;
 use crate::cut::{Cut, ProfileHandle};
 use crate::scene::Stone;
 use egui::accesskit::Role;
-use egui::{CursorIcon, Key, PointerButton, Rect, RectAlign, Response, Sense, Tooltip, Ui, WidgetInfo};
+use egui::{CursorIcon, Key, PointerButton, Rect, RectAlign, Sense, Tooltip, Ui, WidgetInfo};
 use frame::{MeasuredProfile, Offered, ProfileFrame};
 use grab::Grab;
 use grips::Grip;
@@ -41,12 +41,11 @@ pub struct ProfileView {
 impl ProfileView {
     /// Draws `stone` within `rect`; where its family has handles, they change the proportions of `cut`.
     ///
-    /// The caller must build the stone anew when the response says that it [`changed`](Response::changed). A [`Ui`] can
-    /// hold one such drawing, whose state goes by the identity of that `Ui`. Of a cut without proportions, or with
-    /// impossible ones, the drawing shows what can be measured and has no handles.
-    pub fn show(&mut self, ui: &mut Ui, rect: Rect, stone: &Stone, cut: &mut Cut) -> Response {
+    /// A [`Ui`] can hold one such drawing, whose state goes by the identity of that `Ui`. Of a cut without proportions, or
+    /// with impossible ones, the drawing shows what can be measured and has no handles.
+    pub fn show(&mut self, ui: &mut Ui, rect: Rect, stone: &Stone, cut: &mut Cut) {
         let id = ui.make_persistent_id("profile");
-        let mut response = ui.interact(rect, id, Sense::hover());
+        let response = ui.interact(rect, id, Sense::hover());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, ui.is_enabled(), "Profile of the stone"));
         let measured = MeasuredProfile::new(stone, cut);
         let extent = self.extent(ui, &measured);
@@ -55,17 +54,15 @@ impl ProfileView {
         let labels = frame.paint(ui, &offered, self.active(&offered));
         if measured.cut.is_none() {
             self.grab = None;
-            return response;
+            return;
         }
         let new = self.edited(ui, &frame, &offered, cut.clone());
         frame.show_values(ui, &offered, &new);
         self.guide(ui, &measured, &offered, &labels);
         if new != *cut {
             *cut = new;
-            response.mark_changed();
             ui.ctx().request_repaint();
         }
-        response
     }
 
     /// Whether a handle is dragged: all changes until it is released are one gesture.

@@ -57,7 +57,7 @@ impl Shows {
     }
 
     /// Whether the picture shows all copies, as they move; else it shows the design alone, at rest.
-    pub fn has_company(self) -> bool {
+    pub fn has_copies(self) -> bool {
         matches!(self, Self::Render | Self::Refraction)
     }
 

@@ -204,8 +204,8 @@ fn under_light(specimen: &LoadedSpecimen, has_card: bool) -> Result<Task, Failur
     };
     let strata = product.strata();
     let (scene, product) = (Arc::new(Scene::alone(specimen)), Product::Light(product));
-    let look = SamplePass::new(&scene, &strata, 0);
-    let tests: f64 = look.media[0].iter().map(|&medium| plane_tests(polytope, &film, medium, bounces)).sum();
+    let pass = SamplePass::new(&scene, &strata, 0);
+    let tests: f64 = pass.media[0].iter().map(|&medium| plane_tests(polytope, &film, medium, bounces)).sum();
     let job = Job { scene, view: View::default(), film, product, quality: quality(bounces) };
     let what = format!(
         "diamond under eight lamps, {} planes, {size} x {size}, {bounces} bounces at most, {wavelengths} wavelengths",

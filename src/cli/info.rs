@@ -139,9 +139,9 @@ fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
     let (low, high) = specimen.solid().bounds();
     value["volume"] = json!(specimen.solid().volume());
     value["size"] = json!((high - low).to_array());
-    if let Body::Mesh(shell) = &*specimen.body {
-        value["triangles"] = json!(shell.surface().triangles.len());
-        value["corners"] = json!(shell.vertices().len());
+    if let Body::Mesh(mesh) = &*specimen.body {
+        value["triangles"] = json!(mesh.surface().triangles.len());
+        value["corners"] = json!(mesh.vertices().len());
     }
     let Ok(stone) = specimen.stone() else { return Ok(value) };
     let polytope = &stone.polytope;

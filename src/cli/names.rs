@@ -1,7 +1,7 @@
 //! What a name on the command line stands for: a file, or a cut or a scene that comes with the program.
 
 use crate::io::library::{self, CUTS, SCENES};
-use crate::io::{is_standard, scene_file};
+use crate::io::{is_standard, nearest, scene_file};
 use std::path::Path;
 
 /// Returns whether a cut or a scene of this name comes with the program.
@@ -24,12 +24,13 @@ pub fn hint(file: &Path) -> String {
     if is_scene(file) {
         return "; this is a scene, where the file or the name of a cut is expected".to_owned();
     }
-    const SLIPS: usize = 3;
     let asked = file.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
-    let known = CUTS.iter().map(|(n, _)| ("cut", n)).chain(SCENES.iter().map(|(n, _)| ("scene", n)));
-    let near = known.map(|(kind, n)| (strsim::levenshtein(&asked, n), kind, n)).min();
-    match near.filter(|(slips, ..)| !file.exists() && *slips <= SLIPS) {
-        Some((_, kind, name)) => format!("; did you mean the {kind} '{name}'?"),
+    let known: Vec<&str> = CUTS.iter().chain(&SCENES).map(|(name, _)| *name).collect();
+    match nearest(&asked, &known).filter(|_| !file.exists()) {
+        Some(name) => {
+            let kind = if library::cut(name).is_some() { "cut" } else { "scene" };
+            format!("; did you mean the {kind} '{name}'?")
+        }
         None => String::new(),
     }
 }

@@ -28,6 +28,19 @@ pub fn number(text: &str) -> Result<f64, OptionError> {
     text.trim().parse().map_err(|_| OptionError::Number)
 }
 
+/// Returns the error of a job that cannot be done as it is wanted, with the options that help.
+pub fn unfit(why: &Unfit, file: &str) -> Failure {
+    let options = match why {
+        Unfit::Perspective => "--tracer ray, or no --perspective",
+        Unfit::NotAlone => "--tracer ray",
+        Unfit::Mixture => "--tracer ray, or --strength 1",
+        Unfit::Job(_) | Unfit::Eye | Unfit::NoStone | Unfit::NotConvex(_) | Unfit::ManyPaths => {
+            return Failure::of_unfit(why, file);
+        }
+    };
+    Failure::Usage(format!("{why} ({options})"))
+}
+
 /// From where the stone is seen.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "View")]
@@ -186,12 +199,9 @@ impl LightOptions {
     /// Refuses a view that the chosen tracer cannot trace, and says what to do instead.
     fn check(viewing: &Viewing, specimen: &LoadedSpecimen, renderer: &Renderer) -> Result<(), Failure> {
         match viewing.plans_beams(renderer) {
-            Err(Unfit::NotConvex(why)) => Err(Failure::Usage(format!("{}: {why}", specimen.path))),
-            Err(Unfit::Perspective) => Err(Failure::Usage(
-                "exact beams are for parallel rays: leave out --perspective, or use --tracer ray".into(),
-            )),
-            // An eye that sees nothing is refused with the name of what it should have seen.
-            Err(_) | Ok(_) => Ok(()),
+            // Each picture refuses an eye that sees nothing, by the side that it shows.
+            Err(Unfit::Eye) | Ok(_) => Ok(()),
+            Err(why) => Err(unfit(&why, &specimen.path)),
         }
     }
 

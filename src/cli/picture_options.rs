@@ -68,8 +68,8 @@ pub struct FinishOptions {
     /// Take the middle of each band of wavelengths in every sample, instead of another wavelength each time
     #[arg(long)]
     pub no_jitter: bool,
-    /// Below 1, mix each refracted ray with the straight ray, for its looks; 0 is the straight ray, 1 is physics; by rays
-    /// [default: the scene's, or 1]
+    /// Mix each refracted ray with the straight ray: 1 is physics, 0 the straight ray alone. Below 1 the picture is traced
+    /// by rays [default: the scene's, or 1]
     #[arg(long, allow_negative_numbers = true, value_name = "PART", value_parser = number)]
     pub strength: Option<f64>,
     /// What traces the light; beams are for one convex stone without a photograph behind

@@ -2,6 +2,7 @@
 
 use super::assembly::Assembly;
 use super::console::{report, say};
+use super::options::unfit;
 use super::picture_options::{FinishOptions, PictureOptions};
 use super::specimen::note_colour;
 use crate::io::Failure;
@@ -10,7 +11,8 @@ use crate::io::export::Event;
 use crate::io::lighting::Lighting;
 use crate::picture::{Bloom, Develop, Linear, Overlay, Tone, developed, lay};
 use crate::render::{
-    Card, HungPicture, Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings, Unfit,
+    Card, HungPicture, Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings,
+    mixture_note,
 };
 use crate::scene::{Film, Panorama, Scene, View};
 use crate::trace::Watch;
@@ -135,16 +137,7 @@ impl<'a> PictureSetup<'a> {
     /// Returns the tracer of pictures from a view in words, before any is taken.
     fn planned(&self, view: &View) -> Result<String, Failure> {
         let job = self.job(&Arc::new(self.assembly.setting.clone()), view, 1.0);
-        let plan = self.renderer.borrow().plan(&job).map_err(|unfit| match unfit {
-            Unfit::Mixture => Failure::Usage(format!(
-                "--strength {}: exact beams cannot mix refracted and straight rays: use --tracer ray, or --strength 1",
-                self.strength
-            )),
-            _ => Failure::Usage(
-                "exact beams are for one convex stone, parallel rays and no pattern or photograph behind: use --tracer ray"
-                    .into(),
-            ),
-        })?;
+        let plan = self.renderer.borrow().plan(&job).map_err(|why| unfit(&why, &self.assembly.path))?;
         Ok(plan.backend.description())
     }
 
@@ -238,7 +231,7 @@ impl<'a> PictureSetup<'a> {
 
     /// Returns a description of the light, the tracer and any mixture in words.
     pub fn description(&self) -> String {
-        format!("light {}; {}{}", self.lighting.light.name, self.tracer, self.mixture())
+        format!("light {}; {}{}", self.lighting.light.name, self.tracer, mixture_note(self.strength))
     }
 
     /// Returns the light's name.

@@ -11,7 +11,8 @@ use super::specimen::stem;
 use crate::io::background::BackgroundRef;
 use crate::io::export::Event;
 use crate::io::refraction::{
-    self as files, Coding, MOST_BANDS, MOST_MEGABYTES, MOST_PIXELS, MOST_PLACES, Page, takes, write_page,
+    self as files, Coding, MOST_MAP_BANDS, MOST_MAP_PIXELS, MOST_MEGABYTES, MOST_PLACES, Page, takes,
+    write_page,
 };
 use crate::io::{Failure, is_standard, write_rgba_png};
 use crate::picture::{Backdrop, Background, Carried, Develop, RefractionMap, Tone, develop, refract};
@@ -34,7 +35,7 @@ pub struct RefractionMaps {
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KIND")]
     format: Vec<Kind>,
     /// Make one map for each of N bands of wavelengths, 1 to 16, so that the look-up shows a rainbow
-    #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_BANDS)))]
+    #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_MAP_BANDS)))]
     bands: u32,
     /// Keep the places of the N strongest paths of each pixel, 1 to 8, so that what is seen twice through a pixel shows twice;
     /// each band has N maps
@@ -69,16 +70,16 @@ enum Kind {
 impl RefractionMaps {
     pub fn run(&self) -> Result<(), Failure> {
         let refuse = |message: String| Err(Failure::Usage(message));
-        if self.picture.size.iter().any(|&side| side > MOST_PIXELS) {
-            return refuse(format!("--size: a map has {MOST_PIXELS} pixels each way at most"));
+        if self.picture.size.iter().any(|&side| side > MOST_MAP_PIXELS) {
+            return refuse(format!("--size: a map has {MOST_MAP_PIXELS} pixels each way at most"));
         }
         if is_standard(&self.out) {
             return refuse("--out -: several files are written; give a folder".into());
         }
-        if self.bands * self.places > MOST_BANDS {
+        if self.bands * self.places > MOST_MAP_BANDS {
             let all = self.bands * self.places;
             return refuse(format!(
-                "--bands, --places: these are {all} maps, and a page takes {MOST_BANDS} at most; give fewer"
+                "--bands, --places: these are {all} maps, and a page takes {MOST_MAP_BANDS} at most; give fewer"
             ));
         }
         within("span", self.span, 1.0, 100.0)?;

@@ -19,19 +19,19 @@ pub struct MeshShape(pub Arc<TriangleMesh>);
 impl MeshShape {
     /// Turns a surface and moves it into the stone's frame, unless it lies there already. Returns the shape and the factor
     /// by which it was scaled; `None` where the surface has no extent across.
-    pub fn framed(shell: &TriangleMesh, turn: DQuat) -> Option<(Self, f64)> {
-        let corners: Vec<DVec3> = shell.vertices().iter().map(|&v| turn * v).collect();
+    pub fn framed(mesh: &TriangleMesh, turn: DQuat) -> Option<(Self, f64)> {
+        let corners: Vec<DVec3> = mesh.vertices().iter().map(|&v| turn * v).collect();
         let around = hull(corners.iter().map(|v| v.truncate()).collect());
         let Calipers { width, middle, .. } = Calipers::of(&around)?;
         let (low, high) = span(corners.iter().map(|v| v.z));
         let scale = 2.0 / outline::diameter(&around, middle, width);
         let shift = -scale * middle.extend((low + high) / 2.0);
         let is_framed = (scale - 1.0).abs() < IN_FRAME && shift.length() < IN_FRAME;
-        let shell = match is_framed && turn == DQuat::IDENTITY {
-            true => shell.clone(),
-            false => shell.reframed(&Pose { at: shift, turn, scale }),
+        let mesh = match is_framed && turn == DQuat::IDENTITY {
+            true => mesh.clone(),
+            false => mesh.reframed(&Pose { at: shift, turn, scale }),
         };
-        Some((Self(Arc::new(shell)), if is_framed { 1.0 } else { scale }))
+        Some((Self(Arc::new(mesh)), if is_framed { 1.0 } else { scale }))
     }
 }
 

@@ -47,7 +47,7 @@ impl Warning {
     }
 }
 
-/// Warns where upper and lower halves meet between the bezels and leave no girdle there, or none at all.
+/// Returns a warning where upper and lower halves meet between the bezels and leave no girdle there, or none at all.
 fn girdle(p: &Proportions) -> Option<String> {
     let (thickness, needed) = (50.0 * p.girdle, 50.0 * p.valley_depth());
     match thickness {
@@ -62,7 +62,7 @@ fn girdle(p: &Proportions) -> Option<String> {
     }
 }
 
-/// Says so where the girdle's facets do not share the stone's symmetry.
+/// Returns a warning where the girdle's facets do not share the stone's symmetry.
 fn symmetry(count: u32) -> Option<String> {
     let even = count.next_multiple_of(8);
     let text = format!(
@@ -71,7 +71,7 @@ fn symmetry(count: u32) -> Option<String> {
     (count != even).then_some(text)
 }
 
-/// Says so where the culet cuts off the tips of the lower halves.
+/// Returns a warning where the culet cuts off the tips of the lower halves.
 ///
 /// The octagon in which it cuts the mains has a corner over each lower-half tip, further out than its flats.
 fn culet(p: &Proportions) -> Option<String> {
@@ -83,7 +83,7 @@ fn culet(p: &Proportions) -> Option<String> {
     (p.culet >= reach).then_some(text)
 }
 
-/// Says so where tips at this distance from the axis, in girdle radii, lie outside one of the girdle's flats.
+/// Returns a warning where tips at this distance from the axis, in girdle radii, lie outside one of the girdle's flats.
 fn tips(tip: f64, p: &Proportions) -> Option<String> {
     let azimuths = (0..8).map(|k| STAR_AZIMUTH + f64::from(k) * TAU / 8.0);
     let girdle = azimuths.map(|azimuth| p.girdle_radius(azimuth)).fold(1.0, f64::min);

@@ -220,9 +220,11 @@ mod tests {
         assert!(
             matches!(read("none.png"), Err(NameOrFileError::File(error)) if error.path.ends_with("none.png"))
         );
-        let Err(NameOrFileError::Unknown(told)) = read("pages") else { panic!("no error") };
+        let Err(NameOrFileError::Unknown(message)) = read("pages") else { panic!("no error") };
         assert!(
-            told.contains("'pages'") && told.contains("page, grid, checks") && told.contains("photograph")
+            message.contains("'pages'")
+                && message.contains("page, grid, checks")
+                && message.contains("photograph")
         );
     }
 }

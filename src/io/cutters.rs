@@ -102,12 +102,13 @@ impl Default for Gear {
 
 impl Gear {
     /// Returns the gear that a file gives, or the usual gear and a warning, which `at` begins.
-    pub fn given(teeth: i32, offset: f64, at: &str, told: &mut WarningList) -> Self {
+    pub fn given(teeth: i32, offset: f64, at: &str, warnings: &mut WarningList) -> Self {
         let given = Self { teeth, offset };
         match given.tiers().check() {
             Ok(()) => given,
             Err((_, fault)) => {
-                told.warn(|| format!("{at}{fault}; the facets are given by a gear of {USUAL_GEAR} teeth"));
+                warnings
+                    .warn(|| format!("{at}{fault}; the facets are given by a gear of {USUAL_GEAR} teeth"));
                 Self::default()
             }
         }
@@ -225,23 +226,23 @@ pub(super) fn up_to_the_last(mut lines: Vec<String>) -> Vec<String> {
 }
 
 /// Returns a file's symmetry, or 1 and a warning.
-pub(super) fn symmetry(given: i32, at: &str, told: &mut WarningList) -> u32 {
+pub(super) fn symmetry(given: i32, at: &str, warnings: &mut WarningList) -> u32 {
     match u32::try_from(given) {
         Ok(symmetry @ 1..) => symmetry,
         _ => {
-            told.warn(|| format!("{at}symmetry: {given} must be 1 or more; 1 is assumed"));
+            warnings.warn(|| format!("{at}symmetry: {given} must be 1 or more; 1 is assumed"));
             1
         }
     }
 }
 
 /// Returns a file's refractive index as a material, or the usual index and a warning.
-pub(super) fn material(index: f64, at: &str, told: &mut WarningList) -> MaterialRef {
+pub(super) fn material(index: f64, at: &str, warnings: &mut WarningList) -> MaterialRef {
     let material = MaterialRef::Index(index);
     match material.check() {
         Ok(()) => material,
         Err(fault) => {
-            told.warn(|| format!("{at}{fault}; {USUAL_INDEX} is assumed"));
+            warnings.warn(|| format!("{at}{fault}; {USUAL_INDEX} is assumed"));
             MaterialRef::Index(USUAL_INDEX)
         }
     }
@@ -325,9 +326,9 @@ mod tests {
 
     #[test]
     fn warnings_have_an_end() {
-        let mut told = WarningList::default();
-        (0..1000).for_each(|k| told.warn(|| format!("{k}")));
-        let texts = told.texts();
+        let mut warnings = WarningList::default();
+        (0..1000).for_each(|k| warnings.warn(|| format!("{k}")));
+        let texts = warnings.texts();
         assert_eq!(texts.len(), MOST_WARNINGS + 1);
         assert_eq!(texts[MOST_WARNINGS], "900 more warnings of this kind are left out");
     }

@@ -18,7 +18,7 @@ mod imported;
 pub use encoded::EncodedDesign;
 pub use imported::ImportedDesign;
 
-/// A format of design files. The program's help says what is said here.
+/// A format of design files. clap prints these comments as the option's help.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum DesignFormat {
@@ -85,8 +85,8 @@ impl DesignFormat {
             // The reader of glTF says what is wrong with the file.
             return Self::Glb;
         }
-        let told = known.into_iter().find(|(_, looks_like)| looks_like(bytes)).map(|(format, _)| format);
-        told.or_else(|| Self::of_name(path)).unwrap_or(Self::Toml)
+        let found = known.into_iter().find(|(_, looks_like)| looks_like(bytes)).map(|(format, _)| format);
+        found.or_else(|| Self::of_name(path)).unwrap_or(Self::Toml)
     }
 }
 

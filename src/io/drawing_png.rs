@@ -1,11 +1,9 @@
 //! Rasterises drawings: SVG text to pixels, with fonts that the program carries, so that it looks the same everywhere.
 
+use super::MOST_PIXELS;
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{self, ImageHrefResolver, Options, Tree, fontdb};
 use std::sync::Arc;
-
-/// The most pixels along either side.
-const MOST_ALONG_A_SIDE: u32 = 16_384;
 
 /// Why a drawing could not be rasterised.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -18,7 +16,7 @@ pub enum DrawingError {
     },
     /// The picture would be empty or too large.
     #[error(
-        "a drawing of {width} by {height} pixels: each side must be from 1 to {MOST_ALONG_A_SIDE}; change the width"
+        "a drawing of {width} by {height} pixels: each side must be from 1 to {MOST_PIXELS}; change the width"
     )]
     Size {
         /// Pixels from left to right.
@@ -71,7 +69,7 @@ pub fn rasterize_clear(svg: &str, width: u32) -> Result<(u32, u32, Vec<u8>), Dra
 fn drawn(tree: &Tree, width: u32, paper: Color) -> Result<Pixmap, DrawingError> {
     let scale = width as f32 / tree.size().width();
     let height = (tree.size().height() * scale).round() as u32;
-    let allowed = 1..=MOST_ALONG_A_SIDE;
+    let allowed = 1..=MOST_PIXELS;
     let fits = allowed.contains(&width) && allowed.contains(&height);
     let pixmap = if fits { Pixmap::new(width, height) } else { None };
     let mut pixmap = pixmap.ok_or(DrawingError::Size { width, height })?;

@@ -35,7 +35,7 @@ const MOST_NAMED: usize = 3;
 const DRAWING: f64 = 0.1;
 const FIGURES: f64 = 1.0;
 
-/// A file format of the outputs. The program's help says what is said here.
+/// A file format of the outputs. clap prints these comments as the option's help.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum OutputFormat {

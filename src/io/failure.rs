@@ -2,7 +2,7 @@
 
 use super::atomic::WriteError;
 use super::file_error::{FileError, NameOrFileError};
-use crate::render::RenderError;
+use crate::render::{RenderError, Unfit};
 use crate::trace::Stopped;
 
 /// Why a request was not carried out in full. Files that were finished before stay.
@@ -23,6 +23,17 @@ pub enum Failure {
     /// Whoever watches the work has stopped it.
     #[error("stopped")]
     Stopped,
+}
+
+impl Failure {
+    /// Makes the error of a job that cannot be done as it is wanted; it names the file where that is at fault.
+    pub fn of_unfit(why: &Unfit, file: &str) -> Self {
+        match why {
+            Unfit::Eye => Self::Input(format!("{file}: {why}")),
+            Unfit::NotConvex(_) => Self::Usage(format!("{file}: {why}")),
+            _ => Self::Usage(why.to_string()),
+        }
+    }
 }
 
 impl From<WriteError> for Failure {

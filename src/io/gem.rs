@@ -58,14 +58,14 @@ struct Raw<'a> {
 /// When the file is no such design; the error has the offset at fault where there is one.
 pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
     check_size(bytes.len(), MAX_BYTES as u64)?;
-    let mut told = WarningList::default();
+    let mut warnings = WarningList::default();
     let mut cursor = Cursor::new(bytes);
     let raw = raw_facets(&mut cursor)?;
-    let (mut tiers, index) = trailer(&mut cursor, &mut told)?;
-    tiers.tiers = cutters::gathered(pieces(&raw, &tiers, &mut told));
-    let material = cutters::material(index.1, &cursor::place(index.0), &mut told);
+    let (mut tiers, index) = trailer(&mut cursor, &mut warnings)?;
+    tiers.tiers = cutters::gathered(pieces(&raw, &tiers, &mut warnings));
+    let material = cutters::material(index.1, &cursor::place(index.0), &mut warnings);
     let name = cutters::title(&tiers.headers, label);
-    cutters::brought(name, material, tiers, told)
+    cutters::brought(name, material, tiers, warnings)
 }
 
 /// Returns whether a file is such a design: facets down to the mark at their end.
@@ -129,7 +129,7 @@ fn outline(cursor: &mut Cursor<'_>) -> Result<bool, Fault> {
 }
 
 /// Reads all that follows the facets; returns a design without tiers, and the refractive index with its offset.
-fn trailer(cursor: &mut Cursor<'_>, told: &mut WarningList) -> Result<(Tiers, (usize, f64)), Fault> {
+fn trailer(cursor: &mut Cursor<'_>, warnings: &mut WarningList) -> Result<(Tiers, (usize, f64)), Fault> {
     const WHAT: &str = "the symmetry, gear and index that follow the facets";
     let at = cursor.at();
     let (symmetry, mirror, teeth) = (cursor.i32(WHAT)?, cursor.i32(WHAT)?, cursor.i32(WHAT)?);
@@ -137,26 +137,26 @@ fn trailer(cursor: &mut Cursor<'_>, told: &mut WarningList) -> Result<(Tiers, (u
     let unknown = cursor.i32(WHAT)? as u32;
     if unknown != UNKNOWN {
         let at = cursor::place(cursor.at() - 4);
-        told.warn(|| format!("{at}{unknown:#x} stands where {UNKNOWN:#x} is expected; it is not kept"));
+        warnings.warn(|| format!("{at}{unknown:#x} stands where {UNKNOWN:#x} is expected; it is not kept"));
     }
     let offset = cursor.f64(WHAT)?;
     let place = cursor::place(at);
-    let mut tiers = Gear::given(teeth, offset, &place, told).tiers();
-    tiers.symmetry = cutters::symmetry(symmetry, &place, told);
+    let mut tiers = Gear::given(teeth, offset, &place, warnings).tiers();
+    tiers.symmetry = cutters::symmetry(symmetry, &place, warnings);
     tiers.mirror = mirror != 0;
-    [tiers.headers, tiers.footers] = lines(cursor, told);
-    rest(cursor, told);
+    [tiers.headers, tiers.footers] = lines(cursor, warnings);
+    rest(cursor, warnings);
     Ok((tiers, index))
 }
 
 /// Reads the lines at the top and at the end. Missing lines give a warning, since the stone is whole without them.
-fn lines(cursor: &mut Cursor<'_>, told: &mut WarningList) -> [Vec<String>; 2] {
+fn lines(cursor: &mut Cursor<'_>, warnings: &mut WarningList) -> [Vec<String>; 2] {
     let mut all = Vec::new();
     for _ in 0..2 * LINES {
         match cursor.text("the headers and footers") {
             Ok(text) => all.push(cursor::decoded(text)),
             Err(fault) => {
-                told.warn(|| fault.to_string());
+                warnings.warn(|| fault.to_string());
                 break;
             }
         }
@@ -166,19 +166,19 @@ fn lines(cursor: &mut Cursor<'_>, told: &mut WarningList) -> [Vec<String>; 2] {
 }
 
 /// Warns of bytes that follow the design.
-fn rest(cursor: &mut Cursor<'_>, told: &mut WarningList) {
+fn rest(cursor: &mut Cursor<'_>, warnings: &mut WarningList) {
     let (at, left) = (cursor::place(cursor.at()), cursor.left());
     if left == 0 {
         return;
     }
     match cursor.text("") {
-        Ok(b"preform") => told.warn(|| format!("{at}the preform that follows the stone is not read")),
-        _ => told.warn(|| format!("{at}the {left} bytes after the design are not read")),
+        Ok(b"preform") => warnings.warn(|| format!("{at}the preform that follows the stone is not read")),
+        _ => warnings.warn(|| format!("{at}the {left} bytes after the design are not read")),
     }
 }
 
 /// Converts facets to settings of the gear of `tiers`.
-fn pieces(raw: &[Raw<'_>], tiers: &Tiers, told: &mut WarningList) -> Vec<TierPiece> {
+fn pieces(raw: &[Raw<'_>], tiers: &Tiers, warnings: &mut WarningList) -> Vec<TierPiece> {
     let gear = Gear { teeth: tiers.gear, offset: tiers.offset };
     let farthest = raw.iter().map(|facet| facet.plane.offset).fold(0.0, f64::max);
     let piece = |raw: &Raw<'_>| {
@@ -187,7 +187,8 @@ fn pieces(raw: &[Raw<'_>], tiers: &Tiers, told: &mut WarningList) -> Vec<TierPie
         let distance = cutters::rid_of_noise(raw.plane.offset, farthest);
         if distance == 0.0 {
             let at = cursor::place(raw.at);
-            told.warn(|| format!("{at}facet '{name}' runs through the origin; its distance is taken as 0"));
+            warnings
+                .warn(|| format!("{at}facet '{name}' runs through the origin; its distance is taken as 0"));
         }
         let normal = raw.plane.normal * DVec3::new(1.0, -1.0, 1.0);
         TierPiece {
@@ -199,15 +200,15 @@ fn pieces(raw: &[Raw<'_>], tiers: &Tiers, told: &mut WarningList) -> Vec<TierPie
         }
     };
     let pieces = raw.iter().map(piece).collect();
-    warn_of_blank(raw, told);
+    warn_of_blank(raw, warnings);
     pieces
 }
 
-fn warn_of_blank(raw: &[Raw<'_>], told: &mut WarningList) {
+fn warn_of_blank(raw: &[Raw<'_>], warnings: &mut WarningList) {
     let on_blank = || raw.iter().filter(|facet| facet.on_blank);
     if let Some(first) = on_blank().next() {
         let (at, count) = (cursor::place(first.at), on_blank().count());
-        told.warn(|| {
+        warnings.warn(|| {
             format!(
                 "{at}{count} facets end at the block that GemCad cuts from, {BLANK:.4} from the middle; here facets \
                  alone bound the stone, and it may reach farther"

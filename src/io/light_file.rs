@@ -113,8 +113,8 @@ mod tests {
             (start.replace("\"x\"", "\" \""), "1: name: give 1 to 60 characters"),
         ];
         for (text, expected) in cases {
-            let told = message(&text);
-            assert!(told.starts_with(expected), "{told}\nfor\n{text}");
+            let error = message(&text);
+            assert!(error.starts_with(expected), "{error}\nfor\n{text}");
         }
     }
 
@@ -136,8 +136,8 @@ mod tests {
             (dome.replace("= 1", "= 1,5"), "3: radiance: column 13", "decimal point"),
         ];
         for (text, start, within) in cases {
-            let told = message(&text);
-            assert!(told.starts_with(start) && told.contains(within), "{told}\nfor\n{text}");
+            let error = message(&text);
+            assert!(error.starts_with(start) && error.contains(within), "{error}\nfor\n{text}");
         }
     }
 

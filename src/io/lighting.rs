@@ -1,6 +1,6 @@
 //! Loads the light that stones are seen in: one that comes with the program, a light file, or a panorama.
 
-use super::{NameOrFileError, light_file, panorama};
+use super::{NameOrFileError, light_file, nearest, panorama};
 use crate::scene::{LIGHTS, Light, light};
 use crate::trace::environment::EnvironmentMap;
 pub use crate::trace::environment::Lighting;
@@ -36,10 +36,8 @@ fn sky(light: &Light, folder: Option<&Path>) -> Result<(EnvironmentMap, Vec<Stri
 
 /// Returns the message about a name that no light has.
 pub fn unknown(name: &str) -> String {
-    const SLIPS: usize = 3;
-    let near = LIGHTS.iter().map(|n| (strsim::damerau_levenshtein(&name.to_lowercase(), n), n)).min();
-    let hint = match near.filter(|(slips, _)| *slips <= SLIPS) {
-        Some((_, near)) => format!("; did you mean '{near}'?"),
+    let hint = match nearest(&name.to_lowercase(), &LIGHTS) {
+        Some(near) => format!("; did you mean '{near}'?"),
         None => format!("; known: {}, or give a light file or a panorama", LIGHTS.join(", ")),
     };
     format!("no light '{name}'{hint}")
@@ -83,17 +81,17 @@ mod tests {
     #[test]
     fn what_is_no_light_is_told() {
         let folder = tempfile::tempdir().unwrap();
-        let told = |name: &str| refused(folder.path().join(name).to_str().unwrap()).to_string();
+        let message = |name: &str| refused(folder.path().join(name).to_str().unwrap()).to_string();
         assert_eq!(refused("stuido").to_string(), "no light 'stuido'; did you mean 'studio'?");
         assert!(matches!(refused("stuido"), NameOrFileError::Unknown(_)));
         assert!(refused("moonlight").to_string().contains("studio, dome, "));
-        assert!(told("none.toml").ends_with("none.toml: there is no such file"));
-        assert!(told("none.exr").ends_with("none.exr: there is no such file"));
+        assert!(message("none.toml").ends_with("none.toml: there is no such file"));
+        assert!(message("none.exr").ends_with("none.exr: there is no such file"));
         std::fs::write(folder.path().join("bad.toml"), "name = \"x\"\nhead = 95\n").unwrap();
-        assert!(told("bad.toml").contains("bad.toml:2: light 1: head is 95"));
+        assert!(message("bad.toml").contains("bad.toml:2: light 1: head is 95"));
         std::fs::write(folder.path().join("lost.toml"), "name = \"x\"\npanorama.file = \"y.hdr\"\n").unwrap();
-        assert!(told("lost.toml").ends_with("y.hdr: there is no such file"));
+        assert!(message("lost.toml").ends_with("y.hdr: there is no such file"));
         std::fs::write(folder.path().join("bytes.hdr"), [0xff; 99]).unwrap();
-        assert!(told("bytes.hdr").contains("not a picture of a known format"));
+        assert!(message("bytes.hdr").contains("not a picture of a known format"));
     }
 }

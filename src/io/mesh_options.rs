@@ -13,7 +13,7 @@ pub struct MeshOptions {
     pub form: MeshForm,
 }
 
-/// What the triangles of a mesh stand for. The program's help says what is said here.
+/// What the triangles of a mesh stand for. clap prints these comments as the option's help.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]

@@ -54,3 +54,4 @@ pub use picture_file::write_linear_exr;
 pub use picture_file::write_rgba_png;
 pub use png::{MOST_PIXELS, PngFile, write_png};
 pub use standard::{STANDARD, is_standard};
+pub(crate) use text::nearest;

@@ -4,11 +4,12 @@
 
 use super::background::BackgroundRef;
 use super::file_error::{Fault, FileError};
+use super::nearest;
 use super::text;
 use super::toml_format::check_format;
 use super::toml_text::TomlText;
 use crate::cut::{MaterialRef, Size};
-use crate::scene::{LIGHTS, Layout, light};
+use crate::scene::{LIGHTS, Layout, MOST_STONES, light};
 use form::SceneForm;
 use glam::{DQuat, DVec3};
 use std::path::{Path, PathBuf};
@@ -21,9 +22,6 @@ mod tests;
 
 /// The size of the largest file that is read, in bytes.
 const MAX_BYTES: u64 = 4 << 20;
-
-/// The most stones that a scene may have.
-pub const MOST_STONES: usize = 256;
 
 /// The gap between girdles where a scene gives none, in mm.
 pub const DEFAULT_GAP_MM: f64 = 0.5;
@@ -192,9 +190,7 @@ fn found(given: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
 
 /// Returns the hint at the known name that is most like an unknown one, and the list of all known names.
 fn likely(asked: &str, known: &[&str]) -> String {
-    let slips = |name: &&&str| strsim::damerau_levenshtein(asked, name);
-    let near = known.iter().min_by_key(slips).filter(|name| slips(name) <= 2);
-    let meant = near.map_or(String::new(), |name| format!("; did you mean '{name}'?"));
+    let meant = nearest(asked, known).map_or(String::new(), |name| format!("; did you mean '{name}'?"));
     format!("{meant}; known: {}", known.join(", "))
 }
 

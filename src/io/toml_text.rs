@@ -1,6 +1,7 @@
 //! Reads TOML texts, each parsed once, with faults that name the line by the spans of the parsed values.
 
 use super::file_error::Fault;
+use super::nearest;
 use super::text::line_after;
 use crate::cut::{FAMILIES, Family};
 use serde::Deserialize;
@@ -104,7 +105,8 @@ impl<'t> TomlText<'t> {
         self.read_beside(&[], |_| Ok(()), |form, ()| make(form))
     }
 
-    /// Does the same for a file that may have further keys at its top, which `take` takes out and reads first.
+    /// Reads the form of a text that may have further keys at its top, which `take` takes out and reads first, and makes of
+    /// both what the file says.
     pub fn read_beside<T: Deserialize<'t>, B, U>(
         self,
         further: &[&str],
@@ -206,9 +208,7 @@ pub(super) fn meant(asked: &str, known: &[&str]) -> String {
     if let Some(family) = families.find(|family| family.proportion(asked).is_some()) {
         return format!("; it belongs below a line [{}]", family.key);
     }
-    let slips = |key: &&&str| strsim::damerau_levenshtein(asked, key);
-    let near = known.iter().min_by_key(slips).filter(|key| slips(key) <= 3);
-    near.map_or(String::new(), |key| format!("; did you mean `{key}`?"))
+    nearest(asked, known).map_or(String::new(), |key| format!("; did you mean `{key}`?"))
 }
 
 /// Returns serde's message with keys for fields, numbers for f64, and the meaning of the key. `further` are known keys of

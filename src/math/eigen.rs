@@ -5,9 +5,10 @@ use glam::{DMat3, DVec3};
 /// The number of sweeps of Jacobi's rotations. Each sweep squares what is left off the diagonal, so five reach rounding.
 const SWEEPS: usize = 12;
 
-/// Returns v vᵀ.
-pub fn outer(v: DVec3) -> DMat3 {
-    DMat3::from_cols(v * v.x, v * v.y, v * v.z)
+/// Returns the outer product a bᵀ.
+#[inline]
+pub fn outer(a: DVec3, b: DVec3) -> DMat3 {
+    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }
 
 /// Returns the eigenvalues of a symmetric matrix in rising order, and its eigenvectors (C. G. J. Jacobi 1846).

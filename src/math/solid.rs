@@ -65,7 +65,7 @@ impl<'a> SolidRef<'a> {
     pub fn vertices(self) -> &'a [DVec3] {
         match self {
             Self::Convex(polytope) => polytope.vertices(),
-            Self::Triangles(shell) => shell.vertices(),
+            Self::Triangles(mesh) => mesh.vertices(),
             Self::Smooth(smooth) => smooth.corners(),
         }
     }
@@ -85,12 +85,12 @@ impl<'a> SolidRef<'a> {
 
     /// Returns a ball around the solid.
     pub fn ball(self) -> Ball {
-        if let Self::Triangles(shell) = self { shell.ball } else { Ball::around(self.vertices()) }
+        if let Self::Triangles(mesh) = self { mesh.ball } else { Ball::around(self.vertices()) }
     }
 
     /// Returns the distance of the farthest corner from the origin.
     pub fn reach(self) -> f64 {
-        if let Self::Triangles(shell) = self { shell.reach } else { reach(self.vertices()) }
+        if let Self::Triangles(mesh) = self { mesh.reach } else { reach(self.vertices()) }
     }
 
     /// Returns the solid as triangles; those of a smooth solid approximate its surface from within, and `None` means that they
@@ -98,7 +98,7 @@ impl<'a> SolidRef<'a> {
     pub fn mesh(self) -> Option<Arc<TriangleMesh>> {
         match self {
             Self::Convex(polytope) => Some(Arc::new(TriangleMesh::of_polytope(polytope))),
-            Self::Triangles(shell) => Some(Arc::clone(shell)),
+            Self::Triangles(mesh) => Some(Arc::clone(mesh)),
             Self::Smooth(smooth) => TriangleMesh::new(smooth.surface().clone()).ok().map(Arc::new),
         }
     }
@@ -117,7 +117,7 @@ impl<'a> SolidRef<'a> {
     pub fn volume(self) -> f64 {
         match self {
             Self::Convex(polytope) => polytope.volume(),
-            Self::Triangles(shell) => shell.volume(),
+            Self::Triangles(mesh) => mesh.volume(),
             Self::Smooth(smooth) => smooth.field().volume(),
         }
     }
@@ -126,7 +126,7 @@ impl<'a> SolidRef<'a> {
     pub fn normal(self, facet: u32, point: DVec3) -> DVec3 {
         match self {
             Self::Convex(polytope) => polytope.facets()[facet as usize].plane.normal,
-            Self::Triangles(shell) => shell.planes()[facet as usize].normal,
+            Self::Triangles(mesh) => mesh.planes()[facet as usize].normal,
             Self::Smooth(smooth) => smooth.field().normal(point),
         }
     }
@@ -138,7 +138,7 @@ impl<'a> SolidRef<'a> {
                 let corners: Vec<DVec3> = polytope.corners(&polytope.facets()[facet as usize]).collect();
                 corners.windows(2).skip(1).map(|pair| [corners[0], pair[0], pair[1]]).collect()
             }
-            Self::Triangles(shell) => picked(shell.surface(), shell.facets(), facet),
+            Self::Triangles(mesh) => picked(mesh.surface(), mesh.facets(), facet),
             Self::Smooth(smooth) => picked(smooth.surface(), &smooth.surface().groups, facet),
         }
     }
@@ -157,7 +157,7 @@ impl<'a> SolidRef<'a> {
     pub fn edges(self) -> Vec<Edge> {
         match self {
             Self::Convex(polytope) => edges_of_polytope(polytope),
-            Self::Triangles(shell) => shell.edges(),
+            Self::Triangles(mesh) => mesh.edges(),
             Self::Smooth(smooth) => smooth.edges(),
         }
     }
@@ -199,7 +199,7 @@ impl<'a> From<&'a Polytope> for SolidRef<'a> {
 }
 
 impl<'a> From<&'a Arc<TriangleMesh>> for SolidRef<'a> {
-    fn from(shell: &'a Arc<TriangleMesh>) -> Self {
-        Self::Triangles(shell)
+    fn from(mesh: &'a Arc<TriangleMesh>) -> Self {
+        Self::Triangles(mesh)
     }
 }

@@ -67,9 +67,9 @@ impl TriangleMesh {
         checked(&surface)?;
         let facets = regions(&surface)?;
         let planes = planes_of(&surface, &facets);
-        let shell = Self::of_parts(surface, facets, planes);
-        let volume = shell.volume();
-        if volume > 0.0 { Ok(shell) } else { Err(TriangleMeshError::InsideOut(volume)) }
+        let mesh = Self::of_parts(surface, facets, planes);
+        let volume = mesh.volume();
+        if volume > 0.0 { Ok(mesh) } else { Err(TriangleMeshError::InsideOut(volume)) }
     }
 
     /// Makes the mesh of a convex solid; the facets keep their order.
@@ -236,15 +236,15 @@ mod tests {
 
     #[test]
     fn a_moved_shell_is_the_shell_of_what_was_moved() {
-        let (shell, turn, shift) =
+        let (mesh, turn, shift) =
             (TriangleMesh::new(heart()).unwrap(), DQuat::from_rotation_y(0.4), DVec3::new(3.0, -1.0, 0.5));
-        let moved = shell.reframed(&Pose { scale: 2.0, turn, at: shift });
+        let moved = mesh.reframed(&Pose { scale: 2.0, turn, at: shift });
         let anew = TriangleMesh::new(moved.surface().clone()).unwrap();
         assert_eq!(moved.facets(), anew.facets());
         for (a, b) in moved.planes().iter().zip(anew.planes()) {
             assert!(a.normal.distance(b.normal) < 1e-12 && (a.offset - b.offset).abs() < 1e-12);
         }
-        assert!((moved.volume() / shell.volume() - 8.0).abs() < 1e-12);
+        assert!((moved.volume() / mesh.volume() - 8.0).abs() < 1e-12);
     }
 
     #[test]
@@ -278,9 +278,9 @@ mod tests {
             .flat_map(|a| [Plane::new(a, 1.0), Plane::new(-a, 1.0)])
             .chain([Plane::new(DVec3::ONE, 2.2)]);
         let polytope = Polytope::from_planes(&planes.collect::<Vec<_>>()).unwrap();
-        let shell = TriangleMesh::of_polytope(&polytope);
-        assert!(shell.planes().iter().copied().eq(polytope.planes()));
-        let anew = TriangleMesh::new(shell.surface().clone()).unwrap();
-        assert_eq!(anew.facets(), shell.facets());
+        let mesh = TriangleMesh::of_polytope(&polytope);
+        assert!(mesh.planes().iter().copied().eq(polytope.planes()));
+        let anew = TriangleMesh::new(mesh.surface().clone()).unwrap();
+        assert_eq!(anew.facets(), mesh.facets());
     }
 }

@@ -55,7 +55,7 @@ pub struct Zone {
 }
 
 /// Sums up the light of a stone by the bands of a scope. `figures` traces it by a scope whose bands end at the horizon, so
-/// that light from above is told from light from below.
+/// that light from above and from below are counted apart.
 ///
 /// # Errors
 /// The errors of `figures`.

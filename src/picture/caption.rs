@@ -62,15 +62,15 @@ impl Caption {
             y += LINE;
         }
         let mut x = MARGIN.0;
-        for (told, colour) in &self.zones {
-            let told = shortened(told, REMARK.size, room - FIELD - GAPS.0);
-            let wide = FIELD + GAPS.0 + text_width(&told, REMARK.size);
+        for (label, colour) in &self.zones {
+            let label = shortened(label, REMARK.size, room - FIELD - GAPS.0);
+            let wide = FIELD + GAPS.0 + text_width(&label, REMARK.size);
             if x > MARGIN.0 && x + wide > width - MARGIN.0 {
                 (x, y) = (MARGIN.0, y + LINE);
             }
             let field = Rectangle::new().set("x", x).set("y", y - FIELD / 2.0).set("fill", hex(*colour));
             fields = fields.add(field.set("width", FIELD).set("height", FIELD));
-            texts = texts.add(line(REMARK, [x + FIELD + GAPS.0, y], &told));
+            texts = texts.add(line(REMARK, [x + FIELD + GAPS.0, y], &label));
             x += wide + GAPS.1;
         }
         let height = (y + LINE / 2.0 + MARGIN.1).ceil();
@@ -128,9 +128,10 @@ mod tests {
         let [narrow, wide] = [200.0, 1000.0].map(|width| caption.drawn(width));
         assert!(narrow.1 > wide.1, "{} and {}", narrow.1, wide.1);
         let text = caption.document(1000.0).to_string();
-        for told in ["A title", "twelve thirteen", "head, 80° to 90°", "blue, 75° to 80°", "green, 0° to 45°"]
+        for label in
+            ["A title", "twelve thirteen", "head, 80° to 90°", "blue, 75° to 80°", "green, 0° to 45°"]
         {
-            assert!(text.contains(told), "{told}: {text}");
+            assert!(text.contains(label), "{label}: {text}");
         }
         assert!(text.contains("below the horizon: light from behind") && text.contains("#00ff00"));
     }

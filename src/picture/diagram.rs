@@ -14,6 +14,7 @@ use crate::cut::tier_stem;
 use crate::math::{Basis, Facet, grouped};
 use crate::scene::Stone;
 use glam::DVec2;
+use std::borrow::Cow;
 use svg::Document;
 
 /// Distance from the circle that holds the stone to where the ticks of the index begin.
@@ -115,10 +116,10 @@ fn azimuth(radial: DVec2) -> f64 {
 
 /// Returns the name that a tier's facets share once their numbers are removed, or all different names where they share
 /// none.
-fn tier_name<'a>(names: impl Iterator<Item = &'a str>) -> String {
+fn tier_name<'a>(names: impl Iterator<Item = Cow<'a, str>>) -> String {
     let mut different: Vec<String> = vec![];
     for name in names {
-        let stem = tier_stem(name).replace('_', " ");
+        let stem = tier_stem(&name).replace('_', " ");
         if !different.contains(&stem) {
             different.push(stem);
         }
@@ -356,7 +357,7 @@ mod tests {
 
     #[test]
     fn a_tier_takes_the_name_that_its_facets_share() {
-        let name = |names: &[&str]| tier_name(names.iter().copied());
+        let name = |names: &[&str]| tier_name(names.iter().map(|&name| name.into()));
         assert_eq!(name(&["upper_half 1", "upper_half 16"]), "upper half");
         assert_eq!(name(&["P1", "P2"]), "P1, P2");
         assert_eq!(name(&["table"]), "table");

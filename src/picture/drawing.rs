@@ -135,7 +135,7 @@ impl Sheet {
             let corners = aspect.outline(stone, facet);
             corners.iter().for_each(|&p| self.frame.include(p));
             if drawn(facet) {
-                faces = faces.add(face(stone.name(id as u32), &corners, self.shade(facet, aspect)));
+                faces = faces.add(face(&stone.name(id as u32), &corners, self.shade(facet, aspect)));
             }
             for (k, &other) in facet.neighbours.iter().enumerate().filter(|_| aspect.shows(facet)) {
                 let line = (corners[k], corners[(k + 1) % corners.len()]);

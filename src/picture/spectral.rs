@@ -15,14 +15,14 @@ pub struct Remainder {
     pub absorbed: f64,
 }
 
-/// Takes a picture with sample passes as `looks` describes them, in these strata of wavelength. `prepare` builds the tracer for a range
+/// Takes a picture with sample passes as `sampling` describes them, in these strata of wavelength. `prepare` builds the tracer for a range
 /// of rows, which never has more than `most_rows`.
 ///
 /// # Errors
 /// The errors of `prepare` and of the tracer that it builds, and [`Stopped`] when `watch` stops the work.
 pub fn expose<E: From<Stopped>, X: ProgressiveImage<E>>(
     lit_scene: &LitScene,
-    (strata, looks): (&[Stratum], Sampling),
+    (strata, sampling): (&[Stratum], Sampling),
     most_rows: u32,
     prepare: impl Fn(Range<u32>) -> Result<X, E>,
     watch: Watch,
@@ -32,13 +32,13 @@ pub fn expose<E: From<Stopped>, X: ProgressiveImage<E>>(
     for first in (0..height).step_by(most_rows as usize) {
         let rows = first..(first + most_rows).min(height);
         let mut exposure = prepare(rows.clone())?;
-        for number in 0..looks.count {
+        for number in 0..sampling.count {
             let done = |part: f64| {
                 let rows_done = f64::from(rows.start)
-                    + rows.len() as f64 * (f64::from(number) + part) / f64::from(looks.count);
+                    + rows.len() as f64 * (f64::from(number) + part) / f64::from(sampling.count);
                 watch(rows_done / f64::from(height))
             };
-            exposure.add_pass(&looks.pass(lit_scene.scene, strata, number), &done)?;
+            exposure.add_pass(&sampling.pass(lit_scene.scene, strata, number), &done)?;
         }
         exposure.each_pixel(&mut |lit| sum.add(lit))?;
     }

@@ -33,7 +33,7 @@ fn faded(outline: &[DVec2], depth: Affine, uneven: f64, mut even: impl FnMut(&[D
     let (low, high) = (depths().fold(f64::INFINITY, f64::min), depths().fold(0.0, f64::max));
     let deepest = high.min(low + DARK);
     let strips = ((deepest - low) / uneven).ceil() as u32;
-    let mut told = |part: &[DVec2]| {
+    let mut lay = |part: &[DVec2]| {
         let size = area(part);
         if size > 0.0 {
             even(part, integral_of_decay(part, depth) / size);
@@ -46,7 +46,7 @@ fn faded(outline: &[DVec2], depth: Affine, uneven: f64, mut even: impl FnMut(&[D
         clip(&rest, above * -1.0, &mut strip);
         clip(&rest, above, &mut spare);
         std::mem::swap(&mut rest, &mut spare);
-        told(&strip);
+        lay(&strip);
     }
-    told(&rest);
+    lay(&rest);
 }

@@ -37,8 +37,8 @@ impl TemporalHistory {
     /// Begins with a first picture; `moved` has an entry for each of its pixels.
     pub fn begin(picture: Linear, moved: &[MotionVector]) -> Self {
         let picture = picture.whole();
-        let film = Film { now: &picture, moved };
-        let bodies = (0..picture.pixels.len()).map(|k| film.from(k).0).collect();
+        let frames = Frames { now: &picture, moved };
+        let bodies = (0..picture.pixels.len()).map(|k| frames.from(k).0).collect();
         Self { picture, bodies, count: 1 }
     }
 
@@ -53,11 +53,11 @@ impl TemporalHistory {
             return;
         }
         let newest = newest.clamp(0.0, 1.0) as f32;
-        let film = Film { now: &next.picture, moved };
+        let frames = Frames { now: &next.picture, moved };
         let pixels = (0..moved.len()).into_par_iter().map(|k| {
             let now = next.picture.pixels[k];
-            let Some(before) = self.before(film.from(k)) else { return now };
-            let [least, most] = film.around(k);
+            let Some(before) = self.before(frames.from(k)) else { return now };
+            let [least, most] = frames.around(k);
             let held = |c: usize| before[c].max(least[c]).min(most[c]);
             std::array::from_fn(|c| held(c) + (now[c] - held(c)) * newest)
         });
@@ -94,12 +94,12 @@ impl TemporalHistory {
 }
 
 /// The newest picture.
-struct Film<'a> {
+struct Frames<'a> {
     now: &'a Linear,
     moved: &'a [MotionVector],
 }
 
-impl Film<'_> {
+impl Frames<'_> {
     /// Returns the pixels around one, including itself, with the steps to them.
     fn near(&self, k: usize) -> impl Iterator<Item = (usize, DVec2)> + '_ {
         let (width, height) = (self.now.width as i64, self.now.height as i64);
@@ -185,13 +185,13 @@ mod tests {
 
     /// Follows a disc that moves for some time, seen at one point per pixel. Returns the errors of the blended pictures
     /// and of the last picture alone.
-    fn run(speed: DVec2, told: DVec2, newest: f64) -> (f64, f64) {
+    fn run(speed: DVec2, motion: DVec2, newest: f64) -> (f64, f64) {
         let place = |n: u32| DVec2::splat(9.0) + speed * f64::from(n);
         let shift = |n: u32| ((DVec2::new(0.755, 0.57) * f64::from(n)) + 0.5).fract();
-        let mut trail = TemporalHistory::begin(disc(place(0), shift(0)), &moved(place(0), told));
+        let mut trail = TemporalHistory::begin(disc(place(0), shift(0)), &moved(place(0), motion));
         const LAST: u32 = 19;
         for n in 1..=LAST {
-            trail.lay(disc(place(n), shift(n)), &moved(place(n), told), newest);
+            trail.lay(disc(place(n), shift(n)), &moved(place(n), motion), newest);
         }
         assert_eq!(trail.count, LAST + 1);
         let exact = exact(place(LAST));
@@ -211,8 +211,8 @@ mod tests {
     #[test]
     fn without_its_true_motion_it_is_worse() {
         let speed = DVec2::new(0.31, 0.17);
-        let ((told, _), (untold, _)) = (run(speed, speed, 0.2), run(speed, DVec2::ZERO, 0.2));
-        assert!(untold > 1.15 * told, "{untold} and {told}");
+        let ((followed, _), (still, _)) = (run(speed, speed, 0.2), run(speed, DVec2::ZERO, 0.2));
+        assert!(still > 1.15 * followed, "{still} and {followed}");
     }
 
     #[test]

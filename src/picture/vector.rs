@@ -118,11 +118,11 @@ impl<'a> Page<'a> {
         (backing, groups): (&str, Vec<Group>),
     ) -> Document {
         let polarised = if beams.polarised { "polarised" } else { "unpolarised" };
-        let told =
+        let description =
             format!("Virtual facets of exact beams, {polarised}, index {}; {open}", beams.medium.index,);
         let frame = page(DVec2::splat(f64::from(SIDE)))
             .add(Title::new(title))
-            .add(Description::new().add(svg::node::Text::new(told)))
+            .add(Description::new().add(svg::node::Text::new(description)))
             .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", backing));
         groups.into_iter().fold(frame, |document, group| document.add(group.set("stroke-linejoin", "round")))
     }

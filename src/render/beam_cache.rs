@@ -6,12 +6,16 @@ use crate::trace::beam::{self, BeamOptions, Beams};
 use crate::trace::{Stopped, Watch};
 use std::sync::Arc;
 
-/// How many sets of beams are kept.
+/// The most sets of beams that are kept.
 const MOST_KEPT: usize = 6;
+
+/// The most beams that are kept in all sets: as many as the largest set has, which may be kept alone.
+const MOST_BEAMS: usize = 6_000_000;
 
 /// Beams that several pictures share.
 #[derive(Default)]
 pub struct BeamCache {
+    /// The sets of beams, the one that was used last at the end.
     kept: Vec<Kept>,
     /// The number of the present round.
     round: u64,
@@ -40,26 +44,89 @@ impl BeamCache {
         options: &BeamOptions,
         watch: Watch,
     ) -> Result<Arc<Beams>, Stopped> {
-        let is_same = |kept: &&mut Kept| {
+        let is_same = |kept: &Kept| {
             (kept.medium, kept.view, kept.options) == (medium, *view, *options)
                 && Arc::ptr_eq(&kept.body, body)
         };
-        if let Some(kept) = self.kept.iter_mut().find(is_same) {
-            kept.used = self.round;
-            return Ok(Arc::clone(&kept.beams));
+        let used = self.round;
+        if let Some(place) = self.kept.iter().position(is_same) {
+            let kept = Kept { used, ..self.kept.remove(place) };
+            let beams = Arc::clone(&kept.beams);
+            self.kept.push(kept);
+            return Ok(beams);
         }
+        // Old sets make room before the new one takes its memory.
+        self.shrink(MOST_KEPT - 1, MOST_BEAMS);
         let beams = Arc::new(beam::trace(polytope, medium, view, options, watch)?);
-        if self.kept.len() == MOST_KEPT {
-            self.kept.remove(0);
-        }
-        let (body, view, options, used) = (Arc::clone(body), *view, *options, self.round);
+        self.shrink(MOST_KEPT - 1, MOST_BEAMS.saturating_sub(beams.len()));
+        let (body, view, options) = (Arc::clone(body), *view, *options);
         self.kept.push(Kept { body, medium, view, options, beams: Arc::clone(&beams), used });
         Ok(beams)
+    }
+
+    /// Drops the sets whose last use is longest ago, until there are at most so many sets with at most so many beams.
+    fn shrink(&mut self, most_sets: usize, most_beams: usize) {
+        let mut beams: usize = self.kept.iter().map(|kept| kept.beams.len()).sum();
+        while self.kept.len() > most_sets || beams > most_beams {
+            beams -= self.kept.remove(0).beams.len();
+        }
     }
 
     /// Begins a round: beams that were not used in the last one are dropped.
     pub fn begin_round(&mut self) {
         self.kept.retain(|kept| kept.used == self.round);
         self.round += 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Plane;
+    use crate::trace::unwatched;
+    use glam::DVec3;
+
+    fn cube() -> Arc<Body> {
+        let sides = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|normal| [normal, -normal]);
+        let planes: Vec<Plane> = sides.map(|normal| Plane { normal, offset: 0.5 }).collect();
+        Arc::new(Polytope::from_planes(&planes).unwrap().into())
+    }
+
+    /// Returns the beams of a cube of this index, from the cache.
+    fn beams(cache: &mut BeamCache, cube: &Arc<Body>, index: f64) -> Arc<Beams> {
+        let polytope = &cube.stone().unwrap().polytope;
+        let options = BeamOptions { unresolved: 0.1, ..BeamOptions::default() };
+        let medium = Medium::clear(index);
+        cache.of((cube, polytope), medium, &View::default(), &options, &unwatched).unwrap()
+    }
+
+    /// Returns the indices of the cubes whose beams are kept, the one that was used last at the end.
+    fn kept(cache: &BeamCache) -> Vec<f64> {
+        cache.kept.iter().map(|kept| kept.medium.index).collect()
+    }
+
+    #[test]
+    fn the_set_that_was_used_longest_ago_makes_room_for_a_new_one() {
+        let (mut cache, cube) = (BeamCache::default(), cube());
+        let first = beams(&mut cache, &cube, 1.5);
+        for index in [1.6, 1.7, 1.8, 1.9, 2.0] {
+            beams(&mut cache, &cube, index);
+        }
+        assert!(Arc::ptr_eq(&first, &beams(&mut cache, &cube, 1.5)));
+        beams(&mut cache, &cube, 2.1);
+        assert_eq!(kept(&cache), [1.7, 1.8, 1.9, 2.0, 1.5, 2.1]);
+        assert!(Arc::ptr_eq(&first, &beams(&mut cache, &cube, 1.5)));
+    }
+
+    #[test]
+    fn sets_are_dropped_until_their_beams_fit() {
+        let (mut cache, cube) = (BeamCache::default(), cube());
+        let counts = [1.5, 1.6, 1.7].map(|index| beams(&mut cache, &cube, index).len());
+        cache.shrink(MOST_KEPT, counts.iter().sum());
+        assert_eq!(kept(&cache), [1.5, 1.6, 1.7]);
+        cache.shrink(MOST_KEPT, counts[1] + counts[2]);
+        assert_eq!(kept(&cache), [1.6, 1.7]);
+        cache.shrink(MOST_KEPT, 0);
+        assert!(kept(&cache).is_empty());
     }
 }

@@ -20,10 +20,10 @@ impl MapProduct {
 impl PaneProduct {
     pub(super) fn render(&self, passes: u32, watch: Watch) -> Result<Output, RenderError> {
         let around = PaneLighting {
-            sky: &EnvironmentMap::new(&surroundings(self.pane.effective().light), None),
+            map: &EnvironmentMap::new(&surroundings(self.pane.effective().light), None),
             gap: self.gap,
             strata: &strata(self.wavelengths, &Illuminant::D65, true),
-            looks: passes,
+            passes,
         };
         if self.compares {
             let comparison = compare(&self.pane, &self.background, &around, watch)?;

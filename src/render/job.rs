@@ -70,7 +70,7 @@ pub enum Steps {
     Passes {
         /// The number of the first pass. Passes of other numbers take other places in the pixels.
         first: u32,
-        /// The number of passes of which nothing is shown, because a picture as good is in sight.
+        /// The number of passes of which nothing is shown, because a picture as good is in sight; the last is always shown.
         hidden: u32,
     },
     /// By the beams of one wavelength, spread to the others to first order; for a picture that is about to change. Rays
@@ -221,6 +221,14 @@ impl Job {
     }
 }
 
+/// Returns the note of a picture that follows refraction only by a part, which is not physics; it begins with a semicolon,
+/// and is empty where the strength is 1.
+pub fn mixture_note(strength: f64) -> String {
+    let note =
+        || format!("; strength {strength}: refracted and straight rays are mixed, which is not physics");
+    (strength < 1.0).then(note).unwrap_or_default()
+}
+
 impl LightProduct {
     /// Returns the strata of wavelengths that are traced.
     pub fn strata(&self) -> Vec<Stratum> {
@@ -233,6 +241,6 @@ impl MapProduct {
     pub(super) fn surveyed<T>(&self, passes: u32, work: impl FnOnce(&Survey) -> T) -> T {
         let bands = |count| strata(count, &self.surroundings.lighting.light.spectrum, self.adapted);
         let (bands, shades) = (bands(self.bands), bands(self.shades));
-        work(&Survey { bands: &bands, places: self.places, shades: &shades, looks: passes })
+        work(&Survey { bands: &bands, places: self.places, shades: &shades, passes })
     }
 }

@@ -16,9 +16,6 @@ use crate::trace::sampling::{LitScene, ProgressiveImage, Sampling};
 use crate::trace::sampling::{RadiancePixel, SamplePass};
 use std::ops::Range;
 
-/// How many rows point rays trace at once: the sums of their passes are held in memory.
-const ROWS_OF_RAYS: u32 = 256;
-
 /// A picture under light that is being traced.
 struct Exposure<'a> {
     job: &'a Job,
@@ -64,11 +61,11 @@ impl Exposure<'_> {
             }
             Backend::Rays => {
                 let prepare = |rows| Ok(ByRays::new(*lit_scene, rows));
-                expose(lit_scene, sampled, ROWS_OF_RAYS, prepare, self.watch)
+                expose(lit_scene, sampled, ByRays::MOST_ROWS, prepare, self.watch)
             }
             #[cfg(feature = "gpu")]
             Backend::Card(gpu) => {
-                let environment = GpuEnvironment::new(gpu, &lit_scene.environment);
+                let environment = GpuEnvironment::new(gpu, &lit_scene.environment)?;
                 let prepare = |rows| Ok(ByCard::new(gpu, lit_scene, &environment, rows, self.strata.len())?);
                 expose(lit_scene, sampled, ByCard::most_rows(width), prepare, self.watch)
             }
@@ -101,7 +98,7 @@ impl Exposure<'_> {
             Backend::Rays => self.add_up(ByRays::new(self.lit_scene, rows), (backend, first, hidden), each),
             #[cfg(feature = "gpu")]
             Backend::Card(gpu) => {
-                let environment = GpuEnvironment::new(gpu, &self.lit_scene.environment);
+                let environment = GpuEnvironment::new(gpu, &self.lit_scene.environment)?;
                 let strips = Strips::new(gpu, &self.lit_scene, &environment, self.strata.len())?;
                 self.add_up(strips, (backend, first, hidden), each)
             }
@@ -121,7 +118,7 @@ impl Exposure<'_> {
             let pass = self.sampling.pass(self.lit_scene.scene, &self.strata, first.wrapping_add(number));
             image.add_pass(&pass, &done)?;
             let taken = number + 1;
-            if taken > hidden && (taken.is_power_of_two() || taken == count) {
+            if taken == count || taken > hidden && taken.is_power_of_two() {
                 last = seen(&self.lit_scene, &image)?;
                 let (picture, rest) = (&last.0, last.1);
                 each(Partial::Picture { picture, rest, backend }).map_err(Halt::Each)?;

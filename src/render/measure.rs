@@ -1,6 +1,7 @@
 //! Measures a design: from the design to its figures in one call.
 
 use super::card::Card;
+use super::check::{LATTICES, OutOfRange, demand, demand_count, positive};
 use super::job::{FiguresProduct, Job, Product, Quality};
 use super::plan::Wanted;
 use super::renderer::{RenderError, Renderer};
@@ -8,7 +9,8 @@ use crate::cut::Design;
 use crate::measure::{Bounds, Measured};
 use crate::optics::{DispersionError, line};
 use crate::scene::{
-    ASET_CONE, Backing, Film, Medium, Scene, Scope, ScopeError, Specimen, SpecimenError, Viewpoint,
+    ASET_CONE, Backing, Film, Medium, Projection, Scene, Scope, ScopeError, Specimen, SpecimenError,
+    Viewpoint,
 };
 use crate::trace::unwatched;
 use std::sync::Arc;
@@ -65,16 +67,9 @@ pub enum MeasureError {
     /// The material has no index at this wavelength.
     #[error(transparent)]
     Dispersion(#[from] DispersionError),
-    /// An option is out of its range. The message gives its name, its value and its range.
-    #[error("{option} is {value}; give {range}")]
-    Option {
-        /// The option's name in [`MeasureOptions`] or [`Bounds`].
-        option: &'static str,
-        /// The value that was given.
-        value: f64,
-        /// The range that is allowed, in words.
-        range: &'static str,
-    },
+    /// An option of [`MeasureOptions`] or [`Bounds`] is out of its range.
+    #[error(transparent)]
+    Option(#[from] OutOfRange),
     /// The light cannot be traced.
     #[error(transparent)]
     Render(#[from] RenderError),
@@ -90,17 +85,14 @@ pub fn measure(design: &Design, options: &MeasureOptions) -> Result<Measured, Me
     let specimen = Specimen::new(design.clone())?;
     let material = &specimen.material;
     let index = options.index.map_or_else(|| material.dispersion.try_index(options.wavelength_nm), Ok)?;
-    first_wrong(&[("index", index, INDICES.contains(&index), "1 (air) to 5")])?;
+    demand(INDICES.contains(&index), "index", index, "1 (air) to 5")?;
     let absorption = Medium::absorption_of(material, options.wavelength_nm, specimen.unit_mm());
     let medium = Medium { index, absorption, spread: 0.0 };
     let job = Job {
         scene: Arc::new(Scene::alone(&specimen)),
         view: options.viewpoint.view(),
         film: Film::NONE,
-        product: Product::Figures(FiguresProduct {
-            scope: options.scope.clone().with_head(options.head_deg),
-            medium,
-        }),
+        product: Product::Figures(FiguresProduct { scope: options.scope_with_head(), medium }),
         quality: Quality::of_figures(&options.bounds, options.tracer),
     };
     let rendered =
@@ -108,29 +100,27 @@ pub fn measure(design: &Design, options: &MeasureOptions) -> Result<Measured, Me
     Ok(rendered.figures()?)
 }
 
-/// An option's name and value, whether the value is in its range, and the range in words.
-type Check = (&'static str, f64, bool, &'static str);
-
-/// Returns an error for the first option that is out of its range.
-fn first_wrong(checks: &[Check]) -> Result<(), MeasureError> {
-    match checks.iter().find(|(.., is_right, _)| !is_right) {
-        Some(&(option, value, _, range)) => Err(MeasureError::Option { option, value, range }),
-        None => Ok(()),
-    }
-}
-
 impl MeasureOptions {
+    fn scope_with_head(&self) -> Scope {
+        self.scope.clone().with_head(self.head_deg)
+    }
+
     /// Checks that the scope is valid and every number in its range.
     fn check(&self) -> Result<(), MeasureError> {
-        self.scope.validate()?;
         let (view, Bounds { unresolved, lattice, .. }) = (&self.viewpoint, self.bounds);
-        first_wrong(&[
-            ("head_deg", self.head_deg, (0.0..90.0).contains(&self.head_deg), "0 to below 90 degrees"),
-            ("wavelength_nm", self.wavelength_nm, self.wavelength_nm > 0.0, "a wavelength above 0 nm"),
-            ("tilt_deg", view.tilt_deg, (-90.0..=90.0).contains(&view.tilt_deg), "-90 to 90 degrees"),
-            ("azimuth_deg", view.azimuth_deg, view.azimuth_deg.is_finite(), "a finite angle"),
-            ("unresolved", unresolved, unresolved > 0.0 && unresolved < 1.0, "a part between 0 and 1"),
-            ("lattice", f64::from(lattice), (1..=16_384).contains(&lattice), "1 to 16,384"),
-        ])
+        let (head, nm) = (self.head_deg, self.wavelength_nm);
+        demand((0.0..90.0).contains(&head), "head_deg", head, "0 to below 90 degrees")?;
+        self.scope_with_head().validate()?;
+        demand(nm > 0.0, "wavelength_nm", nm, "a wavelength above 0 nm")?;
+        let is_tilt = (-90.0..=90.0).contains(&view.tilt_deg);
+        demand(is_tilt, "tilt_deg", view.tilt_deg, "-90 to 90 degrees")?;
+        demand(view.azimuth_deg.is_finite(), "azimuth_deg", view.azimuth_deg, "a finite angle")?;
+        if let Projection::Perspective { distance } = view.projection {
+            positive("distance", distance)?;
+        }
+        let is_part = unresolved > 0.0 && unresolved < 1.0;
+        demand(is_part, "unresolved", unresolved, "a part between 0 and 1")?;
+        demand_count("lattice", lattice, &LATTICES)?;
+        Ok(())
     }
 }

@@ -4,6 +4,7 @@
 mod beam_cache;
 mod behind_glass;
 mod card;
+mod check;
 mod job;
 mod light;
 mod measure;
@@ -16,9 +17,10 @@ mod surroundings;
 mod tests;
 
 pub use card::{Backend, Card, NoCard};
+pub use check::{JobError, OutOfRange};
 pub use job::{
     FiguresProduct, Job, LightProduct, MapProduct, PaneProduct, Product, Quality, Reading, ScopeProduct,
-    Steps,
+    Steps, mixture_note,
 };
 pub use measure::{MeasureError, MeasureOptions, measure};
 pub use plan::{CardWorth, Demands, Plan, Unfit, Wanted};

@@ -1,17 +1,18 @@
 //! Plans which tracer makes a picture or figures. No other place decides this.
 
 use super::card::{Backend, Card, NoCard};
+use super::check::JobError;
 use super::job::{Job, LightProduct, Product, Steps};
 use crate::math::{NotConvex, SolidRef};
 use crate::scene::{Projection, View};
 use crate::trace::ray::Camera;
 use serde::{Deserialize, Serialize};
 
-/// The tracer that a person or a program wants. The program's help says what is said here.
+/// The tracer that a person or a program wants. clap prints these comments as the option's help.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Wanted {
-    /// The quickest: exact beams, or for renders a graphics card where there is one; rays where beams do not apply.
+    /// The quickest: exact beams; a graphics card for renders and where beams do not apply; else rays.
     #[default]
     #[cfg_attr(feature = "cli", value(name = "auto"))]
     Quickest,
@@ -49,6 +50,9 @@ pub enum CardWorth {
 /// Why a job cannot be done, or not by exact beams.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Unfit {
+    /// The job makes no sense, whatever traces it.
+    #[error(transparent)]
+    Job(#[from] JobError),
     /// The eye of a perspective is beside or inside the stone, so that no tracer can show it.
     #[error("the eye of the perspective is not in front of the whole stone; move it farther away")]
     Eye,
@@ -70,7 +74,9 @@ pub enum Unfit {
     #[error("exact beams cannot mix refracted and straight rays: trace by rays, or set the strength to 1")]
     Mixture,
     /// Light is followed along many paths at once, as in refraction maps and liquid glass.
-    #[error("refraction maps and liquid glass are traced by rays")]
+    #[error(
+        "refraction maps and liquid glass are traced by rays on the processor: choose these, or no tracer"
+    )]
     ManyPaths,
 }
 
@@ -129,12 +135,14 @@ impl Demands {
 /// Decides which tracer does the work. The card is opened only where it may be used.
 ///
 /// # Errors
-/// [`Unfit`] where exact beams are wanted and do not fit.
+/// [`Unfit`] where exact beams are wanted and do not fit, or a card for what is never done by one.
 pub fn plan(demands: &Demands, wanted: Wanted, card: &Card) -> Result<Plan, Unfit> {
     let mut no_card = None;
     let by_processor = || if demands.against_beams.is_none() { Backend::Beams } else { Backend::Rays };
     let backend = match (wanted, &demands.against_beams, demands.card) {
-        (Wanted::Beams, Some(why), _) => return Err(why.clone()),
+        (Wanted::Beams, Some(why), _) | (Wanted::Card, Some(why), CardWorth::Nothing) => {
+            return Err(why.clone());
+        }
         (Wanted::Beams, None, _) => Backend::Beams,
         (Wanted::Rays, ..) | (_, _, CardWorth::Nothing) => Backend::Rays,
         (Wanted::Card, ..) => card.any().unwrap_or_else(|why| {
@@ -153,6 +161,16 @@ mod tests {
 
     fn tracer(demands: &Demands, wanted: Wanted) -> Result<&'static str, Unfit> {
         plan(demands, wanted, &Card::None).map(|plan| plan.backend.name())
+    }
+
+    #[test]
+    fn a_card_is_refused_where_it_is_never_used() {
+        let against_beams = Some(Unfit::ManyPaths);
+        let paths = Demands { against_beams: against_beams.clone(), card: CardWorth::Nothing };
+        assert_eq!([Wanted::Quickest, Wanted::Rays].map(|w| tracer(&paths, w)), [Ok("ray"), Ok("ray")]);
+        assert_eq!(tracer(&paths, Wanted::Card), Err(Unfit::ManyPaths));
+        let little = Demands { against_beams, card: CardWorth::Little };
+        assert_eq!(tracer(&little, Wanted::Card), Ok("ray"));
     }
 
     #[test]

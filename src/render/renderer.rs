@@ -19,7 +19,7 @@ use std::sync::Arc;
 pub struct Renderer {
     card: Card,
     pub(super) beams: BeamCache,
-    /// Whether it was said that no card is used.
+    /// Whether the caller was notified that no card is used.
     is_noted: bool,
 }
 
@@ -164,8 +164,9 @@ impl Renderer {
     /// Decides which tracer does a job.
     ///
     /// # Errors
-    /// [`Unfit`] where the stone cannot be seen, or exact beams are wanted and do not fit.
+    /// [`Unfit`] where the job makes no sense, the stone cannot be seen, or the tracer that is wanted does not fit.
     pub fn plan(&self, job: &Job) -> Result<Plan, Unfit> {
+        job.check()?;
         plan(&Demands::of(job)?, job.quality.tracer, &self.card)
     }
 

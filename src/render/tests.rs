@@ -3,12 +3,15 @@ use crate::cut::{Design, Family, MaterialRef};
 use crate::math::Pose;
 use crate::measure::Bounds;
 use crate::picture::Linear;
+use crate::picture::{Backdrop, liquid_glass::GlassPane};
 use crate::scene::{
-    ASET_CONE, Backing, Film, Glare, Instance, Light, Projection, Scene, Scope, Specimen, View,
+    ASET_CONE, Backing, Film, Glare, Instance, Light, Panorama, PanoramaRef, Projection, Scene, Scope,
+    Specimen, View,
 };
 use crate::trace::environment::{EnvironmentMap, Lighting};
 use crate::trace::unwatched;
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec2, DVec3};
+use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -74,9 +77,12 @@ fn several() -> Scene {
     Scene { instances: all.into(), unit_mm: 3.0 }
 }
 
+fn several_lit() -> Job {
+    job(several(), light(Steps::Strips))
+}
+
 #[test]
 fn a_job_that_was_written_and_read_makes_the_same() {
-    let alone = || Scene::alone(&specimen("round_brilliant"));
     let jobs = [
         job(alone(), light(Steps::Strips)),
         job(several(), light(Steps::Strips)),
@@ -116,6 +122,157 @@ fn data_that_make_no_body_are_refused_with_the_reason() {
     assert!(refused.contains("planes enclose no stone"), "{refused}");
 }
 
+fn alone() -> Scene {
+    Scene::alone(&specimen("round_brilliant"))
+}
+
+fn grey(width: u32, height: u32) -> Arc<Panorama> {
+    Arc::new(Panorama { width, height, pixels: vec![[0.5; 3]; (width * height) as usize] })
+}
+
+/// Returns a picture with a panorama around the stone and a photograph behind it.
+fn hung() -> Job {
+    let mut job = job(alone(), light(Steps::Strips));
+    if let Product::Light(product) = &mut job.product {
+        let panorama = PanoramaRef { file: "sky.exr".into(), exposure: 0.0, turn: 0.0 };
+        let light = Light { panorama: Some(panorama), ..Light::ring() };
+        let map = EnvironmentMap { levels: vec![vec![[0.5; 4]; 4], vec![[0.5; 4]]], side: 2, lamps: vec![] };
+        product.surroundings.lighting = Arc::new(Lighting { light, map, warnings: vec![] });
+        let picture = grey(3, 2);
+        let hung = HungPicture { picture, span: 1.0, distance: 3.0, frame: Film::square(24, 1.1) };
+        product.surroundings.backplate = Some(hung);
+    }
+    job
+}
+
+fn map() -> Job {
+    let surroundings = match hung().product {
+        Product::Light(light) => light.surroundings,
+        _ => unreachable!("the job is of a picture under light"),
+    };
+    let plane = Backdrop { distance: 3.0, size: DVec2::splat(4.0), both_sides: false };
+    let map = MapProduct { surroundings, plane, bands: 1, places: 1, shades: 0, adapted: true };
+    job(alone(), Product::RefractionMap(map))
+}
+
+fn pane() -> Job {
+    let pane = GlassPane::clear(DVec2::splat(2.0), DVec2::splat(8.0), 1.0);
+    let product = PaneProduct { pane, background: grey(12, 12), gap: 0.1, wavelengths: 3, compares: false };
+    Job::of_pane(product, Quality::of_pictures(true))
+}
+
+/// Returns why a job is refused in whose JSON `value` stands at `pointer`: as it is read, or as it is planned.
+fn refused(job: &Job, pointer: &str, value: &Value) -> String {
+    let mut written = serde_json::to_value(job).unwrap();
+    written.pointer_mut(pointer).unwrap_or_else(|| panic!("{pointer}")).clone_from(value);
+    match serde_json::from_value::<Job>(written) {
+        Err(error) => error.to_string(),
+        Ok(read) => match Renderer::default().plan(&read) {
+            Err(unfit) => unfit.to_string(),
+            Ok(_) => panic!("{pointer}: {value} is planned"),
+        },
+    }
+}
+
+#[test]
+fn jobs_that_make_no_sense_are_refused_with_key_value_and_range() {
+    let lit = || job(alone(), light(Steps::Strips));
+    let glance = || job(alone(), light(Steps::Glance { first: 0 }));
+    let in_scope = || job(alone(), scope(vec![Reading::Energy]));
+    let measured = || job(alone(), figures());
+    for job in [lit(), glance(), several_lit(), in_scope(), measured(), hung(), map(), pane()] {
+        assert_eq!(job.check(), Ok(()));
+    }
+    let no_film = Job { film: Film::NONE, ..measured() };
+    assert_eq!(no_film.check(), Ok(()), "figures need no film");
+    let (film, pose) = ("/film/size", "/scene/instances/1/pose");
+    let (map_of, hung_at) =
+        ("/product/Light/surroundings/lighting/map", "/product/Light/surroundings/backplate");
+    let at = |folder: &str, key: &str| format!("{folder}/{key}");
+    let bands = json!([]);
+    let level = json!([[0.5, 0.5, 0.5, 0.5]]);
+    let near = json!({ "Perspective": { "distance": -8.0 } });
+    let cases = [
+        (lit(), film.into(), json!([0, 8]), "film.size is 0; give 1 to 65,536 pixels"),
+        (glance(), film.into(), json!([8, 0]), "film.size is 0;"),
+        (in_scope(), film.into(), json!([8, 0]), "film.size is 0;"),
+        (map(), film.into(), json!([4_000_000_000_u32, 8]), "film.size is 4000000000;"),
+        (lit(), "/film/pixel".into(), json!(0.0), "film.pixel is 0; give a finite number above 0"),
+        (lit(), "/view/projection".into(), near.clone(), "view.projection.distance is -8;"),
+        (measured(), "/view/projection".into(), near, "view.projection.distance is -8;"),
+        (lit(), "/view/turn".into(), json!([0.0, 0.0, 0.0, 0.0]), "view.turn is 0;"),
+        (lit(), "/quality/samples".into(), json!(0), "quality.samples is 0; give 1 to 65,536 passes"),
+        (in_scope(), "/quality/samples".into(), json!(0), "quality.samples is 0; give 1 to 1024 rays"),
+        (measured(), "/quality/samples".into(), json!(0), "quality.samples is 0; give 1 to 16,384"),
+        (measured(), "/quality/beams/unresolved".into(), json!(-1.0), "quality.beams.unresolved is -1;"),
+        (lit(), "/product/Light/wavelengths".into(), json!(0), "wavelengths is 0; give 1 to 1024 bands"),
+        (lit(), "/product/Light/strength".into(), json!(2.0), "strength is 2; give a part from 0 to 1"),
+        (lit(), "/product/Light/surroundings/head".into(), json!(9.0), "surroundings.head is 9;"),
+        (lit(), "/scene/unit_mm".into(), json!(0.0), "scene.unit_mm is 0;"),
+        (several_lit(), at(pose, "scale"), json!(0.0), "scene.instances[1]: pose.scale is 0;"),
+        (several_lit(), at(pose, "turn"), json!([2.0, 0.0, 0.0, 0.0]), "scene.instances[1]: pose.turn is 2;"),
+        (in_scope(), "/product/Scope/scope/band".into(), bands.clone(), "the first band must begin at -90"),
+        (measured(), "/product/Figures/scope/band".into(), bands, "the first band must begin at -90"),
+        (in_scope(), "/product/Scope/medium/index".into(), json!(0.5), "medium.index is 0.5;"),
+        (
+            measured(),
+            "/product/Figures/medium/absorption".into(),
+            json!([0.0, -1.0]),
+            "medium.absorption is -1;",
+        ),
+        (hung(), at(hung_at, "span"), json!(0.0), "surroundings.backplate.span is 0;"),
+        (hung(), at(hung_at, "frame/size"), json!([0, 0]), "surroundings.backplate.frame.size is 0;"),
+        (hung(), at(hung_at, "picture/width"), json!(4), "4 by 2 pixels have 6 colours"),
+        (hung(), at(hung_at, "picture/pixels/1"), json!([0.5, -1.0, 0.5]), "pixels[1] is [0.5, -1.0, 0.5]"),
+        (hung(), map_of.into(), Value::Null, "the panorama sky.exr cannot be drawn anew"),
+        (hung(), at(map_of, "levels"), json!([]), "map.levels is empty"),
+        (hung(), at(map_of, "levels/1"), json!([]), "map.levels[1] has 0 texels"),
+        (
+            hung(),
+            at(map_of, "levels/0"),
+            level,
+            "map.levels[0] has 1 texels, and a map of side 2 has 4 there",
+        ),
+        (hung(), "/product/Light/surroundings/lighting/light/head".into(), json!(99.0), "head is 99;"),
+        (map(), "/product/RefractionMap/bands".into(), json!(0), "bands is 0;"),
+        (map(), "/product/RefractionMap/places".into(), json!(0), "places is 0;"),
+        (map(), "/product/RefractionMap/plane/size".into(), json!([0.0, 1.0]), "plane.size is 0;"),
+        (pane(), "/product/LiquidGlass/gap".into(), json!(-1.0), "gap is -1;"),
+        (pane(), "/product/LiquidGlass/wavelengths".into(), json!(0), "wavelengths is 0;"),
+        (
+            pane(),
+            "/product/LiquidGlass/background/height".into(),
+            json!(0),
+            "12 by 0 pixels have 144 colours",
+        ),
+    ];
+    for (job, pointer, value, says) in cases {
+        let pointer: String = pointer;
+        let error = refused(&job, &pointer, &value);
+        assert!(error.contains(says), "{pointer}: {error}");
+    }
+}
+
+#[test]
+fn jobs_that_were_never_written_are_checked_as_well() {
+    let empty = |mut job: Job| {
+        if let Product::Light(light) = &mut job.product {
+            let hung = light.surroundings.backplate.as_mut().unwrap();
+            hung.picture = Arc::new(Panorama { width: 3, height: 2, pixels: vec![] });
+        }
+        job
+    };
+    let refused = Renderer::default().plan(&empty(hung())).err().unwrap().to_string();
+    assert!(refused.starts_with("surroundings.backplate.picture: 3 by 2 pixels have 0 colours"), "{refused}");
+    let mut dark = alone();
+    dark.instances[0].material.dispersion = crate::optics::Dispersion::Constant(0.5);
+    let refused = Renderer::default().plan(&job(dark, light(Steps::Strips))).err().unwrap().to_string();
+    assert!(
+        refused.starts_with("scene.instances[0]: material.dispersion: the dispersion gives no"),
+        "{refused}"
+    );
+}
+
 #[test]
 fn a_picture_in_strips_is_the_last_of_those_that_grow_clearer() {
     for scene in [Scene::alone(&specimen("round_brilliant")), several()] {
@@ -134,6 +291,12 @@ fn a_picture_in_strips_is_the_last_of_those_that_grow_clearer() {
         assert_eq!(last.as_ref(), Some(&grown));
         assert_eq!(grown, lit(&job(scene, light(Steps::Strips))));
     }
+}
+
+#[test]
+fn the_last_pass_is_shown_even_where_all_are_hidden() {
+    let hidden = job(alone(), light(Steps::Passes { first: 0, hidden: 9 }));
+    assert_eq!(lit(&hidden), lit(&job(alone(), light(Steps::Strips))));
 }
 
 #[test]

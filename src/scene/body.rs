@@ -23,7 +23,7 @@ impl Body {
     pub fn solid(&self) -> SolidRef<'_> {
         match self {
             Self::Stone(stone) => SolidRef::Convex(&stone.polytope),
-            Self::Mesh(shell) => SolidRef::Triangles(shell),
+            Self::Mesh(mesh) => SolidRef::Triangles(mesh),
             Self::Glass(smooth) => SolidRef::Smooth(smooth),
         }
     }
@@ -52,9 +52,9 @@ impl Body {
     /// facets have no names.
     pub fn name(&self, facet: u32) -> String {
         match self {
-            Self::Stone(stone) if !stone.names().is_empty() => stone.name(facet).replace('_', " "),
+            Self::Stone(stone) => stone.name(facet).replace('_', " "),
             Self::Glass(smooth) => smooth.field().facets()[facet as usize].to_owned(),
-            Self::Stone(_) | Self::Mesh(_) => format!("facet {}", facet + 1),
+            Self::Mesh(_) => format!("facet {}", facet + 1),
         }
     }
 }
@@ -72,8 +72,8 @@ impl From<Polytope> for Body {
 }
 
 impl From<Arc<TriangleMesh>> for Body {
-    fn from(shell: Arc<TriangleMesh>) -> Self {
-        Self::Mesh(shell)
+    fn from(mesh: Arc<TriangleMesh>) -> Self {
+        Self::Mesh(mesh)
     }
 }
 

@@ -42,8 +42,8 @@ impl Default for Copies {
 impl Copies {
     /// Scatters `count` copies, 1 to [`MOST_COPIES`], in the plane across the axis, without any two touching.
     ///
-    /// `corners` are those of the body, and each copy is turned as the body is. Another `number` scatters the copies
-    /// otherwise. A single copy stays in the middle.
+    /// `corners` are those of the body, and each copy is turned as the body is. A different `number` gives a
+    /// different arrangement. A single copy stays in the middle.
     pub fn scattered(count: usize, corners: &[DVec3], number: u64) -> Self {
         let count = count.clamp(1, MOST_COPIES);
         if count == 1 {
@@ -169,17 +169,17 @@ mod tests {
     fn any_number_is_scattered_within_the_room_and_nothing_touches() {
         for count in 1..=MOST_COPIES {
             for number in 0..40 {
-                let company = Copies::scattered(count, &brick(), number);
-                assert_eq!(company.poses.len(), count);
+                let copies = Copies::scattered(count, &brick(), number);
+                assert_eq!(copies.poses.len(), count);
                 let boxes: Vec<_> =
-                    company.poses.iter().map(|p| bounds(p.turn, &brick()).map(|c| c + p.at)).collect();
+                    copies.poses.iter().map(|p| bounds(p.turn, &brick()).map(|c| c + p.at)).collect();
                 for (k, b) in boxes.iter().enumerate() {
                     let reach = b[0].truncate().abs().max(b[1].truncate().abs()).max_element();
-                    assert!(reach <= company.reach(1.0), "{count} {number}: {reach}");
+                    assert!(reach <= copies.reach(1.0), "{count} {number}: {reach}");
                     assert!(boxes[..k].iter().all(|other| are_apart(*b, *other)));
                 }
-                assert_eq!(company, Copies::scattered(count, &brick(), number));
-                assert_eq!(company.poses(&brick(), None), company.poses, "none is put behind another");
+                assert_eq!(copies, Copies::scattered(count, &brick(), number));
+                assert_eq!(copies.poses(&brick(), None), copies.poses, "none is put behind another");
             }
         }
         assert_ne!(Copies::scattered(4, &brick(), 1), Copies::scattered(4, &brick(), 2));
@@ -188,13 +188,13 @@ mod tests {
     #[test]
     fn copies_that_would_meet_lie_behind_one_another_at_every_time() {
         let near = |x: f64| Pose { at: DVec3::new(x, 0.0, 0.0), ..Pose::STILL };
-        let company = Copies::at((0..8).map(|k| near(0.1 * f64::from(k))).collect(), &brick());
+        let copies = Copies::at((0..8).map(|k| near(0.1 * f64::from(k))).collect(), &brick());
         for tumbling in [None, Some(0.0), Some(1.3), Some(77.0)] {
-            let poses = company.poses(&brick(), tumbling);
+            let poses = copies.poses(&brick(), tumbling);
             let reach = brick()[0].length();
             for (k, pose) in poses.iter().enumerate() {
                 assert!(poses[..k].iter().all(|other| other.at.distance(pose.at) > 2.0 * reach));
-                assert_eq!(pose.at.truncate(), company.poses[k].at.truncate());
+                assert_eq!(pose.at.truncate(), copies.poses[k].at.truncate());
             }
         }
         let apart = Copies::at(vec![near(0.0), near(2.01)], &brick());
@@ -204,10 +204,10 @@ mod tests {
 
     #[test]
     fn tumbling_begins_at_rest_and_goes_on_evenly() {
-        let company = Copies::scattered(3, &brick(), 5);
+        let copies = Copies::scattered(3, &brick(), 5);
         let turns =
-            |seconds| company.poses(&brick(), Some(seconds)).into_iter().map(|p| p.turn).collect::<Vec<_>>();
-        for (now, rest) in turns(0.0).iter().zip(&company.poses) {
+            |seconds| copies.poses(&brick(), Some(seconds)).into_iter().map(|p| p.turn).collect::<Vec<_>>();
+        for (now, rest) in turns(0.0).iter().zip(&copies.poses) {
             assert!(now.angle_between(rest.turn) < 1e-7);
         }
         for k in 0..100 {

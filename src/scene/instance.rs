@@ -19,6 +19,9 @@ pub struct Instance {
     pub label: String,
 }
 
+/// The most stones that a scene may have.
+pub const MOST_STONES: usize = 256;
+
 /// Stones in one world; no two overlap.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Scene {

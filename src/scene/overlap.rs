@@ -57,18 +57,18 @@ fn share(planes: impl Iterator<Item = Plane>, middle: DVec3, depth: f64) -> bool
 
 /// Returns whether an edge of `a`, shrunk a little toward its middle, runs into `b` or begins inside `b`.
 fn cross(a: &PosedSolid, b: &PosedSolid, middle: DVec3) -> bool {
-    let (Some(shell_a), Some(shell_b)) = (a.solid.mesh(), b.solid.mesh()) else { return false };
+    let (Some(mesh_a), Some(mesh_b)) = (a.solid.mesh(), b.solid.mesh()) else { return false };
     // The edges of `a` are carried into the frame of `b`.
     let corner = |v: &DVec3| b.pose.unplace(middle + (a.pose.place(*v) - middle) * (1.0 - TOUCHING));
-    let corners: Vec<DVec3> = shell_a.vertices().iter().map(corner).collect();
+    let corners: Vec<DVec3> = mesh_a.vertices().iter().map(corner).collect();
     let speed = |triangle: u32, way: DVec3| {
-        shell_b.planes()[shell_b.facets()[triangle as usize] as usize].normal.dot(way)
+        mesh_b.planes()[mesh_b.facets()[triangle as usize] as usize].normal.dot(way)
     };
-    shell_a.surface().triangles.iter().any(|t| {
+    mesh_a.surface().triangles.iter().any(|t| {
         (0..3).any(|i| {
             let [from, to] = [t[i], t[(i + 1) % 3]].map(|v| corners[v as usize]);
             // The first surface on the edge's way is met before the edge ends, or it is met from inside.
-            let hit = shell_b.bvh().nearest(from, to - from, 0.0, |_| true);
+            let hit = mesh_b.bvh().nearest(from, to - from, 0.0, |_| true);
             hit.is_some_and(|hit| hit.distance < 1.0 || speed(hit.triangle, to - from) > 0.0)
         })
     })

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 /// As a panorama it is equirectangular: its first row is the zenith, its last the nadir. Azimuth runs to the left, as it
 /// does for someone who looks up and turns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "PanoramaData")]
 pub struct Panorama {
     /// The number of pixels across, at least 1.
     pub width: u32,
@@ -17,7 +18,65 @@ pub struct Panorama {
     pub pixels: Vec<[f32; 3]>,
 }
 
+/// A panorama that has been read and is not checked yet.
+#[derive(Deserialize)]
+struct PanoramaData {
+    width: u32,
+    height: u32,
+    pixels: Vec<[f32; 3]>,
+}
+
+/// Why data make no panorama.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PanoramaError {
+    /// The picture has no pixel, or not as many as its size says.
+    #[error(
+        "{width} by {height} pixels have {pixels} colours: give one for each pixel, and at least one pixel"
+    )]
+    Size {
+        /// The number of pixels across.
+        width: u32,
+        /// The number of pixels down.
+        height: u32,
+        /// The number of colours that were given.
+        pixels: usize,
+    },
+    /// A colour is negative or infinite.
+    #[error("pixels[{place}] is {colour:?}: give finite numbers of 0 or more")]
+    Colour {
+        /// The place of the pixel, row by row from 0.
+        place: usize,
+        /// The colour that was given.
+        colour: [f32; 3],
+    },
+}
+
+impl TryFrom<PanoramaData> for Panorama {
+    type Error = PanoramaError;
+
+    fn try_from(PanoramaData { width, height, pixels }: PanoramaData) -> Result<Self, PanoramaError> {
+        let is_wrong = |colour: &[f32; 3]| colour.iter().any(|&part| !(part >= 0.0 && part.is_finite()));
+        if let Some(place) = pixels.iter().position(is_wrong) {
+            return Err(PanoramaError::Colour { place, colour: pixels[place] });
+        }
+        let panorama = Self { width, height, pixels };
+        panorama.check().map(|()| panorama)
+    }
+}
+
 impl Panorama {
+    /// Checks that there is a colour for each pixel, and at least one pixel.
+    ///
+    /// # Errors
+    /// [`PanoramaError::Size`] where this is not so.
+    pub fn check(&self) -> Result<(), PanoramaError> {
+        let Self { width, height, ref pixels } = *self;
+        if pixels.is_empty() || u64::from(width) * u64::from(height) != pixels.len() as u64 {
+            return Err(PanoramaError::Size { width, height, pixels: pixels.len() });
+        }
+        Ok(())
+    }
+
     /// Returns whether the picture is twice as wide as high, to one pixel, as a whole sphere is.
     pub fn is_whole_sphere(&self) -> bool {
         self.width.abs_diff(2 * self.height) <= 1

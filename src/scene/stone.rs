@@ -3,6 +3,7 @@
 use crate::cut::Outline;
 use crate::math::{Plane, Polytope, PolytopeError, Pose};
 use glam::DVec2;
+use std::borrow::Cow;
 
 /// A stone whose middle lies nearer to the axis than this part of its width is centred. This is more than the rounding to
 /// six digits in cutters' files, and less than can be seen.
@@ -28,9 +29,13 @@ impl Stone {
         Ok(Self { polytope, names })
     }
 
-    /// Returns the name of a facet of the polytope, by its place in [`Polytope::facets`].
-    pub fn name(&self, facet: u32) -> &str {
-        &self.names[facet as usize]
+    /// Returns the name of a facet of the polytope, by its place in [`Polytope::facets`]; facets without names are numbered
+    /// from 1.
+    pub fn name(&self, facet: u32) -> Cow<'_, str> {
+        match self.names.get(facet as usize) {
+            Some(name) => name.into(),
+            None => format!("facet {}", facet + 1).into(),
+        }
     }
 
     /// Makes a stone whose facets have no names.
@@ -56,5 +61,21 @@ impl Stone {
     /// Returns all names, in the order of the facets; none where facets have no names.
     pub fn names(&self) -> &[String] {
         &self.names
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    #[test]
+    fn facets_without_names_are_numbered() {
+        let sides = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|normal| [normal, -normal]);
+        let facets: Vec<(String, Plane)> =
+            sides.map(|normal| ("side".to_owned(), Plane { normal, offset: 1.0 })).collect();
+        let named = Stone::new(&facets).unwrap();
+        let nameless = Stone::nameless(named.polytope.clone());
+        assert_eq!([named.name(5), nameless.name(0), nameless.name(5)], ["side", "facet 1", "facet 6"]);
     }
 }

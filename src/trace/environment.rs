@@ -9,7 +9,7 @@
 mod drawing;
 
 use crate::math::Basis;
-use crate::scene::{Film, Light, Panorama, View, toward};
+use crate::scene::{Film, Light, LightError, Panorama, View, toward};
 use drawing::{channels, shine};
 use glam::{DVec2, DVec3, DVec4, IVec2, Vec2Swizzles as _, Vec4Swizzles as _};
 use rayon::prelude::*;
@@ -58,7 +58,7 @@ pub struct EnvironmentMap {
 
 /// A light, and the map that is looked up for it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(from = "LightingData", into = "LightingData")]
+#[serde(try_from = "LightingData", into = "LightingData")]
 pub struct Lighting {
     /// The light as it is described.
     pub light: Light,
@@ -83,11 +83,54 @@ impl From<Lighting> for LightingData {
     }
 }
 
-impl From<LightingData> for Lighting {
-    fn from(LightingData { light, map, warnings }: LightingData) -> Self {
-        let map = map.unwrap_or_else(|| EnvironmentMap::new(&light, None));
-        Self { light, map, warnings }
+impl TryFrom<LightingData> for Lighting {
+    type Error = LightingError;
+
+    fn try_from(LightingData { light, map, warnings }: LightingData) -> Result<Self, LightingError> {
+        light.validate()?;
+        let map = match (map, &light.panorama) {
+            (Some(map), _) => map.checked()?,
+            (None, None) => EnvironmentMap::new(&light, None),
+            (None, Some(panorama)) => {
+                return Err(LightingError::NoMap { panorama: panorama.file.display().to_string() });
+            }
+        };
+        Ok(Self { light, map, warnings })
     }
+}
+
+/// Why lighting cannot be looked up.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum LightingError {
+    /// The light is not valid.
+    #[error("light: {0}")]
+    Light(#[from] LightError),
+    /// The light has a panorama, and no map that holds it.
+    #[error(
+        "map is missing: the panorama {panorama} cannot be drawn anew; give the map that was drawn with it"
+    )]
+    NoMap {
+        /// The file of the panorama.
+        panorama: String,
+    },
+    /// The map has no levels.
+    #[error("map.levels is empty: give the finest level at least")]
+    NoLevel,
+    /// A level is not a square of the side that its place demands.
+    #[error("map.levels[{level}] has {texels} texels, and a map of side {side} has {wanted} there")]
+    Level {
+        /// The place of the level, from 0, the finest.
+        level: usize,
+        /// The number of its texels.
+        texels: usize,
+        /// The side of the finest level, as given.
+        side: usize,
+        /// The number of texels that the level should have.
+        wanted: usize,
+    },
+    /// The map or its lamps hold a number that is not finite.
+    #[error("map holds a number that is not finite: give finite ones")]
+    NotFinite,
 }
 
 /// A photograph on a plane behind the stones, perpendicular to the axis to the eye.
@@ -156,6 +199,33 @@ impl EnvironmentMap {
             radiance: channels(lamp.colour) * lamp.radiance,
         };
         Self { levels, side, lamps: light.lamps().into_iter().map(disc).collect() }
+    }
+
+    /// Checks that every level is a square of half the side of the one before.
+    ///
+    /// # Errors
+    /// [`LightingError::NoLevel`], or [`LightingError::Level`] for the first level at fault.
+    pub fn check(&self) -> Result<(), LightingError> {
+        if self.levels.is_empty() {
+            return Err(LightingError::NoLevel);
+        }
+        for (level, texels) in self.levels.iter().map(Vec::len).enumerate() {
+            let side = u32::try_from(level).ok().and_then(|by| self.side.checked_shr(by)).unwrap_or(0);
+            let wanted = side.saturating_mul(side);
+            if texels != wanted || texels == 0 {
+                return Err(LightingError::Level { level, texels, side: self.side, wanted });
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the map if it can be looked up.
+    fn checked(self) -> Result<Self, LightingError> {
+        self.check()?;
+        let is_finite = self.levels.iter().flatten().flatten().all(|x| x.is_finite())
+            && self.lamps.iter().all(|lamp| lamp.toward.is_finite() && lamp.radiance.is_finite())
+            && self.lamps.iter().all(|lamp| lamp.chord_squared.is_finite());
+        if is_finite { Ok(self) } else { Err(LightingError::NotFinite) }
     }
 
     /// Returns the map's light from a direction, averaged over an angle in radians.

@@ -96,7 +96,7 @@ impl StoneTracer {
             SolidRef::Convex(polytope) => {
                 SolidFacets::Planes(Arc::new(Planes::new(polytope.planes().collect())))
             }
-            SolidRef::Triangles(shell) => SolidFacets::Triangles(TriangleFacets::new(shell)),
+            SolidRef::Triangles(mesh) => SolidFacets::Triangles(TriangleFacets::new(mesh)),
             SolidRef::Smooth(smooth) if smooth.field().is_convex() => {
                 SolidFacets::Smooth(SmoothFacets(*smooth.field()))
             }

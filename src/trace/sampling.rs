@@ -73,7 +73,7 @@ pub trait ProgressiveImage<E: From<Stopped>> {
     ///
     /// # Errors
     /// [`Stopped`] when `watch` asks to stop, or the error of a graphics card.
-    fn add_pass(&mut self, look: &SamplePass, watch: Watch) -> Result<(), E>;
+    fn add_pass(&mut self, pass: &SamplePass, watch: Watch) -> Result<(), E>;
 
     /// Calls `each` with the means of all sample passes so far, pixel by pixel.
     ///
@@ -94,17 +94,17 @@ impl Sampling {
 
     /// Returns the sample pass of a number, from 0. Passes of many numbers fill pixels and strata evenly; the first goes
     /// through the middle of both.
-    pub fn pass(&self, setting: &Scene, strata: &[Stratum], number: u32) -> SamplePass {
+    pub fn pass(&self, scene: &Scene, strata: &[Stratum], number: u32) -> SamplePass {
         let mut at = (STEPS * f64::from(number) + 0.5).fract();
         if !self.jitter {
             at.z = 0.5;
         }
         let band = |s: &Stratum| (s.from_nm, s.at(at.z), s.to_nm);
-        let medium = |stone: &Instance, s: &Stratum| setting.medium(stone, band(s));
+        let medium = |stone: &Instance, s: &Stratum| scene.medium(stone, band(s));
         SamplePass {
             shift: at.truncate(),
             part: at.z,
-            media: setting.instances.iter().map(|p| strata.iter().map(|s| medium(p, s)).collect()).collect(),
+            media: scene.instances.iter().map(|p| strata.iter().map(|s| medium(p, s)).collect()).collect(),
             responses: strata.iter().map(|s| s.response).collect(),
             strength: self.strength,
         }
@@ -113,8 +113,8 @@ impl Sampling {
 
 impl SamplePass {
     /// Returns the sample pass of a number, as [`Sampling::pass`] does with wavelengths that change and at full strength.
-    pub fn new(setting: &Scene, strata: &[Stratum], number: u32) -> Self {
-        Sampling::of(1).pass(setting, strata, number)
+    pub fn new(scene: &Scene, strata: &[Stratum], number: u32) -> Self {
+        Sampling::of(1).pass(scene, strata, number)
     }
 
     /// Returns the direction for which a ray that leaves in `direction`, at the traced wavelength, stands: that of the

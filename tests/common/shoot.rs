@@ -84,7 +84,7 @@ impl Shoot {
         })
     }
 
-    fn looks(&self) -> Sampling {
+    fn sampling(&self) -> Sampling {
         Sampling { strength: self.strength, ..Sampling::of(self.samples) }
     }
 
@@ -92,7 +92,7 @@ impl Shoot {
         let strata = strata(self.wavelengths, &self.light.spectrum, true);
         self.with(|lit_scene| {
             let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
-            expose(lit_scene, (&strata, self.looks()), self.size, prepare, &unwatched).unwrap()
+            expose(lit_scene, (&strata, self.sampling()), self.size, prepare, &unwatched).unwrap()
         })
     }
 
@@ -106,7 +106,7 @@ impl Shoot {
         let options = beam::BeamOptions { unresolved: 1e-3, ..beam::BeamOptions::default() };
         self.with(|lit_scene| {
             let prepare = |rows| Ok::<_, Stopped>(ByBeams::of_rows(*lit_scene, options, rows).unwrap());
-            expose(lit_scene, (&strata, self.looks()), rows, prepare, &unwatched).unwrap()
+            expose(lit_scene, (&strata, self.sampling()), rows, prepare, &unwatched).unwrap()
         })
     }
 
@@ -125,10 +125,10 @@ impl Shoot {
     pub fn by_card(&self, gpu: &Gpu) -> (Linear, Remainder) {
         let strata = strata(self.wavelengths, &self.light.spectrum, true);
         self.with(|lit_scene| {
-            let around = GpuEnvironment::new(gpu, &lit_scene.environment);
+            let around = GpuEnvironment::new(gpu, &lit_scene.environment).unwrap();
             let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, lit_scene, &around, rows, strata.len())?);
             // The picture is traced in strips, as large pictures are.
-            expose(lit_scene, (&strata, self.looks()), 40, prepare, &unwatched).unwrap()
+            expose(lit_scene, (&strata, self.sampling()), 40, prepare, &unwatched).unwrap()
         })
     }
 }

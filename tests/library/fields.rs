@@ -249,7 +249,7 @@ fn glass_beside_a_stone_is_not_for_the_card() {
     let mut shoot = Shoot::new(&stone, "diamond", light("dome").unwrap());
     shoot.setting.instances.push(pill(DVec3::X * 3.0));
     shoot.with(|lit_scene| {
-        let around = GpuEnvironment::new(&gpu, &lit_scene.environment);
+        let around = GpuEnvironment::new(&gpu, &lit_scene.environment).unwrap();
         let refused = ByCard::new(&gpu, lit_scene, &around, 0..8, 3).err();
         assert_eq!(refused, Some(GpuError::MixedKinds));
     });

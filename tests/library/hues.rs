@@ -29,7 +29,7 @@ const XYZ_FROM_SRGB: DMat3 =
 
 /// Traces the cut: a prism of rainbow soap in the dark, in front of the slit of `render prism --background slit`. The cut
 /// runs across the upper rainbow.
-fn cut(wavelengths: u32, looks: Sampling) -> Vec<DVec3> {
+fn cut(wavelengths: u32, sampling: Sampling) -> Vec<DVec3> {
     let prism = Glass::Prism(Sides { length: 100.0, width: 37.9, depth: 29.8, edge: 0.0 });
     let planes: Vec<Plane> = prism.planes().unwrap().into_iter().map(|(_, plane)| plane).collect();
     let mut material = Material::from_index("rainbow soap", 1.272).unwrap();
@@ -37,10 +37,10 @@ fn cut(wavelengths: u32, looks: Sampling) -> Vec<DVec3> {
     let stone = Instance::new(Polytope::from_planes(&planes).unwrap(), material);
     let setting = Scene { instances: vec![stone], unit_mm: 20.0 };
     let slit = BackgroundRef::read("slit", Path::new("")).unwrap().picture().unwrap().unwrap().panorama;
-    shot(&setting, &slit, wavelengths, looks)
+    shot(&setting, &slit, wavelengths, sampling)
 }
 
-fn shot(setting: &Scene, slit: &Panorama, wavelengths: u32, looks: Sampling) -> Vec<DVec3> {
+fn shot(setting: &Scene, slit: &Panorama, wavelengths: u32, sampling: Sampling) -> Vec<DVec3> {
     let dark = Light { dome: vec![], ..Light::white() };
     let (sky, view) = (EnvironmentMap::new(&dark, None), View::default());
     let behind = Backplate { picture: slit, distance: 0.75, width: 4.24 };
@@ -58,7 +58,7 @@ fn shot(setting: &Scene, slit: &Panorama, wavelengths: u32, looks: Sampling) -> 
     let lit_scene = LitScene { scene: setting, environment, view: &view, film, options };
     let strata = strata(wavelengths, &Illuminant::D65, true);
     let prepare = |rows| Ok::<_, Stopped>(ByRays::new(lit_scene, rows));
-    let (picture, _) = expose(&lit_scene, (&strata, looks), PIXELS, prepare, &unwatched).unwrap();
+    let (picture, _) = expose(&lit_scene, (&strata, sampling), PIXELS, prepare, &unwatched).unwrap();
     picture.pixels.iter().map(|p| DVec3::new(p[0].into(), p[1].into(), p[2].into())).collect()
 }
 
@@ -110,7 +110,7 @@ fn steps(hues: &[Option<f64>]) -> (f64, usize) {
 fn three_wavelengths_show_three_hues_and_sixteen_nearly_all() {
     let still = |count| Sampling { jitter: false, ..Sampling::of(count) };
     let mut shown = vec![];
-    for (wavelengths, looks) in [
+    for (wavelengths, sampling) in [
         (3, still(16)),
         (8, still(16)),
         (16, still(16)),
@@ -118,11 +118,11 @@ fn three_wavelengths_show_three_hues_and_sixteen_nearly_all() {
         (16, Sampling::of(64)),
         (64, Sampling::of(64)),
     ] {
-        let found = hues(&cut(wavelengths, looks));
+        let found = hues(&cut(wavelengths, sampling));
         let (step, dark) = steps(&found);
         println!(
             "{wavelengths} wavelengths, jitter {}: {} hues, widest step {step:.1} degrees, {dark} gaps",
-            looks.jitter,
+            sampling.jitter,
             distinct(&found)
         );
         shown.push((distinct(&found), step, dark));

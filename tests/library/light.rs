@@ -73,7 +73,7 @@ fn many_wavelengths_of_a_neutral_scene_are_neutral() {
 }
 
 #[test]
-fn more_looks_and_more_wavelengths_come_to_the_same_picture() {
+fn more_passes_and_more_wavelengths_come_to_the_same_picture() {
     let mut shoot = Shoot::new(&modern(), "diamond", light("lamps").unwrap());
     let blocks = |wavelengths, samples, shoot: &mut Shoot| {
         (shoot.wavelengths, shoot.samples) = (wavelengths, samples);
@@ -187,7 +187,7 @@ fn a_film_that_is_shifted_sees_the_same_elsewhere() {
 }
 
 #[test]
-fn more_looks_bring_no_light_of_other_wavelengths() {
+fn more_passes_bring_no_light_of_other_wavelengths() {
     // Under small lamps each piece of a rainbow belongs to one band. Few bands and many passes then differ from many bands
     // about as much as few bands and one pass do, and not half as much again, as with light of neighbouring bands.
     let mut shoot = Shoot::new(&modern(), "diamond", light("fire").unwrap());
@@ -199,7 +199,7 @@ fn more_looks_bring_no_light_of_other_wavelengths() {
     let fine = picture(64, 1, &mut shoot);
     let off = |a: &[DVec3]| a.iter().zip(&fine).map(|(a, b)| (*a - *b).abs().element_sum()).sum::<f64>();
     let (once, often) = (off(&picture(16, 1, &mut shoot)), off(&picture(16, 4, &mut shoot)));
-    assert!(often < 1.1 * once, "{often} after four looks, {once} after one");
+    assert!(often < 1.1 * once, "{often} after four passes, {once} after one");
 }
 
 /// A picture of coloured stripes, 40 by 20 pixels.

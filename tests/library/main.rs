@@ -8,6 +8,7 @@
     reason = "a test fails by it, or says what it skips"
 )]
 
+mod card_limits;
 #[path = "../common/mod.rs"]
 mod common;
 mod corpus;

@@ -85,10 +85,10 @@ fn the_comparison_sees_every_small_change() {
     assert!(found.largest <= ALLOWED, "{:e}", found.largest);
 }
 
-fn shell((vertices, triangles): solids::Triangles) -> Arc<TriangleMesh> {
+fn mesh((vertices, triangles): solids::Triangles) -> Arc<TriangleMesh> {
     // The turn keeps edges away from the view's direction, where rounding would decide whether rays meet them.
-    let shell = TriangleMesh::new(Surface::new(vertices, triangles)).unwrap();
-    Arc::new(shell.reframed(&Pose::turned(DQuat::from_rotation_x(0.11) * DQuat::from_rotation_y(-0.07))))
+    let mesh = TriangleMesh::new(Surface::new(vertices, triangles)).unwrap();
+    Arc::new(mesh.reframed(&Pose::turned(DQuat::from_rotation_x(0.11) * DQuat::from_rotation_y(-0.07))))
 }
 
 #[test]
@@ -103,9 +103,9 @@ fn solids_that_are_not_convex_look_as_by_rays() {
     let solids = [("heart", solids::heart()), ("star", solids::star()), ("clasp", solids::clasp(0.4))];
     let (mut left_out, mut all) = (0, 0);
     for (k, (name, solid)) in solids.into_iter().enumerate() {
-        let shell = shell(solid);
+        let mesh = mesh(solid);
         for (i, (view, medium)) in views().iter().zip(media.iter().cycle().skip(k)).enumerate() {
-            let found = Case::new(&shell, *medium, view, (i + k) % 3 != 0).compared(&gpu);
+            let found = Case::new(&mesh, *medium, view, (i + k) % 3 != 0).compared(&gpu);
             assert!(found.largest <= ALLOWED, "{name}, {medium:?}, {view:?}: {:e}", found.largest);
             assert!(found.energy <= 1e-4, "{name}, {medium:?}, {view:?}: energy off by {:e}", found.energy);
             left_out += found.left_out;
@@ -119,11 +119,11 @@ fn solids_that_are_not_convex_look_as_by_rays() {
 fn a_brilliant_of_triangles_looks_as_that_of_planes_on_the_card_too() {
     let Some(gpu) = card("a_brilliant_of_triangles_looks_as_that_of_planes_on_the_card_too") else { return };
     let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16));
-    let shell = Arc::new(TriangleMesh::of_polytope(&stone.polytope));
+    let mesh = Arc::new(TriangleMesh::of_polytope(&stone.polytope));
     let view = View { tilt: 0.13, azimuth: 0.4, ..View::default() };
     let short = RayOptions { most_bounces: 24, polarised: true, least_weight: 1e-4 };
     let case = Case::new(&stone.polytope, Medium::clear(2.4175), &view, true);
-    let found = Case { twin: (&shell).into(), options: short, twin_options: short, ..case }.compared(&gpu);
+    let found = Case { twin: (&mesh).into(), options: short, twin_options: short, ..case }.compared(&gpu);
     assert!(
         found.largest <= ALLOWED && found.left_out < 20,
         "{:e}, {} left out",
@@ -135,7 +135,7 @@ fn a_brilliant_of_triangles_looks_as_that_of_planes_on_the_card_too() {
 #[test]
 fn the_comparison_of_triangles_sees_every_small_change() {
     let Some(gpu) = card("the_comparison_of_triangles_sees_every_small_change") else { return };
-    let whole = shell(solids::star());
+    let whole = mesh(solids::star());
     let mut bent = whole.surface().clone();
     bent.vertices.iter_mut().for_each(|v| *v *= DVec3::new(1.0, 1.001, 1.0));
     let bent = Arc::new(TriangleMesh::new(bent).unwrap());

@@ -261,6 +261,16 @@ fn what_cannot_be_measured_is_refused_by_name() {
             },
             "tilt_deg is 91",
         ),
+        (
+            MeasureOptions {
+                viewpoint: Viewpoint {
+                    projection: Projection::Perspective { distance: -8.0 },
+                    ..Viewpoint::default()
+                },
+                ..MeasureOptions::default()
+            },
+            "distance is -8; give a finite number above 0",
+        ),
     ];
     for (options, says) in cases {
         let error = refused(options);
@@ -282,6 +292,10 @@ fn what_cannot_be_measured_is_refused_by_name() {
         refused(MeasureOptions { scope: twice, ..MeasureOptions::default() }),
         MeasureError::Scope(_)
     ));
+    let mut headed = Scope::aset(ASET_CONE, Backing::Black);
+    headed.bands[3].name = "head".into();
+    let two_heads = refused(MeasureOptions { scope: headed, head_deg: 10.0, ..MeasureOptions::default() });
+    assert!(two_heads.to_string().contains("two bands are called 'head'"), "{two_heads}");
 }
 
 #[test]

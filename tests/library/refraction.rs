@@ -92,7 +92,7 @@ impl Shoot {
     }
 
     /// Does work with the lit scene, with or without a photograph behind it.
-    fn sit<T>(&self, photo: Option<&Panorama>, work: impl FnOnce(&LitScene) -> T) -> T {
+    fn with_lit_scene<T>(&self, photo: Option<&Panorama>, work: impl FnOnce(&LitScene) -> T) -> T {
         let sky = EnvironmentMap::new(&self.light, None);
         let Backdrop { distance, size, .. } = self.plane();
         let behind = photo.map(|picture| {
@@ -113,8 +113,8 @@ impl Shoot {
 
     fn map(&self) -> (RefractionMap, Carried) {
         let bands = strata(self.bands, &Illuminant::D65, true);
-        let survey = Survey { bands: &bands, places: self.places, shades: &bands, looks: 1 };
-        self.sit(None, |s| RefractionMap::trace(s, &self.plane(), &survey, &unwatched)).unwrap()
+        let survey = Survey { bands: &bands, places: self.places, shades: &bands, passes: 1 };
+        self.with_lit_scene(None, |s| RefractionMap::trace(s, &self.plane(), &survey, &unwatched)).unwrap()
     }
 
     /// Returns the program's render with a photograph behind: one pass, through the same points at the same wavelengths.
@@ -124,7 +124,7 @@ impl Shoot {
             let rows = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
             spectral::expose(lit_scene, (&bands, Sampling::of(1)), self.size[1], rows, &unwatched).unwrap().0
         };
-        self.sit(Some(photo), prepare)
+        self.with_lit_scene(Some(photo), prepare)
     }
 }
 
@@ -297,8 +297,8 @@ fn a_map_is_the_same_every_time_and_can_be_stopped() {
     let shoot = Shoot::of(brilliant(), diamond());
     assert_eq!(shoot.map(), shoot.map());
     let bands = strata(1, &Illuminant::D65, true);
-    let survey = Survey { bands: &bands, places: 1, shades: &bands, looks: 1 };
+    let survey = Survey { bands: &bands, places: 1, shades: &bands, passes: 1 };
     let stop = |part: f64| if part > 0.3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-    let stopped = shoot.sit(None, |s| RefractionMap::trace(s, &shoot.plane(), &survey, &stop));
+    let stopped = shoot.with_lit_scene(None, |s| RefractionMap::trace(s, &shoot.plane(), &survey, &stop));
     assert_eq!(stopped.err(), Some(Stopped));
 }

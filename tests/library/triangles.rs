@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 const SIZE: u32 = 48;
 
-fn shell((vertices, triangles): Triangles) -> Arc<TriangleMesh> {
+fn mesh((vertices, triangles): Triangles) -> Arc<TriangleMesh> {
     Arc::new(TriangleMesh::new(Surface::new(vertices, triangles)).unwrap())
 }
 
@@ -66,16 +66,16 @@ fn apart(a: &Linear, b: &Linear) -> (usize, usize) {
 #[test]
 fn a_brilliant_of_triangles_has_the_figures_and_pictures_of_its_planes() {
     let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16));
-    let shell = Arc::new(TriangleMesh::of_polytope(&stone.polytope));
+    let mesh = Arc::new(TriangleMesh::of_polytope(&stone.polytope));
     let medium = Medium { absorption: [0.1, 0.2], ..Medium::clear(2.4175) };
     let (view, scope, manner) = (view(), aset(), (options(), 24));
     let planes = measure::by_rays(&stone.polytope, medium, &view, &scope, manner, &unwatched).unwrap();
-    let triangles = measure::by_rays(&shell, medium, &view, &scope, manner, &unwatched).unwrap();
+    let triangles = measure::by_rays(&mesh, medium, &view, &scope, manner, &unwatched).unwrap();
     // Rounding decides which way a ray along an edge goes.
     assert!(largest_difference(&row(&planes), &row(&triangles)) < 1e-3, "{planes:?} {triangles:?}");
     assert!((triangles.sum() - 1.0).abs() < 1e-9);
     assert!((planes.silhouette_area / triangles.silhouette_area - 1.0).abs() < 0.02);
-    let film = Film::reaching(Camera::new(&view, &shell).reach(&shell).unwrap(), SIZE);
+    let film = Film::reaching(Camera::new(&view, &mesh).reach(&mesh).unwrap(), SIZE);
     let (view, scope, shift, options) = (&view, &scope, DVec2::splat(0.5), options());
     let rows = |solid: SolidRef| {
         let mut all: Vec<Rows> = vec![];
@@ -91,13 +91,13 @@ fn a_brilliant_of_triangles_has_the_figures_and_pictures_of_its_planes() {
             .flat_map(|r| (r.first..r.first + r.count).flat_map(|y| row(r, y)).collect::<Vec<_>>())
             .collect()
     };
-    let (a, b): (Vec<f64>, Vec<f64>) = (rows((&stone.polytope).into()), rows((&shell).into()));
+    let (a, b): (Vec<f64>, Vec<f64>) = (rows((&stone.polytope).into()), rows((&mesh).into()));
     let off = a.iter().zip(&b).filter(|(a, b)| (*a - *b).abs() > 1e-6).count();
     assert!(a.len() == b.len() && off * 1000 < a.len(), "{off} of {}", a.len());
     let diamond = material("diamond").unwrap();
     let light = light("studio").unwrap();
     let of = |body: Body| by_rays_of(vec![Instance::new(body, diamond.clone())], &light);
-    let ((a, _), (b, _)) = (of(stone.polytope.clone().into()), of(shell.into()));
+    let ((a, _), (b, _)) = (of(stone.polytope.clone().into()), of(mesh.into()));
     let (off, all) = apart(&a, &b);
     assert!(all > 500 && off * 200 < all, "{off} of {all}");
 }
@@ -106,7 +106,7 @@ fn a_brilliant_of_triangles_has_the_figures_and_pictures_of_its_planes() {
 fn a_white_furnace_is_white_around_solids_that_are_not_convex() {
     for (name, solid) in [("heart", heart()), ("star", star()), ("clasp", clasp(0.4))] {
         for index in [1.0, 1.54, 2.4175] {
-            let stone = Instance::new(shell(solid.clone()), Material::from_index("glass", index).unwrap());
+            let stone = Instance::new(mesh(solid.clone()), Material::from_index("glass", index).unwrap());
             let white = Light { head: 0.0, ..light("white").unwrap() };
             let (picture, rest) = by_rays_of(vec![stone], &white);
             let seen: Vec<DVec3> = picture
@@ -131,10 +131,10 @@ fn a_stone_in_the_gap_of_another_is_seen_there() {
     let mut dark = air.clone();
     dark.absorption = [(); 2].map(|()| brillianteer::optics::Absorption::new(vec![(550.0, 1e3)]).unwrap());
     let square = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(|p| DVec2::from(p) * 0.3);
-    let cube = Instance::new(shell(solids::extruded(&square, 0.3)), dark)
+    let cube = Instance::new(mesh(solids::extruded(&square, 0.3)), dark)
         .moved(&Pose { at: DVec3::new(0.3, 0.02, 0.0), ..Pose::turned(DQuat::from_rotation_x(0.2)) });
     let turn = Pose::turned(DQuat::from_rotation_x(1.3));
-    let (clasp, cube) = (Instance::new(shell(clasp(0.4)), air).moved(&turn), cube.moved(&turn));
+    let (clasp, cube) = (Instance::new(mesh(clasp(0.4)), air).moved(&turn), cube.moved(&turn));
     let light = light("white").unwrap();
     let alone = by_rays_of(vec![cube.clone()], &light).0;
     let both = by_rays_of(vec![clasp, cube], &light).0;
@@ -147,7 +147,7 @@ fn a_stone_in_the_gap_of_another_is_seen_there() {
 
 #[test]
 fn exact_beams_say_that_they_do_not_apply_to_triangles() {
-    let body = Body::from(shell(heart()));
+    let body = Body::from(mesh(heart()));
     let error = body.stone().unwrap_err().to_string();
     assert!(
         error.contains("exact beams and drawings are for convex stones") && error.contains("use rays"),
@@ -186,7 +186,7 @@ mod by_card {
     fn by_card_of(gpu: &Gpu, stones: Vec<Instance>, light: &Light) -> (Linear, Remainder) {
         taken(stones, light, |lit_scene| {
             let strata = strata(2, &light.spectrum, true);
-            let around = GpuEnvironment::new(gpu, &lit_scene.environment);
+            let around = GpuEnvironment::new(gpu, &lit_scene.environment).unwrap();
             let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, lit_scene, &around, rows, strata.len())?);
             expose(lit_scene, (&strata, Sampling::of(1)), SIZE, prepare, &unwatched).unwrap()
         })
@@ -197,7 +197,7 @@ mod by_card {
         let Some(gpu) = card("stones_of_triangles_look_under_light_as_by_rays") else { return };
         let stone = |solid, name: &str| {
             let turn = DQuat::from_rotation_x(0.11) * DQuat::from_rotation_y(-0.07);
-            Instance::new(shell(solid), material(name).unwrap().clone()).moved(&Pose::turned(turn))
+            Instance::new(mesh(solid), material(name).unwrap().clone()).moved(&Pose::turned(turn))
         };
         let brilliant = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16)).polytope;
         let planes = Instance::new(brilliant, material("quartz").unwrap().clone()).moved(&Pose {

@@ -8,7 +8,7 @@ use crate::app::shows::Shows;
 use crate::app::theme;
 use crate::io::Failure;
 use crate::io::export::OutputFormat;
-use crate::io::refraction::{MOST_BANDS, MOST_PLACES};
+use crate::io::refraction::{MOST_MAP_BANDS, MOST_PLACES};
 use egui::{
     Color32, DragValue, Grid, Label, ProgressBar, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind,
     TextEdit, TextureHandle, Ui, WidgetInfo, pos2, vec2,
@@ -114,7 +114,7 @@ fn settings(ui: &mut Ui, export: &ExportForm, selection: &mut Selection, actions
                 (OutputFormat::Png, "PNG", "Pictures. Each scope gives two: its energy and its strongest exits."),
                 (OutputFormat::Svg, "SVG", "Drawings, and scopes with each virtual facet as a polygon."),
                 (OutputFormat::Exr, "EXR", "The energy of every zone as linear 32-bit numbers."),
-                (OutputFormat::Json, "JSON", "The figures of this view."),
+                (OutputFormat::Json, "JSON", "The figures that the panel shows, of the table side."),
             ] {
                 let mut wanted = selection.formats.contains(&format);
                 if ui.checkbox(&mut wanted, name).on_hover_text(meaning).changed() {
@@ -138,7 +138,7 @@ fn settings(ui: &mut Ui, export: &ExportForm, selection: &mut Selection, actions
             ui.checkbox(&mut selection.map, "Refraction map and page").on_hover_text(meaning);
             let meaning = "Number of bands of wavelengths. With one band the map is grey and small; with several it \
                 keeps the rainbow.";
-            let bands = DragValue::new(&mut selection.bands).range(1..=MOST_BANDS).prefix("bands ");
+            let bands = DragValue::new(&mut selection.bands).range(1..=MOST_MAP_BANDS).prefix("bands ");
             ui.add_enabled(selection.map, bands).on_hover_text(meaning);
             let meaning = "Number of places on the background that each pixel can show. With several, a pixel shows \
                 everything that is seen through it at once. One map is written for each band and place.";

@@ -152,7 +152,8 @@ pub enum FileAction {
     Opened(FileRequest, Result<OpenedFile, Failure>),
     /// Reads the open mesh with other options.
     ReadMesh(MeshOptions),
-    Saved(Result<SavedDesign, Failure>),
+    /// The design of the document of this number has been saved, or could not be.
+    Saved(u64, Result<SavedDesign, Failure>),
     /// The open file has changed on disk, or is gone.
     OnDisk(PathBuf, Stamp),
     /// Files were dropped on the window.

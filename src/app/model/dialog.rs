@@ -48,6 +48,16 @@ pub enum Dialog {
 }
 
 impl Dialog {
+    /// Whether the dialog is about the open document, so that no other may take its place until the dialog is answered.
+    pub fn is_about_document(&self) -> bool {
+        match self {
+            Self::Unsaved(_) | Self::ChangedOutside | Self::Export(_) | Self::Moved(_) | Self::Path(_) => {
+                true
+            }
+            Self::Recover(_) | Self::Keys | Self::About(_) => false,
+        }
+    }
+
     /// Whether the dialog stays until it is answered, whatever is clicked beside it.
     ///
     /// Escape is an answer: the one that changes nothing.

@@ -58,7 +58,7 @@ impl Document {
         let specimen = Arc::new(Specimen::new(design.clone())?);
         let work = Work {
             design: design.clone(),
-            company: Copies::default(),
+            copies: Copies::default(),
             light: FIRST_LIGHT.to_owned(),
             exposure: 0.0,
             head: 0.0,
@@ -151,18 +151,18 @@ impl Document {
 
     /// Takes over the copies of another document, and whether they count as kept.
     pub fn take_copies(&mut self, other: &Self) {
-        self.work.company.clone_from(&other.work.company);
+        self.work.copies.clone_from(&other.work.copies);
         self.laid.clone_from(&other.laid);
     }
 
     /// Marks the present places of the copies as saved.
     pub fn keep_copies(&mut self) {
-        self.laid.clone_from(&self.work.company);
+        self.laid.clone_from(&self.work.copies);
     }
 
     /// Whether copies have been moved since they were read or last saved.
     pub fn has_moved_copies(&self) -> bool {
-        self.laid != self.work.company
+        self.laid != self.work.copies
     }
 
     /// Builds the stone after a change, or notes why there is none.
@@ -301,17 +301,18 @@ impl Document {
         }
     }
 
-    /// Returns the request that saves the design to `path`.
+    /// Returns the request that saves the design of this document, whose number is `document`, to `path`.
     ///
     /// # Errors
     /// Fails when the design makes no stone.
-    pub fn to_save(&self, path: PathBuf) -> Result<SaveRequest, Failure> {
+    pub fn to_save(&self, document: u64, path: PathBuf) -> Result<SaveRequest, Failure> {
         match &self.fault {
             Some(fault) => Err(Failure::Input(format!(
                 "this design is impossible, so it cannot be saved: {}",
                 impossible::by_name(fault)
             ))),
             None => Ok(SaveRequest {
+                document,
                 path,
                 design: self.work.design.clone(),
                 specimen: Arc::clone(&self.specimen),
@@ -350,7 +351,7 @@ mod tests {
         assert!(!document.is_changed() && document.path().is_none());
         crown(&mut document, 35.125);
         assert!(document.update() && document.settle() && document.is_changed());
-        document.take_saved(save(document.to_save(path.clone()).unwrap()).unwrap());
+        document.take_saved(save(document.to_save(0, path.clone()).unwrap()).unwrap());
         assert!(!document.is_changed() && document.title() == "mine.toml" && !is_changed_outside(&document));
         assert_eq!(Document::open(&path, MeshOptions::default()).unwrap().work.design, document.work.design);
         std::fs::write(&path, "format = 1").unwrap();
@@ -371,7 +372,8 @@ mod tests {
         assert!(!document.update() && document.fault().is_some() && !document.shows_last_possible());
         let path = folder.path().join("mine.toml");
         assert!(
-            document.to_save(path.clone()).unwrap_err().to_string().contains("printable") && !path.exists()
+            document.to_save(0, path.clone()).unwrap_err().to_string().contains("printable")
+                && !path.exists()
         );
     }
 
@@ -386,7 +388,7 @@ mod tests {
         assert!(Arc::ptr_eq(&stone, document.specimen()) && document.shows_last_possible());
         let path = folder.path().join("mine.toml");
         assert!(
-            document.to_save(path.clone()).unwrap_err().to_string().contains(": Crown angle: ")
+            document.to_save(0, path.clone()).unwrap_err().to_string().contains(": Crown angle: ")
                 && !path.exists()
         );
         document.undo();

@@ -5,11 +5,11 @@ use crate::app::shows::Shows;
 use crate::app::studio::Shot;
 use crate::io::Failure;
 use crate::io::export::{Export, OutputFormat, Outputs, Viewing};
-use crate::io::refraction::{self, Coding, MOST_BANDS, MOST_PIXELS};
+use crate::io::refraction::{self, Coding, MOST_MAP_BANDS, MOST_MAP_PIXELS};
 use crate::optics::line;
 use crate::picture::named;
 use crate::render::{Renderer, Wanted};
-use crate::scene::{Glare, Pose, Specimen, View, Viewpoint};
+use crate::scene::{Copies, Glare, Pose, Side, Specimen, View, Viewpoint};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -60,8 +60,9 @@ pub struct ExportPlan {
     pub linked: PictureAspect,
     /// How each view that is not linked sees the stone, by what it shows.
     pub own: Vec<(Shows, PictureAspect)>,
-    /// Half the side of the square that renders show.
-    pub reach: f64,
+    /// Half the side of the square that renders show in the window, girdle radii; `None` where they show the stone alone and
+    /// at rest.
+    pub reach: Option<f64>,
     pub selection: Selection,
     /// The light, as scene files name it.
     pub light: PathBuf,
@@ -100,7 +101,9 @@ impl ExportPlan {
         let azimuth_deg = (linked.azimuth_deg - self.linked.turn.to_degrees()).rem_euclid(360.0);
         let azimuth_deg = if linked.tilt_deg == 0.0 { 0.0 } else { azimuth_deg };
         let upright = self.outputs(is_drawing, formats(json));
-        parts.push((upright, self.viewing(Viewpoint { azimuth_deg, ..linked }, 0.0)));
+        // The figures are those of the panel, which shows the table side alone.
+        let viewpoint = Viewpoint { azimuth_deg, side: Side::Table, ..linked };
+        parts.push((upright, self.viewing(viewpoint, 0.0)));
         parts
     }
 
@@ -145,16 +148,6 @@ impl ExportPlan {
         self.selection.map.then_some((maps, others))
     }
 
-    /// Returns a note that a render is not physics; it is empty where the render is.
-    pub fn mixture(&self) -> String {
-        match self.shot.strength {
-            s if s < 1.0 => {
-                format!("strength {s}: refracted and straight rays are mixed, which is not physics; ")
-            }
-            _ => String::new(),
-        }
-    }
-
     /// Returns the paths of the scene file and of the cut file of its stones.
     pub fn scene_paths(&self) -> [PathBuf; 2] {
         ["scene", "cut"].map(|part| self.folder.join(format!("{}-{part}.toml", self.stem)))
@@ -178,14 +171,14 @@ impl ExportPlan {
     /// # Errors
     /// The text says what keeps them from being written.
     pub fn files(&self) -> Result<Vec<PathBuf>, Failure> {
-        if self.selection.map && self.selection.size > MOST_PIXELS {
+        if self.selection.map && self.selection.size > MOST_MAP_PIXELS {
             return Err(Failure::Usage(format!(
-                "A refraction map can be at most {MOST_PIXELS} pixels wide and high; choose a smaller size."
+                "A refraction map can be at most {MOST_MAP_PIXELS} pixels wide and high; choose a smaller size."
             )));
         }
-        if self.selection.map && self.selection.bands * self.selection.places > MOST_BANDS {
+        if self.selection.map && self.selection.bands * self.selection.places > MOST_MAP_BANDS {
             let problem = format!(
-                "The number of bands times the number of places can be at most {MOST_BANDS}; \
+                "The number of bands times the number of places can be at most {MOST_MAP_BANDS}; \
                 choose fewer."
             );
             return Err(Failure::Usage(problem));
@@ -206,13 +199,20 @@ impl ExportPlan {
         let view = View { side: shows.side().unwrap_or(seen.side), ..seen };
         let shot = Shot { shows, view, ..self.shot.clone() };
         let size = [size; 2];
-        if shows.has_company() && self.shot.company.as_slice() != [Pose::STILL] {
-            let fit = FramingFit::reaching(self.reach);
+        if let Some(reach) = self.reach.filter(|_| shows.has_copies()) {
+            let fit = FramingFit::reaching(reach.max(self.copies_reach(&view)));
             return Shot { film: fit.film(size), whole: fit.whole(size), ..shot };
         }
         let specimen = Arc::clone(&self.upright);
         let fit = Framing::new(&specimen).fit(&shot.view);
         let (film, whole) = (fit.film(size), fit.whole(size));
-        Shot { film, whole, specimen, company: vec![Pose::STILL], ..shot }
+        Shot { film, whole, specimen, copies: vec![Pose::STILL], ..shot }
+    }
+
+    /// Returns how far the copies reach where a view turns them, girdle radii, so that no copy is left out.
+    fn copies_reach(&self, view: &View) -> f64 {
+        let turned = Pose::turned(view.turn);
+        let poses = self.shot.copies.iter().map(|pose| turned.after(pose)).collect();
+        Copies::at(poses, self.shot.specimen.solid().vertices()).reach(0.0)
     }
 }

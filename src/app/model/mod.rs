@@ -87,22 +87,22 @@ impl Model {
     }
 
     /// Returns what a render shows: the stone as it is now, and the poses of its copies.
-    pub fn company(&self, which: Which, waves: &mut WaveCache) -> Option<(Arc<Specimen>, Vec<Pose>)> {
+    pub fn copies(&self, which: Which, waves: &mut WaveCache) -> Option<(Arc<Specimen>, Vec<Pose>)> {
         let stone = self.stone(which)?;
         match self.is_alone() {
             true => Some((stone, vec![Pose::STILL])),
-            false => Some(self.session.motion.now(waves, &stone, &self.document.work.company)),
+            false => Some(self.session.motion.now(waves, &stone, &self.document.work.copies)),
         }
     }
 
     /// Whether renders show the stone alone and at rest.
     pub fn is_alone(&self) -> bool {
-        self.document.work.company == Copies::default() && self.session.motion.seconds == 0.0
+        self.document.work.copies == Copies::default() && self.session.motion.seconds == 0.0
     }
 
     /// Returns what a view takes in: the stone that views are fitted to, or all copies.
     pub fn fit(&self, shows: Shows, view: &View) -> FramingFit {
-        match shows.has_company() && !self.is_alone() {
+        match shows.has_copies() && !self.is_alone() {
             true => FramingFit::reaching(self.reach(shows)),
             false => self.session.framing.fit(view),
         }
@@ -113,18 +113,18 @@ impl Model {
     /// Both designs are shown on one scale, that of the present design.
     pub fn reach(&self, shows: Shows) -> f64 {
         let Specimen { reach, radius, .. } = **self.document.specimen();
-        if !shows.has_company() {
+        if !shows.has_copies() {
             return reach;
         }
-        let company = &self.document.work.company;
+        let copies = &self.document.work.copies;
         match self.session.motion.tumbles(self.document.specimen()) {
             // A stone that tumbles shows all its sides.
-            true => company
+            true => copies
                 .poses
                 .iter()
                 .map(|p| p.at.truncate().abs().max_element() + radius)
-                .fold(company.reach(radius), f64::max),
-            false => company.reach(reach),
+                .fold(copies.reach(radius), f64::max),
+            false => copies.reach(reach),
         }
     }
 

@@ -48,13 +48,13 @@ impl Motion {
         &self,
         cache: &mut WaveCache,
         specimen: &Arc<Specimen>,
-        company: &Copies,
+        copies: &Copies,
     ) -> (Arc<Specimen>, Vec<Pose>) {
         let waves = waves(specimen);
         let specimen =
             if waves && self.seconds > 0.0 { cache.of(specimen, self.seconds) } else { Arc::clone(specimen) };
         let tumbling = (!waves && self.seconds > 0.0).then_some(self.seconds);
-        let poses = company.poses(specimen.solid().vertices(), tumbling);
+        let poses = copies.poses(specimen.solid().vertices(), tumbling);
         (specimen, poses)
     }
 }
@@ -97,15 +97,15 @@ mod tests {
         let cache = &mut WaveCache::default();
         let of = |name| Arc::clone(Document::of_library(name).unwrap().specimen());
         let (plate, cube) = (of("plate"), of("cube"));
-        let company = Copies::default();
-        let (waved, poses) = moving.now(cache, &plate, &company);
+        let copies = Copies::default();
+        let (waved, poses) = moving.now(cache, &plate, &copies);
         let Cut::Glass(Glass::Plate(now)) = waved.design.cut else { panic!() };
         assert!((now.phase - 1.4_f64.to_degrees()).abs() < 1e-9 && poses == [Pose::STILL]);
-        assert!(Arc::ptr_eq(&waved, &moving.now(cache, &plate, &company).0), "made once");
-        let (still, poses) = moving.now(cache, &cube, &company);
+        assert!(Arc::ptr_eq(&waved, &moving.now(cache, &plate, &copies).0), "made once");
+        let (still, poses) = moving.now(cache, &cube, &copies);
         assert!(Arc::ptr_eq(&still, &cube) && poses[0].turn.angle_between(glam::DQuat::IDENTITY) > 0.3);
         moving.rest();
-        assert_eq!(moving.now(cache, &cube, &company).1, [Pose::STILL]);
-        assert!(Arc::ptr_eq(&moving.now(cache, &plate, &company).0, &plate));
+        assert_eq!(moving.now(cache, &cube, &copies).1, [Pose::STILL]);
+        assert!(Arc::ptr_eq(&moving.now(cache, &plate, &copies).0, &plate));
     }
 }

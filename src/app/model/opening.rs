@@ -41,6 +41,8 @@ pub struct Opening {
     pub request: FileRequest,
     /// The work as it was when the file was requested.
     pub work: Work,
+    /// The content of the file, once it has been read.
+    pub read: Option<OpenedFile>,
 }
 
 impl Opening {
@@ -51,7 +53,7 @@ impl Opening {
 }
 
 /// The content of a file.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub enum OpenedFile {
     Design(Box<Document>),
     Scene(Box<Preset>),

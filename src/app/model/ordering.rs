@@ -23,8 +23,9 @@ impl Orders<'_> {
     /// Returns the order of all that is in sight.
     pub fn all(&mut self, seen: &[Seen]) -> Order {
         let mut order = Order::default();
-        // What is in sight is about to go: the file that is being opened needs the processor more.
-        if self.model.session.awaited.opening.iter().any(|opening| !opening.request.is_beside()) {
+        // What is in sight is about to go: the file that is being read needs the processor more.
+        let mut opening = self.model.session.awaited.opening.iter();
+        if opening.any(|opening| !opening.request.is_beside() && opening.read.is_none()) {
             return order;
         }
         let is_compared = self.model.session.compared.is_some();
@@ -45,7 +46,8 @@ impl Orders<'_> {
         let eye = self.model.workspace.eye;
         let view = eye.view(Some(Side::Table));
         let Some(specimen) = self.model.stone(which) else { return };
-        let figures = FiguresOrder { specimen, view, head: self.model.document.work.head };
+        let document = self.model.session.begun;
+        let figures = FiguresOrder { document, specimen, view, head: self.model.document.work.head };
         if which == Which::Present {
             order.tilts = Some(FiguresOrder { view: View { tilt: 0.0, ..view }, ..figures.clone() });
         }
@@ -67,8 +69,8 @@ impl Orders<'_> {
         if shows == Shows::Diagram && specimen.stone().is_err() {
             return None;
         }
-        let (specimen, company) = match shows.has_company() {
-            true => self.model.company(which, self.waves)?,
+        let (specimen, copies) = match shows.has_copies() {
+            true => self.model.copies(which, self.waves)?,
             false => (specimen, vec![Pose::STILL]),
         };
         Some(Shot {
@@ -80,7 +82,7 @@ impl Orders<'_> {
             smoothing: workspace.smoothing,
             overlay: workspace.overlay().filter(|_| shows.takes_overlay()),
             paper: self.paper,
-            company,
+            copies,
             ..self.plain(shows, view, specimen)
         })
     }
@@ -88,10 +90,10 @@ impl Orders<'_> {
     /// Returns what a render shows in a view.
     pub fn render(&mut self, view: View) -> Shot {
         let alone = (Arc::clone(self.model.document.specimen()), vec![Pose::STILL]);
-        let (specimen, company) = self.model.company(Which::Present, self.waves).unwrap_or(alone);
+        let (specimen, copies) = self.model.copies(Which::Present, self.waves).unwrap_or(alone);
         let fit = self.model.fit(Shows::Render, &view);
         let plain = self.plain(Shows::Render, view, specimen);
-        Shot { film: fit.film([1, 1]), whole: fit.whole([1, 1]), company, ..plain }
+        Shot { film: fit.film([1, 1]), whole: fit.whole([1, 1]), copies, ..plain }
     }
 
     /// Returns a shot of one stone at rest, with the light and the backplate of the model.
@@ -99,6 +101,7 @@ impl Orders<'_> {
         let Model { document, workspace, session } = self.model;
         let fit = super::framing::FramingFit::reaching(1.0);
         Shot {
+            document: session.begun,
             specimen,
             title: document.work.design.name.clone(),
             shows,
@@ -114,7 +117,7 @@ impl Orders<'_> {
             behind: workspace.background(),
             distance: workspace.behind_mm.map_or(BEHIND, |mm| mm / document.specimen().unit_mm()),
             strength: workspace.strength(),
-            company: vec![Pose::STILL],
+            copies: vec![Pose::STILL],
             smoothing: Smoothing::None,
             head: document.work.head,
             overlay: None,

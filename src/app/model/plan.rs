@@ -6,7 +6,7 @@ use super::motion::WaveCache;
 use super::ordering::Orders;
 use crate::app::shows::Shows;
 use crate::app::studio::{Paper, Shot};
-use crate::scene::{Copies, Pose, View};
+use crate::scene::View;
 use std::path::PathBuf;
 
 /// Plans an export of the open document, seen as the linked views see it.
@@ -23,11 +23,7 @@ pub fn export_plan(model: &Model) -> ExportPlan {
         file if file.is_file() => std::path::absolute(&file).unwrap_or(file),
         name => name,
     };
-    // Renders are as large as in their view, or smaller, so that no copy is left out.
-    let turned = Pose::turned(shot.view.turn);
-    let poses = shot.company.iter().map(|pose| turned.after(pose)).collect();
-    let copies = Copies::at(poses, shot.specimen.solid().vertices());
-    let reach = model.reach(Shows::Render).max(copies.reach(0.0));
+    let reach = (!model.is_alone()).then(|| model.reach(Shows::Render));
     let selection = session.selection.clone();
     let (folder, stem) = (document.folder().join("out"), document.stem());
     let mut plan = ExportPlan { shot, upright, linked, own, reach, selection, light, folder, stem };
@@ -54,4 +50,44 @@ fn aspects(model: &Model) -> (PictureAspect, Vec<(Shows, PictureAspect)>) {
     let side = |shows: Shows| shows.side().unwrap_or(linked.view.side);
     own.retain(|(shows, aspect)| aspect.view != View { side: side(*shows), ..linked.view });
     (linked, own)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::model::action::FileAction;
+    use crate::app::model::dialog::Then;
+    use crate::app::model::framing::FramingFit;
+    use crate::app::model::motion::Motion;
+    use crate::app::model::update;
+    use crate::app::model::workspace::Workspace;
+    use crate::io::export::OutputFormat;
+    use crate::scene::Side;
+
+    #[test]
+    fn a_plate_alone_is_exported_in_the_phase_and_the_frame_in_which_it_is_shown() {
+        let mut model = Model::new(Workspace::default()).unwrap();
+        update(&mut model, FileAction::Ask(Then::Library("plate".to_owned())).into());
+        let at_rest = export_plan(&model).shot(Shows::Render, 64);
+        model.session.motion = Motion::at(0.7);
+        let plan = export_plan(&model);
+        let waved = plan.shot(Shows::Render, 64);
+        assert_eq!(waved.specimen.design.cut, plan.shot.specimen.design.cut, "as in the scene file");
+        assert_ne!(waved.specimen.design.cut, at_rest.specimen.design.cut);
+        assert_eq!(waved.film, FramingFit::reaching(model.reach(Shows::Render)).film([64; 2]));
+        let scope = plan.shot(Shows::Aset, 64);
+        assert_eq!(scope.specimen.design.cut, at_rest.specimen.design.cut, "scopes show it at rest");
+    }
+
+    #[test]
+    fn figures_are_exported_of_the_side_that_the_panel_shows() {
+        let mut model = Model::new(Workspace::default()).unwrap();
+        model.workspace.eye.bottom();
+        model.session.selection.formats = vec![OutputFormat::Json];
+        let plan = export_plan(&model);
+        let parts = plan.parts();
+        let figures = parts.iter().filter(|(outputs, _)| outputs.formats.contains(&OutputFormat::Json));
+        assert_eq!(figures.map(|(_, viewing)| viewing.viewpoint.side).collect::<Vec<_>>(), [Side::Table]);
+        assert_eq!(parts[0].1.viewpoint.side, Side::Culet, "pictures are of the side that is seen");
+    }
 }

@@ -30,11 +30,11 @@ pub const PRESETS: [Known; 5] = [
 ];
 
 /// A scene that the editor can work on.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Preset {
     /// The design, with its material and size.
     pub design: Design,
-    pub company: Copies,
+    pub copies: Copies,
     /// The number of bands of wavelengths that the scene is seen in, if it is known.
     pub wavelengths: Option<u32>,
     /// The scene file, which holds the rest.
@@ -85,7 +85,7 @@ impl Preset {
             design.diameter_mm = diameter.map_err(|error| refused(&format_args!("size: {error}")))?;
         }
         let poses = poses(&scene, corners, 0.5 * design.diameter_mm);
-        Ok(Self { company: Copies::at(poses, corners), design, scene, wavelengths: None })
+        Ok(Self { copies: Copies::at(poses, corners), design, scene, wavelengths: None })
     }
 }
 
@@ -124,13 +124,13 @@ mod tests {
             let preset = Preset::of_library(name).unwrap();
             let specimen = Specimen::new(preset.design.clone()).unwrap();
             let corners = specimen.solid().vertices();
-            assert_eq!(preset.company.poses(corners, None), preset.company.poses, "{name}");
-            assert_eq!(preset.company.poses.len(), if name == "free-diamond" { 1 } else { 4 });
+            assert_eq!(preset.copies.poses(corners, None), preset.copies.poses, "{name}");
+            assert_eq!(preset.copies.poses.len(), if name == "free-diamond" { 1 } else { 4 });
         }
         let pill = Preset::of_library("subtle-pill").unwrap();
         assert_eq!((pill.design.diameter_mm, pill.scene.strength), (40.0, 0.035));
         // Twenty millimetres are a radius.
-        assert!((pill.company.poses[0].at - DVec3::new(-0.25, 1.005, 0.0)).length() < 1e-9);
+        assert!((pill.copies.poses[0].at - DVec3::new(-0.25, 1.005, 0.0)).length() < 1e-9);
     }
 
     #[test]

@@ -10,7 +10,9 @@ use std::time::SystemTime;
 /// The part of the scene that an autosave keeps.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct KeptScene {
-    pub company: Copies,
+    // Autosaves of earlier versions name the copies so.
+    #[serde(alias = "company")]
+    pub copies: Copies,
     /// The backplate: `light`, the name of a pattern, or the file of a picture.
     #[serde(default)]
     pub behind: Option<String>,

@@ -26,6 +26,8 @@ impl Stamp {
 /// A design that is to be saved.
 #[derive(Debug)]
 pub struct SaveRequest {
+    /// The number of the document that the design is of.
+    pub document: u64,
     pub path: PathBuf,
     pub design: Design,
     /// A stone of the design, whose name may be older.

@@ -24,10 +24,11 @@ use std::sync::Arc;
 /// The light of renders, and the one that is being loaded.
 #[derive(Debug, Clone)]
 pub struct LoadedLight {
-    /// The name of the light, or its file.
+    /// The name of the light that renders show, or its file.
     pub name: String,
-    /// The light; the one before where that one could not be loaded.
     pub lighting: Arc<Lighting>,
+    /// The light that the program last tried to load; where it could not be loaded, `name` is another.
+    pub tried: String,
     pub loading: Option<String>,
 }
 
@@ -67,8 +68,8 @@ pub struct Awaited {
     pub choosing: Option<Purpose>,
     /// The files that are being opened.
     pub opening: Vec<Opening>,
-    /// Whether the design is being saved.
-    pub saving: bool,
+    /// The number of the document that is being saved.
+    pub saving: Option<u64>,
     /// Whether dropped files are being looked into.
     pub dropped: bool,
     /// The view whose picture is being made for the clipboard, by the name of what it shows.
@@ -84,6 +85,8 @@ pub struct SafeWork {
     pub is_kept: bool,
     /// The work as it was when it was last looked at for the autosave.
     pub noted: Work,
+    /// The autosave file of a crash that this work went on from; it is removed once the work is kept, saved or discarded.
+    pub replaces: Option<PathBuf>,
 }
 
 /// Everything that ends with the window.
@@ -145,7 +148,12 @@ impl Session {
         Ok(Self {
             framing: Framing::new(document.specimen()),
             views: ViewHistory::new(workspace),
-            light: LoadedLight { name: FIRST_LIGHT.to_owned(), lighting: Arc::new(first), loading: None },
+            light: LoadedLight {
+                name: FIRST_LIGHT.to_owned(),
+                lighting: Arc::new(first),
+                tried: FIRST_LIGHT.to_owned(),
+                loading: None,
+            },
             compared: None,
             measured: SessionFigures::default(),
             ordered: Order::default(),
@@ -164,7 +172,7 @@ impl Session {
             awaited: Awaited::default(),
             begun: 0,
             after_save: None,
-            safe: SafeWork { is_on: false, is_kept: false, noted: document.work.clone() },
+            safe: SafeWork { is_on: false, is_kept: false, noted: document.work.clone(), replaces: None },
             on_disk: None,
             watched: None,
             may_close: false,

@@ -11,7 +11,7 @@ use std::sync::Arc;
 pub struct Work {
     pub design: Design,
     /// The copies of the stone in renders.
-    pub company: Copies,
+    pub copies: Copies,
     /// The name of the light, or its file.
     pub light: String,
     /// The exposure of renders, in stops.

@@ -128,7 +128,7 @@ pub struct Workspace {
     pub recent: Vec<PathBuf>,
     /// The file that was open last.
     pub last: Option<PathBuf>,
-    /// The chosen light: its name, or its file.
+    /// The light that renders show: its name, or its file.
     pub light: String,
     /// The exposure of renders, in stops.
     pub exposure: f64,

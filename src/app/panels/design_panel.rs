@@ -6,7 +6,7 @@ use crate::app::model::document::Document;
 use crate::app::model::impossible::{self, RowMessage};
 use crate::app::model::workspace::PanelSide;
 use crate::app::panels::rows::{ANY, Row, explain, field_width, named};
-use crate::app::panels::{company_rows, light_rows, mesh_rows, side_panels, stone_rows, tier_rows};
+use crate::app::panels::{copy_rows, light_rows, mesh_rows, side_panels, stone_rows, tier_rows};
 use crate::app::theme;
 use crate::cut::{Cut, Design, DesignError, MaterialRef, Proportion, Unit, Warning};
 use crate::scene::{Copies, SpecimenError};
@@ -22,8 +22,8 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui, widths: RangeIncl
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             identity(&model.document, actions, ui);
             let work = &model.document.work;
-            if matches!(work.design.cut, Cut::Glass(_)) || work.company != Copies::default() {
-                company_rows::presets(actions, ui);
+            if matches!(work.design.cut, Cut::Glass(_)) || work.copies != Copies::default() {
+                copy_rows::presets(actions, ui);
             }
             let meaning = match is_graded(&work.design) {
                 true => {
@@ -39,7 +39,7 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui, widths: RangeIncl
             heading(ui, "Light", "The light of renders. Scopes have a light of their own.");
             light_rows::show(model, actions, ui);
             heading(ui, "Copies", "Renders can show several copies, and move them.");
-            company_rows::show(model, actions, ui);
+            copy_rows::show(model, actions, ui);
         });
     });
 }

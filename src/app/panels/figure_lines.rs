@@ -4,7 +4,8 @@ use crate::app::model::figures::ShownFigures;
 use crate::app::model::workspace::Workspace;
 use crate::app::studio::Grade;
 use crate::measure::Figures;
-use crate::scene::{ASET_CONE, Backing, Glare, Scope};
+use crate::picture::Scoped;
+use crate::scene::{Glare, Scope};
 
 /// A figure that the panel shows.
 #[derive(Debug)]
@@ -180,7 +181,7 @@ fn error(present: &ShownFigures, other: &ShownFigures, by_area: bool) -> f64 {
 
 /// Returns the common ASET with an observer's head of a half angle in degrees; 0 for none.
 fn aset(head: f64) -> Scope {
-    Scope::aset(ASET_CONE, Backing::Black).with_head(head)
+    Scoped::aset().with_head(head)
 }
 
 /// Returns the zones of the common ASET with a head, each with the number of its band.
@@ -214,8 +215,8 @@ mod tests {
         let (medium, view) = (specimen.medium(line::SODIUM_D), View::default());
         let beams =
             beam::trace(&specimen.stone().unwrap().polytope, medium, &view, &options, &unwatched).unwrap();
-        let figures = by_beams(&beams, &Scope::aset(ASET_CONE, Backing::Black));
-        ShownFigures { order: FiguresOrder { specimen, view, head: 0.0 }, grade, figures }
+        let figures = by_beams(&beams, &Scoped::aset().scope);
+        ShownFigures { order: FiguresOrder { document: 0, specimen, view, head: 0.0 }, grade, figures }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The panels beside the views, made of rows.
 
-pub mod company_rows;
+pub mod copy_rows;
 pub mod design_panel;
 pub mod figure_lines;
 pub mod figures_panel;

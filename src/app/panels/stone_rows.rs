@@ -3,7 +3,7 @@
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit};
 use crate::app::model::extent::Extent;
-use crate::app::panels::company_rows;
+use crate::app::panels::copy_rows;
 use crate::app::panels::rows::{
     NOT_KNOWN, NUMBER, Number, UNKNOWN, choice_row, named, number_row, skip_control,
 };
@@ -75,7 +75,7 @@ fn material(design: &Design, known: &Material, ui: &mut Ui) -> Option<MaterialRe
             .on_hover_text(ILLUSTRATIVE.trim_start());
     }
     if matches!(design.cut, Cut::Glass(_)) {
-        let typed = company_rows::two_numbers(&design.material, known, ui);
+        let typed = copy_rows::two_numbers(&design.material, known, ui);
         chosen = chosen.or(typed);
     }
     chosen

@@ -30,8 +30,10 @@ impl Bench {
         }
         let rect = Rect::from_min_size(Pos2::ZERO, SIZE);
         let brilliant = Cut::RoundBrilliant(self.given);
-        let mut cut = if self.with_proportions { brilliant } else { Cut::Planes(vec![]) };
-        if self.view.show(ui, rect, &self.stone, &mut cut).changed() {
+        let shown = if self.with_proportions { brilliant } else { Cut::Planes(vec![]) };
+        let mut cut = shown.clone();
+        self.view.show(ui, rect, &self.stone, &mut cut);
+        if cut != shown {
             self.given = *cut.brilliant().unwrap();
             self.changes += 1;
             self.stone = Stone::new(&self.given.facets().unwrap()).unwrap();

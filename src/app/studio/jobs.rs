@@ -6,13 +6,12 @@ use crate::app::lookup::backdrop;
 use crate::io::background::BackgroundRef;
 use crate::measure::Bounds;
 use crate::optics::line;
-use crate::picture::Backdrop;
-use crate::picture::filling;
+use crate::picture::{Backdrop, Scoped, filling};
 use crate::render::{
     FiguresProduct, HungPicture, Job, LightProduct, MapProduct, PaneProduct, Product, Quality, Reading,
     ScopeProduct, Steps, Surroundings, Wanted,
 };
-use crate::scene::{ASET_CONE, Backing, Film, Instance, Panorama, Pose, Scene, Scope, View};
+use crate::scene::{Film, Instance, Panorama, Pose, Scene, Scope, View};
 use crate::trace::beam::BeamOptions;
 use glam::DVec2;
 use std::sync::Arc;
@@ -49,7 +48,7 @@ pub fn coarser(film: &Film, factor: f64) -> Film {
 /// Returns the distance of the backplate behind the middle, in girdle radii: that of the shot, but behind all bodies however
 /// they are turned.
 pub fn hung(shot: &Shot) -> f64 {
-    let farthest = shot.company.iter().map(|pose| pose.at.length()).fold(0.0, f64::max);
+    let farthest = shot.copies.iter().map(|pose| pose.at.length()).fold(0.0, f64::max);
     shot.distance.max(farthest + shot.specimen.radius)
 }
 
@@ -65,7 +64,7 @@ impl Shot {
     fn scene(&self) -> Arc<Scene> {
         let placed =
             |pose: &Pose| Instance::of(&self.specimen.body, self.specimen.material.clone(), "").moved(pose);
-        let instances = self.company.iter().map(placed).collect();
+        let instances = self.copies.iter().map(placed).collect();
         Arc::new(Scene { instances, unit_mm: self.specimen.unit_mm() })
     }
 
@@ -167,7 +166,7 @@ impl FiguresOrder {
     }
 
     fn job_in(&self, view: View, quality: Quality) -> Job {
-        let scope = Scope::aset(ASET_CONE, Backing::Black).with_head(self.head);
+        let scope = Scoped::aset().with_head(self.head);
         let medium = self.specimen.medium(line::SODIUM_D);
         let product = Product::Figures(FiguresProduct { scope, medium });
         Job { scene: Arc::new(Scene::alone(&self.specimen)), view, film: Film::NONE, product, quality }

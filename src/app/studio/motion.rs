@@ -20,7 +20,7 @@ const MOST_POINTS: f64 = 40_000.0;
 /// The bodies, the eye, the film and the background at the time when a picture was traced.
 pub struct Moment {
     specimen: Arc<Specimen>,
-    company: Vec<Pose>,
+    copies: Vec<Pose>,
     view: View,
     film: Film,
     behind: Option<BackgroundRef>,
@@ -32,8 +32,8 @@ pub type Trails = HashMap<Slot, (TemporalHistory, Moment)>;
 impl Moment {
     /// Returns the moment of a shot that is traced on a film.
     pub fn of(shot: &Shot, film: Film) -> Self {
-        let (specimen, company) = (Arc::clone(&shot.specimen), shot.company.clone());
-        Self { specimen, company, view: shot.view, film, behind: shot.behind.clone() }
+        let (specimen, copies) = (Arc::clone(&shot.specimen), shot.copies.clone());
+        Self { specimen, copies, view: shot.view, film, behind: shot.behind.clone() }
     }
 
     /// Blends the picture of this moment with the history of its slot, and returns the blend. `newest` is the share of the
@@ -60,7 +60,7 @@ impl Moment {
     /// Whether another moment shows the same bodies before the same background, moved or changed in their dimensions.
     fn goes_on_in(&self, other: &Self) -> bool {
         let kind = |moment: &Self| (std::mem::discriminant(&moment.specimen.design.cut), moment.form());
-        kind(self) == kind(other) && self.company.len() == other.company.len() && self.behind == other.behind
+        kind(self) == kind(other) && self.copies.len() == other.copies.len() && self.behind == other.behind
     }
 
     /// Finds which body each pixel shows, and where that point was seen at the moment `before`.
@@ -105,7 +105,7 @@ impl Moment {
 
     /// Returns where a point of a body was before; `None` where the body is a different one or has a different form.
     fn was(&self, before: &Self, number: usize, point: DVec3) -> Option<DVec3> {
-        let own = self.company[number].unplace(point);
+        let own = self.copies[number].unplace(point);
         let was = match (&*self.specimen.body, &*before.specimen.body) {
             (Body::Glass(now), Body::Glass(then)) if self.form() == before.form() => {
                 now.field().carried(own, then.field())
@@ -113,7 +113,7 @@ impl Moment {
             _ if Arc::ptr_eq(&self.specimen, &before.specimen) => own,
             _ => return None,
         };
-        Some(before.company.get(number)?.place(was))
+        Some(before.copies.get(number)?.place(was))
     }
 }
 
@@ -136,10 +136,11 @@ mod tests {
     /// A shot of moving copies of a cut at a given time, seen by an eye.
     fn shot(cut: &str, seconds: f64, (eye, projection): &(Eye, Projection)) -> Shot {
         let design = Arc::clone(Document::of_library(cut).unwrap().specimen());
-        let company = Copies::scattered(3, design.solid().vertices(), 4);
+        let copies = Copies::scattered(3, design.solid().vertices(), 4);
         let moving = Motion::at(seconds);
-        let (specimen, company) = moving.now(&mut WaveCache::default(), &design, &company);
+        let (specimen, copies) = moving.now(&mut WaveCache::default(), &design, &copies);
         Shot {
+            document: 0,
             specimen,
             title: String::new(),
             shows: Shows::Render,
@@ -154,7 +155,7 @@ mod tests {
             behind: None,
             distance: 3.0,
             strength: 1.0,
-            company,
+            copies,
             smoothing: Smoothing::None,
             exposure: 0.0,
             head: 0.0,
@@ -216,9 +217,9 @@ mod tests {
         let moments = [Moment::of(&before, before.film), Moment::of(&now, now.film)];
         let Body::Glass(plate) = &*now.specimen.body else { panic!() };
         for vertex in plate.surface().vertices.iter().step_by(7) {
-            let was = moments[1].was(&moments[0], 0, now.company[0].place(*vertex)).unwrap();
+            let was = moments[1].was(&moments[0], 0, now.copies[0].place(*vertex)).unwrap();
             let Body::Glass(then) = &*before.specimen.body else { panic!() };
-            assert!(then.field().value(before.company[0].unplace(was)).abs() < 1e-9, "on the surface then");
+            assert!(then.field().value(before.copies[0].unplace(was)).abs() < 1e-9, "on the surface then");
         }
         let stone = shot("tolkowsky", 1.0, &eye);
         let other = Moment::of(&stone, stone.film);

@@ -40,6 +40,8 @@ pub enum Smoothing {
 /// An order of one picture.
 #[derive(Debug, Clone)]
 pub struct Shot {
+    /// The number of the document that was open when the picture was ordered; it changes no pixel.
+    pub document: u64,
     /// The stone. The design in it may have an older name.
     pub specimen: Arc<Specimen>,
     /// The name of the design, which drawings show.
@@ -68,7 +70,7 @@ pub struct Shot {
     /// How much of the way refraction is followed: 1 is physics.
     pub strength: f64,
     /// The poses of the copies of the stone in a render, at least one. Other pictures show a single stone.
-    pub company: Vec<Pose>,
+    pub copies: Vec<Pose>,
     /// How a render's edges are smoothed.
     pub smoothing: Smoothing,
     /// The half angle of the observer's head in scopes, in degrees; 0 for no head.
@@ -107,12 +109,15 @@ impl PartialEq for Shot {
         }
         let by_light = matches!(self.shows, Shows::Render | Shows::Refraction);
         let seen = self.shows != Shows::Diagram;
-        let has_glare = seen && !by_light && !self.strongest;
+        let scoped = self.shows.scoped();
+        let takes_head = scoped.as_ref().is_some_and(|scoped| scoped.takes_head);
+        let has_glare = scoped.is_some() && !self.strongest;
         Arc::ptr_eq(&self.specimen, &other.specimen)
-            && (self.shows, self.strongest, self.overlay, self.film.size)
-                == (other.shows, other.strongest, other.overlay, other.film.size)
+            && (self.shows, self.overlay, self.film.size) == (other.shows, other.overlay, other.film.size)
             && (seen || self.paper == other.paper)
-            && (!seen || (self.view, self.film, self.head) == (other.view, other.film, other.head))
+            && (!seen || (self.view, self.film) == (other.view, other.film))
+            && (scoped.is_none() || self.strongest == other.strongest)
+            && (!takes_head || self.head == other.head)
             && (!has_glare || self.glare == other.glare)
             && (seen || self.title == other.title)
             && (!by_light || (Arc::ptr_eq(&self.light, &other.light) && self.manner() == other.manner()))
@@ -125,16 +130,18 @@ impl Shot {
         let numbers = [self.distance, self.whole.pixel, self.strength];
         if self.shows == Shows::Refraction {
             let numbers = [numbers[0], numbers[1], 1.0];
-            return (self.exposure, 0, false, None, numbers, &self.company, Smoothing::None);
+            return (self.exposure, 0, false, None, numbers, &self.copies, Smoothing::None);
         }
         let Self { exposure, bands, jitter, smoothing, .. } = *self;
-        (exposure, bands, jitter, self.behind.as_ref(), numbers, &self.company, smoothing)
+        (exposure, bands, jitter, self.behind.as_ref(), numbers, &self.copies, smoothing)
     }
 }
 
 /// An order of the figures of a view, in the common ASET.
 #[derive(Debug, Clone)]
 pub struct FiguresOrder {
+    /// The number of the document that was open when the figures were ordered; it changes no figure.
+    pub document: u64,
     pub specimen: Arc<Specimen>,
     pub view: View,
     /// The half angle of the observer's head, in degrees; 0 for no head.

@@ -76,7 +76,7 @@ impl ShotTracer {
 
     fn scoped(&mut self, shot: &Shot, effort: &Effort, watch: Watch) -> Result<TakenPicture, Failure> {
         let Some(scoped) = shot.shows.scoped() else { return Err(Failure::Input("no scope".into())) };
-        let scope = scoped.scope.with_head(if scoped.takes_head { shot.head } else { 0.0 });
+        let scope = scoped.with_head(shot.head);
         let palette = Palette::of(&scope);
         let mut job = shot.scope_job(scope, effort, if effort.is_refined() { 3 } else { 1 });
         let is_slow =
@@ -158,6 +158,7 @@ mod tests {
         let projection =
             distance.map_or(Projection::Orthographic, |distance| Projection::Perspective { distance });
         Shot {
+            document: 0,
             specimen: Arc::clone(Document::first().unwrap().specimen()),
             title: String::new(),
             shows,
@@ -171,7 +172,7 @@ mod tests {
             jitter: true,
             behind: None,
             strength: 1.0,
-            company: vec![Pose::STILL],
+            copies: vec![Pose::STILL],
             distance: BEHIND,
             smoothing: Smoothing::None,
             exposure: 0.0,
@@ -270,6 +271,24 @@ mod tests {
             let shot = shot(shows, None);
             let renamed = Shot { title: "another".to_owned(), ..shot.clone() };
             assert_eq!(shot == renamed, is_same, "{shows:?}");
+        }
+    }
+
+    #[test]
+    fn strongest_exits_and_the_head_make_another_picture_only_in_scopes_that_show_them() {
+        for (shows, is_same) in [
+            (Shows::Render, [true; 2]),
+            (Shows::Refraction, [true; 2]),
+            (Shows::Diagram, [true; 2]),
+            (Shows::Hearts, [false, true]),
+            (Shows::Aset, [false; 2]),
+        ] {
+            let shot = shot(shows, None);
+            let [strongest, head] =
+                [Shot { strongest: true, ..shot.clone() }, Shot { head: 10.0, ..shot.clone() }];
+            assert_eq!([shot == strongest, shot == head], is_same, "{shows:?}");
+            let is_light = matches!(shows, Shows::Render | Shows::Refraction);
+            assert_eq!([shot.has_light_of(&strongest), shot.has_light_of(&head)], [is_light; 2], "{shows:?}");
         }
     }
 

@@ -12,6 +12,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fs::File;
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -148,9 +149,9 @@ fn stand_in() -> (String, Plane) {
 fn orphan(path: PathBuf) -> Option<RecoveredWork> {
     let file = File::open(&path).ok()?;
     file.try_lock().ok()?;
-    let mut kept: Kept = serde_json::from_reader(&file).ok()?;
-    if !(1..=MOST_COPIES).contains(&kept.around.company.poses.len()) {
-        kept.around.company = Copies::default();
+    let mut kept: Kept = serde_json::from_reader(BufReader::new(&file)).ok()?;
+    if !(1..=MOST_COPIES).contains(&kept.around.copies.poses.len()) {
+        kept.around.copies = Copies::default();
     }
     let mut design = cut_file::parse(&kept.design, "unsaved work").ok()?;
     let mesh = kept.read.map(KeptMesh::read_mesh);
@@ -194,9 +195,9 @@ mod tests {
         let work = Document::first().unwrap().work;
         let mut safe = Autosave::new(folder.path().to_owned());
         let corners = [DVec3::ONE, -DVec3::ONE];
-        let company = Copies::scattered(3, &corners, 2);
+        let copies = Copies::scattered(3, &corners, 2);
         let around =
-            KeptScene { company, behind: Some("page".into()), behind_mm: Some(12.5), strength: Some(0.2) };
+            KeptScene { copies, behind: Some("page".into()), behind_mm: Some(12.5), strength: Some(0.2) };
         let path = Some("/x/mine.toml".into());
         let unsaved = UnsavedWork { work: work.clone(), around: around.clone(), path, replaces: None };
         safe.keep(&unsaved).unwrap();
@@ -219,9 +220,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("heart.toml");
         let (vertices, triangles) = crate::math::fixture::heart();
-        let shell = crate::math::TriangleMesh::new(crate::math::Surface::new(vertices, triangles)).unwrap();
+        let solid = crate::math::TriangleMesh::new(crate::math::Surface::new(vertices, triangles)).unwrap();
         let first = Document::first().unwrap().work.design;
-        let cut = Cut::Mesh(crate::cut::MeshShape(Arc::new(shell)));
+        let cut = Cut::Mesh(crate::cut::MeshShape(Arc::new(solid)));
         std::fs::write(&path, cut_file::write(&Design { cut, ..first })).unwrap();
         let mesh = design_file::read(&path).unwrap().design;
         let changed = Design { name: "changed".to_owned(), diameter_mm: 9.0, ..mesh };
@@ -240,9 +241,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("heart.glb");
         let (vertices, triangles) = crate::math::fixture::heart();
-        let shell = crate::math::TriangleMesh::new(crate::math::Surface::new(vertices, triangles)).unwrap();
+        let solid = crate::math::TriangleMesh::new(crate::math::Surface::new(vertices, triangles)).unwrap();
         let first = Document::first().unwrap().work.design;
-        let heart = Design { cut: Cut::Mesh(crate::cut::MeshShape(Arc::new(shell))), ..first };
+        let heart = Design { cut: Cut::Mesh(crate::cut::MeshShape(Arc::new(solid))), ..first };
         let specimen = crate::scene::Specimen::new(heart).unwrap();
         design_file::write(&specimen, DesignFormat::Glb, &path).unwrap();
         for form in [MeshForm::Triangles, MeshForm::Faceted] {
@@ -260,6 +261,9 @@ mod tests {
             let mut older: serde_json::Value =
                 serde_json::from_slice(&std::fs::read(&found.file).unwrap()).unwrap();
             older.as_object_mut().unwrap().remove("read").unwrap();
+            let around = older["around"].as_object_mut().unwrap();
+            let copies = around.remove("copies").unwrap();
+            around.insert("company".to_owned(), copies);
             std::fs::write(&found.file, older.to_string()).unwrap();
             let found = Autosave::new(folder.path().join("safe")).found().remove(0);
             assert!(found.mesh.is_none() && matches!(found.design.cut, Cut::Mesh(_) | Cut::Planes(_)));

@@ -1,7 +1,8 @@
 //! Pictures for the clipboard at a chosen size.
 
 use crate::app::model::task::{CopyOriginal, CopyRequest};
-use crate::app::studio::{FINE, ShotTracer, Which};
+use crate::app::shows::Shows;
+use crate::app::studio::{ExportedRender, FINE, ShotTracer, Which};
 use crate::io::Failure;
 use crate::io::rasterize;
 use crate::picture::profile;
@@ -23,6 +24,11 @@ pub fn make(request: &CopyRequest, is_stopped: &(dyn Fn() -> bool + Sync)) -> Re
         true => ControlFlow::Break(()),
         false => ControlFlow::Continue(()),
     };
+    // A copied render is as clear as an exported one.
+    if shot.shows == Shows::Render {
+        let ExportedRender { rgba, size, .. } = ShotTracer::default().export(shot, &watch)?;
+        return Ok(ColorImage::from_rgba_unmultiplied(size.map(|n| n as usize), &rgba));
+    }
     let mut last = None;
     let slot = (0, Which::Present);
     let made = ShotTracer::default().take((slot, shot), &FINE, &watch, &mut |taken| last = Some(taken.image));
@@ -36,4 +42,31 @@ pub fn drawn(specimen: &Specimen, side: u32) -> Result<ColorImage, Failure> {
     let text = profile(stone, &specimen.design.name, specimen.design.cut.brilliant()).to_string();
     let (width, height, rgb) = rasterize(&text, side).map_err(|e| Failure::Output(e.to_string()))?;
     Ok(ColorImage::from_rgb([width as usize, height as usize], &rgb))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::model::Model;
+    use crate::app::model::motion::WaveCache;
+    use crate::app::model::ordering::Orders;
+    use crate::app::model::workspace::Workspace;
+    use crate::app::studio::{Paper, Shot};
+    use crate::scene::{Projection, View};
+    use crate::trace::unwatched;
+
+    #[test]
+    fn a_copied_render_by_rays_has_the_pixels_of_an_exported_one() {
+        let model = Model::new(Workspace::default()).unwrap();
+        let projection = Projection::Perspective { distance: 8.0 };
+        let view = View { projection, ..model.workspace.eye.view(None) };
+        let mut orders = Orders { model: &model, waves: &mut WaveCache::default(), paper: Paper::default() };
+        let film = model.fit(Shows::Render, &view).film([24; 2]);
+        let shot = Shot { film, bands: 3, ..orders.render(view) };
+        assert!(ShotTracer::default().is_slow_render(&shot));
+        let exported = ShotTracer::default().export(&shot, &unwatched).unwrap();
+        let request = CopyRequest { original: CopyOriginal::Shot(Box::new(shot)), side: 24 };
+        let copied = make(&request, &|| false).unwrap();
+        assert!(copied == ColorImage::from_rgba_unmultiplied([24; 2], &exported.rgba));
+    }
 }

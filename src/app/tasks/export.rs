@@ -10,7 +10,7 @@ use crate::io::background::BackgroundRef;
 use crate::io::export::{Event, Export, OutputFormat, Outputs};
 use crate::io::refraction::{self, Coding, Page, takes, write_page};
 use crate::io::{Failure, write_rgba_png};
-use crate::render::Renderer;
+use crate::render::{Renderer, mixture_note};
 use crate::trace::Watch;
 use egui::ColorImage;
 use std::ops::ControlFlow;
@@ -96,7 +96,7 @@ impl ExportPlan {
         watch: Watch,
     ) -> Result<(), Failure> {
         let (map, carried) = survey(
-            &self.shot(Shows::Render, self.selection.size),
+            &self.shot(Shows::Refraction, self.selection.size),
             [self.selection.bands, self.selection.places],
             watch,
         )?;
@@ -123,10 +123,10 @@ impl ExportPlan {
         let shot = self.shot(Shows::Render, self.selection.size);
         let ExportedRender { rgba, size, tracer, unresolved } = ShotTracer::default().export(&shot, watch)?;
         let description = format!(
-            "{}: render; light {}; {}{tracer}, unresolved {unresolved:.2e}",
+            "{}: render; light {}{}; {tracer}, unresolved {unresolved:.2e}",
             self.shot.title,
             self.shot.light.light.name,
-            self.mixture()
+            mixture_note(self.shot.strength)
         );
         Ok(write_rgba_png(path, &rgba, size.into(), &description)?)
     }

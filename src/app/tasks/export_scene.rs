@@ -23,7 +23,7 @@ impl SceneOut {
         let cut = format!("{}-cut.toml", plan.stem);
         let design = &shot.specimen.design;
         let turned = Pose::turned(shot.view.turn);
-        let poses: Vec<Pose> = shot.company.iter().map(|pose| turned.after(pose)).collect();
+        let poses: Vec<Pose> = shot.copies.iter().map(|pose| turned.after(pose)).collect();
         let unit_mm = 0.5 * design.diameter_mm;
         // Scenes are seen around their middle.
         let middle = middle(&poses, shot.specimen.solid().vertices());

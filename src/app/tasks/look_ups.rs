@@ -26,7 +26,8 @@ impl Outside {
         let request = Arc::new(request);
         last.insert(slot, Arc::clone(&request));
         let lookup = Arc::clone(lookup);
-        let failed = TaskAnswer::Looked(slot, Arc::clone(&request), Err(fault()));
+        let failed =
+            TaskAnswer::Looked(slot, Arc::clone(&request), Err(fault("looking up the background failed")));
         self.runner.start(Key::LookUp(slot), Turn::After, Some(failed), move |job| {
             let taken = lookup.lock().unwrap_or_else(PoisonError::into_inner).picture(&request);
             job.send(TaskAnswer::Looked(slot, request, taken));

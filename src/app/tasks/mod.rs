@@ -73,9 +73,9 @@ impl<A: Into<Action>> From<A> for TaskAnswer {
 /// The text of an error that the program itself has made.
 const FAULT: &str = "this is a fault in the program; please report it, with the design";
 
-/// Returns the error of a task that panicked.
-fn fault() -> Failure {
-    Failure::Output(FAULT.to_owned())
+/// Returns the error of a task that panicked; `failed` says what was not done.
+fn fault(failed: &str) -> Failure {
+    Failure::Output(format!("{failed}; {FAULT}"))
 }
 
 /// A function that opens a folder by its path, or a page of the web by its address, without waiting for it.
@@ -128,7 +128,8 @@ impl Outside {
     }
 
     fn load_light(&mut self, name: String) {
-        let failed = Computed::Light(name.clone(), Err(fault()));
+        let why = fault(&format!("{name}: loading the light failed"));
+        let failed = Computed::Light(name.clone(), Err(why));
         self.run(Key::Light, failed, move |_| {
             let loaded = Lighting::load(&name).map(Arc::new).map_err(Failure::from);
             Computed::Light(name, loaded)
@@ -136,8 +137,8 @@ impl Outside {
     }
 
     fn read(&mut self, request: FileRequest) {
-        let why = format!("{}: reading it failed", request.path.display());
-        let failed = FileAction::Opened(request.clone(), Err(Failure::Input(why)));
+        let why = fault(&format!("{}: reading the file failed", request.path.display()));
+        let failed = FileAction::Opened(request.clone(), Err(why));
         self.run(Key::Read { is_beside: request.is_beside() }, failed, move |_| {
             let read = open::read(&request);
             FileAction::Opened(request, read)
@@ -145,8 +146,10 @@ impl Outside {
     }
 
     fn save(&mut self, request: SaveRequest) {
-        let failed = FileAction::Saved(Err(fault()));
-        self.write(Key::Save, failed, move || Some(FileAction::Saved(open::save(request))));
+        let document = request.document;
+        let why = fault(&format!("{}: saving the design failed", request.path.display()));
+        let failed = FileAction::Saved(document, Err(why));
+        self.write(Key::Save, failed, move || Some(FileAction::Saved(document, open::save(request))));
     }
 
     fn choose_file(&mut self, question: Question) {
@@ -200,7 +203,8 @@ impl Outside {
 
     fn export(&mut self, plan: ExportPlan) {
         let answer = |event| DialogAction::Exported(event).into();
-        let failed = answer(ExportEvent::Ended(Err(fault())));
+        let why = fault("the export failed");
+        let failed = answer(ExportEvent::Ended(Err(why)));
         self.runner.start(Key::Export, Turn::AtOnce, Some(failed), move |job| {
             export::run(&plan, &|event| job.send(answer(event)), &|| job.is_stopped());
         });

@@ -35,7 +35,7 @@ fn is_scene(path: &Path) -> bool {
 /// # Errors
 /// Fails where the file system refuses, and where completing the name would replace another file.
 pub fn save(request: SaveRequest) -> Result<SavedDesign, Failure> {
-    let SaveRequest { path, design, specimen } = request;
+    let SaveRequest { path, design, specimen, .. } = request;
     let completed = path.with_extension("toml");
     if path.extension().is_none() && completed.exists() {
         let problem = format!("{} exists; type its full name to replace it", completed.display());

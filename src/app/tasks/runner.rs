@@ -1,4 +1,4 @@
-//! Work in the background, where the newest want wins.
+//! Work in the background, where the newest job of a key wins.
 //!
 //! Every job has a key. A job that is started stops the one before it that has the same key, and answers of that one are
 //! dropped unread: nobody wants them any more. A job that writes waits its turn instead, so that it never meets the one

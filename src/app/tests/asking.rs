@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::app::model::dialog::Dialog;
+use crate::app::model::export::Selection;
 use crate::app::model::exporting::{ExportEvent, ExportRun};
 use crate::app::model::plan::export_plan;
 use crate::app::tasks::export::run;
@@ -124,15 +125,15 @@ fn a_click_beside_the_stone_opens_no_light_path() {
     assert!(bench.editor().model.session.followed.is_open);
 }
 
-/// Exports the ASET from an editor in its present state, and returns the files of its two pictures: by energy and by
-/// strongest exits.
-fn exported_aset(bench: &mut Bench) -> Vec<Vec<u8>> {
+/// Exports from an editor in its present state what `select` selects, 64 pixels wide, and returns the files in the order of
+/// their names.
+fn exported(bench: &Bench, select: impl FnOnce(&mut Selection)) -> Vec<Vec<u8>> {
     let folder = tempfile::tempdir().unwrap();
     let mut plan = export_plan(&bench.editor().model);
     plan.folder = folder.path().to_owned();
     plan.stem = "stone".to_owned();
-    plan.selection.views = vec![Shows::Aset];
     plan.selection.size = 64;
+    select(&mut plan.selection);
     let end = Mutex::new(None);
     let hear = |event| {
         if let ExportEvent::Ended(how) = event {
@@ -145,26 +146,41 @@ fn exported_aset(bench: &mut Bench) -> Vec<Vec<u8>> {
     let mut files: Vec<_> =
         std::fs::read_dir(folder.path()).unwrap().map(|file| file.unwrap().path()).collect();
     files.sort();
-    assert_eq!(files.len(), 2, "{files:?}");
     files.iter().map(|file| std::fs::read(file).unwrap()).collect()
 }
 
-#[test]
-fn a_view_that_is_not_linked_is_exported_as_it_is_seen() {
-    let mut bench = Bench::new();
+/// Exports what `select` selects from an editor in which only the view of that has a tilt of its own, and compares the files
+/// with those of a stone that is upright and of one whose linked views have the same tilt.
+fn is_exported_as_its_own_view_shows_it(bench: &mut Bench, count: usize, select: fn(&mut Selection)) {
     bench.harness.run_steps(2);
-    let upright = exported_aset(&mut bench);
+    let upright = exported(bench, select);
+    assert_eq!(upright.len(), count);
     let workspace = &mut bench.harness.state_mut().model.workspace;
     let mut eye = workspace.eye;
     (eye.lean, eye.turn) = (glam::DVec2::new(0.3, 0.1), 0.2);
     workspace.panes[0].own = Some(eye);
     bench.harness.run_steps(2);
-    let own = exported_aset(&mut bench);
+    let own = exported(bench, select);
     let workspace = &mut bench.harness.state_mut().model.workspace;
     (workspace.eye, workspace.panes[0].own) = (eye, None);
     bench.harness.run_steps(2);
     assert_ne!(own, upright);
-    assert!(own == exported_aset(&mut bench), "linked at the same tilt it is the same file");
+    assert!(own == exported(bench, select), "linked at the same tilt it is the same file");
+}
+
+#[test]
+fn a_view_that_is_not_linked_is_exported_as_it_is_seen() {
+    // The ASET has two pictures: by energy and by strongest exits.
+    is_exported_as_its_own_view_shows_it(&mut Bench::new(), 2, |s| s.views = vec![Shows::Aset]);
+}
+
+#[test]
+fn a_refraction_map_whose_view_is_not_linked_is_exported_as_it_is_seen() {
+    let mut workspace = Bench::small();
+    workspace.panes[0].shows = Shows::Refraction;
+    let mut bench = Bench::with(Setup { workspace, ..Setup::default() });
+    // The map, its diffuse layer and the page.
+    is_exported_as_its_own_view_shows_it(&mut bench, 3, |s| (s.views, s.map) = (vec![], true));
 }
 
 #[test]

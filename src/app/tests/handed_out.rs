@@ -238,7 +238,7 @@ fn files_of_every_kind_are_dropped_on_the_window() {
     }
     drop_on(&mut bench, &[&at("scene.toml"), &at("design.toml")]);
     bench.wait(|editor| {
-        editor.model.document.work.company.poses.len() > 1 || editor.model.session.dialog.is_some()
+        editor.model.document.work.copies.poses.len() > 1 || editor.model.session.dialog.is_some()
     });
     assert!(bench.editor().model.session.dialog.is_none());
     drop_on(&mut bench, &[&at("nothing.xyz")]);

@@ -3,7 +3,7 @@
 
 mod asking;
 mod backgrounds;
-mod company;
+mod copies;
 mod drag;
 mod flows;
 mod formats;

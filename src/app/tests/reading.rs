@@ -54,7 +54,7 @@ fn a_second_choice_keeps_the_first_that_has_not_come_yet() {
     let editor = bench.harness.state_mut();
     let (work, mesh) = (editor.model.document.work.clone(), UP);
     let request = FileRequest { purpose: OpeningPurpose::Otherwise, path, mesh };
-    editor.model.session.awaited.opening.push(Opening { request, work });
+    editor.model.session.awaited.opening.push(Opening { request, work, read: None });
     bench.harness.run_steps(2);
     bench.harness.get_by_label("Triangles").click();
     bench.harness.run_steps(2);

@@ -148,7 +148,7 @@ fn an_impossible_number_is_told_at_its_row_and_views_and_figures_say_which_stone
 }
 
 #[test]
-fn a_name_an_error_and_where_panels_end_trace_nothing_anew() {
+fn a_name_and_an_error_trace_nothing_anew() {
     let mut bench = Bench::new();
     bench.settle();
     let traced = bench.editor().studio.traced();

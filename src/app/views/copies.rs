@@ -12,7 +12,7 @@ use glam::DVec2;
 
 /// Moves the copy that the pointer drags; returns whether it drags one.
 pub fn carried(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneView) -> bool {
-    let (poses, before) = (&cx.model.document.work.company.poses, cx.model.session.held);
+    let (poses, before) = (&cx.model.document.work.copies.poses, cx.model.session.held);
     let is_start = response.drag_started_by(PointerButton::Primary);
     let can_hold = poses.len() > 1 && cx.shows == Shows::Render;
     let held = match is_start && can_hold && !ui.input(|i| i.modifiers.shift) {
@@ -59,9 +59,9 @@ pub fn hover(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneVie
         return;
     }
     let Some((shot, copy, facet)) = found(cx, sight, at) else { return };
-    sight.outline(ui, shot.specimen.solid(), facet, |corner| shot.company[copy].place(corner));
+    sight.outline(ui, shot.specimen.solid(), facet, |corner| shot.copies[copy].place(corner));
     cx.tools.attention.message =
-        format!("copy {} of {}: {}", copy + 1, shot.company.len(), shot.specimen.body.name(facet));
+        format!("copy {} of {}: {}", copy + 1, shot.copies.len(), shot.specimen.body.name(facet));
 }
 
 /// Returns what a view was last ordered to show, and which copy and facet of it lie at a point of the window.
@@ -69,6 +69,6 @@ fn found<'a>(cx: &mut PaneContext<'a>, sight: &PaneView, at: Pos2) -> Option<(&'
     let own = (cx.pane, Which::Present);
     let (_, shot) = cx.model.session.ordered.shots.iter().find(|(slot, _)| *slot == own)?;
     let probe = cx.tools.probe.of(&shot.specimen);
-    let (copy, facet) = probe.among(&shot.company, &sight.view, &sight.film, sight.pixel(at))?;
+    let (copy, facet) = probe.among(&shot.copies, &sight.view, &sight.film, sight.pixel(at))?;
     Some((shot, copy, facet))
 }

@@ -30,8 +30,6 @@ pub struct Gallery {
     pub traced: HashMap<Slot, Shown>,
     /// The pictures that were looked up.
     pub looked: HashMap<Slot, Shown>,
-    /// The number of the document that the pictures are of.
-    document: u64,
 }
 
 impl Gallery {
@@ -44,18 +42,15 @@ impl Gallery {
         }
     }
 
-    /// Drops the pictures of a document, or of a comparison, that has ended.
-    pub fn tidy(&mut self, model: &Model) {
-        let is_other = self.document != model.session.begun;
-        let is_compared = model.session.compared.is_some();
-        self.document = model.session.begun;
-        // A pane of liquid glass is no picture of the stone.
-        let stays = |which: Which, shown: &Shown| match which {
-            Which::Present => !is_other || shown.shot.shows.is_pane(),
-            Which::Other => is_compared,
+    /// Drops the pictures of a document, or of a comparison, that has ended. The studio may still answer with such a picture.
+    pub fn tidy(&mut self, Model { session, .. }: &Model) {
+        let stays = |which: Which, shot: &Shot| match which {
+            // A pane of liquid glass is no picture of the stone.
+            Which::Present => shot.document == session.begun || shot.shows.is_pane(),
+            Which::Other => session.compared.is_some(),
         };
-        self.traced.retain(|(_, which), shown| stays(*which, shown));
-        self.looked.retain(|(_, which), shown| stays(*which, shown));
+        self.traced.retain(|(_, which), shown| stays(*which, &shown.shot));
+        self.looked.retain(|(_, which), shown| stays(*which, &shown.shot));
     }
 }
 
@@ -75,4 +70,40 @@ pub fn hang(
         None => ctx.load_texture(format!("{slot:?}"), image, TextureOptions::LINEAR),
     };
     pictures.insert(slot, Shown { texture, shot, grade, taken });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::model::action::FileAction;
+    use crate::app::model::dialog::Then;
+    use crate::app::model::update;
+    use crate::app::model::workspace::Workspace;
+    use crate::app::views::ViewTools;
+    use egui::ColorImage;
+
+    #[test]
+    fn a_picture_of_a_document_that_has_ended_is_dropped_whenever_it_comes() {
+        let ctx = Context::default();
+        let mut model = Model::new(Workspace::default()).unwrap();
+        let slot = (1, Which::Present);
+        let shot =
+            |model: &Model| ViewTools::default().orders(model).shot(1, Which::Present, [64, 32]).unwrap();
+        let come = |gallery: &mut Gallery, model: &Model, shot: &Shot| {
+            let image = ColorImage::filled([2, 1], Color32::BLACK);
+            let taken = TakenPicture { image, unresolved: None, tracer: "", map: None };
+            hang(&ctx, &mut gallery.traced, slot, (shot.clone(), Grade::Rough, taken));
+            gallery.tidy(model);
+            gallery.shown(model, slot).is_some()
+        };
+        let mut gallery = Gallery::default();
+        let first = shot(&model);
+        assert!(come(&mut gallery, &model, &first));
+        update(&mut model, FileAction::Ask(Then::Library("modern-ideal".to_owned())).into());
+        gallery.tidy(&model);
+        assert!(gallery.shown(&model, slot).is_none());
+        assert!(!come(&mut gallery, &model, &first), "it comes after the next document has begun");
+        let second = shot(&model);
+        assert!(come(&mut gallery, &model, &second));
+    }
 }

@@ -44,7 +44,7 @@ fn contents(model: &Model, tools: &mut ViewTools, ui: &mut Ui) {
         return;
     };
     let shows = model.workspace.panes[pane].shows;
-    if shows.has_company() && !model.is_alone() {
+    if shows.has_copies() && !model.is_alone() {
         ui.label(
             "A ray can be followed only through a single stone in its own pose. Show one copy and reset its pose, \
                 or click a point in a scope.",

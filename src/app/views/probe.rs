@@ -117,7 +117,8 @@ impl Probe {
         let normal = self.specimen.solid().normal(facet, point);
         let (body, radial) = (&self.specimen.body, normal.truncate());
         let tier = body.stone().map_or((String::new(), 1), |stone| {
-            let stem = tier_stem(stone.name(facet));
+            let own = stone.name(facet);
+            let stem = tier_stem(&own);
             let count = stone.names().iter().filter(|n| tier_stem(n) == stem).count();
             (stem.replace('_', " "), count)
         });

@@ -7,7 +7,8 @@ use super::{copies, eye_hand, refraction_view};
 use crate::app::model::action::ViewAction;
 use crate::app::shows::Shows;
 use crate::app::studio::Which;
-use crate::scene::{ASET_CONE, Backing, Scope};
+use crate::picture::Scoped;
+use crate::scene::Scope;
 use egui::{
     Align2, Color32, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, vec2,
 };
@@ -37,7 +38,7 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect, size: [u32; 2]) {
         cx.actions.push_changed(&eye, moved, |eye| ViewAction::Eye(cx.pane, eye));
     }
     attend(cx, &response, response.hovered() || response.has_focus());
-    let is_alone = !shows.has_company() || model.is_alone();
+    let is_alone = !shows.has_copies() || model.is_alone();
     clicked(cx, ui, is_alone, &response, &sight);
     match is_alone {
         true => hover(cx, ui, &response, &sight),
@@ -124,8 +125,7 @@ fn split_marks(ui: &Ui, body: Rect, other: &str) {
 
 /// Returns the scope whose zones are named in a view.
 pub fn zones(shows: Shows, head: f64) -> Scope {
-    let aset = || Scope::aset(ASET_CONE, Backing::Black).with_head(head);
-    shows.scoped().map_or_else(aset, |s| if s.takes_head { s.scope.with_head(head) } else { s.scope })
+    shows.scoped().unwrap_or_else(Scoped::aset).with_head(head)
 }
 
 /// Names what is under the pointer in the status line, and outlines its facet.

@@ -1,8 +1,8 @@
 //! Keeps the window's state between starts, in the file and format of eframe, so that it does not matter which painter ran
 //! last.
 
+use crate::io::{WriteError, write};
 use std::collections::BTreeMap;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Texts by key, kept in a file.
@@ -21,15 +21,11 @@ impl FileStorage {
     }
 
     /// Writes the file whole or not at all.
-    fn write(&self) -> std::io::Result<()> {
-        let folder = self.file.parent().unwrap_or(Path::new("."));
-        std::fs::create_dir_all(folder)?;
+    fn write(&self) -> Result<(), WriteError> {
+        let file = &self.file;
         let text = ron::ser::to_string_pretty(&self.texts, ron::ser::PrettyConfig::default())
-            .map_err(std::io::Error::other)?;
-        let mut file = tempfile::NamedTempFile::new_in(folder)?;
-        file.write_all(text.as_bytes())?;
-        file.persist(&self.file)?;
-        Ok(())
+            .map_err(|e| WriteError::io(file, std::io::Error::other(e)))?;
+        write(file, |sink| sink.write_all(text.as_bytes()).map_err(|e| WriteError::io(file, e)))
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{PictureSetup, RenderedPicture};
 use crate::cli::console::say;
 use crate::io::Failure;
-use crate::render::Rendered;
+use crate::render::{Rendered, mixture_note};
 
 /// The share of unresolved light above which a warning is printed.
 const MUCH_UNRESOLVED: f64 = 0.02;
@@ -32,16 +32,8 @@ impl PictureSetup<'_> {
             self.options.wavelengths,
             rest.unresolved,
             rest.absorbed,
-            self.mixture()
+            mixture_note(self.strength)
         );
         Ok(RenderedPicture { picture, description })
-    }
-
-    /// Returns the note of a picture with a strength of refraction below 1, which is not physics; empty at full strength.
-    pub(super) fn mixture(&self) -> String {
-        let strength = self.strength;
-        let note =
-            || format!("; strength {strength}: refracted and straight rays are mixed, which is not physics");
-        (strength < 1.0).then(note).unwrap_or_default()
     }
 }

@@ -253,7 +253,7 @@ fn principal(solid: &Polytope) -> Vec<DVec3> {
     for facet in solid.facets() {
         let area = solid.facet_area(facet);
         let centre = solid.corners(facet).sum::<DVec3>() / facet.outline.len() as f64 - middle;
-        spread += outer(centre) * area;
+        spread += outer(centre, centre) * area;
     }
     eigen(spread).1.to_vec()
 }

@@ -43,10 +43,10 @@ fn a_file_is_read_as_it_is_meant() {
         (tiers.headers, tiers.footers),
         (vec!["A square".into(), String::new(), " by nobody ".into()], vec!["the end".to_owned()])
     );
-    let told: Vec<_> =
+    let found: Vec<_> =
         tiers.tiers.iter().map(|t| (t.angle, t.facets.len(), t.name(), t.instructions.as_str())).collect();
     assert_eq!(
-        told,
+        found,
         [
             (-90.0, 4, "G1", "set the size"),
             (-45.0, 4, "P1", "to a point"),
@@ -162,16 +162,16 @@ fn a_gear_and_a_symmetry_that_make_no_sense_are_mended_with_a_warning_as_in_gem_
 
 #[test]
 fn what_is_no_stone_is_refused_with_its_place() {
-    let told = |bytes: &[u8]| read(bytes, "x.asc").unwrap_err().in_file("x.asc").to_string();
-    assert!(told(b"GemCad 5.0\ng 96 0.0\n").starts_with("x.asc: no facet is listed; a line such as"));
-    assert!(told(b"").starts_with("x.asc: no facet"));
+    let message = |bytes: &[u8]| read(bytes, "x.asc").unwrap_err().in_file("x.asc").to_string();
+    assert!(message(b"GemCad 5.0\ng 96 0.0\n").starts_with("x.asc: no facet is listed; a line such as"));
+    assert!(message(b"").starts_with("x.asc: no facet"));
     assert!(
-        told(b"g 0 0\na 1 1e300 5\n").contains("tier 1: distance: "),
+        message(b"g 0 0\na 1 1e300 5\n").contains("tier 1: distance: "),
         "{}",
-        told(b"g 0 0\na 1 1e300 5\n")
+        message(b"g 0 0\na 1 1e300 5\n")
     );
     let many = format!("a 41 0.5{}", " 1".repeat(MAX_PLANES + 1));
-    assert_eq!(told(many.as_bytes()), "x.asc:1: more than 10000 facets are listed; no stone has so many");
+    assert_eq!(message(many.as_bytes()), "x.asc:1: more than 10000 facets are listed; no stone has so many");
 }
 
 proptest! {

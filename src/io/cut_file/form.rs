@@ -202,9 +202,9 @@ impl MeshForm {
                 "vertices: no triangle has the corner at place {corner}; leave it out"
             )));
         }
-        let shell = TriangleMesh::new(Surface::new(vertices, self.triangles))
+        let mesh = TriangleMesh::new(Surface::new(vertices, self.triangles))
             .map_err(|error| fault(error.to_string()))?;
-        let framed = MeshShape::framed(&shell, DQuat::IDENTITY);
+        let framed = MeshShape::framed(&mesh, DQuat::IDENTITY);
         framed.map(|(shape, _)| shape).ok_or_else(|| fault("it has no extent across z".to_owned()))
     }
 }

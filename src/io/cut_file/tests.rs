@@ -211,18 +211,18 @@ fn of_each_pair_one_is_given() {
 #[test]
 fn a_mesh_is_written_and_read_to_the_last_bit_and_what_encloses_nothing_is_told() {
     let (vertices, triangles) = crate::math::fixture::heart();
-    let shell = TriangleMesh::new(Surface::new(vertices, triangles)).unwrap();
-    let turned = shell.reframed(&Pose::turned(DQuat::from_rotation_x(0.3)));
+    let mesh = TriangleMesh::new(Surface::new(vertices, triangles)).unwrap();
+    let turned = mesh.reframed(&Pose::turned(DQuat::from_rotation_x(0.3)));
     let cut = Cut::Mesh(MeshShape::framed(&turned, DQuat::IDENTITY).unwrap().0);
     let design = Design { cut, ..parse(TOLKOWSKY, "x").unwrap() };
     let text = write(&design);
     assert_eq!(parse(&text, "x").unwrap(), design);
     let line = 1 + text.lines().position(|line| line == "[mesh]").unwrap();
     let open = text.replacen("triangles = [[", "triangles = [[0, 0, 0], [", 1);
-    let told = parse(&open, "x.toml").unwrap_err().to_string();
+    let error = parse(&open, "x.toml").unwrap_err().to_string();
     assert!(
-        told.starts_with(&format!("x.toml:{line}: mesh: the surface is open at the edge between ")),
-        "{told}"
+        error.starts_with(&format!("x.toml:{line}: mesh: the surface is open at the edge between ")),
+        "{error}"
     );
     let unused = text.replacen("vertices = [", "vertices = [[0.0, 0.0, 0.0], ", 1).replace("[0, ", "[1, ");
     assert!(parse(&unused, "x").unwrap_err().fault.problem.starts_with("mesh: "));
@@ -349,22 +349,22 @@ fn what_is_not_toml_is_told_with_line_and_column() {
 #[test]
 fn a_file_that_cannot_be_read_is_told_as_such() {
     let folder = tempfile::tempdir().unwrap();
-    let told = |name: &str| {
+    let message = |name: &str| {
         let text = read(folder.path().join(name)).unwrap_err().to_string();
         text.replace(&folder.path().display().to_string(), "")
     };
-    assert_eq!(told("none.toml"), "/none.toml: there is no such file");
-    assert_eq!(told(""), "/: this is a directory; a file is expected");
+    assert_eq!(message("none.toml"), "/none.toml: there is no such file");
+    assert_eq!(message(""), "/: this is a directory; a file is expected");
     fs::write(folder.path().join("latin.toml"), b"format = 1\nname = \"taill\xe9\"").unwrap();
-    assert_eq!(told("latin.toml"), "/latin.toml:2: this is not UTF-8 text; save the file as UTF-8");
+    assert_eq!(message("latin.toml"), "/latin.toml:2: this is not UTF-8 text; save the file as UTF-8");
     fs::write(folder.path().join("large.toml"), vec![b' '; MAX_BYTES as usize + 1]).unwrap();
     assert_eq!(
-        told("large.toml"),
+        message("large.toml"),
         "/large.toml: this is larger than 4 MiB, too large for a file of this kind"
     );
     fs::write(folder.path().join("wrong.toml"), with("culet = 0.0", "culet = -1")).unwrap();
-    assert!(told("wrong.toml").starts_with("/wrong.toml:13: culet: -1 % must be at least 0 %"));
-    assert!(told("wrong.toml/x").starts_with("/wrong.toml/x: cannot be read: "));
+    assert!(message("wrong.toml").starts_with("/wrong.toml:13: culet: -1 % must be at least 0 %"));
+    assert!(message("wrong.toml/x").starts_with("/wrong.toml/x: cannot be read: "));
 }
 
 /// Reads the files of the folder cuts/.

@@ -26,11 +26,11 @@ pub(in super::super) fn tiers_of<'a>(specimen: &'a Specimen, lost: &mut Vec<Stri
         lost.push("the format cannot hold the proportions, only the facets that follow from them".to_owned());
     }
     let facets = around_the_origin(specimen, lost);
-    let told = |&teeth: &i32| indexed(&facets, Gear { teeth, offset: 0.0 });
+    let of_gear = |&teeth: &i32| indexed(&facets, Gear { teeth, offset: 0.0 });
     let is_whole = |tiers: &Tiers| {
         tiers.tiers.iter().flat_map(|tier| &tier.facets).all(|facet| facet.index.fract() == 0.0)
     };
-    let mut tiers = GEARS.iter().map(told).find(is_whole).unwrap_or_else(|| told(&GEARS[0]));
+    let mut tiers = GEARS.iter().map(of_gear).find(is_whole).unwrap_or_else(|| of_gear(&GEARS[0]));
     (tiers.symmetry, tiers.mirror) = if brilliant { (8, true) } else { (1, false) };
     tiers.headers = std::iter::once(&design.name).chain(&design.source).cloned().collect();
     Cow::Owned(tiers)

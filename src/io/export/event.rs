@@ -57,9 +57,9 @@ mod tests {
 
     #[test]
     fn parts_of_parts_are_told_as_parts_of_the_whole() {
-        let told = Mutex::new(vec![]);
+        let parts = Mutex::new(vec![]);
         let watch = |done| {
-            told.lock().unwrap().push(done);
+            parts.lock().unwrap().push(done);
             if done > 0.9 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let mut pace = WorkShares::new(&watch, 4.0);
@@ -69,6 +69,6 @@ mod tests {
         assert!(pace.step(1.0, half).unwrap());
         let stopped = pace.step(1.0, |_| -> Result<(), Failure> { unreachable!() });
         assert!(matches!(stopped, Err(Failure::Stopped)));
-        assert_eq!(*told.lock().unwrap(), [0.0, 0.0, 0.125, 0.5, 0.75, 0.875, 1.0]);
+        assert_eq!(*parts.lock().unwrap(), [0.0, 0.0, 0.125, 0.5, 0.75, 0.875, 1.0]);
     }
 }

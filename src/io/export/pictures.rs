@@ -153,7 +153,7 @@ impl<'a> Pictures<'a> {
 
     fn drawn(&self, sheet: &ScopeSheet, beams: &Beams, watch: Watch) -> Result<(), Failure> {
         let ScopeSheet { name, suffix, scope, viewing, .. } = sheet;
-        let view = &viewing.viewpoint.view();
+        let view = &viewing.view();
         let stone = viewing.stone()?;
         let options = viewing.beams(UNRESOLVED);
         let title = format!("{}, {}", sheet.title(), viewing.described().description());

@@ -67,7 +67,7 @@ impl ScopeSheet<'_> {
     /// Returns the job of this picture, with these readings, on a square of `size` pixels.
     pub fn job(&self, size: u32, readings: Vec<Reading>) -> Job {
         let solid = self.viewing.specimen.solid();
-        let reach = Camera::new(&self.viewing.viewpoint.view(), solid).reach(solid).unwrap_or(1.0);
+        let reach = Camera::new(&self.viewing.view(), solid).reach(solid).unwrap_or(1.0);
         let (scope, medium, glare) = (self.scope.clone(), self.viewing.medium, self.glare);
         let product = Product::Scope(ScopeProduct { scope, medium, glare, readings });
         self.viewing.job(Film::reaching(reach, size), product, UNRESOLVED)
@@ -132,7 +132,7 @@ impl SheetFile {
     ) -> Result<Self, Failure> {
         let path =
             outputs.path(&sheet.suffix, &format!("{}{}", sheet.name, kind(reading)), OutputFormat::Png);
-        let [how, told] = match open {
+        let [how, in_caption] = match open {
             Some(open) => [how(reading, open), in_percent(reading, open)],
             None => {
                 let least_weight = job.quality.rays.least_weight;
@@ -142,7 +142,7 @@ impl SheetFile {
         };
         let [width, height] = job.film.size;
         let (below, caption) = match outputs.caption {
-            true => pixels(&sheet.caption(reading, &told), width)?,
+            true => pixels(&sheet.caption(reading, &in_caption), width)?,
             false => (0, vec![]),
         };
         let description = sheet.description(&remark(reading, sheet.glare), &how);

@@ -60,8 +60,8 @@ fn written(export: &Export) -> (Vec<PathBuf>, Vec<String>, Vec<f64>) {
         parts.lock().unwrap().push(part);
         ControlFlow::Continue(())
     };
-    let tell = |told: Event| {
-        match told {
+    let tell = |event: Event| {
+        match event {
             Event::Written(path) => files.lock().unwrap().push(path.to_owned()),
             Event::Begun(text) | Event::Note(text) | Event::Warning(text) => {
                 texts.lock().unwrap().push(text.to_owned());
@@ -94,13 +94,58 @@ fn the_files_are_those_that_are_written_and_told_in_their_order() {
         let export = Export { viewing, outputs: &outputs };
         let files = export.files(&Renderer::default()).unwrap();
         assert_eq!((files.len(), found(&outputs.folder).len()), (count, 0));
-        let (told, _, parts) = written(&export);
-        assert_eq!(told, files);
+        let (reported, _, parts) = written(&export);
+        assert_eq!(reported, files);
         let mut sorted = files;
         sorted.sort();
         assert_eq!(found(&outputs.folder).into_keys().collect::<Vec<_>>(), sorted);
         assert!(parts.is_sorted() && parts[0] == 0.0 && parts.last() == Some(&1.0), "{parts:?}");
     }
+}
+
+/// Exports the ASET of a viewing as PNG, and as SVG of a convex stone; returns the pixels of each at the same size.
+fn exported_pixels(viewing: Viewing, formats: &[OutputFormat]) -> Vec<Vec<[u8; 3]>> {
+    let folder = tempfile::tempdir().unwrap();
+    let outputs = Outputs { strongest: false, size: 96, ..outputs(folder.path(), &["aset"], formats) };
+    let (files, ..) = written(&Export { viewing, outputs: &outputs });
+    let pixels = |path: &PathBuf| {
+        let bytes = std::fs::read(path).unwrap();
+        let rgb = match path.extension().unwrap().to_str().unwrap() {
+            "svg" => crate::io::rasterize(std::str::from_utf8(&bytes).unwrap(), 96).unwrap().2,
+            _ => image::load_from_memory(&bytes).unwrap().to_rgb8().into_raw(),
+        };
+        rgb.chunks(3).map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
+    };
+    files.iter().map(pixels).collect()
+}
+
+#[test]
+fn a_drawing_of_a_turned_stone_shows_what_its_picture_shows() {
+    let specimen = specimen();
+    let formats = [OutputFormat::Png, OutputFormat::Svg];
+    let viewpoint = Viewpoint { tilt_deg: 25.0, azimuth_deg: 10.0, ..Viewpoint::default() };
+    let upright = Viewing { viewpoint, unresolved: Some(0.05), ..viewing(&specimen) };
+    let all = [upright, Viewing { turned_deg: 22.5, ..upright }].map(|v| exported_pixels(v, &formats));
+    let apart = |a: &[[u8; 3]], b: &[[u8; 3]]| {
+        let bytes = a.as_flattened().iter().zip(b.as_flattened());
+        bytes.map(|(a, b)| f64::from(a.abs_diff(*b))).sum::<f64>() / a.as_flattened().len() as f64
+    };
+    let [same, other] = [apart(&all[1][0], &all[1][1]), apart(&all[1][0], &all[0][1])];
+    assert!(
+        3.0 * same < other,
+        "the drawing is off its picture by {same}, that of the unturned stone by {other}"
+    );
+}
+
+#[test]
+fn a_picture_of_a_turned_stone_holds_all_of_it() {
+    let design = cut_file::parse(library::cut("cube").unwrap(), "cube").unwrap();
+    let specimen = Specimen::new(design).unwrap();
+    let turned = Viewing { turned_deg: 45.0, tracer: Wanted::Rays, ..viewing(&specimen) };
+    let pixels = &exported_pixels(turned, &[OutputFormat::Png])[0];
+    let is_edge = |k: usize| [k % 96, k / 96].iter().any(|place| [0, 95].contains(place));
+    assert!((0..96 * 96).all(|k| !is_edge(k) || pixels[k] == pixels[0]), "a corner is cut off");
+    assert!(pixels.iter().any(|pixel| *pixel != pixels[0]));
 }
 
 #[test]
@@ -134,7 +179,7 @@ fn who_is_told_may_end_the_work() {
     let specimen = specimen();
     let folder = tempfile::tempdir().unwrap();
     let outputs = outputs(folder.path(), &["profile", "diagram"], &[OutputFormat::Svg]);
-    let tell = |told: Event| match told {
+    let tell = |event: Event| match event {
         Event::Written(path) => Err(Failure::Output(path.display().to_string())),
         _ => Ok(()),
     };

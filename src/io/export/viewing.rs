@@ -87,16 +87,12 @@ impl Viewing<'_> {
         Ok(renderer.plan(&job)?.backend.is_beams())
     }
 
-    /// Does as [`plans_beams`](Self::plans_beams), with an error that names the file.
+    /// Returns what [`plans_beams`](Self::plans_beams) returns, or an error that names the file.
     ///
     /// # Errors
     /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact beams do not fit.
     pub fn check(&self, renderer: &Renderer) -> Result<bool, Failure> {
-        self.plans_beams(renderer).map_err(|why| match why {
-            Unfit::Eye => Failure::Input(format!("{}: {why}", self.file)),
-            Unfit::NotConvex(_) => Failure::Usage(format!("{}: {why}", self.file)),
-            _ => Failure::Usage(why.to_string()),
-        })
+        self.plans_beams(renderer).map_err(|why| Failure::of_unfit(&why, self.file))
     }
 
     /// Returns the convex stone, for outputs that only convex stones have.
@@ -179,8 +175,8 @@ mod tests {
         };
         let said = |unresolved, open, aim| {
             let said = std::cell::RefCell::new(String::new());
-            let tell = |told: Event| {
-                if let Event::Warning(text) = told {
+            let tell = |event: Event| {
+                if let Event::Warning(text) = event {
                     *said.borrow_mut() = text.to_owned();
                 }
                 Ok(())

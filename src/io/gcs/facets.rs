@@ -222,19 +222,19 @@ impl Apart {
     }
 
     fn attribute(&self, name: &str) -> Option<String> {
-        let mut told = Vec::new();
+        let mut differences = Vec::new();
         if self.corners > TOLD_APART {
-            told.push(format!(
+            differences.push(format!(
                 "its corners differ from its depth by up to {:.1e}; the depth is used",
                 self.corners
             ));
         }
         if self.angle > TOLD_APART {
-            told.push(format!(
+            differences.push(format!(
                 "its normals differ from its angle by up to {:.1e}°; the normals are used",
                 self.angle
             ));
         }
-        (!told.is_empty()).then(|| format!("tier '{name:.40}': {}", told.join("; ")))
+        (!differences.is_empty()).then(|| format!("tier '{name:.40}': {}", differences.join("; ")))
     }
 }

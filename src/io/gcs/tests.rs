@@ -180,8 +180,8 @@ fn faults_are_told_with_their_line() {
         ("<GemCutStudio>&a;</GemCutStudio>".to_owned(), "box.gcs:1: "),
     ];
     for (text, expected) in cases {
-        let told = refused(&text);
-        assert!(told.contains(expected), "{told} is not {expected}");
+        let message = refused(&text);
+        assert!(message.contains(expected), "{message} is not {expected}");
     }
 }
 
@@ -208,8 +208,8 @@ fn what_is_odd_is_told_with_its_line() {
     ];
     for (from, to, expected) in cases {
         assert!(PYRAMIDS.contains(from), "{from}");
-        let told = back(PYRAMIDS.replacen(from, to, 1).as_bytes()).warnings.join("\n");
-        assert!(told.contains(expected), "{expected} in {told}");
+        let warnings = back(PYRAMIDS.replacen(from, to, 1).as_bytes()).warnings.join("\n");
+        assert!(warnings.contains(expected), "{expected} in {warnings}");
     }
 }
 

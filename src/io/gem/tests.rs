@@ -119,11 +119,11 @@ fn a_stone_that_ends_at_the_block_it_is_cut_from_is_told() {
     let mut wide = design();
     tiers(&mut wide).tiers.iter_mut().for_each(|tier| tier.distance *= BLANK);
     tiers(&mut wide).tiers[5].distance = BLANK;
-    let told = back(&write(&specimen(wide)).bytes).warnings;
-    assert_eq!(told.len(), 1);
+    let warnings = back(&write(&specimen(wide)).bytes).warnings;
+    assert_eq!(warnings.len(), 1);
     assert!(
-        told[0].starts_with("offset 0x") && told[0].contains("block that GemCad cuts from, 1.1333 "),
-        "{told:?}"
+        warnings[0].starts_with("offset 0x") && warnings[0].contains("block that GemCad cuts from, 1.1333 "),
+        "{warnings:?}"
     );
 }
 
@@ -166,11 +166,11 @@ fn odd_numbers_behind_the_facets_are_told_and_the_stone_is_read() {
     bytes[end + 20] = 1;
     bytes.extend(b"\x07preform and more");
     let ImportedDesign { mut design, warnings, .. } = back(&bytes);
-    let told = warnings.join("\n");
+    let text = warnings.join("\n");
     for part in
         ["0x7f01 stands where", "gear: 0 must be", "symmetry: 0 must be", "index 9 must be", "the preform"]
     {
-        assert!(told.contains(part), "{part} in {told}");
+        assert!(text.contains(part), "{part} in {text}");
     }
     assert!(warnings.iter().all(|warning| warning.starts_with("offset 0x")));
     assert_eq!(design.material, MaterialRef::Index(1.54));

@@ -76,9 +76,9 @@ struct File {
 
 impl File {
     fn planes(mut self, found: &Faceted) -> Result<ImportedDesign, Fault> {
-        let mut told = MeshRemarks::default();
+        let mut remarks = MeshRemarks::default();
         let surface = found.surface.moved(found.centre);
-        let up = self.place.up(&surface, || directions(&found.polytope), &mut told);
+        let up = self.place.up(&surface, || directions(&found.polytope), &mut remarks);
         let made = from_mesh(found, up).map_err(Fault::whole)?;
         let FromMesh { mut facets, pose, .. } = made;
         // A known size counts, whatever width was found.
@@ -86,21 +86,21 @@ impl File {
         let rescaled = scale / pose.scale;
         facets.iter_mut().for_each(|(_, plane)| plane.offset *= rescaled);
         let (count, deviation) = (facets.len(), made.deviation * rescaled);
-        told.notes.push(format!(
+        remarks.notes.push(format!(
             "{count} facets were found; no corner lies farther from them than {deviation:.1e} girdle radii"
         ));
-        told.is_doubtful = made.doubt.is_some();
-        told.notes.extend(found.change.map(|change| changed(&change, found.tolerance, scale)));
-        told.notes.extend(made.doubt.map(|doubt| doubtful(made.up, doubt.other)));
-        let brought = self.brought(Cut::Planes(facets), scale, told);
+        remarks.is_doubtful = made.doubt.is_some();
+        remarks.notes.extend(found.change.map(|change| changed(&change, found.tolerance, scale)));
+        remarks.notes.extend(made.doubt.map(|doubt| doubtful(made.up, doubt.other)));
+        let brought = self.brought(Cut::Planes(facets), scale, remarks);
         brought.design.check().map_err(Fault::whole)?;
         Ok(brought)
     }
 
     fn triangles(mut self, surface: Surface, why: Option<&str>) -> Result<ImportedDesign, Fault> {
-        let mut told = MeshRemarks::default();
-        let up = self.place.up(&surface, || axes().to_vec(), &mut told);
-        let shell = TriangleMesh::new(surface).map_err(Fault::whole)?;
+        let mut remarks = MeshRemarks::default();
+        let up = self.place.up(&surface, || axes().to_vec(), &mut remarks);
+        let mesh = TriangleMesh::new(surface).map_err(Fault::whole)?;
         let turn = match up {
             Up::Posed(pose) => pose.turn,
             Up::Given(up) | Up::Known(up) | Up::FoundBy(up) => {
@@ -110,19 +110,19 @@ impl File {
             Up::Found => DQuat::IDENTITY,
         };
         let (shape, scale) =
-            MeshShape::framed(&shell, turn).ok_or("it has no extent across the direction up")?;
+            MeshShape::framed(&mesh, turn).ok_or("it has no extent across the direction up")?;
         // A known size stays in mm, though this frame may have another scale than that of the stone that was written.
         if let (Some(known), Some(diameter_mm)) = (self.place.scale, &mut self.place.diameter_mm) {
             *diameter_mm *= known / scale;
         }
-        told.notes.extend(why.map(str::to_owned));
-        told.notes.push(format!("it is traced as {} triangles", shape.surface().triangles.len()));
-        Ok(self.brought(Cut::Mesh(shape), scale, told))
+        remarks.notes.extend(why.map(str::to_owned));
+        remarks.notes.push(format!("it is traced as {} triangles", shape.surface().triangles.len()));
+        Ok(self.brought(Cut::Mesh(shape), scale, remarks))
     }
 
     /// Makes the design of a cut, with `scale` girdle radii per unit of the file.
-    fn brought(self, cut: Cut, scale: f64, told: MeshRemarks) -> ImportedDesign {
-        let MeshRemarks { mut notes, mut warnings, is_doubtful } = told;
+    fn brought(self, cut: Cut, scale: f64, remarks: MeshRemarks) -> ImportedDesign {
+        let MeshRemarks { mut notes, mut warnings, is_doubtful } = remarks;
         let diameter_mm = self.place.diameter_mm.unwrap_or(DEFAULT_DIAMETER_MM);
         let (material, why) = self.material(0.5 * diameter_mm * scale);
         match why {
@@ -191,11 +191,11 @@ mod tests {
         };
         let open = |form| read(bytes.clone(), path, MeshOptions { form, ..MeshOptions::default() }).unwrap();
         let found = open(MeshForm::Found);
-        let told = found.notes.join("\n");
-        assert!(found.warnings.is_empty() && told.contains("69 facets were found"), "{told}");
-        assert!(!told.contains("nearly as likely"), "{told}");
-        assert!(told.contains("bends inward at 20 edges, by up to 24.7 degrees"), "{told}");
-        assert!(told.contains("the volume changes by +1.375 %"), "{told}");
+        let notes = found.notes.join("\n");
+        assert!(found.warnings.is_empty() && notes.contains("69 facets were found"), "{notes}");
+        assert!(!notes.contains("nearly as likely"), "{notes}");
+        assert!(notes.contains("bends inward at 20 edges, by up to 24.7 degrees"), "{notes}");
+        assert!(notes.contains("the volume changes by +1.375 %"), "{notes}");
         let stone = Specimen::new(found.design.clone()).unwrap();
         let names = stone.stone().unwrap().names().to_vec();
         assert!(
@@ -244,10 +244,10 @@ mod tests {
         let triangles = crate::math::convex_hull(&vertices).unwrap();
         let ball = obj((vertices, triangles));
         assert!(matches!(open(ball.clone(), MeshForm::Found).unwrap().design.cut, Cut::Mesh(_)));
-        let told = open(ball, MeshForm::Faceted).unwrap_err().to_string();
+        let error = open(ball, MeshForm::Faceted).unwrap_err().to_string();
         assert!(
-            told.contains("cannot be read as a faceted stone") && told.contains("--as triangles"),
-            "{told}"
+            error.contains("cannot be read as a faceted stone") && error.contains("--as triangles"),
+            "{error}"
         );
     }
 
@@ -268,8 +268,11 @@ mod tests {
             let options = MeshOptions { up: Up::Given(DVec3::Z), ..MeshOptions::default() };
             read(text.as_bytes().to_vec(), Path::new("t.obj"), options).unwrap()
         };
-        let told = open(&larger).warnings.join("; ");
-        assert!(told.contains("its corners have been scaled by 2.0000 since; 6.5 mm is kept"), "{told}");
+        let warnings = open(&larger).warnings.join("; ");
+        assert!(
+            warnings.contains("its corners have been scaled by 2.0000 since; 6.5 mm is kept"),
+            "{warnings}"
+        );
         assert_eq!(open(&obj).warnings, Vec::<String>::new());
     }
 

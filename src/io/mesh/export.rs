@@ -7,7 +7,7 @@
 
 mod ply;
 
-use super::file::{MaterialHint, Statement, rounded};
+use super::file::{MaterialHint, STL_HEADER, Statement, rounded};
 use crate::cut::MaterialRef;
 use crate::math::{Surface, triangulate};
 use crate::scene::Body;
@@ -27,9 +27,6 @@ const DIGITS: f64 = 15.0;
 
 /// The most decimals of an OBJ's coordinates, which the least f64 above 0 needs.
 const MOST_DECIMALS: f64 = 340.0;
-
-/// The size of a binary STL's header, in bytes.
-const STL_HEADER: usize = 80;
 
 /// The most bytes of a statement in formats that set no other limit.
 const LONGEST: usize = 400;
@@ -79,12 +76,12 @@ impl Faces<'_> {
 fn faces(body: &Body) -> Faces<'_> {
     match body {
         Body::Stone(stone) => {
-            let mut triangles = vec![vec![]; stone.names().len()];
+            let mut triangles = vec![vec![]; stone.polytope.facets().len()];
             let mesh = triangulate(&stone.polytope);
             mesh.triangles.iter().zip(&mesh.facets).for_each(|(t, &f)| triangles[f as usize].push(*t));
-            let named = stone.polytope.facets().iter().zip(stone.names()).zip(triangles);
-            let face = named.map(|((facet, name), triangles)| Face {
-                name: Some(name.as_str()),
+            let facets = stone.polytope.facets().iter().zip(triangles).enumerate();
+            let face = facets.map(|(place, (facet, triangles))| Face {
+                name: stone.names().get(place).map(String::as_str),
                 normals: vec![facet.plane.normal; facet.outline.len()],
                 corners: facet.outline.clone(),
                 triangles,

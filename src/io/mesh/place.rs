@@ -53,12 +53,12 @@ impl MeshPlace {
         &mut self,
         surface: &Surface,
         directions: impl Fn() -> Vec<DVec3>,
-        told: &mut MeshRemarks,
+        remarks: &mut MeshRemarks,
     ) -> Up {
         let Some(statement) = self.statement.take() else { return self.given };
         let stands = statement.of_solid(surface, std::iter::once_with(directions).flatten());
         if stands == Stands::Otherwise {
-            told.warnings.push(format!(
+            remarks.warnings.push(format!(
                 "the file says that {} is up and that the stone is {} mm across, but its shape has changed since \
                     that was written; both are ignored",
                 axis(statement.up),
@@ -77,11 +77,11 @@ impl MeshPlace {
                 Up::Posed(Pose { scale: statement.scale(), ..Pose::turned(statement.turn()) })
             }
             (Up::FoundBy(_), Stands::Moved { up, scale }) => {
-                told.warnings.extend(changes(&statement, up, scale));
+                remarks.warnings.extend(changes(&statement, up, scale));
                 Up::Known(up)
             }
             (given, Stands::Moved { up, scale }) => {
-                told.warnings.extend(changes(&statement, up, scale));
+                remarks.warnings.extend(changes(&statement, up, scale));
                 given
             }
             (given, _) => given,

@@ -23,10 +23,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// The largest side of a map, in pixels.
-pub const MOST_PIXELS: u32 = 4096;
+pub const MOST_MAP_PIXELS: u32 = 4096;
 
 /// The most bands of one map, each counted as often as pixels have places.
-pub const MOST_BANDS: u32 = 16;
+pub const MOST_MAP_BANDS: u32 = 16;
 
 /// The most places that a pixel has in one band.
 pub const MOST_PLACES: u32 = 8;

@@ -58,8 +58,9 @@ fn html(map: &RefractionMap, page: &Page) -> Result<String, png::EncodingError> 
     // Without a `<`, nothing in the data can end the script element or begin another.
     let data = data.to_string().replace('<', "\\u003c");
     // The data come last, so that no text of theirs is taken for a placeholder of the template.
-    let html =
-        TEMPLATE.replace("{{told}}", &escaped(page.description)).replace("{{title}}", &escaped(page.title));
+    let html = TEMPLATE
+        .replace("{{description}}", &escaped(page.description))
+        .replace("{{title}}", &escaped(page.title));
     Ok(html.replace("{{data}}", &data))
 }
 

@@ -139,9 +139,9 @@ impl SceneForm {
         let entry = |(index, stone): (usize, Spanned<TomlTable<StoneForm>>)| {
             let line = line_at(text, stone.span().start);
             let TomlTable(form) = stone.into_inner();
-            let told =
+            let of_stone =
                 |fault: Fault| fault.within(&format!("stone/{index}/"), &format!("stone {}: ", index + 1));
-            form.check_place(layout, alone).and_then(|()| form.entry(line)).map_err(told)
+            form.check_place(layout, alone).and_then(|()| form.entry(line)).map_err(of_stone)
         };
         let stones = self.stone.into_iter().enumerate().map(entry).collect::<Result<_, _>>()?;
         let Self { name, background_distance_mm, .. } = self;

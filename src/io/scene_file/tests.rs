@@ -17,9 +17,9 @@ fn with(text: &str, part: &str, other: &str) -> String {
 }
 
 #[track_caller]
-fn assert_told(text: &str, expected: &str) {
-    let told = parse(text, "x.toml", None).unwrap_err().to_string();
-    assert!(told.starts_with(expected), "{told}\ninstead of\n{expected}");
+fn assert_refused(text: &str, expected: &str) {
+    let message = parse(text, "x.toml", None).unwrap_err().to_string();
+    assert!(message.starts_with(expected), "{message}\ninstead of\n{expected}");
 }
 
 #[test]
@@ -62,7 +62,7 @@ fn a_layout_and_places_read_as_written() {
 
 #[test]
 fn what_is_wrong_with_a_scene_is_told_with_line_and_key() {
-    for (part, other, told) in [
+    for (part, other, message) in [
         ("format = 1", "", "x.toml:1: format: the key is missing"),
         ("\"Three\"", "\"\"", "x.toml:2: name: a name of 1 to 200 printable characters"),
         (
@@ -101,9 +101,9 @@ fn what_is_wrong_with_a_scene_is_told_with_line_and_key() {
         ("15.0", "181", "x.toml:14: stone 2: tilt: 181 must be from -180 to 180 degrees"),
         ("azimuth", "azimut", "x.toml:15: stone: unknown key `azimut`"),
     ] {
-        assert_told(&with(TRILOGY, part, other), told);
+        assert_refused(&with(TRILOGY, part, other), message);
     }
-    for (lines, told) in [
+    for (lines, message) in [
         ("background = \"pages\"", "x.toml:3: background: background 'pages': give"),
         ("background = \"none.png\"", "x.toml:3: background: none.png: there is no such file"),
         (
@@ -122,18 +122,18 @@ fn what_is_wrong_with_a_scene_is_told_with_line_and_key() {
         ("strength = 1.5", "x.toml:3: strength: 1.5 must be from 0, straight on, to 1, physics"),
         ("strength = nan", "x.toml:3: strength: NaN must be"),
     ] {
-        assert_told(&with(PLACED, "[[stone]]", &format!("{lines}\n[[stone]]")), told);
+        assert_refused(&with(PLACED, "[[stone]]", &format!("{lines}\n[[stone]]")), message);
     }
-    for (part, other, told) in [
+    for (part, other, message) in [
         ("at = [8, -1.5, 2]", "", "x.toml:6: stone 2: at is missing: give [x, y, z] in mm, or a layout"),
         ("at = [8, -1.5, 2]", "at = [8, 1]", "x.toml:9: stone.at: invalid length 2"),
         ("-1.5", "-1e9", "x.toml:9: stone 2: at: -1000000000 must be from -10000 to 10000 mm"),
         ("at = [0, 0, 0]", "count = 3", "x.toml:5: stone 1: count: several stones cannot be in one place"),
     ] {
-        assert_told(&with(PLACED, part, other), told);
+        assert_refused(&with(PLACED, part, other), message);
     }
-    assert_told("format = 1\nname = \"none\"\nstone = []", "x.toml:3: stone: the list is empty");
-    assert_told("format = 1\nname = \"none\"", "x.toml:1: the key `stone` is missing");
+    assert_refused("format = 1\nname = \"none\"\nstone = []", "x.toml:3: stone: the list is empty");
+    assert_refused("format = 1\nname = \"none\"", "x.toml:1: the key `stone` is missing");
 }
 
 #[test]

@@ -37,7 +37,7 @@ pub(super) fn fit(surface: &Surface, triangles: &[u32]) -> Option<PlaneFit> {
         let [a, b, c] = triangle.map(|v| v - middle);
         let sum = a + b + c;
         // ∫ x xᵀ dA over a triangle.
-        spread += (outer(a) + outer(b) + outer(c) + outer(sum)) * (part / 12.0);
+        spread += (outer(a, a) + outer(b, b) + outer(c, c) + outer(sum, sum)) * (part / 12.0);
     }
     let (values, vectors) = eigen(spread * (1.0 / area));
     let normal = vectors[0] * if vectors[0].dot(facing) < 0.0 { -1.0 } else { 1.0 };

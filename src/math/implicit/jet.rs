@@ -1,5 +1,6 @@
 //! Jets: a function's value and derivatives at a point, and how two jets combine into a third.
 
+use crate::math::eigen::outer;
 use glam::{DMat3, DVec3};
 
 /// A function of space near a point, to the second order.
@@ -68,10 +69,4 @@ impl Jet {
         let within = DMat3::IDENTITY - outer(normal, normal);
         within * self.hessian * within * self.gradient.length().recip()
     }
-}
-
-/// Returns the outer product a bᵀ.
-#[inline]
-pub(super) fn outer(a: DVec3, b: DVec3) -> DMat3 {
-    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }

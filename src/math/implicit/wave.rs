@@ -1,6 +1,7 @@
 //! The wave that a plate is sheared by.
 
-use super::jet::{Jet, outer};
+use super::jet::Jet;
+use crate::math::eigen::outer;
 use glam::{DMat3, DVec3};
 use std::f64::consts::TAU;
 

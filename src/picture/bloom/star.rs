@@ -23,7 +23,7 @@ const SHORTEST: f64 = 1e-3;
 const FADED: Vec4 = Vec4::splat(1e-18);
 
 /// One streak, in a grid whose rows it crosses.
-struct Ray {
+struct Streak {
     /// Whether the streak runs toward the last row.
     down: bool,
     /// Cells that the streak moves to the right for each row.
@@ -54,13 +54,13 @@ pub(super) fn star(source: &LightGrid, rays: u32, length: f64) -> LightGrid {
 fn rows_of(source: &LightGrid, directions: &[(f64, f64)], length: f64, share: f32) -> LightGrid {
     let mut sum = LightGrid::dark(source.width, source.height);
     for &(x, y) in directions {
-        let ray = Ray { down: y > 0.0, slope: x / y.abs(), step: 1.0 / y.abs() };
-        ray.add(source, length, share, &mut sum);
+        let streak = Streak { down: y > 0.0, slope: x / y.abs(), step: 1.0 / y.abs() };
+        streak.add(source, length, share, &mut sum);
     }
     sum
 }
 
-impl Ray {
+impl Streak {
     fn add(&self, source: &LightGrid, length: f64, share: f32, sum: &mut LightGrid) {
         let width = source.width;
         let kept = TINT.map(|tint| (-self.step / (length * tint).max(SHORTEST)).exp() as f32);

@@ -27,9 +27,6 @@ const INDEX: f64 = 0.5;
 /// The Abbe number at strength 100.
 const ABBE: f64 = 55.0;
 
-/// The most rows that rays are traced for at once: memory holds what they have seen so far.
-const ROWS: u32 = 256;
-
 /// Share of light that glass of index 1.5 reflects at normal incidence.
 const SQUARE_ON: f64 = 0.04;
 
@@ -37,13 +34,13 @@ const SQUARE_ON: f64 = 0.04;
 #[derive(Debug, Clone, Copy)]
 pub struct PaneLighting<'a> {
     /// The environment around the pane.
-    pub sky: &'a EnvironmentMap,
+    pub map: &'a EnvironmentMap,
     /// Distance between pane and background, as a part of the pane's shorter side, above 0.
     pub gap: f64,
     /// The bands of wavelengths that are traced.
     pub strata: &'a [Stratum],
     /// The number of sample passes of both pictures, at least 1.
-    pub looks: u32,
+    pub passes: u32,
 }
 
 /// A drawn pane, the same pane traced, and how they differ.
@@ -108,13 +105,15 @@ pub fn compare(
     watch: Watch,
 ) -> Result<Comparison, PaneError> {
     let scene = PaneScene::new(pane, background)?;
+    let half = |done: f64| move |part: f64| watch(done + part / 2.0);
     let plane = Backdrop { distance: scene.distance(around.gap), size: scene.size, both_sides: false };
     let bands = strata(3, &Illuminant::D65, true);
-    let survey = Survey { bands: &bands, places: 1, shades: &[], looks: 1 };
-    let (map, carried) =
-        scene.sit(background, around, |sitting| RefractionMap::trace(sitting, &plane, &survey, watch))?;
-    let traced = scene.traced(background, around, watch)?;
-    let pane = approximated(pane, background, around.looks);
+    let survey = Survey { bands: &bands, places: 1, shades: &[], passes: 1 };
+    let (map, carried) = scene.with_lit_scene(background, around, |lit_scene| {
+        RefractionMap::trace(lit_scene, &plane, &survey, &half(0.0))
+    })?;
+    let traced = scene.traced(background, around, &half(0.5))?;
+    let pane = approximated(pane, background, around.passes);
     let cost = Cost { behind: carried.behind, ..scene.cost(&map, &pane, &traced) };
     Ok(Comparison { pane, traced, cost })
 }
@@ -135,7 +134,7 @@ pub fn traced(
 /// The pane as a body, in a world whose unit is the pane's shorter side and whose origin is the picture's middle.
 struct PaneScene<'a> {
     pane: &'a GlassPane,
-    setting: Scene,
+    scene: Scene,
     /// Width and height of the whole picture.
     size: DVec2,
     thickness: f64,
@@ -174,7 +173,7 @@ impl<'a> PaneScene<'a> {
         let centre = (0.5 * (low + high) - whole / 2.0) * up;
         Ok(Self {
             pane,
-            setting: Scene { instances: stones, unit_mm: 1.0 },
+            scene: Scene { instances: stones, unit_mm: 1.0 },
             size: whole / unit,
             thickness,
             first,
@@ -187,13 +186,18 @@ impl<'a> PaneScene<'a> {
         self.thickness / 2.0 + gap
     }
 
-    fn sit<T>(&self, background: &Panorama, around: &PaneLighting, work: impl FnOnce(&LitScene) -> T) -> T {
+    fn with_lit_scene<T>(
+        &self,
+        background: &Panorama,
+        around: &PaneLighting,
+        work: impl FnOnce(&LitScene) -> T,
+    ) -> T {
         let view = View::default();
         let distance = self.distance(around.gap);
         work(&LitScene {
-            scene: &self.setting,
+            scene: &self.scene,
             environment: Environment {
-                map: around.sky,
+                map: around.map,
                 basis: view.light_basis(),
                 eye: view.basis(),
                 head: 0.0,
@@ -218,10 +222,10 @@ impl<'a> PaneScene<'a> {
     }
 
     fn traced(&self, background: &Panorama, around: &PaneLighting, watch: Watch) -> Result<Linear, Stopped> {
-        let looks = (around.strata, Sampling::of(around.looks.max(1)));
-        let (piece, _) = self.sit(background, around, |sitting| {
-            let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*sitting, rows));
-            spectral::expose(sitting, looks, ROWS, prepare, watch)
+        let sampled = (around.strata, Sampling::of(around.passes.max(1)));
+        let (piece, _) = self.with_lit_scene(background, around, |lit_scene| {
+            let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
+            spectral::expose(lit_scene, sampled, ByRays::MOST_ROWS, prepare, watch)
         })?;
         let (mut picture, tint) = (plain(background), self.pane.effective());
         for (k, at, middle) in self.pixels(background.width) {

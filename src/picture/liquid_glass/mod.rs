@@ -177,10 +177,10 @@ impl GlassPane {
 
 /// Draws the pane over a background, which is as large as the picture; all pixels are covered.
 ///
-/// With `looks` of 1, a pixel shows what is seen at its middle, as on screens; with more, the mean over as many places
+/// With `passes` of 1, a pixel shows what is seen at its middle, as on screens; with more, the mean over as many places
 /// in it. A pane without extent, or with corners rounder than half of its shorter side, is not drawn.
-pub fn pane(pane: &GlassPane, background: &Panorama, looks: u32) -> Linear {
-    let shifts: Vec<DVec2> = places(looks);
+pub fn pane(pane: &GlassPane, background: &Panorama, passes: u32) -> Linear {
+    let shifts: Vec<DVec2> = places(passes);
     let mut picture = plain(background);
     if !pane.is_somewhere() {
         return picture;
@@ -200,9 +200,9 @@ pub fn pane(pane: &GlassPane, background: &Panorama, looks: u32) -> Linear {
 }
 
 /// Returns where in a pixel the samples of this many passes stand, 0 to 1; the first stands in the middle.
-fn places(looks: u32) -> Vec<DVec2> {
+fn places(passes: u32) -> Vec<DVec2> {
     let nothing = Scene { instances: Vec::new(), unit_mm: 1.0 };
-    (0..looks.max(1)).map(|number| SamplePass::new(&nothing, &[], number).shift).collect()
+    (0..passes.max(1)).map(|number| SamplePass::new(&nothing, &[], number).shift).collect()
 }
 
 /// Returns the background alone.

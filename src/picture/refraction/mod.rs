@@ -80,7 +80,7 @@ pub struct Survey<'a> {
     /// The wavelengths at which the diffuse layer is traced.
     pub shades: &'a [Stratum],
     /// The number of sample passes of the diffuse layer, at least 1; the first goes through the pixels' middles.
-    pub looks: u32,
+    pub passes: u32,
 }
 
 /// How much of the light a map can show, as means over the pixels that the stones cover.

@@ -27,14 +27,14 @@ struct Row {
 }
 
 /// The scene and the plane that a map is traced of.
-struct Scene<'a> {
+struct MapScene<'a> {
     lit_scene: &'a LitScene<'a>,
     environment: Environment<'a>,
     plane: &'a Backdrop,
     /// Width and height of the plane in pixels of the picture, seen straight on.
     pixels: DVec2,
     camera: Camera,
-    company: SceneTracer,
+    tracer: SceneTracer,
 }
 
 impl RefractionMap {
@@ -48,19 +48,19 @@ impl RefractionMap {
         survey: &Survey,
         watch: Watch,
     ) -> Result<(Self, Carried), Stopped> {
-        let scene = Scene {
+        let scene = MapScene {
             lit_scene,
             environment: Environment { backplate: None, ..lit_scene.environment },
             plane,
             pixels: plane.size / lit_scene.film.pixel,
             camera: Camera::reaching(lit_scene.view, lit_scene.scene.reach()),
-            company: SceneTracer::new(lit_scene),
+            tracer: SceneTracer::new(lit_scene),
         };
-        let looks = |strata, count: u32| -> Vec<(SamplePass, Vec<SceneTracer>)> {
-            let look = |number| SamplePass::new(lit_scene.scene, strata, number);
-            (0..count).map(look).map(|look| (look.clone(), scene.company.made_of(&look))).collect()
+        let passes = |strata, count: u32| -> Vec<(SamplePass, Vec<SceneTracer>)> {
+            let pass = |number| SamplePass::new(lit_scene.scene, strata, number);
+            (0..count).map(pass).map(|pass| (pass.clone(), scene.tracer.made_of(&pass))).collect()
         };
-        let (middle, shades) = (looks(survey.bands, 1), looks(survey.shades, survey.looks.max(1)));
+        let (middle, shades) = (passes(survey.bands, 1), passes(survey.shades, survey.passes.max(1)));
         let [width, height] = lit_scene.film.size;
         let band = |s: &Stratum| {
             let [_, red, green, blue] = s.response;
@@ -97,7 +97,7 @@ impl RefractionMap {
     }
 }
 
-impl Scene<'_> {
+impl MapScene<'_> {
     fn row(
         &self,
         y: u32,
@@ -116,8 +116,8 @@ impl Scene<'_> {
             let corner = DVec2::new(f64::from(x), f64::from(y));
             let (start, first) = self.start(corner + 0.5);
             row.hits += u32::from(first.is_some());
-            for (company, columns) in bands.iter().zip(row.places.chunks_mut(places)) {
-                let (found, own) = self.strongest(company, &start, first, places);
+            for (tracer, columns) in bands.iter().zip(row.places.chunks_mut(places)) {
+                let (found, own) = self.strongest(tracer, &start, first, places);
                 let all: f64 = found.iter().map(|place| f64::from(place.weight)).sum();
                 let padded = found.into_iter().chain(std::iter::repeat(SourcePlace::default()));
                 columns.iter_mut().zip(padded).for_each(|(column, place)| column.push(place));
@@ -126,7 +126,7 @@ impl Scene<'_> {
                     row.single += own;
                 }
             }
-            let light: Shade = shades.iter().map(|(look, bands)| self.shade(look, bands, corner)).sum();
+            let light: Shade = shades.iter().map(|(pass, bands)| self.shade(pass, bands, corner)).sum();
             row.diffuse.push(light.pixel(shades.len()));
         }
         row
@@ -135,14 +135,14 @@ impl Scene<'_> {
     /// Returns the ray through a point of the picture, in pixels, and the stone that it meets first.
     fn start(&self, at: DVec2) -> (WaitingRay, Option<First>) {
         let start = WaitingRay::from_eye(self.camera.ray(self.lit_scene.film.image_from_pixels(at)));
-        (start, self.company.first(&start))
+        (start, self.tracer.first(&start))
     }
 
     /// Returns the places of the strongest paths to the background, `most` at most, and the weight of these paths alone.
     /// The places together have the weight of all paths.
     fn strongest(
         &self,
-        company: &SceneTracer,
+        tracer: &SceneTracer,
         start: &WaitingRay,
         first: Option<First>,
         most: usize,
@@ -153,7 +153,7 @@ impl Scene<'_> {
             paths.extend(met.filter(|_| ray.weight > 0.0).map(|place| (place, ray.weight)));
         };
         match &first {
-            Some(first) => drop(company.follow(start, first, leave)),
+            Some(first) => drop(tracer.follow(start, first, leave)),
             None => leave(start),
         }
         // The sort is stable: among equally strong paths the first stays first.
@@ -183,16 +183,16 @@ impl Scene<'_> {
     }
 
     /// Returns what one sample pass sees at a pixel.
-    fn shade(&self, look: &SamplePass, bands: &[SceneTracer], corner: DVec2) -> Shade {
-        let (start, first) = self.start(corner + look.shift);
+    fn shade(&self, pass: &SamplePass, bands: &[SceneTracer], corner: DVec2) -> Shade {
+        let (start, first) = self.start(corner + pass.shift);
         let mut light = Shade::default();
         let Some(first) = first else {
             light.behind = DVec3::ONE;
             return light;
         };
-        for (company, response) in bands.iter().zip(&look.responses) {
-            company.follow(&start, &first, |ray| {
-                let way = look.middle(ray.direction, ray.sweep);
+        for (tracer, response) in bands.iter().zip(&pass.responses) {
+            tracer.follow(&start, &first, |ray| {
+                let way = pass.middle(ray.direction, ray.sweep);
                 if self.plane.place(&self.environment.eye, ray.origin, way).is_some() {
                     light.behind += response[1..].iter().sum::<DVec3>() * ray.weight;
                 } else {
@@ -224,8 +224,8 @@ impl std::iter::Sum for Shade {
 
 impl Shade {
     /// Returns the diffuse layer's pixel, given the number of sample passes in this sum.
-    fn pixel(&self, looks: usize) -> [f32; 4] {
-        let share = 1.0 / looks as f64;
+    fn pixel(&self, passes: usize) -> [f32; 4] {
+        let share = 1.0 / passes as f64;
         let [red, green, blue] = (self.elsewhere * share).as_vec3().to_array();
         let white = self.behind.dot(DVec3::from_array(LUMINANCE.map(f64::from))) * share;
         [red, green, blue, 1.0 - white.clamp(0.0, 1.0) as f32]

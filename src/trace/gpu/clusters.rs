@@ -58,7 +58,7 @@ mod tests {
     use glam::DVec3;
 
     #[test]
-    fn every_plane_is_in_one_bunch_and_within_its_bounds() {
+    fn every_plane_is_in_one_cluster_and_within_its_bounds() {
         let planes: Vec<Plane> = (0..777)
             .map(|i| {
                 let (z, turn) = (1.0 - 2.0 * (f64::from(i) + 0.5) / 777.0, 2.4 * f64::from(i));

@@ -7,10 +7,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum GpuError {
     /// There is no card, or no driver that can compute.
-    #[error("no graphics card that can compute was found ({0}); install its Vulkan driver, or trace by rays")]
+    #[error("no graphics card that can compute was found ({0}); its Vulkan driver may be missing")]
     NoAdapter(String),
     /// The driver refuses a device with the least limits that are needed.
-    #[error("{name} is too old or its driver too limited ({why}); trace by rays")]
+    #[error("{name} is too old or its driver too limited ({why})")]
     TooLimited {
         /// The card's name.
         name: String,
@@ -34,7 +34,7 @@ pub enum GpuError {
         why: String,
     },
     /// There are more stones than the card has room for.
-    #[error("{count} stones are traced by rays; the graphics card takes {most} at most")]
+    #[error("the scene has {count} stones, the graphics card takes {most}")]
     TooManyStones {
         /// The number of stones.
         count: usize,
@@ -42,7 +42,7 @@ pub enum GpuError {
         most: usize,
     },
     /// There are more triangles than the card has room for.
-    #[error("{count} triangles are traced by rays; the graphics card takes {most} at most")]
+    #[error("the stones have {count} triangles, the graphics card takes {most}")]
     TooManyTriangles {
         /// The number of triangles.
         count: usize,
@@ -50,10 +50,10 @@ pub enum GpuError {
         most: usize,
     },
     /// Smooth solids stand beside others in one picture.
-    #[error("glass beside stones is traced by rays; the graphics card takes one kind at a time")]
+    #[error("the scene has glass beside stones, the graphics card takes one kind at a time")]
     MixedKinds,
     /// A software driver would follow too few bounces.
-    #[error("{name} follows only {bounces} bounces among {stones} stones")]
+    #[error("{name} follows only {bounces} bounces of light in a scene of so many facets (stones: {stones})")]
     TooFewBounces {
         /// The card's name.
         name: String,
@@ -62,8 +62,39 @@ pub enum GpuError {
         /// The number of stones.
         stones: usize,
     },
+    /// There is no stone.
+    #[error("the scene has no stone, the graphics card takes one or more")]
+    NoStones,
+    /// A sample pass has no wavelength, or more than the card has room for.
+    #[error("a pass has {count} wavelengths, the graphics card takes 1 to {most}")]
+    Wavelengths {
+        /// The number of wavelengths.
+        count: usize,
+        /// The most wavelengths that the card takes.
+        most: usize,
+    },
+    /// The light has more lamps than the card has room for.
+    #[error("the light has {count} lamps, the graphics card takes {most}")]
+    TooManyLamps {
+        /// The number of lamps.
+        count: usize,
+        /// The most lamps that the card takes.
+        most: usize,
+    },
+    /// The picture behind the stones, or the map of the light, has more pixels each way than the card takes.
+    #[error("a picture around the stones is {width} by {height} pixels large, {name} takes {most} each way")]
+    PictureTooLarge {
+        /// The card's name.
+        name: String,
+        /// The number of pixels across.
+        width: u32,
+        /// The number of pixels down.
+        height: u32,
+        /// The most pixels that the card takes each way.
+        most: u32,
+    },
     /// The scope has more bands than a pixel has room for.
-    #[error("a scope of {count} bands is traced by rays; the graphics card takes {most} at most")]
+    #[error("the scope has {count} bands, the graphics card takes {most}")]
     TooManyBands {
         /// The number of the scope's bands.
         count: usize,

@@ -52,6 +52,9 @@ impl<'a> ByCard<'a> {
         rows: Range<u32>,
         wavelengths: usize,
     ) -> Result<Self, GpuError> {
+        if !(1..=MOST_WAVELENGTHS).contains(&wavelengths) {
+            return Err(GpuError::Wavelengths { count: wavelengths, most: MOST_WAVELENGTHS });
+        }
         let stones: Vec<PosedSolid> = lit_scene.scene.instances.iter().map(Instance::solid).collect();
         let solids = Solids::new(gpu, &stones)?;
         let copied = |label, bytes: usize, usage| {
@@ -153,7 +156,14 @@ pub struct GpuEnvironment {
 
 impl GpuEnvironment {
     /// Copies an environment to the card's memory.
-    pub fn new(gpu: &Gpu, environment: &Environment) -> Self {
+    ///
+    /// # Errors
+    /// [`GpuError`], where there are more lamps, or a larger picture, than the card takes.
+    pub fn new(gpu: &Gpu, environment: &Environment) -> Result<Self, GpuError> {
+        let count = environment.map.lamps.len();
+        if count > MOST_LAMPS {
+            return Err(GpuError::TooManyLamps { count, most: MOST_LAMPS });
+        }
         let mut lamps: Vec<Lamp> = environment
             .map
             .lamps
@@ -171,12 +181,14 @@ impl GpuEnvironment {
             let texel = |&[r, g, b]: &[f32; 3]| [r, g, b, 0.0];
             (b.picture.width, b.picture.height, b.picture.pixels.iter().map(texel).collect())
         });
-        Self {
+        let map = texture(gpu, (side, side), &levels)?;
+        let photo = texture(gpu, (photo.0, photo.1), &[&photo.2])?;
+        Ok(Self {
             environment: gpu.buffer("environment", bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM),
             lamps: gpu.buffer("lamps", bytemuck::cast_slice(&lamps), wgpu::BufferUsages::UNIFORM),
-            map: texture(gpu, (side, side), &levels),
-            photo: texture(gpu, (photo.0, photo.1), &[&photo.2]),
-        }
+            map,
+            photo,
+        })
     }
 
     fn entries(&self) -> [wgpu::BindGroupEntry<'_>; 4] {
@@ -205,7 +217,15 @@ fn environment_uniform(environment: &Environment, lamps: usize) -> gpu_types::En
 }
 
 /// Creates a texture of four numbers a pixel, with its coarser levels.
-fn texture(gpu: &Gpu, (width, height): (u32, u32), levels: &[&[[f32; 4]]]) -> wgpu::TextureView {
+fn texture(
+    gpu: &Gpu,
+    (width, height): (u32, u32),
+    levels: &[&[[f32; 4]]],
+) -> Result<wgpu::TextureView, GpuError> {
+    let most = gpu.device.limits().max_texture_dimension_2d;
+    if width.max(height) > most {
+        return Err(GpuError::PictureTooLarge { name: gpu.name().to_owned(), width, height, most });
+    }
     let texture = gpu.device.create_texture_with_data(
         &gpu.queue,
         &wgpu::TextureDescriptor {
@@ -221,5 +241,5 @@ fn texture(gpu: &Gpu, (width, height): (u32, u32), levels: &[&[[f32; 4]]]) -> wg
         wgpu::util::TextureDataOrder::LayerMajor,
         bytemuck::cast_slice(&levels.concat()),
     );
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
+    Ok(texture.create_view(&wgpu::TextureViewDescriptor::default()))
 }

@@ -1,10 +1,12 @@
 //! How much a graphics card takes of each thing. The shaders are compiled with most of these numbers.
 
+use crate::scene::MOST_STONES;
+
 /// The most planes that fit into the uniform array, 16 KiB.
 pub(super) const MOST_UNIFORM: usize = 1024;
 
 /// The most stones that one picture may hold.
-pub const MOST_BODIES: usize = 256;
+pub const MOST_BODIES: usize = MOST_STONES;
 
 /// The most triangles that one picture may hold: 48 bytes each, in a buffer of less than the 128 MiB that all cards take.
 /// Their indices are exact in f32.
@@ -21,7 +23,7 @@ pub(super) const MOST_INBOUND: usize = 16;
 pub const MOST_BOUNCES: u32 = 64;
 
 /// The most bands of a scope that a graphics card traces.
-pub const MOST_BANDS: usize = 8;
+pub const MOST_CARD_BANDS: usize = 8;
 
 /// The most wavelengths that one sample pass may have.
 pub const MOST_WAVELENGTHS: usize = 64;

@@ -18,7 +18,7 @@ mod triangles;
 pub use device::{Gpu, GpuError};
 pub use gpu_types::ScopePixel;
 pub use light::{ByCard, GpuEnvironment};
-pub use limits::{MOST_BANDS, MOST_BODIES, MOST_BOUNCES, MOST_TRIANGLES, MOST_WAVELENGTHS};
+pub use limits::{MOST_BODIES, MOST_BOUNCES, MOST_CARD_BANDS, MOST_TRIANGLES, MOST_WAVELENGTHS};
 
 #[cfg(test)]
 mod parity;

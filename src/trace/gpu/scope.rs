@@ -1,8 +1,8 @@
 //! Traces pictures in scopes on a graphics card.
 
 use super::device::{Gpu, GpuError};
-use super::gpu_types::{Bands, Medium as MediumAtDoor, ScopePixel, with};
-use super::limits::MOST_BANDS;
+use super::gpu_types::{Bands, Medium, ScopePixel, with};
+use super::limits::MOST_CARD_BANDS;
 use super::solids::Solids;
 use super::stage::{GpuCamera, Stage};
 use crate::math::{Pose, PosedSolid};
@@ -42,18 +42,19 @@ impl Gpu {
 
 fn stage<'a>(gpu: &'a Gpu, shot: &ScopeShot, rows: u32) -> Result<Stage<'a>, GpuError> {
     let count = shot.scope.bands.len();
-    if count > MOST_BANDS {
-        return Err(GpuError::TooManyBands { count, most: MOST_BANDS });
+    if count > MOST_CARD_BANDS {
+        return Err(GpuError::TooManyBands { count, most: MOST_CARD_BANDS });
     }
     let reach = shot.solid.reach();
     let solids = Solids::new(gpu, &[PosedSolid { solid: shot.solid, pose: Pose::STILL }])?;
     let bands = gpu.buffer("bands", bytemuck::bytes_of(&bands(shot)), wgpu::BufferUsages::UNIFORM);
-    let medium = MediumAtDoor::new(&shot.medium, solids.units[0]);
+    let medium = Medium::new(&shot.medium, solids.units[0]);
     let media = gpu.buffer("media", bytemuck::bytes_of(&medium), wgpu::BufferUsages::STORAGE);
     let mut entries = solids.entries(&media);
     entries.push(wgpu::BindGroupEntry { binding: 6, resource: bands.as_entire_binding() });
     let eye = GpuCamera { view: shot.view, film: shot.film, reach, options: shot.options };
     let frame = eye.frame(gpu, &solids, 1);
+    solids.enough(gpu, frame.counts[2], shot.options.most_bounces)?;
     Stage::new::<ScopePixel>(
         gpu,
         gpu.scopes.pipeline(&gpu.device, solids.surfaces.facets),
@@ -64,8 +65,8 @@ fn stage<'a>(gpu: &'a Gpu, shot: &ScopeShot, rows: u32) -> Result<Stage<'a>, Gpu
 }
 
 fn bands(shot: &ScopeShot) -> Bands {
-    let mut borders = [2.0_f32; MOST_BANDS];
-    for (border, band) in borders.iter_mut().zip(&shot.scope.bands[1..]) {
+    let mut borders = [2.0_f32; MOST_CARD_BANDS];
+    for (border, band) in borders.iter_mut().zip(shot.scope.bands.iter().skip(1)) {
         *border = band.from.to_radians().sin() as f32;
     }
     let [a, b, c, d, e, f, g, h] = borders;

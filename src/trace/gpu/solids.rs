@@ -131,6 +131,9 @@ impl Surfaces {
 
 impl Solids {
     pub fn new(gpu: &Gpu, stones: &[PosedSolid]) -> Result<Self, GpuError> {
+        if stones.is_empty() {
+            return Err(GpuError::NoStones);
+        }
         if stones.len() > MOST_BODIES {
             return Err(GpuError::TooManyStones { count: stones.len(), most: MOST_BODIES });
         }

@@ -58,7 +58,7 @@ pub(super) struct Planes {
 /// The triangles of a solid that need not be convex.
 #[derive(Debug, Clone)]
 pub(super) struct TriangleFacets {
-    shell: Arc<TriangleMesh>,
+    mesh: Arc<TriangleMesh>,
     /// The distance beyond which a ray may meet a triangle: negative, so that it may lie a little behind the ray's start.
     behind: f64,
 }
@@ -129,15 +129,15 @@ impl FacetSearch for Planes {
 }
 
 impl TriangleFacets {
-    pub fn new(shell: &Arc<TriangleMesh>) -> Self {
-        Self { shell: Arc::clone(shell), behind: -BEHIND * SolidRef::from(shell).reach() }
+    pub fn new(mesh: &Arc<TriangleMesh>) -> Self {
+        Self { mesh: Arc::clone(mesh), behind: -BEHIND * SolidRef::from(mesh).reach() }
     }
 
     /// Returns the facet and the distance of the first triangle for which `keep` accepts the normal's part along the ray.
     fn first(&self, origin: DVec3, direction: DVec3, keep: impl Fn(f64) -> bool) -> Option<(usize, f64)> {
-        let facet = |triangle: u32| self.shell.facets()[triangle as usize] as usize;
-        let is_kept = |triangle| keep(self.shell.planes()[facet(triangle)].normal.dot(direction));
-        let hit = self.shell.bvh().nearest(origin, direction, self.behind, is_kept)?;
+        let facet = |triangle: u32| self.mesh.facets()[triangle as usize] as usize;
+        let is_kept = |triangle| keep(self.mesh.planes()[facet(triangle)].normal.dot(direction));
+        let hit = self.mesh.bvh().nearest(origin, direction, self.behind, is_kept)?;
         Some((facet(hit.triangle), hit.distance.max(0.0)))
     }
 }
@@ -166,7 +166,7 @@ impl FacetSearch for TriangleFacets {
     const BRANCHES: bool = true;
 
     fn normal(&self, facet: usize, _: DVec3) -> DVec3 {
-        self.shell.planes()[facet].normal
+        self.mesh.planes()[facet].normal
     }
 
     fn entry(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)> {

@@ -53,15 +53,15 @@ impl SceneTracer {
     }
 
     /// Returns the stones with their media in each band of a sample pass.
-    pub fn made_of(&self, look: &SamplePass) -> Vec<Self> {
+    pub fn made_of(&self, pass: &SamplePass) -> Vec<Self> {
         let of_band = |band: usize| {
             let made = |(tracer, media): (&InstanceTracer, &Vec<Medium>)| tracer.made_of(media[band]);
             Self {
-                tracers: self.tracers.iter().zip(&look.media).map(made).collect(),
+                tracers: self.tracers.iter().zip(&pass.media).map(made).collect(),
                 least_weight: self.least_weight,
             }
         };
-        (0..look.responses.len()).map(of_band).collect()
+        (0..pass.responses.len()).map(of_band).collect()
     }
 
     /// Returns the stone that a ray meets first, and where; `None` where it meets none.
@@ -140,64 +140,67 @@ pub struct First(Met);
 pub struct ByRays<'a> {
     lit_scene: LitScene<'a>,
     camera: Camera,
-    company: SceneTracer,
+    tracer: SceneTracer,
     rows: Range<u32>,
-    looks: u32,
+    passes: u32,
     sums: Vec<RadiancePixel>,
 }
 
 impl<'a> ByRays<'a> {
+    /// The most rows to trace at once: the sums of their passes are held in memory.
+    pub const MOST_ROWS: u32 = 256;
+
     /// Prepares some rows of a picture.
     pub fn new(lit_scene: LitScene<'a>, rows: Range<u32>) -> Self {
         Self {
             lit_scene,
             camera: Camera::reaching(lit_scene.view, lit_scene.scene.reach()),
-            company: SceneTracer::new(&lit_scene),
+            tracer: SceneTracer::new(&lit_scene),
             sums: vec![RadiancePixel::default(); rows.len() * lit_scene.film.size[0] as usize],
             rows,
-            looks: 0,
+            passes: 0,
         }
     }
 
     /// Returns what one ray of a pixel sees, over all wavelengths.
-    fn see(&self, bands: &[SceneTracer], look: &SamplePass, at: DVec2) -> RadiancePixel {
+    fn see(&self, bands: &[SceneTracer], pass: &SamplePass, at: DVec2) -> RadiancePixel {
         let straight = self.camera.ray(at);
         let start = WaitingRay::from_eye(straight);
         // The ray meets the first stone at the same point in all wavelengths.
-        let first = self.company.first(&start);
+        let first = self.tracer.first(&start);
         let is_seen = first.is_some() || self.lit_scene.environment.backdrop;
         let mut lit = RadiancePixel { cover: f64::from(u8::from(is_seen)), ..RadiancePixel::default() };
-        for (company, response) in bands.iter().zip(&look.responses) {
+        for (tracer, response) in bands.iter().zip(&pass.responses) {
             let mut light = DVec4::ZERO;
             match &first {
                 Some(first) => {
                     let rest =
-                        company.follow(&start, first, |ray| light += self.arriving(ray, straight, look));
+                        tracer.follow(&start, first, |ray| light += self.arriving(ray, straight, pass));
                     lit.unresolved += rest.unresolved;
                     lit.absorbed += rest.absorbed;
                 }
-                None if is_seen => light = self.arriving(&start, straight, look),
+                None if is_seen => light = self.arriving(&start, straight, pass),
                 None => {}
             }
             lit.colour += response.iter().zip(light.to_array()).map(|(&c, l)| c * l).sum::<DVec3>();
         }
-        let share = 1.0 / look.responses.len() as f64;
+        let share = 1.0 / pass.responses.len() as f64;
         let RadiancePixel { unresolved, absorbed, .. } = lit;
         RadiancePixel { unresolved: unresolved * share, absorbed: absorbed * share, ..lit }
     }
 
     /// Returns the environment's light along a ray that has left all stones; `straight` is the ray from the eye that it goes
     /// back to.
-    fn arriving(&self, ray: &WaitingRay, straight: (DVec3, DVec3), look: &SamplePass) -> DVec4 {
+    fn arriving(&self, ray: &WaitingRay, straight: (DVec3, DVec3), pass: &SamplePass) -> DVec4 {
         let own = (ray.origin, ray.direction, ray.sweep);
-        let (from, direction, sweep) = look.mixed(straight, own);
-        self.lit_scene.environment.radiance(from, look.middle(direction, sweep), sweep) * ray.weight
+        let (from, direction, sweep) = pass.mixed(straight, own);
+        self.lit_scene.environment.radiance(from, pass.middle(direction, sweep), sweep) * ray.weight
     }
 }
 
 impl<E: From<Stopped>> ProgressiveImage<E> for ByRays<'_> {
-    fn add_pass(&mut self, look: &SamplePass, watch: Watch) -> Result<(), E> {
-        let bands = self.company.made_of(look);
+    fn add_pass(&mut self, pass: &SamplePass, watch: Watch) -> Result<(), E> {
+        let bands = self.tracer.made_of(pass);
         let across = self.lit_scene.film.size[0] as usize;
         let mut sums = std::mem::take(&mut self.sums);
         let pieces = sums.chunks_mut(across * PIECE).enumerate();
@@ -212,10 +215,10 @@ impl<E: From<Stopped>> ProgressiveImage<E> for ByRays<'_> {
                 let (x, y) = ((k % across) as u32, self.rows.start + (piece * PIECE + k / across) as u32);
                 let lit = self.see(
                     &bands,
-                    look,
+                    pass,
                     self.lit_scene
                         .film
-                        .image_from_pixels(DVec2::new(f64::from(x), f64::from(y)) + look.shift),
+                        .image_from_pixels(DVec2::new(f64::from(x), f64::from(y)) + pass.shift),
                 );
                 sum.colour += lit.colour;
                 sum.cover += lit.cover;
@@ -227,12 +230,12 @@ impl<E: From<Stopped>> ProgressiveImage<E> for ByRays<'_> {
         if stopped {
             return Err(Stopped.into());
         }
-        self.looks += 1;
+        self.passes += 1;
         Ok(())
     }
 
     fn each_pixel(&self, each: &mut dyn FnMut(&RadiancePixel)) -> Result<(), E> {
-        let share = 1.0 / f64::from(self.looks.max(1));
+        let share = 1.0 / f64::from(self.passes.max(1));
         let mean = |sum: &RadiancePixel| RadiancePixel {
             colour: sum.colour * share,
             cover: sum.cover * share,

@@ -25,6 +25,19 @@ fn temporary(folder: &Path) -> usize {
     names.filter(|name| name.to_string_lossy().starts_with(".brillianteer-")).count()
 }
 
+/// Whether a thread of a program is in the middle of writing to standard output.
+#[cfg(target_os = "linux")]
+fn is_printing(program: &Child) -> bool {
+    let mut threads =
+        std::fs::read_dir(format!("/proc/{}/task", program.id())).into_iter().flatten().flatten();
+    // The number of `write` is 1 on x86-64 and 64 on AArch64; its first argument is the file, here standard output.
+    let is_write = |call: &str| call.starts_with("1 0x1 ") || call.starts_with("64 0x1 ");
+    threads.any(|thread| {
+        // A thread that has just ended has no such file.
+        std::fs::read_to_string(thread.path().join("syscall")).is_ok_and(|call| is_write(&call))
+    })
+}
+
 #[test]
 #[cfg(unix)]
 fn a_signal_ends_a_bench_at_once_with_its_own_exit_code() {
@@ -83,8 +96,10 @@ fn a_signal_ends_a_program_whose_output_nobody_reads() {
             assert!(export.try_wait().unwrap().is_none(), "it ended though nobody read");
             std::thread::sleep(std::time::Duration::from_millis(5));
         }
-        // Time for the program to reach the printing.
-        std::thread::sleep(std::time::Duration::from_millis(300));
+        while !is_printing(&export) {
+            assert!(export.try_wait().unwrap().is_none(), "it ended though nobody read");
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
         signal(&export, name);
         let began = std::time::Instant::now();
         while export.try_wait().unwrap().is_none() {

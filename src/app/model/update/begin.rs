@@ -24,6 +24,8 @@ pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
     session.begun += 1;
     session.awaited.opening.retain(|opening| opening.request.is_beside());
     session.on_disk = None;
+    // It waited until the document before was saved.
+    session.after_save = None;
     // Another stone is first seen face up.
     workspace.face_up();
     session.notes.clear();
@@ -62,12 +64,12 @@ pub fn begin_preset(model: &mut Model, tasks: &mut Vec<Task>, name: &str) {
 
 /// Begins to work on a scene: its design, which is not saved anywhere yet, its copies, its light and its backplate.
 pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset) {
-    let Preset { design, company, scene, wavelengths } = preset;
+    let Preset { design, copies, scene, wavelengths } = preset;
     let document = Document::new(design, None);
     let Some(mut document) = model.session.notes.ok_or_report(document) else { return };
-    let laid = company.poses(document.specimen().solid().vertices(), None);
-    let layers = if laid == company.poses { "" } else { ", some of them farther back so that none overlap" };
-    document.work.company = company;
+    let laid = copies.poses(document.specimen().solid().vertices(), None);
+    let layers = if laid == copies.poses { "" } else { ", some of them farther back so that none overlap" };
+    document.work.copies = copies;
     document.keep_copies();
     model.workspace.last = None;
     if let Some(light) = scene.light {

@@ -23,7 +23,7 @@ impl Model {
             Command::Undo => undo,
             Command::Redo => redo,
             Command::Save => self.document.is_changed() || self.document.path().is_none(),
-            Command::LayOut => self.document.work.company.poses.len() > 1,
+            Command::LayOut => self.document.work.copies.poses.len() > 1,
             Command::Split | Command::NoCompare => self.session.compared.is_some(),
             _ => true,
         }
@@ -74,7 +74,7 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
             model.workspace.reset_layout();
             tasks.push(Task::Window(WindowTask::ForgetPanelWidths));
         }
-        Command::LayOut => edits::edit(model, Edit::LayOut(model.document.work.company.poses.len())),
+        Command::LayOut => edits::edit(model, Edit::LayOut(model.document.work.copies.poses.len())),
         Command::Undo | Command::Redo => {
             if command == Command::Undo {
                 model.document.undo()

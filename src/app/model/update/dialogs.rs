@@ -96,18 +96,15 @@ fn keep(model: &mut Model, tasks: &mut Vec<Task>) {
 fn recover(model: &mut Model, tasks: &mut Vec<Task>, found: &RecoveredWork) {
     let document = Document::recovered(found);
     let Some(mut document) = model.session.notes.ok_or_report(document) else { return };
-    let KeptScene { company, behind, behind_mm, strength } = found.around.clone();
-    document.work.company = company;
+    let KeptScene { copies, behind, behind_mm, strength } = found.around.clone();
+    document.work.copies = copies;
+    // The work is kept anew before the file that the crash left is removed.
+    model.session.safe.replaces = Some(found.file.clone());
     begin(model, tasks, document);
     let workspace = &mut model.workspace;
     workspace.behind = behind.or(workspace.behind.take());
     (workspace.behind_mm, workspace.strength) = (behind_mm, strength.unwrap_or(1.0));
     safe::note(model, tasks);
-    // The work is kept anew before the file that the crash left is removed.
-    match tasks.last_mut() {
-        Some(Task::Keep(unsaved)) => unsaved.replaces = Some(found.file.clone()),
-        _ => tasks.push(Task::Forget(found.file.clone())),
-    }
 }
 
 fn export(model: &mut Model, tasks: &mut Vec<Task>, select: impl FnOnce(&mut Selection)) {

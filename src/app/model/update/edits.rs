@@ -33,7 +33,7 @@ pub fn edit(model: &mut Model, edit: Edit) {
         Edit::Head(degrees) => work.head = degrees,
         Edit::LayOut(count) => lay_out(model, count),
         Edit::Copy(copy, pose) => {
-            if let Some(at) = work.company.poses.get_mut(copy) {
+            if let Some(at) = work.copies.poses.get_mut(copy) {
                 *at = pose;
             }
         }
@@ -45,13 +45,13 @@ pub fn edit(model: &mut Model, edit: Edit) {
 fn lay_out(model: &mut Model, count: usize) {
     model.session.layings += 1;
     let specimen = Arc::clone(model.document.specimen());
-    let (solid, company) = (specimen.solid(), &mut model.document.work.company);
-    let turn = |k: usize| company.poses.get(k).map_or(Pose::STILL.turn, |pose| pose.turn);
+    let (solid, copies) = (specimen.solid(), &mut model.document.work.copies);
+    let turn = |k: usize| copies.poses.get(k).map_or(Pose::STILL.turn, |pose| pose.turn);
     let corners: Vec<DVec3> = (0..count)
         .flat_map(|k| solid.vertices().iter().map(move |c| (k, *c)))
         .map(|(k, c)| turn(k) * c)
         .collect();
     let mut laid = Copies::scattered(count, &corners, model.session.layings);
     laid.poses.iter_mut().enumerate().for_each(|(k, pose)| pose.turn = turn(k));
-    *company = laid;
+    *copies = laid;
 }

@@ -9,6 +9,7 @@ use crate::app::model::compare::Compared;
 use crate::app::model::dialog::{Dialog, PathForm, Then};
 use crate::app::model::opening::{FileRequest, OpenedFile, Opening, OpeningPurpose};
 use crate::app::model::saving::SavedDesign;
+use crate::app::model::session::Session;
 use crate::app::model::task::{Task, WindowTask};
 use crate::app::model::work::Work;
 use crate::io::Failure;
@@ -28,13 +29,13 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: FileAction) {
         FileAction::Chosen(question, choice) => answered(model, tasks, question, choice),
         FileAction::Open(path, purpose) => open(model, tasks, path, purpose),
         FileAction::OpenWith(request) => open_with(model, tasks, request),
-        FileAction::Opened(request, read) => opened(model, tasks, request, read),
+        FileAction::Opened(request, read) => is_read(model, &request, read),
         FileAction::ReadMesh(mesh) => {
             if let Some(path) = model.document.work.mesh.as_ref().map(|mesh| mesh.path.clone()) {
                 open_with(model, tasks, FileRequest { purpose: OpeningPurpose::Otherwise, path, mesh });
             }
         }
-        FileAction::Saved(saved) => is_saved(model, tasks, saved),
+        FileAction::Saved(document, saved) => is_saved(model, tasks, document, saved),
         FileAction::OnDisk(path, stamp) => {
             if model.document.path() == Some(&path) {
                 model.session.on_disk = Some(stamp);
@@ -65,12 +66,13 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: FileAction) {
     }
 }
 
-/// Adds the tasks that the present state needs: to load another light, to watch another file, or to read the open file
+/// Opens a file that has been read, and adds the tasks that the present state needs: to load another light, to watch another file, or to read the open file
 /// again because another program has changed it.
 pub fn wanted(model: &mut Model, tasks: &mut Vec<Task>) {
+    open_read(model, tasks);
     let light = &mut model.session.light;
     let name = &model.document.work.light;
-    if light.name != *name && light.loading.as_ref() != Some(name) {
+    if light.tried != *name && light.loading.as_ref() != Some(name) {
         light.loading = Some(name.clone());
         tasks.push(Task::LoadLight(name.clone()));
     }
@@ -78,7 +80,10 @@ pub fn wanted(model: &mut Model, tasks: &mut Vec<Task>) {
         model.session.watched = model.document.path().map(Path::to_owned);
         tasks.push(Task::Watch(model.session.watched.clone().map(|path| (path, model.document.stamp()))));
     }
-    if model.session.dialog.is_none() && !model.session.awaited.saving {
+    let awaited = &model.session.awaited;
+    // Reading the open file again would drop the other file that is being opened in its place.
+    let is_replaced = awaited.opening.iter().any(|opening| opening.request.purpose == OpeningPurpose::Anew);
+    if model.session.dialog.is_none() && awaited.saving.is_none() && !is_replaced {
         let stamp = model.session.on_disk.take().filter(|stamp| *stamp != model.document.stamp());
         if let Some(stamp) = stamp {
             model.document.accept_outside(stamp);
@@ -132,7 +137,7 @@ fn close(model: &mut Model, tasks: &mut Vec<Task>) {
         session.notes.say("Answer the open dialog first, or stop the export.");
     } else if session.may_close {
         return;
-    } else if session.awaited.saving {
+    } else if session.awaited.saving.is_some() {
         session.after_save = Some(Then::Close);
     } else if model.document.is_changed() {
         session.dialog = Some(Dialog::Unsaved(Then::Close));
@@ -190,6 +195,7 @@ fn answered(model: &mut Model, tasks: &mut Vec<Task>, question: Question, choice
 pub fn chosen(model: &mut Model, tasks: &mut Vec<Task>, purpose: Purpose, document: u64, path: PathBuf) {
     match purpose {
         Purpose::SaveAs if document != model.session.begun => {
+            model.session.after_save = None;
             model
                 .session
                 .notes
@@ -229,17 +235,32 @@ fn open(model: &mut Model, tasks: &mut Vec<Task>, path: PathBuf, purpose: Openin
 fn open_with(model: &mut Model, tasks: &mut Vec<Task>, request: FileRequest) {
     let opening = &mut model.session.awaited.opening;
     opening.retain(|other| other.request.is_beside() != request.is_beside());
-    opening.push(Opening { request: request.clone(), work: model.document.work.clone() });
+    opening.push(Opening { request: request.clone(), work: model.document.work.clone(), read: None });
     tasks.push(Task::Read(request));
 }
 
-fn opened(model: &mut Model, tasks: &mut Vec<Task>, request: FileRequest, read: Result<OpenedFile, Failure>) {
-    let all = &mut model.session.awaited.opening;
-    let Some(place) = all.iter().position(|opening| opening.request == request) else { return };
-    let opening = all.remove(place);
-    let Some(file) = model.session.notes.ok_or_report(read) else { return };
+/// Takes the content of a file that was to be opened, or reports why there is none.
+fn is_read(model: &mut Model, request: &FileRequest, read: Result<OpenedFile, Failure>) {
+    let Session { awaited, notes, .. } = &mut model.session;
+    let Some(place) = awaited.opening.iter().position(|opening| opening.request == *request) else { return };
+    match notes.ok_or_report(read) {
+        Some(file) => awaited.opening[place].read = Some(file),
+        None => drop(awaited.opening.remove(place)),
+    }
+}
+
+/// Opens a file that has been read, unless it is to replace a document that a dialog is about, or that is being saved before
+/// something else is done.
+fn open_read(model: &mut Model, tasks: &mut Vec<Task>) {
+    let session = &mut model.session;
+    let must_stay =
+        session.after_save.is_some() || session.dialog.as_ref().is_some_and(Dialog::is_about_document);
+    let all = &mut session.awaited.opening;
+    let may_open = |opening: &Opening| opening.read.is_some() && (opening.request.is_beside() || !must_stay);
+    let Some(place) = all.iter().position(may_open) else { return };
+    let Opening { request, work, read: Some(file) } = all.remove(place) else { return };
     // The user has not given up what was changed while the file was being read.
-    let is_later = model.document.work != opening.work;
+    let is_later = model.document.work != work;
     match (request.purpose, file) {
         (OpeningPurpose::Anew, _) if is_later => {
             ask_before(model, tasks, Then::Open(request.path, request.mesh));
@@ -284,7 +305,7 @@ pub fn save(model: &mut Model, tasks: &mut Vec<Task>) {
 /// Saves the document, and then does what waited for that.
 pub fn save_then(model: &mut Model, tasks: &mut Vec<Task>, then: Then) {
     save(model, tasks);
-    if model.session.awaited.saving || model.session.awaited.choosing == Some(Purpose::SaveAs) {
+    if model.session.awaited.saving.is_some() || model.session.awaited.choosing == Some(Purpose::SaveAs) {
         model.session.after_save = Some(then);
     }
 }
@@ -299,26 +320,42 @@ fn save_as(model: &mut Model, tasks: &mut Vec<Task>, path: PathBuf) {
         return;
     }
     model.document.update();
-    let request = model.document.to_save(path);
+    let document = model.session.begun;
+    let request = model.document.to_save(document, path);
     let Some(request) = model.session.notes.ok_or_report(request) else {
         model.session.after_save = None;
         return;
     };
-    model.session.awaited.saving = true;
+    model.session.awaited.saving = Some(document);
     tasks.push(Task::Save(Box::new(request)));
 }
 
-fn is_saved(model: &mut Model, tasks: &mut Vec<Task>, saved: Result<SavedDesign, Failure>) {
-    let Model { document, workspace, session } = model;
-    session.awaited.saving = false;
-    let waiting = session.after_save.take();
+/// Reports that a document was saved, and where it is still open, takes note of its file.
+fn is_saved(model: &mut Model, tasks: &mut Vec<Task>, document: u64, saved: Result<SavedDesign, Failure>) {
+    let session = &mut model.session;
+    let is_awaited = session.awaited.saving.take_if(|awaited| *awaited == document).is_some();
+    let waiting = if is_awaited { session.after_save.take() } else { None };
     let Some(saved) = session.notes.ok_or_report(saved) else { return };
-    session.notes.clear();
+    let is_open = document == session.begun;
+    if is_open {
+        session.notes.clear();
+    }
     session.notes.say(&format!("Saved {}", saved.path.display()));
     if !saved.lost.is_empty() {
         let (name, lost) = (saved.path.display(), saved.lost.join("; "));
         session.notes.warn(format!("{name}: {lost}. Save it as .toml to keep everything."));
     }
+    if is_open {
+        take_saved(model, tasks, saved);
+    }
+    if let Some(next) = waiting {
+        ask_before(model, tasks, next);
+    }
+}
+
+/// Takes note that the present document is saved in a file.
+fn take_saved(model: &mut Model, tasks: &mut Vec<Task>, saved: SavedDesign) {
+    let Model { document, workspace, session } = model;
     workspace.remember(&saved.path);
     document.take_saved(saved);
     session.on_disk = None;
@@ -327,9 +364,6 @@ fn is_saved(model: &mut Model, tasks: &mut Vec<Task>, saved: Result<SavedDesign,
     }
     if !document.is_changed() {
         safe::empty(model, tasks);
-    }
-    if let Some(next) = waiting {
-        ask_before(model, tasks, next);
     }
 }
 

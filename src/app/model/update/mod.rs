@@ -14,6 +14,7 @@ use super::Model;
 use super::action::{Action, Computed, FrameEnd, NoteAction};
 use super::figures::ShownFigures;
 use super::task::Task;
+use crate::app::studio::Which;
 
 /// Changes a model by an action; returns what is to be done outside because of it.
 pub fn update(model: &mut Model, action: Action) -> Vec<Task> {
@@ -48,22 +49,34 @@ fn noted(model: &mut Model, note: NoteAction) {
 }
 
 fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
-    let session = &mut model.session;
+    let Model { workspace, session, .. } = model;
     match computed {
         Computed::Light(name, loaded) => {
             match loaded {
                 Ok(lighting) => {
                     lighting.warnings.iter().for_each(|warning| session.notes.say(warning));
-                    session.light.lighting = lighting;
+                    (session.light.name, session.light.lighting) = (name.clone(), lighting);
                 }
                 Err(why) => session.notes.trouble(format!("{why}; the light stays as it was")),
             }
-            (session.light.name, session.light.loading) = (name, None);
+            (session.light.tried, session.light.loading) = (name, None);
+            // The next start begins with a light that could be loaded.
+            workspace.light.clone_from(&session.light.name);
         }
         Computed::Figures(which, order, grade, figures) => {
-            session.measured.figures.insert(which, ShownFigures { order, grade, figures: *figures });
+            // The document or the comparison may have ended since the figures were ordered.
+            let is_shown = match which {
+                Which::Present => order.document == session.begun,
+                Which::Other => session.compared.is_some(),
+            };
+            if is_shown {
+                session.measured.figures.insert(which, ShownFigures { order, grade, figures: *figures });
+            }
         }
-        Computed::Tilts(order, tilts) => session.measured.tilts = Some((order, tilts)),
+        Computed::Tilts(order, tilts) if order.document == session.begun => {
+            session.measured.tilts = Some((order, tilts));
+        }
+        Computed::Tilts(..) => {}
         Computed::Copied(made) => {
             let name = session.awaited.copying.take().unwrap_or("The picture");
             match made {

@@ -3,16 +3,14 @@
 use crate::app::model::Model;
 use crate::app::model::recovery::{KeptScene, UnsavedWork};
 use crate::app::model::task::Task;
-use crate::app::model::work::Work;
 
-/// Writes the present work to the autosave, and stores its light, exposure and head in the workspace.
+/// Writes the present work to the autosave, and stores its exposure and head in the workspace.
 ///
 /// A design that makes no stone does not replace the last one that does.
 pub fn note(model: &mut Model, tasks: &mut Vec<Task>) {
     let Model { document, workspace, session } = model;
     session.safe.noted = document.work.clone();
-    let Work { light, exposure, head, .. } = &document.work;
-    (workspace.light, workspace.exposure, workspace.head) = (light.clone(), *exposure, *head);
+    (workspace.exposure, workspace.head) = (document.work.exposure, document.work.head);
     if !document.is_changed() && !document.has_moved_copies() {
         return empty(model, tasks);
     }
@@ -21,7 +19,7 @@ pub fn note(model: &mut Model, tasks: &mut Vec<Task>) {
     }
     session.safe.is_kept = true;
     let around = KeptScene {
-        company: document.work.company.clone(),
+        copies: document.work.copies.clone(),
         behind: workspace.behind.clone(),
         behind_mm: workspace.behind_mm,
         strength: Some(workspace.strength),
@@ -31,13 +29,16 @@ pub fn note(model: &mut Model, tasks: &mut Vec<Task>) {
         work: document.work.clone(),
         around,
         path,
-        replaces: None,
+        // Of several waiting autosaves only the newest is written, so each of them removes the file of the crash.
+        replaces: session.safe.replaces.clone(),
     })));
 }
 
-/// Removes the autosave, because the work is saved or discarded.
+/// Removes the autosave, because the work is saved or discarded, and the one that the work went on from.
 pub fn empty(model: &mut Model, tasks: &mut Vec<Task>) {
-    if std::mem::take(&mut model.session.safe.is_kept) {
+    let safe = &mut model.session.safe;
+    if std::mem::take(&mut safe.is_kept) {
         tasks.push(Task::EmptySafe);
     }
+    tasks.extend(safe.replaces.take().map(Task::Forget));
 }

@@ -1,13 +1,16 @@
 //! Tests of the editor without a window: what its state becomes by actions, and which tasks come of them.
 
+mod late;
+
 use super::update;
 use crate::app::model::action::{Computed, DialogAction, Edit, FileAction, FrameEnd, ViewAction};
 use crate::app::model::choosing::{Choice, Purpose};
 use crate::app::model::command::Command;
 use crate::app::model::dialog::{Dialog, Then};
-use crate::app::model::document::Document;
+use crate::app::model::document::{Document, FIRST_LIGHT};
 use crate::app::model::exporting::ExportEvent;
 use crate::app::model::opening::{FileRequest, OpeningPurpose};
+use crate::app::model::plan::export_plan;
 use crate::app::model::saving::Stamp;
 use crate::app::model::task::WindowTask;
 use crate::app::model::workspace::Workspace;
@@ -65,11 +68,9 @@ impl Bench {
 
     /// Saves the design that a task is to save.
     fn save(&mut self, tasks: Vec<Task>) -> Vec<Task> {
-        let saved = tasks.into_iter().find_map(|task| match task {
-            Task::Save(request) => Some(open::save(*request)),
-            _ => None,
-        });
-        self.act(FileAction::Saved(saved.unwrap()))
+        let save = |task| if let Task::Save(request) = task { Some(request) } else { None };
+        let request = tasks.into_iter().find_map(save).unwrap();
+        self.act(FileAction::Saved(request.document, open::save(*request)))
     }
 
     fn diameter(&self) -> f64 {
@@ -163,10 +164,10 @@ fn a_design_without_a_file_is_saved_where_the_user_says_and_what_waited_for_it_f
     assert_eq!((question.purpose, question.name.as_str()), (Purpose::SaveAs, "tolkowsky-1919.toml"));
     let path = folder.path().join("mine.toml");
     let tasks = bench.act(FileAction::Chosen(question, Choice::File(path.clone())));
-    assert!(bench.model.session.awaited.saving);
+    assert!(bench.model.session.awaited.saving.is_some());
     bench.save(tasks);
     assert_eq!(bench.model.document.work.design.name, "Modern ideal");
-    assert!(!bench.model.session.awaited.saving);
+    assert!(bench.model.session.awaited.saving.is_none());
     assert_eq!(cut_file::read(&path).unwrap().diameter_mm, 7.0);
 }
 
@@ -190,12 +191,19 @@ fn work_that_a_crash_left_is_offered_kept_anew_and_forgotten() {
     let tasks = next.act(DialogAction::Recover);
     assert_eq!(next.diameter(), 7.25);
     assert!(next.model.document.is_changed() && next.dialog().is_none());
+    // Of several waiting autosaves only the newest is written, so each of them must remove the file.
     let replaces = |task: &Task| matches!(task, Task::Keep(kept) if kept.replaces.as_ref() == Some(&file));
-    assert!(has(&tasks, replaces) && file.exists());
+    assert!(!tasks.is_empty() && tasks.iter().all(replaces) && file.exists());
+    next.act(Edit::Diameter(7.5));
+    assert!(has(&next.end_frame(false), replaces));
+    let forgets = |task: &Task| matches!(task, Task::Forget(path) if *path == file);
+    next.act(FileAction::Ask(Then::Library("modern-ideal".to_owned())));
+    assert!(has(&next.act(DialogAction::GiveUp), forgets));
+    assert!(!has(&next.act(FileAction::Ended), forgets), "it is removed once");
     let mut other = Bench::new();
     other.act(FileAction::Found(found));
     let tasks = other.act(DialogAction::Forget);
-    assert!(has(&tasks, |task| matches!(task, Task::Forget(path) if *path == file)));
+    assert!(has(&tasks, forgets));
     assert_eq!(other.diameter(), Bench::new().diameter());
 }
 
@@ -281,10 +289,11 @@ fn what_the_program_saves_itself_is_no_change_by_others() {
     bench.act(Edit::Name("longer than before".to_owned()));
     let tasks = bench.act(Command::Save);
     let Some(Task::Save(request)) = tasks.into_iter().next() else { panic!() };
-    let saved = open::save(*request);
+    let (document, saved) = (request.document, open::save(*request));
     // The file is seen before the answer comes.
     bench.act(FileAction::OnDisk(path.clone(), Stamp::of(&path)));
-    assert!(bench.act(FileAction::Saved(saved)).iter().all(|task| !matches!(task, Task::Read(_))));
+    let tasks = bench.act(FileAction::Saved(document, saved));
+    assert!(tasks.iter().all(|task| !matches!(task, Task::Read(_))));
     assert!(bench.act(FileAction::OnDisk(path.clone(), Stamp::of(&path))).is_empty());
     assert!(bench.dialog().is_none() && bench.model.session.notes.troubles().is_empty());
 }
@@ -301,6 +310,13 @@ fn a_light_is_loaded_once_and_one_that_cannot_be_loaded_leaves_the_last() {
     assert!(std::sync::Arc::ptr_eq(&before, &bench.model.session.light.lighting));
     assert!(bench.model.session.notes.troubles()[0].text.starts_with("a fault; "));
     assert!(!has(&bench.end_frame(false), is_load), "it is not loaded again and again");
+    // Exports and the next start name the light that is shown.
+    assert_eq!(export_plan(&bench.model).light, Path::new(FIRST_LIGHT));
+    assert_eq!(bench.model.workspace.light, FIRST_LIGHT);
+    bench.act(Edit::Light("dome".to_owned()));
+    bench.act(Computed::Light("dome".to_owned(), Ok(before)));
+    assert_eq!(export_plan(&bench.model).light, Path::new("dome"));
+    assert_eq!(bench.model.workspace.light, "dome");
 }
 
 #[test]
@@ -330,7 +346,7 @@ fn an_answer_for_a_design_that_is_gone_is_not_saved_over_the_next() {
     let Some(Task::ChooseFile(question)) = tasks.into_iter().next() else { panic!() };
     bench.act(FileAction::Ask(Then::Library("modern-ideal".to_owned())));
     let tasks = bench.act(FileAction::Chosen(question, Choice::File("late.toml".into())));
-    assert!(tasks.is_empty() && !bench.model.session.awaited.saving);
+    assert!(tasks.is_empty() && bench.model.session.awaited.saving.is_none());
     assert!(bench.model.session.notes.troubles()[0].text.starts_with("The design was not saved"));
 }
 

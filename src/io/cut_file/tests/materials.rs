@@ -79,47 +79,47 @@ fn a_material_that_light_cannot_know_is_told_with_its_line() {
     let expected =
         "x.toml:4: material: unknown material 'Saphire'; did you mean 'sapphire'? known: diamond, ";
     assert!(unknown.starts_with(expected), "{unknown}");
-    let told = |keys: &str, expected: &str| {
+    let refused = |keys: &str, expected: &str| {
         let table = format!(
             "format = 1\nname = \"x\"\n[material]\n{keys}\n[[plane]]\nnormal = [0, 0, 1]\noffset = 1"
         );
         assert_message(&table, expected);
     };
-    told(
+    refused(
         "index = 2\nabsorption = [\n[400, 0.1],\n[500, -0.1]]",
         "x.toml:7: material.absorption: absorption sample 2 (500 nm) has a coefficient of -0.1 per mm: give 0 to 1e6",
     );
-    told(
+    refused(
         "index = 2\nabsorption = [\n[400, 0.1],\n[500]]",
         "x.toml:5: material.absorption: invalid length 1, expected a list of 2 numbers \
          (a number per mm, or [[nm, per mm], ...])",
     );
-    told(
+    refused(
         "index = 2\nabsorption = -1",
         "x.toml:5: material.absorption: absorption sample 1 (550 nm) has a coefficient of -1 per mm: give 0 to 1e6",
     );
-    told(
+    refused(
         "index = 2\nabsorption = 1\nabsorption_e = [\n[400, 0.1],\n[390, 0.1]]",
         "x.toml:8: material.absorption_e: absorption sample 2 (390 nm) follows one at 400 nm: list wavelengths in \
          increasing order, each once",
     );
-    told(
+    refused(
         "index = 2\nabsorption_e = [[400]]",
         "x.toml:5: material.absorption_e: invalid length 1, expected a list of 2 numbers \
          (of the extraordinary polarisation: a number per mm, or [[nm, per mm], ...])",
     );
-    told(
+    refused(
         "sellmeier = []",
         "x.toml:4: material.sellmeier: the list is empty, expected at least one pair ([[B, C], ...], C in µm)",
     );
-    told(
+    refused(
         "sellmeier = [[1, 0.5]]",
         "x.toml:4: sellmeier: the dispersion has a resonance at 500.0 nm, in visible light (360 to 830 nm): check \
          whether its source prints C squared (use `rational`) or not (use `sellmeier`)",
     );
-    told("abbe = [1.5, -1]", "x.toml:4: abbe: an Abbe number of -1: give a number above 0");
-    told("name = \"\"\nindex = 2", "x.toml:4: name: a name of 1 to 200 printable characters is expected");
-    told(
+    refused("abbe = [1.5, -1]", "x.toml:4: abbe: an Abbe number of -1: give a number above 0");
+    refused("name = \"\"\nindex = 2", "x.toml:4: name: a name of 1 to 200 printable characters is expected");
+    refused(
         "[material.dispersion.rational]\nterms = [[1, 0.25]]",
         "x.toml:4: material.dispersion: the dispersion has a resonance at 500.0 nm, in visible light (360 to 830 nm): \
          check whether its source prints C squared (use `rational`) or not (use `sellmeier`)",

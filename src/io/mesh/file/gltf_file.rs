@@ -56,9 +56,9 @@ fn document(json: &[u8]) -> Result<(Document, Vec<String>), Fault> {
         if let Some((document, mut warnings)) = alone.and_then(|json| parsed(&json).ok()) {
             let place = fault.line.map(|line| format!("line {line}: ")).unwrap_or_default();
             let broken = fault.problem.strip_prefix(UNREADABLE).unwrap_or(&fault.problem);
-            let told =
+            let warning =
                 format!("{lost} beside the shape are left out, because the file is broken: {place}{broken}");
-            warnings.insert(0, told);
+            warnings.insert(0, warning);
             return Ok((document, warnings));
         }
     }

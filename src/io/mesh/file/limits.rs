@@ -25,12 +25,12 @@ pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, Fault> {
 
 /// Refuses more triangles or corners than are read.
 pub(super) fn count(vertices: usize, triangles: usize) -> Result<(), Fault> {
-    let told = |what: &str, most: usize| {
+    let too_many = |what: &str, most: usize| {
         Err(format!("this has more than {} million {what}; save a coarser mesh", most / 1_000_000).into())
     };
     match (vertices > MAX_VERTICES, triangles > MAX_TRIANGLES) {
-        (_, true) => told("triangles", MAX_TRIANGLES),
-        (true, _) => told("corners", MAX_VERTICES),
+        (_, true) => too_many("triangles", MAX_TRIANGLES),
+        (true, _) => too_many("corners", MAX_VERTICES),
         _ => Ok(()),
     }
 }

@@ -25,7 +25,8 @@ use std::path::Path;
 pub use hint::MaterialHint;
 pub use limits::MAX_BYTES;
 use parsed_mesh::ParsedMesh;
-use sniff::STL_HEADER;
+pub(super) use sniff::STL_HEADER;
+use sniff::STL_START;
 pub use sniff::{MeshFormat, looks_like};
 pub use statement::{Stands, Statement, rounded};
 
@@ -58,7 +59,7 @@ pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshF
     // A binary STL that was cut off, or whose count is wrong, can be recognised by its name alone.
     let is_named = Path::new(label).extension().is_some_and(|e| e.eq_ignore_ascii_case("stl"));
     let binary =
-        (is_named && bytes.len() >= STL_HEADER && bytes.contains(&0)).then_some(MeshFormat::StlBinary);
+        (is_named && bytes.len() >= STL_START && bytes.contains(&0)).then_some(MeshFormat::StlBinary);
     let Some(format) = looks_like(&bytes).or(binary) else {
         return Err(FileError::new(label, "this is not a mesh; glTF, OBJ, STL or PLY is expected"));
     };

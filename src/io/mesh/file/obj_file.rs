@@ -85,10 +85,10 @@ impl Odd {
     }
 
     fn warnings(&self) -> Vec<String> {
-        let told = |count: usize, what: &str| (count > 0).then(|| format!("{count} {what} left out"));
+        let left_out = |count: usize, what: &str| (count > 0).then(|| format!("{count} {what} left out"));
         let all = [
-            told(self.curves, "curved surfaces, which no stone's facet is, are"),
-            told(self.short, "faces of fewer than three corners are"),
+            left_out(self.curves, "curved surfaces, which no stone's facet is, are"),
+            left_out(self.short, "faces of fewer than three corners are"),
         ];
         all.into_iter().flatten().collect()
     }

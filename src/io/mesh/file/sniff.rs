@@ -17,8 +17,11 @@ pub enum MeshFormat {
     Ply,
 }
 
-/// The size of a binary STL's header and count, in bytes.
-pub(super) const STL_HEADER: usize = 84;
+/// The size of a binary STL's header, in bytes.
+pub(in crate::io::mesh) const STL_HEADER: usize = 80;
+
+/// The place of a binary STL's first triangle, behind the header and the count, in bytes.
+pub(super) const STL_START: usize = STL_HEADER + 4;
 
 /// The size of a triangle in a binary STL, in bytes.
 pub(super) const STL_TRIANGLE: u64 = 50;
@@ -36,8 +39,7 @@ pub fn looks_like(bytes: &[u8]) -> Option<MeshFormat> {
         return Some(MeshFormat::Ply);
     }
     // Checked before text: many binary STL files begin with the word `solid` by which text ones are recognised.
-    if stl_triangles(bytes)
-        .is_some_and(|count| bytes.len() as u64 == STL_HEADER as u64 + STL_TRIANGLE * count)
+    if stl_triangles(bytes).is_some_and(|count| bytes.len() as u64 == STL_START as u64 + STL_TRIANGLE * count)
     {
         return Some(MeshFormat::StlBinary);
     }
@@ -57,13 +59,13 @@ pub fn looks_like(bytes: &[u8]) -> Option<MeshFormat> {
         return Some(MeshFormat::Obj);
     }
     // If it is binary at all, this is an STL whose length does not agree with its count, which its reader reports.
-    let is_binary = bytes.len() > STL_HEADER && bytes[..bytes.len().min(LOOKED_AT)].contains(&0);
+    let is_binary = bytes.len() > STL_START && bytes[..bytes.len().min(LOOKED_AT)].contains(&0);
     (is_binary && bytes.starts_with(b"solid")).then_some(MeshFormat::StlBinary)
 }
 
 /// Returns how many triangles a binary STL says it has.
 pub(super) fn stl_triangles(bytes: &[u8]) -> Option<u64> {
-    let count = bytes.get(STL_HEADER - 4..STL_HEADER)?;
+    let count = bytes.get(STL_HEADER..STL_START)?;
     Some(u64::from(u32::from_le_bytes(count.try_into().ok()?)))
 }
 

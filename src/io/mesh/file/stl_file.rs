@@ -3,7 +3,7 @@
 use super::limits;
 use super::lines::{Lines, Rewound};
 use super::parsed_mesh::ParsedMesh;
-use super::sniff::{STL_HEADER, STL_TRIANGLE, stl_triangles};
+use super::sniff::{STL_HEADER, STL_START, STL_TRIANGLE, stl_triangles};
 use super::statement::Statement;
 use crate::io::file_error::Fault;
 use crate::math::Surface;
@@ -15,16 +15,16 @@ const FIRST: &[u8] = b"solid stone\n";
 
 pub(super) fn read_binary(mut bytes: Vec<u8>) -> Result<ParsedMesh, Fault> {
     let count = stl_triangles(&bytes).ok_or("this is too short for a binary STL")?;
-    let there = (bytes.len() as u64).saturating_sub(STL_HEADER as u64) / STL_TRIANGLE;
+    let there = (bytes.len() as u64).saturating_sub(STL_START as u64) / STL_TRIANGLE;
     if count > there {
         let message =
             format!("{count} triangles are announced, and the file holds {there}; it has been cut off");
-        return Err(Fault::part("offset 80", message));
+        return Err(Fault::part(format!("offset {STL_HEADER}"), message));
     }
     limits::count(0, usize::try_from(count).unwrap_or(usize::MAX))?;
-    let name = String::from_utf8_lossy(&bytes[..80]).trim_matches(['\0', ' ']).to_owned();
+    let name = String::from_utf8_lossy(&bytes[..STL_HEADER]).trim_matches(['\0', ' ']).to_owned();
     // The header is of no more use, and with the word `solid` in it the file would be taken for text.
-    bytes[..80].fill(0);
+    bytes[..STL_HEADER].fill(0);
     let surface = triangles(&mut Cursor::new(bytes))
         .map_err(|(number, message)| Fault::part(format!("triangle {number}"), message))?;
     let said = Statement::is_meant(&name).then(|| name.clone());
@@ -57,19 +57,21 @@ pub(super) fn read_text(bytes: &[u8]) -> Result<ParsedMesh, Fault> {
     let closed = std::io::Read::chain(lines, &b"endsolid stone\n"[..]);
     let surface = triangles(&mut Rewound::new(FIRST, closed))
         .map_err(|(_, message)| Fault::line(line.get().max(1), message))?;
-    let told = |n: usize| format!("{n} solids are in this file; they are read as one surface");
-    let warnings = (solids > 1).then(|| told(solids)).into_iter().collect();
+    let warnings = (solids > 1)
+        .then(|| format!("{solids} solids are in this file; they are read as one surface"))
+        .into_iter()
+        .collect();
     Ok(ParsedMesh { surface, warnings, name, ..ParsedMesh::default() })
 }
 
 /// Reads all triangles, each with corners of its own; else returns the number, from 1, of the triangle that cannot be read,
 /// and why.
 fn triangles<R: std::io::Read + std::io::Seek>(reader: &mut R) -> Result<Surface, (usize, String)> {
-    let told = |number: usize, error: std::io::Error| (number, format!("this cannot be read: {error}"));
-    let list = stl_io::create_stl_reader(reader).map_err(|error| told(1, error))?;
+    let unreadable = |number: usize, error: std::io::Error| (number, format!("this cannot be read: {error}"));
+    let list = stl_io::create_stl_reader(reader).map_err(|error| unreadable(1, error))?;
     let (mut vertices, mut triangles) = (vec![], vec![]);
     for (number, triangle) in (1..).zip(list) {
-        let triangle = triangle.map_err(|error| told(number, error))?;
+        let triangle = triangle.map_err(|error| unreadable(number, error))?;
         let corners = triangle.vertices.map(|v| v.0.map(f64::from));
         if let Some(bad) = corners.iter().find(|c| !c.iter().all(|x| x.is_finite())) {
             return Err((

@@ -66,6 +66,24 @@ fn upright(mut file: MeshFile) -> MeshFile {
 }
 
 #[test]
+fn a_stone_without_names_is_written_with_all_its_facets() {
+    let (named, bare) = (body(16), Body::from(brilliant(16).polytope));
+    let stl = |body| write_stl(body, 3.0, None).unwrap();
+    assert!(stl(&named) == stl(&bare));
+    let ply = |body| write_ply(body, 3.0, None).unwrap();
+    assert!(ply(&named) == ply(&bare));
+    let obj = |body| write_obj(body, "x", 3.0, None);
+    let without_groups = |text: String| {
+        text.lines().filter(|line| !line.starts_with("g ")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(without_groups(obj(&named)), obj(&bare).lines().collect::<Vec<_>>());
+    let clear = MaterialHint::default();
+    let glb = open(write_glb(&bare, "x", 3e-3, (&clear, None)).unwrap());
+    let facets = bare.stone().unwrap().polytope.facets().len();
+    assert_eq!(faceted(&glb).faces.len(), facets);
+}
+
+#[test]
 fn what_is_written_comes_back_with_its_planes_and_names() {
     let clear = MaterialHint::of(optics::material("diamond").unwrap(), 1.0);
     for (count, scale) in [(16, 1.0), (16, 3.25), (96, 3.25)] {

@@ -199,8 +199,8 @@ fn shells_that_touch_or_overlap_all_face_outward() {
             }
             both.append(other);
             let found = both.mend().map(|mended| mended.surface);
-            let shell = crate::math::TriangleMesh::new(found.unwrap_or_else(|e| panic!("{place}: {e}")));
-            let found = shell.unwrap_or_else(|e| panic!("{place}: {e}")).volume();
+            let mesh = crate::math::TriangleMesh::new(found.unwrap_or_else(|e| panic!("{place}: {e}")));
+            let found = mesh.unwrap_or_else(|e| panic!("{place}: {e}")).volume();
             assert!((found - volume).abs() < 1e-9, "{place}: {found}, not {volume}");
         }
     }

@@ -60,7 +60,7 @@ impl Lengths {
         self.greatest = self.greatest.max(length);
     }
 
-    fn told(&self) -> Shifts {
+    fn shifts(&self) -> Shifts {
         Shifts { mean: self.sum / self.count.max(1.0), greatest: self.greatest }
     }
 }
@@ -71,10 +71,10 @@ impl Sums {
         Cost {
             mean_difference: self.off / pixels,
             psnr_db: -10.0 * (self.squares / pixels).log10(),
-            pane: self.pane.told(),
-            traced: self.traced.told(),
-            apart: self.apart.told(),
-            fringe: self.fringe.each_ref().map(|lengths| lengths.told().mean),
+            pane: self.pane.shifts(),
+            traced: self.traced.shifts(),
+            apart: self.apart.shifts(),
+            fringe: self.fringe.each_ref().map(|lengths| lengths.shifts().mean),
             behind: 0.0,
             blind: self.blind / pixels,
         }

@@ -4,11 +4,13 @@ use super::*;
 use crate::optics::line;
 use crate::picture::liquid_glass::tests::{apart, even, full, none, pattern};
 use crate::trace::unwatched;
+use std::ops::ControlFlow;
+use std::sync::Mutex;
 
 /// Compares a pane with the traced one in this light.
-fn traced(pane: &GlassPane, background: &Panorama, light: &Light, looks: u32) -> Comparison {
+fn traced(pane: &GlassPane, background: &Panorama, light: &Light, passes: u32) -> Comparison {
     let bands = strata(4, &Illuminant::D65, true);
-    let around = PaneLighting { sky: &EnvironmentMap::new(light, None), gap: 0.02, strata: &bands, looks };
+    let around = PaneLighting { map: &EnvironmentMap::new(light, None), gap: 0.02, strata: &bands, passes };
     compare(pane, background, &around, &unwatched).unwrap()
 }
 
@@ -74,10 +76,26 @@ fn the_cost_tells_glass_from_its_approximation() {
     let nowhere = GlassPane { corner: DVec2::splat(500.0), ..full() };
     let bands = strata(2, &Illuminant::D65, true);
     let around = PaneLighting {
-        sky: &EnvironmentMap::new(&Light::white(), None),
+        map: &EnvironmentMap::new(&Light::white(), None),
         gap: 0.02,
         strata: &bands,
-        looks: 1,
+        passes: 1,
     };
     assert_eq!(compare(&nowhere, &pattern(false), &around, &unwatched), Err(PaneError::Nowhere));
+}
+
+#[test]
+fn the_progress_of_a_comparison_runs_once_from_0_to_1() {
+    let parts = Mutex::new(vec![]);
+    let watch = |part: f64| {
+        parts.lock().unwrap().push(part);
+        ControlFlow::Continue(())
+    };
+    let bands = strata(1, &Illuminant::D65, true);
+    let map = EnvironmentMap::new(&Light::white(), None);
+    let around = PaneLighting { map: &map, gap: 0.02, strata: &bands, passes: 1 };
+    compare(&full(), &pattern(false), &around, &watch).unwrap();
+    let parts = parts.into_inner().unwrap();
+    assert!(parts.is_sorted() && parts[0] == 0.0 && parts.iter().all(|part| *part <= 1.0), "{parts:?}");
+    assert!(parts.iter().any(|part| *part > 0.5), "{parts:?}");
 }

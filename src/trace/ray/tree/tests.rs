@@ -8,7 +8,7 @@ use glam::{DQuat, DVec2, DVec3};
 use proptest::prelude::*;
 use std::sync::Arc;
 
-fn shell((vertices, triangles): Triangles) -> Arc<TriangleMesh> {
+fn mesh((vertices, triangles): Triangles) -> Arc<TriangleMesh> {
     Arc::new(TriangleMesh::new(Surface::new(vertices, triangles)).unwrap())
 }
 
@@ -37,17 +37,17 @@ proptest! {
         which in 0..3, medium in media(), polarised in any::<bool>(), distance in prop_oneof![Just(None), (4.0..9.0_f64).prop_map(Some)],
         tilt in -3.0..3.0_f64, azimuth in 0.0..6.0_f64, x in -0.9..0.9_f64, y in -0.9..0.9_f64,
     ) {
-        let shell = shell([heart(), star(), clasp(0.5)][which as usize].clone());
-        let tracer = StoneTracer::new(&shell, medium, options(polarised, 1e-6));
+        let mesh = mesh([heart(), star(), clasp(0.5)][which as usize].clone());
+        let tracer = StoneTracer::new(&mesh, medium, options(polarised, 1e-6));
         let projection = distance.map_or(Projection::Orthographic, |distance| Projection::Perspective { distance });
         let view = View { tilt, azimuth, projection, ..View::default() };
-        let Some((exits, rest)) = followed(&tracer, Camera::new(&view, &shell).ray(DVec2::new(x, y))) else { return Ok(()) };
+        let Some((exits, rest)) = followed(&tracer, Camera::new(&view, &mesh).ray(DVec2::new(x, y))) else { return Ok(()) };
         prop_assert!((sum(&exits) + rest.absorbed + rest.unresolved - 1.0).abs() < 1e-9);
         // Light that total reflection keeps inside for ever is rare.
         prop_assert!(rest.unresolved < 0.05 || medium.absorption == [0.0; 2], "{rest:?}");
         // Where a path has light leave for good, the followed ray has an exit of the same share; where it enters again,
         // none.
-        let (origin, direction) = Camera::new(&view, &shell).ray(DVec2::new(x, y));
+        let (origin, direction) = Camera::new(&view, &mesh).ray(DVec2::new(x, y));
         for step in tracer.path(origin, direction).unwrap().steps {
             let Some(leaving) = step.leaving else { continue };
             let is_it = |e: &&Exit| e.point == step.point && e.direction == leaving.direction;
@@ -55,11 +55,11 @@ proptest! {
             prop_assert_eq!(exit.map(|e| e.weight), leaving.again.is_none().then_some(leaving.share));
         }
         for exit in exits {
-            let plane = shell.planes()[exit.facet as usize];
+            let plane = mesh.planes()[exit.facet as usize];
             prop_assert!(plane.distance(exit.point).abs() < 1e-9 && (exit.direction.length() - 1.0).abs() < 1e-9);
             // Light that has left for good does not meet the solid again.
             prop_assert!(plane.normal.dot(exit.direction) >= 0.0);
-            prop_assert!(shell.bvh().nearest(exit.point, exit.direction, 1e-9, |_| true).is_none());
+            prop_assert!(mesh.bvh().nearest(exit.point, exit.direction, 1e-9, |_| true).is_none());
         }
     }
 
@@ -70,12 +70,12 @@ proptest! {
     ) {
         let planes: Vec<Plane> = cut.facets().unwrap().into_iter().map(|(_, plane)| plane).collect();
         let polytope = Polytope::from_planes(&planes).unwrap();
-        let shell = Arc::new(TriangleMesh::of_polytope(&polytope));
+        let mesh = Arc::new(TriangleMesh::of_polytope(&polytope));
         let ray = Camera::new(&View { tilt, ..View::default() }, &polytope).ray(DVec2::new(x, y));
         // Few bounces, as rounding grows on each.
         let options = RayOptions { polarised, most_bounces: 12, ..RayOptions::default() };
         let by_planes = followed(&StoneTracer::new(&polytope, medium, options), ray);
-        let by_triangles = followed(&StoneTracer::new(&shell, medium, options), ray);
+        let by_triangles = followed(&StoneTracer::new(&mesh, medium, options), ray);
         prop_assert_eq!(by_planes.is_some(), by_triangles.is_some());
         let (Some((a, p)), Some((b, t))) = (by_planes, by_triangles) else { return Ok(()) };
         prop_assert_eq!(a.len(), b.len());
@@ -102,8 +102,8 @@ fn shares(medium: Medium, lean: f64, polarised: bool) -> (f64, f64, Loss) {
     // The plates are turned, so that no axis is special.
     let turn = DQuat::from_rotation_x(0.3) * DQuat::from_rotation_z(0.8);
     let pose = Pose { at: DVec3::new(0.3, -0.2, 0.1), ..Pose::turned(turn) };
-    let shell = Arc::new(shell(clasp(60.0)).reframed(&pose));
-    let tracer = StoneTracer::new(&shell, medium, options(polarised, 1e-12));
+    let mesh = Arc::new(mesh(clasp(60.0)).reframed(&pose));
+    let tracer = StoneTracer::new(&mesh, medium, options(polarised, 1e-12));
     let direction = DVec3::new(0.0, -lean.cos(), lean.sin());
     let origin = DVec3::new(0.3, 0.0, 0.0) - direction * 9.0;
     let ray = (pose.place(origin), turn * direction);
@@ -149,7 +149,7 @@ fn light_that_enters_again_keeps_its_polarisation() {
 
 #[test]
 fn through_corners_edges_and_along_facets_no_light_is_lost() {
-    let shapes = [shell(heart()), shell(star()), shell(clasp(0.5))];
+    let shapes = [mesh(heart()), mesh(star()), mesh(clasp(0.5))];
     let slant = DVec3::new(0.31, -0.47, 0.83);
     let ways = [
         DVec3::NEG_Z,
@@ -158,10 +158,10 @@ fn through_corners_edges_and_along_facets_no_light_is_lost() {
         slant / slant.length(),
         DVec3::new(slant.y, slant.z, slant.x) / slant.length(),
     ];
-    for (shell, medium) in shapes.iter().flat_map(|s| [1.0, 1.54, 2.4175].map(|n| (s, Medium::clear(n)))) {
-        let tracer = StoneTracer::new(shell, medium, options(true, 1e-6));
-        let edges = shell.surface().triangles.iter().flat_map(|t| {
-            let [a, b, c] = t.map(|v| shell.vertices()[v as usize]);
+    for (mesh, medium) in shapes.iter().flat_map(|s| [1.0, 1.54, 2.4175].map(|n| (s, Medium::clear(n)))) {
+        let tracer = StoneTracer::new(mesh, medium, options(true, 1e-6));
+        let edges = mesh.surface().triangles.iter().flat_map(|t| {
+            let [a, b, c] = t.map(|v| mesh.vertices()[v as usize]);
             [a, 0.5 * (a + b), 0.5 * (b + c), 0.25 * a + 0.75 * c]
         });
         let mut beside = vec![];

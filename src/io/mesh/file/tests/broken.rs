@@ -82,12 +82,12 @@ fn broken_textures_and_materials_are_a_warning_and_the_shape_is_read() {
         }
         let file = opened(&root).unwrap_or_else(|e| panic!("{what}: {e}"));
         assert_eq!(file.surface, whole.surface, "{what}");
-        let told = file.warnings.join("; ");
+        let warnings = file.warnings.join("; ");
         assert!(
-            told.contains("beside the shape are left out, because the file is broken: "),
-            "{what}: {told}"
+            warnings.contains("beside the shape are left out, because the file is broken: "),
+            "{what}: {warnings}"
         );
-        assert!(!told.contains("no glTF") && file.warnings.len() == 1, "{what}: {told}");
+        assert!(!warnings.contains("no glTF") && file.warnings.len() == 1, "{what}: {warnings}");
         assert!(whole.statement.is_some() && file.statement == whole.statement, "{what}");
         assert_eq!(file.hint.is_some(), keeps_light, "{what}: {:?}", file.hint);
         assert!(!keeps_light || file.hint == whole.hint, "{what}: {:?}", file.hint);

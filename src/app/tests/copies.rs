@@ -31,7 +31,7 @@ fn bench(scene: &str) -> Bench {
 }
 
 fn poses(editor: &Editor) -> Vec<crate::scene::Pose> {
-    editor.model.document.work.company.poses.clone()
+    editor.model.document.work.copies.poses.clone()
 }
 
 /// Returns the place in the window of a point of the film.
@@ -101,13 +101,13 @@ fn what_moves_is_shown_moving_and_stands_still_when_stopped() {
     bench.harness.state_mut().model.workspace.smoothing = Smoothing::Temporal { newest: 0.5 };
     let pictures = |bench: &Bench| {
         let shown = &bench.editor().views.gallery.traced[&(0, Which::Present)];
-        (shown.shot.company.clone(), shown.taken.image.pixels.clone())
+        (shown.shot.copies.clone(), shown.taken.image.pixels.clone())
     };
     bench.wait(|editor| editor.views.gallery.traced.contains_key(&(0, Which::Present)));
     let first = pictures(&bench);
     let later = first.0.clone();
     bench.wait(move |editor| {
-        editor.views.gallery.traced.get(&(0, Which::Present)).is_some_and(|shown| shown.shot.company != later)
+        editor.views.gallery.traced.get(&(0, Which::Present)).is_some_and(|shown| shown.shot.copies != later)
     });
     let second = pictures(&bench);
     assert!(first.0 != second.0 && first.1 != second.1);
@@ -136,7 +136,7 @@ fn scene_files_open_and_those_of_several_designs_are_refused_in_words() {
     let text = "format = 1\nname = \"Mine\"\nlayout = \"row\"\n[[stone]]\ncut = \"cube\"\nsize = \"12mm\"\ncount = 3\n";
     std::fs::write(&path, text).unwrap();
     let mut bench = bench(&path.to_string_lossy());
-    bench.wait(|editor| editor.model.document.work.company.poses.len() == 3);
+    bench.wait(|editor| editor.model.document.work.copies.poses.len() == 3);
     assert_eq!(bench.editor().model.document.work.design.diameter_mm, 12.0);
     std::fs::write(&path, format!("{text}[[stone]]\ncut = \"pill\"\n")).unwrap();
     bench.choices.lock().unwrap().push(path);
@@ -147,9 +147,9 @@ fn scene_files_open_and_those_of_several_designs_are_refused_in_words() {
 }
 
 /// Returns the place of each copy relative to the first, in mm, and its rotation.
-fn arrangement(company: &Copies, unit_mm: f64) -> Vec<(glam::DVec3, glam::DQuat)> {
-    let first = company.poses[0].at;
-    company.poses.iter().map(|pose| ((pose.at - first) * unit_mm, pose.turn)).collect()
+fn arrangement(copies: &Copies, unit_mm: f64) -> Vec<(glam::DVec3, glam::DQuat)> {
+    let first = copies.poses[0].at;
+    copies.poses.iter().map(|pose| ((pose.at - first) * unit_mm, pose.turn)).collect()
 }
 
 #[test]
@@ -167,7 +167,7 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
         bench.harness.state_mut().model.workspace.eye.turn = turn;
         bench.harness.state_mut().model.workspace.behind.get_or_insert("page".to_owned());
         // One copy lies behind the others, so that the centre of all copies is not that of the first.
-        if let [.., last] = &mut bench.harness.state_mut().model.document.work.company.poses[1..] {
+        if let [.., last] = &mut bench.harness.state_mut().model.document.work.copies.poses[1..] {
             last.at.z -= 3.0;
         }
         bench.harness.run_steps(2);
@@ -183,12 +183,12 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
         let unit_mm = shot.specimen.unit_mm();
         // The background is as far from each stone as before.
         let farther = again.scene.background_distance_mm.unwrap() / unit_mm - hung(shot);
-        let deeper = again.company.poses[0].at.z - shot.company[0].at.z;
+        let deeper = again.copies.poses[0].at.z - shot.copies[0].at.z;
         assert!((farther + deeper).abs() < 1e-9, "{scene}: {farther} {deeper}");
         assert_eq!(shot.view.turn, glam::DQuat::from_rotation_z(turn));
-        let poses = shot.company.iter().map(|pose| Pose::turned(shot.view.turn).after(pose)).collect();
+        let poses = shot.copies.iter().map(|pose| Pose::turned(shot.view.turn).after(pose)).collect();
         let shown = arrangement(&Copies { poses, room: None }, unit_mm);
-        for ((at, turn), (there, turned)) in arrangement(&again.company, unit_mm).into_iter().zip(shown) {
+        for ((at, turn), (there, turned)) in arrangement(&again.copies, unit_mm).into_iter().zip(shown) {
             assert!(at.distance(there) < 1e-9 && turn.dot(turned).abs() > 1.0 - 1e-12, "{at} {there}");
         }
     }
@@ -211,11 +211,11 @@ fn whoever_holds_a_copy_that_goes_lets_go_of_it() {
         bench.harness.step();
     }
     assert_eq!(bench.editor().model.session.held, Some((0, 3)));
-    bench.harness.state_mut().model.document.work.company = Copies::default();
+    bench.harness.state_mut().model.document.work.copies = Copies::default();
     bench.harness.hover_at(pos + egui::vec2(40.0, 0.0));
     bench.harness.step();
     assert_eq!(bench.editor().model.session.held, None);
-    assert_eq!(bench.editor().model.document.work.company, Copies::default());
+    assert_eq!(bench.editor().model.document.work.copies, Copies::default());
 }
 
 #[test]
@@ -223,7 +223,7 @@ fn turning_all_keeps_copies_apart_and_the_hand_on_the_one_it_holds() {
     let mut bench = bench("subtle-pill");
     let shown = |bench: &Bench| -> Vec<Pose> {
         let shot = &bench.editor().model.session.ordered.shots[0].1;
-        shot.company.iter().map(|pose| Pose::turned(shot.view.turn).after(pose)).collect()
+        shot.copies.iter().map(|pose| Pose::turned(shot.view.turn).after(pose)).collect()
     };
     let before = shown(&bench);
     bench.harness.state_mut().model.workspace.eye.turn = 1.2;

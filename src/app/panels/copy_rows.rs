@@ -44,7 +44,7 @@ pub fn presets(actions: &mut Actions, ui: &mut Ui) {
 
 /// Draws the rows for copies, motion, smoothing and the angle of view.
 pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
-    let count = model.document.work.company.poses.len();
+    let count = model.document.work.copies.poses.len();
     copies(count, actions, ui);
     motion(model.session.motion, actions, ui);
     ui.horizontal(|ui| {
