@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             println!("  {:<12}{:>4} facets of {:.3}°", tier.name, tier.facets, tier.slope_deg.mean);
         }
     }
-    let bounds = Bounds { unresolved: 2e-3, ..Bounds::default() };
+    let bounds = Bounds { standard_error: Some(1e-3), ..Bounds::default() };
     let measured =
         brillianteer::measure(&read.design, &MeasureOptions { bounds, ..MeasureOptions::default() })?;
     println!("light return {:.2} %, traced by {}", 100.0 * measured.light_return(), measured.tracer);

@@ -9,7 +9,7 @@ use brillianteer::render::MeasureOptions;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let text = library::cut("modern-ideal").ok_or("no such cut")?;
     let mut design = cut_file::parse(text, "modern-ideal")?;
-    let bounds = Bounds { unresolved: 2e-3, ..Bounds::default() };
+    let bounds = Bounds { standard_error: Some(1e-3), ..Bounds::default() };
     let options = MeasureOptions { bounds, ..MeasureOptions::default() };
     println!("pavilion   light return   leakage");
     for step in 0..=8 {

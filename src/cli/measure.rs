@@ -70,16 +70,24 @@ fn table(report: &FigureReport, timing: bool) -> String {
         viewing.viewpoint.description(),
         scope.name,
     );
-    let mut line = |name: &str, [glare, rest @ ..]: [String; 3]| {
-        let columns = Some(glare).filter(|_| has_glare).into_iter().chain(rest);
-        let columns: String = columns.map(|column| format!("{column:>12}")).collect();
+    let errors = f.estimate.as_ref().map(|estimate| [estimate.standard_errors(), estimate.area_errors()]);
+    let mut line = |name: &str, [glare, light, area]: [String; 3], [of_light, of_area]: [String; 2]| {
+        let glare = Some(glare).filter(|_| has_glare);
+        let [of_light, of_area] = [of_light, of_area].map(|error| errors.as_ref().map(|_| error));
+        let columns = [(glare, 12), (Some(light), 13), (of_light, 8), (Some(area), 11), (of_area, 8)];
+        let columns = columns.into_iter().filter_map(|(text, width)| Some((text?, width)));
+        let columns: String = columns.map(|(text, width)| format!("{text:>width$}")).collect();
         let _ = writeln!(text, "{name:<12}{columns}");
     };
-    line("% of face", ["glare", "transmitted", "strongest"].map(String::from));
-    let mut row = |name: &str, values: [f64; 3]| line(name, values.map(|v| format!("{:.3}", 100.0 * v)));
+    let of = |part: f64| format!("{:.3}", 100.0 * part);
+    let heads = ["glare", "transmitted", "strongest"].map(String::from);
+    line("% of face", heads, ["± error", "± error"].map(String::from));
     for (i, band) in scope.bands.iter().enumerate().rev() {
-        row(&band.name, [f.surface[i], f.transmitted[i], f.strongest_exit_area[i]]);
+        let error = |which: usize| errors.as_ref().map_or(String::new(), |all| of(all[which][i]));
+        let values = [f.surface[i], f.transmitted[i], f.strongest_exit_area[i]];
+        line(&band.name, values.map(of), [error(0), error(1)]);
     }
+    let mut row = |name: &str, values: [f64; 3]| line(name, values.map(of), [String::new(), String::new()]);
     row("undecided", [0.0, 0.0, f.strongest_exit_undecided]);
     let sum = |zones: &[f64]| zones.iter().sum::<f64>();
     row(
@@ -91,20 +99,30 @@ fn table(report: &FigureReport, timing: bool) -> String {
         true => format!("with glare {:.3} %", 100.0 * (returned + glare)),
         false => format!("glare of {:.3} % is left out", 100.0 * measured.glare()),
     };
-    let _ = write!(
-        text,
-        "\nlight return {:.3} %, {glare}, absorbed {:.3} %, unresolved {:.3} %{}\n{} by {} {}",
-        100.0 * returned,
-        100.0 * f.absorbed,
-        100.0 * f.unresolved,
-        match report.backend.is_beams() {
-            true => " (the most by which any light is too low)".to_string(),
-            false => format!(", standard error {:.3} %", 100.0 * f.standard_error),
-        },
-        if viewing.polarised { "polarised," } else { "unpolarised," },
-        f.beams,
-        report.backend.description(),
-    );
+    let error = measured.light_return_error().map_or(String::new(), |error| format!(" ± {} %", of(error)));
+    let _ =
+        write!(text, "\nlight return {} %{error}, {glare}, absorbed {} %, ", of(returned), of(f.absorbed),);
+    let polarised = if viewing.polarised { "polarised" } else { "unpolarised" };
+    let (open, how) = (of(f.unresolved), report.backend.description());
+    let _ = match &f.estimate {
+        Some(estimate) => write!(
+            text,
+            "certain but for {open} %, of which rays estimate where it goes\n{polarised}, {} by {how}, and {} rays; \
+                errors are standard errors",
+            f.beams, estimate.rays,
+        ),
+        None if report.backend.is_beams() => write!(
+            text,
+            "unresolved {open} % (the most by which any light is too low)\n{polarised}, {} by {how}",
+            f.beams,
+        ),
+        None => write!(
+            text,
+            "unresolved {open} %, standard error {} %\n{polarised}, {} by {how}",
+            of(f.standard_error),
+            f.beams,
+        ),
+    };
     if timing {
         let _ = write!(text, " in {:.3} s", report.seconds);
     }

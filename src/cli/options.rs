@@ -5,6 +5,7 @@ use crate::cut::Size;
 use crate::io::export::Viewing;
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{Failure, scope_file};
+use crate::measure::STANDARD_ERROR;
 use crate::optics::line;
 use crate::picture::{Picture, Scoped, named, names};
 use crate::render::{Renderer, Unfit, Wanted};
@@ -132,10 +133,13 @@ pub struct LightOptions {
     /// and arrows, which have their own hole for the eye)
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
     pub head: f64,
-    /// Follow the beams until no more than this part of the light is unresolved [default: 0.00015 for figures, 0.001 for
-    /// pictures]
+    /// Follow the beams until no more than this part of the light is unresolved [default: 0.001 for pictures, 0.00015 for
+    /// figures with --exact]
     #[arg(long, value_name = "PART", allow_negative_numbers = true, value_parser = number)]
     pub unresolved: Option<f64>,
+    /// Estimate nothing in figures: without this option, rays estimate where the light goes that the beams leave unresolved
+    #[arg(long)]
+    pub exact: bool,
     /// Treat the light as unpolarised at every surface, to compare with programs that do so
     #[arg(long)]
     pub unpolarised: bool,
@@ -184,6 +188,7 @@ impl LightOptions {
             wavelength_nm: self.index.is_none().then(|| self.wavelength()),
             head_deg: self.head()?,
             unresolved: self.unresolved()?,
+            standard_error: (!self.exact).then_some(STANDARD_ERROR),
             polarised: !self.unpolarised,
             glare: match (self.glare, self.no_glare) {
                 (true, _) => Some(Glare::Included),

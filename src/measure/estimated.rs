@@ -80,9 +80,7 @@ impl Estimate {
         let of = |i: usize, j: usize| self.covariance[i * n + j];
         let kept: Vec<usize> = (0..n).filter(|&i| i != k + 1).collect();
         let group = |i: usize| if i == k { vec![k, k + 1] } else { vec![i] };
-        let joined = kept.iter().flat_map(|&i| {
-            kept.iter().map(move |&j| (group(i), group(j)))
-        });
+        let joined = kept.iter().flat_map(|&i| kept.iter().map(move |&j| (group(i), group(j))));
         let covariance =
             joined.map(|(a, b)| a.iter().flat_map(|&i| b.iter().map(move |&j| of(i, j))).sum()).collect();
         self.covariance = covariance;
@@ -193,7 +191,8 @@ impl Sampler<'_> {
     fn ray(&self, (stratum, strata): (u64, u64), number: u64, values: &mut [f64]) {
         let bands = self.scope.bands.len();
         values.fill(0.0);
-        let [place, x, y, luck] = [0, 1, 2, 3].map(|k| unit(mixed((4 * number + k) ^ strata.rotate_left(40))));
+        let [place, x, y, luck] =
+            [0, 1, 2, 3].map(|k| unit(mixed((4 * number + k) ^ strata.rotate_left(40))));
         let place = (stratum as f64 + place) / strata as f64;
         let ray = self.tail.follow(place, DVec2::new(x, y), luck, |direction, share| {
             values[self.scope.band(direction, self.zenith)] += share;

@@ -9,11 +9,13 @@ pub type Zones = Vec<f64>;
 
 /// The shares that the light of one view takes, as fractions of the silhouette.
 ///
-/// `surface`, `transmitted`, `absorbed` and `unresolved` add up to 1, and so do `strongest_exit_area` and
-/// `strongest_exit_undecided`.
+/// `surface`, `transmitted`, `absorbed` and the light that was not followed (see [`uncertain`](Self::uncertain)) add up to
+/// 1, and so do `strongest_exit_area` and `strongest_exit_undecided`.
 ///
 /// From beams, glare is exact. Transmitted and absorbed light may each be too low by up to `unresolved`, and the areas
-/// of strongest exits by up to `strongest_exit_undecided`. From rays, `standard_error` is the error of sampling.
+/// of strongest exits by up to `strongest_exit_undecided`. Where what the beams have left is estimated, each of these
+/// contains its estimated part: without it, it is certainly not too high. From rays, `standard_error` is the error of
+/// sampling.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figures {
     /// Area of the silhouette, in squared girdle radii.
@@ -29,20 +31,26 @@ pub struct Figures {
     pub strongest_exit_undecided: f64,
     /// The part of the light that is absorbed inside the stone.
     pub absorbed: f64,
-    /// The part of the light that was not followed to its end. It bounds the error of each zone's light.
+    /// The part of the light that was not followed to its end by beams, or by the rays of sampled figures. It bounds the
+    /// error of each zone's light, whether it is estimated or not.
     pub unresolved: f64,
     /// The number of beams in one domain of the view's symmetry, or of rays that hit the stone.
     pub beams: usize,
-    /// The largest standard error of any zone; 0 for beams, which sample nothing.
+    /// The largest standard error of the light of any zone; 0 for beams alone, which sample nothing.
     pub standard_error: f64,
     /// The estimated part of the figures, which they contain; `None` where all of them is exact or sampled.
     pub estimate: Option<Estimate>,
 }
 
 impl Figures {
-    /// Returns all light that is accounted for: 1 up to rounding.
+    /// Returns all light that is accounted for: 1 up to rounding, and up to the error of an estimate.
     pub fn sum(&self) -> f64 {
-        self.surface.iter().chain(&self.transmitted).sum::<f64>() + self.absorbed + self.unresolved
+        self.surface.iter().chain(&self.transmitted).sum::<f64>() + self.absorbed + self.uncertain()
+    }
+
+    /// Returns the part of the light of which nothing is known, not even by an estimate.
+    pub fn uncertain(&self) -> f64 {
+        self.estimate.as_ref().map_or(self.unresolved, |estimate| estimate.unresolved)
     }
 
     /// Returns the light return under the scope that these figures were measured with: light that has been inside the

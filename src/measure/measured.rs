@@ -3,9 +3,12 @@
 use super::figures::Figures;
 use crate::scene::Scope;
 
-/// The default for the part of the light that may stay unresolved. Face up it takes a few hundredths of a second, tilted
-/// some seconds.
+/// The part of the light that may usually stay unresolved where nothing is estimated. Face up it takes a few hundredths of
+/// a second, tilted some seconds.
 pub const UNRESOLVED: f64 = 1.5e-4;
+
+/// The usual standard error of figures whose rest is estimated.
+pub const STANDARD_ERROR: f64 = 1e-4;
 
 /// The default number of rays along each side of one lattice, for figures by rays.
 pub const LATTICE: u32 = 256;
@@ -14,8 +17,12 @@ pub const LATTICE: u32 = 256;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
     /// The part of the light that may stay unresolved, above 0 and below 1. Beams are followed until no more than this
-    /// part of all light is unresolved, a ray until no more than this part of its own light is left.
-    pub unresolved: f64,
+    /// part of all light is unresolved, a ray until no more than this part of its own light is left. `None` is
+    /// [`UNRESOLVED`]; but where the rest of beams is estimated, they are then followed as far as the estimate needs.
+    pub unresolved: Option<f64>,
+    /// The standard error, a part of the silhouette's light, to which rays estimate in each zone the light that beams have
+    /// left; above 0. `None` where nothing is estimated. Figures by rays alone do not use it.
+    pub standard_error: Option<f64>,
     /// Whether polarisation is followed; without it, every surface sees unpolarised light.
     pub polarised: bool,
     /// Rays along each side of a lattice, 1 to 16,384. Beams do not use it.
@@ -24,7 +31,20 @@ pub struct Bounds {
 
 impl Default for Bounds {
     fn default() -> Self {
-        Self { unresolved: UNRESOLVED, polarised: true, lattice: LATTICE }
+        let standard_error = Some(STANDARD_ERROR);
+        Self { unresolved: None, standard_error, polarised: true, lattice: LATTICE }
+    }
+}
+
+impl Bounds {
+    /// Returns the bounds of figures of which nothing is estimated.
+    pub fn exact(unresolved: f64) -> Self {
+        Self { unresolved: Some(unresolved), standard_error: None, ..Self::default() }
+    }
+
+    /// Returns the part of the light that beams may leave unresolved: all of it where only an estimate was asked for.
+    pub fn left_by_beams(&self) -> f64 {
+        self.unresolved.unwrap_or(if self.standard_error.is_some() { 1.0 } else { UNRESOLVED })
     }
 }
 
@@ -40,6 +60,7 @@ pub struct Measured {
     /// The tracer's short name: `beam`, `ray` or `gpu`.
     pub tracer: &'static str,
     light_return: f64,
+    light_return_error: Option<f64>,
     glare_return: f64,
 }
 
@@ -68,11 +89,20 @@ pub fn measured<E>(
     let (split, below) = scope.clone().with_horizon();
     let mut figures = figures(&split)?;
     let light_return = figures.light_return(&split);
+    let light_return_error = figures.estimate.as_ref().map(|e| e.standard_error_of(split.shining()));
     let glare_return = figures.glare_return(&split);
     if let Some(below) = below {
         figures.join(below);
     }
-    Ok(Measured { figures, scope: scope.clone(), index, tracer, light_return, glare_return })
+    Ok(Measured {
+        figures,
+        scope: scope.clone(),
+        index,
+        tracer,
+        light_return,
+        light_return_error,
+        glare_return,
+    })
 }
 
 impl Measured {
@@ -114,9 +144,15 @@ impl Measured {
 
     /// Returns how far off a share of light may be.
     ///
-    /// With beams, a share may be too low by this much and is never too high. With rays, twice the standard error of
-    /// sampling is included, which acts in both directions.
+    /// With beams alone, a share may be too low by this much and is never too high. With an estimate of what beams have
+    /// left, it is twice the standard error; a share is then certainly no lower than without its estimated part, and no
+    /// higher than that by more than [`Figures::unresolved`]. With rays, it is what they leave and twice the standard error.
     pub fn error(&self) -> f64 {
-        self.figures.unresolved + 2.0 * self.figures.standard_error
+        self.figures.uncertain() + 2.0 * self.figures.standard_error
+    }
+
+    /// Returns the standard error of [`light_return`](Self::light_return), where a part of it is estimated.
+    pub fn light_return_error(&self) -> Option<f64> {
+        self.light_return_error
     }
 }

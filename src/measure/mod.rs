@@ -9,7 +9,7 @@ mod sampled;
 
 pub use estimated::{Estimate, by_beams_and_rays};
 pub use figures::{Figures, Zones, by_beams};
-pub use measured::{Bounds, LATTICE, Measured, UNRESOLVED, Zone, measured};
+pub use measured::{Bounds, LATTICE, Measured, STANDARD_ERROR, UNRESOLVED, Zone, measured};
 #[cfg(feature = "gpu")]
 pub use sampled::by_gpu;
 pub use sampled::by_rays;

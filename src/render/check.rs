@@ -166,6 +166,7 @@ impl Job {
 impl Quality {
     fn check(&self, product: &Product) -> Result<(), JobError> {
         share("quality.beams.unresolved", self.beams.unresolved)?;
+        self.standard_error.map_or(Ok(()), |error| positive("quality.standard_error", error))?;
         share("quality.rays.least_weight", self.rays.least_weight)?;
         let counts = match product {
             Product::Light(_) | Product::RefractionMap(_) | Product::LiquidGlass(_) => PASSES,

@@ -3,7 +3,7 @@
 
 use super::Wanted;
 use super::surroundings::Surroundings;
-use crate::measure::Bounds;
+use crate::measure::{Bounds, UNRESOLVED};
 use crate::optics::{Stratum, strata};
 use crate::picture::liquid_glass::GlassPane;
 use crate::picture::{Backdrop, Survey};
@@ -151,6 +151,9 @@ pub struct Quality {
     pub tracer: Wanted,
     /// How far exact beams are followed.
     pub beams: BeamOptions,
+    /// The standard error, a part of the silhouette's light, to which figures estimate by rays what beams have left, above
+    /// 0; `None` where they estimate nothing. Pictures do not use it.
+    pub standard_error: Option<f64>,
     /// How far rays are followed.
     pub rays: RayOptions,
     /// The number of samples: passes of a picture under light, of a map's diffuse layer and of a pane; rays along each side
@@ -175,6 +178,7 @@ impl Quality {
         Self {
             tracer: Wanted::Quickest,
             beams: BeamOptions { unresolved, polarised, most_beams, ..BeamOptions::default() },
+            standard_error: None,
             rays: RayOptions { polarised, ..RAYS },
             samples: None,
         }
@@ -182,11 +186,13 @@ impl Quality {
 
     /// Returns the quality of figures that are followed to these bounds.
     pub fn of_figures(bounds: &Bounds, tracer: Wanted) -> Self {
-        let Bounds { unresolved, polarised, lattice } = *bounds;
+        let Bounds { standard_error, polarised, lattice, .. } = *bounds;
+        let (unresolved, least_weight) = (bounds.left_by_beams(), bounds.unresolved.unwrap_or(UNRESOLVED));
         Self {
             tracer,
             beams: BeamOptions { unresolved, polarised, ..BeamOptions::default() },
-            rays: RayOptions { least_weight: unresolved, polarised, ..RayOptions::default() },
+            standard_error,
+            rays: RayOptions { least_weight, polarised, ..RayOptions::default() },
             samples: Some(lattice),
         }
     }

@@ -107,7 +107,7 @@ impl MeasureOptions {
 
     /// Checks that the scope is valid and every number in its range.
     fn check(&self) -> Result<(), MeasureError> {
-        let (view, Bounds { unresolved, lattice, .. }) = (&self.viewpoint, self.bounds);
+        let (view, Bounds { unresolved, standard_error, lattice, .. }) = (&self.viewpoint, self.bounds);
         let (head, nm) = (self.head_deg, self.wavelength_nm);
         demand((0.0..90.0).contains(&head), "head_deg", head, "0 to below 90 degrees")?;
         self.scope_with_head().validate()?;
@@ -118,8 +118,10 @@ impl MeasureOptions {
         if let Projection::Perspective { distance } = view.projection {
             positive("distance", distance)?;
         }
-        let is_part = unresolved > 0.0 && unresolved < 1.0;
-        demand(is_part, "unresolved", unresolved, "a part between 0 and 1")?;
+        let is_part = |part: f64| part > 0.0 && part < 1.0;
+        for (name, part) in [("unresolved", unresolved), ("standard_error", standard_error)] {
+            part.map_or(Ok(()), |part| demand(is_part(part), name, part, "a part between 0 and 1"))?;
+        }
         demand_count("lattice", lattice, &LATTICES)?;
         Ok(())
     }

@@ -5,10 +5,10 @@ use super::job::{FiguresProduct, Job, Reading, ScopeProduct};
 use super::plan::Unfit;
 use super::renderer::{EachPart, Halt, Output, Partial, RenderError, Renderer};
 use crate::math::{Polytope, SolidRef};
-use crate::measure::{self, measured};
+use crate::measure::{self, Figures, measured};
 use crate::picture::{Layer, Rows, by_rays, paint};
-use crate::scene::Body;
-use crate::trace::{ScopeShot, Watch};
+use crate::scene::{Body, Scope};
+use crate::trace::{ScopeShot, Watch, beam};
 use glam::DVec2;
 use std::sync::Arc;
 
@@ -84,10 +84,13 @@ impl Renderer {
         let solid = job.stone().map_err(RenderError::from)?;
         let (view, manner) = (&job.view, (job.quality.rays, lattice));
         let measured = measured::<Halt<E>>(scope, medium.index, backend.name(), |scope| match backend {
-            Backend::Beams => {
-                let beams = self.beams.of(job.convex()?, *medium, view, &job.quality.beams, watch)?;
-                Ok(measure::by_beams(&beams, scope))
-            }
+            Backend::Beams => match job.quality.standard_error {
+                Some(standard_error) => Ok(job.estimated(product, scope, standard_error, watch)?),
+                None => {
+                    let beams = self.beams.of(job.convex()?, *medium, view, &job.quality.beams, watch)?;
+                    Ok(measure::by_beams(&beams, scope))
+                }
+            },
             Backend::Rays => Ok(measure::by_rays(solid, *medium, view, scope, manner, watch)?),
             #[cfg(feature = "gpu")]
             Backend::Card(gpu) => measure::by_gpu::<Halt<E>>(gpu, solid, *medium, view, scope, manner, watch),
@@ -100,6 +103,21 @@ impl Job {
     /// Returns the stone that scopes and figures are of.
     pub(super) fn stone(&self) -> Result<SolidRef<'_>, Unfit> {
         self.scene.instances.first().map(|stone| stone.body.solid()).ok_or(Unfit::NoStone)
+    }
+
+    /// Measures figures by beams, and by rays what these leave, each as far as the other makes it worth its time.
+    fn estimated(
+        &self,
+        product: &FiguresProduct,
+        scope: &Scope,
+        standard_error: f64,
+        watch: Watch,
+    ) -> Result<Figures, RenderError> {
+        let (_, polytope) = self.convex()?;
+        let half = |part: f64| move |done: f64| watch((part + done) / 2.0);
+        let to = Some(standard_error);
+        let grown = beam::grow(polytope, product.medium, &self.view, &self.quality.beams, to, &half(0.0))?;
+        Ok(measure::by_beams_and_rays(polytope, &grown, scope, standard_error, &half(1.0))?)
     }
 
     /// Returns the body that exact beams trace, with its polytope.

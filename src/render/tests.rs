@@ -377,7 +377,7 @@ fn work_that_is_stopped_says_so_and_an_error_of_the_caller_comes_back() {
 
 #[test]
 fn figures_of_bounds_are_followed_to_them() {
-    let bounds = Bounds { unresolved: 1e-2, ..Bounds::default() };
+    let bounds = Bounds::exact(1e-2);
     let quality = Quality::of_figures(&bounds, Wanted::Quickest);
     let rough = Job { quality, ..job(Scene::alone(&specimen("round_brilliant")), figures()) };
     let measured = done(&rough).figures().unwrap();

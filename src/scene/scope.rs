@@ -184,7 +184,7 @@ impl Scope {
     }
 
     /// Returns the places of the bands from the horizon up that send light; black ones send none.
-    pub fn shining(&self) -> impl Iterator<Item = usize> + '_ {
+    pub fn shining(&self) -> impl Iterator<Item = usize> + Clone + '_ {
         let bands = self.bands.iter().enumerate();
         bands.filter(|(_, b)| b.from >= 0.0 && b.colour != BLACK).map(|(k, _)| k)
     }

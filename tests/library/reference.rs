@@ -180,7 +180,7 @@ fn design(name: &str) -> Design {
 #[test]
 fn one_call_measures_a_design_as_the_tracers_do() {
     let tolkowsky = design("tolkowsky");
-    let bounds = Bounds { unresolved: 2e-3, ..Bounds::default() };
+    let bounds = Bounds::exact(2e-3);
     let options = MeasureOptions { bounds, ..MeasureOptions::default() };
     let measured = brillianteer::measure(&tolkowsky, &options).unwrap();
     let stone = Stone::new(&tolkowsky.facets().unwrap()).unwrap();
@@ -215,7 +215,7 @@ fn light_return_counts_from_the_horizon_whatever_the_borders_of_the_scope() {
     ];
     let scope = Scope { name: "mine".into(), bands };
     for tracer in [Wanted::Beams, Wanted::Rays] {
-        let bounds = Bounds { unresolved: 2e-3, lattice: 48, ..Bounds::default() };
+        let bounds = Bounds { lattice: 48, ..Bounds::exact(2e-3) };
         let options = MeasureOptions { bounds, tracer, ..MeasureOptions::default() };
         let usual = brillianteer::measure(&tolkowsky, &options).unwrap();
         let mine =
@@ -241,10 +241,7 @@ fn what_cannot_be_measured_is_refused_by_name() {
         (MeasureOptions { index: Some(0.5), ..MeasureOptions::default() }, "index is 0.5; give 1 (air) to 5"),
         (MeasureOptions { wavelength_nm: f64::NAN, ..MeasureOptions::default() }, "wavelength_nm is NaN"),
         (
-            MeasureOptions {
-                bounds: Bounds { unresolved: 0.0, ..Bounds::default() },
-                ..MeasureOptions::default()
-            },
+            MeasureOptions { bounds: Bounds::exact(0.0), ..MeasureOptions::default() },
             "unresolved is 0; give a part between 0 and 1",
         ),
         (

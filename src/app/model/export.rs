@@ -6,6 +6,7 @@ use crate::app::studio::Shot;
 use crate::io::Failure;
 use crate::io::export::{Export, OutputFormat, Outputs, Viewing};
 use crate::io::refraction::{self, Coding, MOST_MAP_BANDS, MOST_MAP_PIXELS};
+use crate::measure::STANDARD_ERROR;
 use crate::optics::line;
 use crate::picture::named;
 use crate::render::{Renderer, Wanted};
@@ -132,6 +133,7 @@ impl ExportPlan {
             wavelength_nm: Some(line::SODIUM_D),
             head_deg: self.shot.head,
             unresolved: None,
+            standard_error: Some(STANDARD_ERROR),
             polarised: true,
             // `None` leaves glare out of pictures; figures list it in any case.
             glare: Some(self.shot.glare).filter(|glare| *glare == Glare::Included),

@@ -45,7 +45,7 @@ pub static ZONES: [Figure; 5] = [
 ];
 
 /// The figures of energy that are not zones, in the order of the panel.
-pub(super) static TOTALS: [Figure; 5] = [
+pub(super) static TOTALS: [Figure; 6] = [
     Figure {
         is_strong: true,
         ..total("Light return", LIGHT_RETURN, |figures, scope| figures.light_return(scope))
@@ -58,6 +58,11 @@ pub(super) static TOTALS: [Figure; 5] = [
     }),
     total("Absorbed", "Light that the colour of the stone absorbs.", |figures, _| figures.absorbed),
     total("Unresolved", UNRESOLVED, |figures, _| figures.unresolved),
+    total(
+        ESTIMATED,
+        "Light that exact beams have left unresolved. Rays estimate where it goes, and the other figures contain it.",
+        |figures, _| figures.unresolved,
+    ),
 ];
 
 /// The one figure of areas that is not a zone.
@@ -104,6 +109,9 @@ const HEAD: &str = "Head";
 /// The name of the total that is shown where glare is included.
 const WITH_GLARE: &str = "With glare";
 
+/// The name of the total that stands for the unresolved light where it is estimated.
+const ESTIMATED: &str = "Estimated";
+
 /// How figures are counted.
 #[derive(Debug, Clone, Copy)]
 pub struct Counting {
@@ -149,6 +157,8 @@ pub fn lines(measured: &ShownFigures, other: Option<&ShownFigures>, counting: Co
     let is_shown = |figure: &&Figure| match figure.name {
         HEAD => measured.order.head > 0.0,
         WITH_GLARE => counting.glare == Glare::Included,
+        "Unresolved" => measured.figures.estimate.is_none(),
+        ESTIMATED => measured.figures.estimate.is_some(),
         _ => true,
     };
     let line = |figure: &'static Figure| FigureLine {
@@ -173,7 +183,7 @@ fn error(present: &ShownFigures, other: &ShownFigures, by_area: bool) -> f64 {
     }
     let unresolved = both.map(|ShownFigures { figures, .. }| match by_area {
         true => figures.strongest_exit_undecided,
-        false => figures.unresolved,
+        false => figures.uncertain(),
     });
     let sampled = SIGMAS * (present.figures.standard_error + other.figures.standard_error);
     unresolved[0].max(unresolved[1]) + sampled

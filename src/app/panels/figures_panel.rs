@@ -33,8 +33,8 @@ fn figures(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     ui.horizontal(|ui| {
         ui.label(RichText::new("Figures").heading()).on_hover_text(
             "The light of the linked views in the ordinary ASET, in percent of the stone's outline, at 589.3 nm \
-                (sodium). A figure may be too low by the unresolved light. Meshes and glass are measured by rays, \
-                which adds an error of sampling.",
+                (sodium). While figures become finer, they may be too low by the unresolved light; then rays estimate \
+                where it goes, which adds an error of sampling. Meshes and glass are measured by rays alone.",
         );
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.menu_button("Copy", |ui| copies(model, actions, ui));

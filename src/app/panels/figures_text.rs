@@ -22,9 +22,13 @@ pub fn state(model: &Model, measured: &ShownFigures) -> String {
         false => "becoming finer…",
     };
     let glare = model.workspace.glare().description();
-    match measured.figures.standard_error {
-        error if error > 0.0 => format!("{state}; by rays, standard error {:.2} %; {glare}", 100.0 * error),
-        _ => format!("{state}; {glare}"),
+    let error = match measured.figures.standard_error {
+        0.0 => return format!("{state}; {glare}"),
+        error => format!("standard error {:.2} %", 100.0 * error),
+    };
+    match measured.figures.estimate {
+        Some(_) => format!("{state}; {error}; {glare}"),
+        None => format!("{state}; by rays, {error}; {glare}"),
     }
 }
 

@@ -7,7 +7,7 @@ use super::pace::Pace;
 use super::take::ShotTracer;
 use crate::app::shows::Shows;
 use crate::io::Failure;
-use crate::measure::{Bounds, Figures, LATTICE, UNRESOLVED};
+use crate::measure::{Bounds, Figures, LATTICE};
 use crate::render::{Card, Job, RenderError, Rendered};
 use crate::scene::View;
 use crate::trace::gpu::Gpu;
@@ -22,9 +22,9 @@ use std::time::Instant;
 /// The tilts that figures are plotted against, in degrees.
 const TILTS: [f64; 13] = [-30.0, -25.0, -20.0, -15.0, -10.0, -5.0, 0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0];
 
-/// The share of the light that may stay unresolved in fair figures and in figures against tilt.
-const FAIR_FIGURES: f64 = 1e-3;
-const TILTED: f64 = 5e-3;
+/// The standard error of fair figures and of figures against tilt.
+const FAIR_FIGURES: f64 = 5e-4;
+const TILTED: f64 = 1e-3;
 
 /// Carries out orders, one after the other.
 pub(super) struct Worker {
@@ -176,7 +176,7 @@ impl Worker {
                 self.picture((*slot, shot), Grade::Rough, &HALFWAY, &watch)?;
             }
         }
-        let [fair_figures, fine_figures] = [bounds(FAIR_FIGURES, LATTICE / 4), bounds(UNRESOLVED, LATTICE)];
+        let [fair_figures, fine_figures] = [bounds(FAIR_FIGURES, LATTICE / 4), Bounds::default()];
         self.pictures(&turn.order, Grade::Fair, &FAIR, &watch)?;
         self.all_figures(&turn.order, Grade::Fair, |ask| ask.job(ask.view, &fair_figures), &watch)?;
         self.pictures(&turn.order, Grade::Fine, &fine, &watch)?;
@@ -296,8 +296,8 @@ fn stop_if(outdated: bool) -> ControlFlow<()> {
     if outdated { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }
 
-/// The bounds of figures by the share of the light that may stay unresolved, and by the number of points along each side of
-/// the lattices on which rays sample them.
-fn bounds(unresolved: f64, lattice: u32) -> Bounds {
-    Bounds { unresolved, lattice, ..Bounds::default() }
+/// The bounds of figures by their standard error where beams trace them, and by the number of points along each side of the
+/// lattices on which rays sample them.
+fn bounds(standard_error: f64, lattice: u32) -> Bounds {
+    Bounds { standard_error: Some(standard_error), lattice, ..Bounds::default() }
 }

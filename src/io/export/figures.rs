@@ -3,7 +3,7 @@
 use super::event::Reporter;
 use super::viewing::{Viewing, note};
 use crate::io::Failure;
-use crate::measure::{Measured, UNRESOLVED};
+use crate::measure::{Bounds, Estimate, Measured, UNRESOLVED};
 use crate::picture::Scoped;
 use crate::render::{Backend, FiguresProduct, Product, Renderer};
 use crate::scene::{Film, Glare, Lean, Projection, Viewpoint};
@@ -39,7 +39,10 @@ pub fn measure<'a>(
     let viewing = viewing.facing(scoped.side);
     viewing.check(renderer)?;
     let product = FiguresProduct { scope: scoped.with_head(viewing.head_deg), medium: viewing.medium };
-    let job = viewing.job(Film::NONE, Product::Figures(product), UNRESOLVED);
+    let mut job = viewing.job(Film::NONE, Product::Figures(product), UNRESOLVED);
+    let Viewing { unresolved, standard_error, .. } = viewing;
+    job.quality.standard_error = standard_error;
+    job.quality.beams.unresolved = Bounds { unresolved, standard_error, ..Bounds::default() }.left_by_beams();
     let start = Instant::now();
     let rendered = renderer.run(&job, watch, &mut |part| note(&part, tell))?;
     let seconds = start.elapsed().as_secs_f64();
@@ -83,6 +86,9 @@ impl FigureReport<'_> {
         set("absorbed", json!(figures.absorbed));
         set("unresolved", json!(figures.unresolved));
         set("beams", json!(figures.beams));
+        if let Some(estimate) = &figures.estimate {
+            set("estimated", self.estimated(estimate));
+        }
         if timing {
             set("seconds", json!(self.seconds));
         }
@@ -100,6 +106,24 @@ impl FigureReport<'_> {
             set("standard_error", json!(figures.standard_error));
         }
         value
+    }
+
+    /// Returns the parts of the figures that are estimated, and their standard errors.
+    fn estimated(&self, estimate: &Estimate) -> Value {
+        let zones = |values: &[f64]| Value::Object(self.zones(values));
+        json!({
+            "transmitted": zones(&estimate.transmitted),
+            "strongest_exit_area": zones(&estimate.strongest_exit_area),
+            "absorbed": estimate.absorbed,
+            "unresolved": estimate.unresolved,
+            "rays": estimate.rays,
+            "standard_error": {
+                "light_return": self.measured.light_return_error(),
+                "transmitted": zones(&estimate.standard_errors()),
+                "strongest_exit_area": zones(&estimate.area_errors()),
+                "absorbed": estimate.absorbed_error,
+            },
+        })
     }
 
     /// Returns the value of each band by name, the lowest band last. Bands that the observer's head hides have the value 0.

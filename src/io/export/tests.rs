@@ -22,6 +22,7 @@ fn viewing(specimen: &Specimen) -> Viewing<'_> {
         wavelength_nm: Some(589.3),
         head_deg: 10.0,
         unresolved: Some(0.3),
+        standard_error: None,
         polarised: true,
         glare: None,
         tracer: Wanted::Beams,

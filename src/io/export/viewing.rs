@@ -33,6 +33,8 @@ pub struct Viewing<'a> {
     pub head_deg: f64,
     /// The part of the light that may stay unresolved, between 0 and 1; `None` for the usual bound.
     pub unresolved: Option<f64>,
+    /// The standard error to which figures estimate what exact beams have left; `None` where they estimate nothing.
+    pub standard_error: Option<f64>,
     /// Whether reflection and refraction take the polarisation of the light into account.
     pub polarised: bool,
     /// Whether glare is shown. With `None`, pictures leave it out and figures list it beside the rest.
@@ -70,8 +72,8 @@ impl Viewing<'_> {
 
     /// Returns a job of this stone as it is viewed, with `usual` as the bound where none was requested.
     pub(super) fn job(&self, film: Film, product: Product, usual: f64) -> Job {
-        let quality =
-            Quality { tracer: self.tracer, beams: self.beams(usual), rays: self.rays(usual), samples: None };
+        let (tracer, beams, rays) = (self.tracer, self.beams(usual), self.rays(usual));
+        let quality = Quality { tracer, beams, standard_error: None, rays, samples: None };
         let view = self.view();
         Job { scene: Arc::new(Scene::alone(self.specimen)), view, film, product, quality }
     }
@@ -169,6 +171,7 @@ mod tests {
             wavelength_nm: None,
             head_deg: 0.0,
             unresolved,
+            standard_error: None,
             polarised: true,
             glare: None,
             tracer: Wanted::Beams,

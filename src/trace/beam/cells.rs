@@ -38,11 +38,7 @@ impl Beams {
         };
         (0..best.len())
             .filter(|&id| open_above(id) && (best[id].is_decided || !parted[id]))
-            .map(|id| Cell {
-                outline: id as u32,
-                strongest: best[id].exit,
-                undecided: !best[id].is_decided,
-            })
+            .map(|id| Cell { outline: id as u32, strongest: best[id].exit, undecided: !best[id].is_decided })
             .collect()
     }
 

@@ -175,7 +175,12 @@ impl<'a> Tracer<'a> {
         self.fronts.push(Front { node, bounces: 0, ray, light, s, energy });
     }
 
-    fn run(&mut self, options: &BeamOptions, mut effort: Option<Effort>, watch: Watch) -> Result<(), Stopped> {
+    fn run(
+        &mut self,
+        options: &BeamOptions,
+        mut effort: Option<Effort>,
+        watch: Watch,
+    ) -> Result<(), Stopped> {
         let whole = self.beams.silhouette_area / f64::from(self.beams.symmetry.order());
         let goal = options.unresolved.max(0.0) * whole;
         let mut level = whole / 64.0;

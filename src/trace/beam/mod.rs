@@ -16,6 +16,6 @@ mod sweep;
 mod tree;
 
 pub use cells::Cell;
-pub use grow::{BeamOptions, GrownBeams, grow, trace};
 pub(in crate::trace) use follow::Front;
+pub use grow::{BeamOptions, GrownBeams, grow, trace};
 pub use tree::{Beam, Beams};

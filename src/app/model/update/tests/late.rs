@@ -201,5 +201,6 @@ fn no_figures() -> Figures {
         unresolved: 0.0,
         beams: 0,
         standard_error: 0.0,
+        estimate: None,
     }
 }
