@@ -163,7 +163,13 @@ fn rows(job: &Job) -> Result<Vec<Row>, Failure> {
 
 fn quality(bounces: u32) -> Quality {
     let beams = beam::BeamOptions { unresolved: UNRESOLVED, ..beam::BeamOptions::default() };
-    Quality { tracer: Wanted::Quickest, beams, standard_error: None, rays: options(bounces), samples: Some(1) }
+    Quality {
+        tracer: Wanted::Quickest,
+        beams,
+        standard_error: None,
+        rays: options(bounces),
+        samples: Some(1),
+    }
 }
 
 /// Times an ASET picture by every tracer.

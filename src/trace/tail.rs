@@ -159,3 +159,102 @@ impl<'a> Tail<'a> {
         PathLight::of_fields(fields, [front.s, front.ray.direction.cross(front.s)])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::TOLKOWSKY;
+    use crate::math::{Plane, contains};
+    use crate::scene::{Medium, View};
+    use crate::trace::beam::{BeamOptions, grow, trace};
+    use crate::trace::unwatched;
+
+    fn brilliant() -> Polytope {
+        let facets = TOLKOWSKY.facets().unwrap();
+        let planes: Vec<Plane> = facets.into_iter().map(|(_, plane)| plane).collect();
+        Polytope::from_planes(&planes).unwrap()
+    }
+
+    /// Returns the exits of a point that lie on the way of light through these beams, each as direction and weight, and the
+    /// beam that was not split further there.
+    fn way(beams: &Beams, point: DVec2) -> (Vec<(DVec3, f64)>, u32) {
+        let on_the_way: Vec<_> = beams.iter().filter(|beam| contains(beam.outline, point, 0.0)).collect();
+        let exits = on_the_way.iter().filter(|beam| !beam.is_surface() && beam.weight > 0.0);
+        (exits.map(|beam| (beam.exit, beam.weight)).collect(), on_the_way.last().unwrap().id)
+    }
+
+    #[test]
+    fn a_ray_goes_on_as_finer_beams_do() {
+        let polytope = brilliant();
+        let view = View { tilt: 0.31, azimuth: 0.7, ..View::default() };
+        for (medium, polarised) in [
+            (Medium::clear(2.42), true),
+            (Medium::clear(1.77), false),
+            (Medium { absorption: [0.1, 0.4], ..Medium::clear(2.0) }, true),
+        ] {
+            let options = |unresolved| BeamOptions { unresolved, polarised, ..BeamOptions::default() };
+            let grown = grow(&polytope, medium, &view, &options(0.2), None, &unwatched).unwrap();
+            let finer = trace(&polytope, medium, &view, &options(0.02), &unwatched).unwrap();
+            let tail = Tail::new(&polytope, &grown).unwrap();
+            let (mut compared, mut start) = (0, 0.0);
+            for (number, source) in tail.sources.iter().enumerate() {
+                let place = f64::midpoint(start, source.until);
+                start = source.until;
+                if number % 5 != 0 {
+                    continue;
+                }
+                let spot = DVec2::new(0.37, 0.61);
+                let beam = grown.beams.get(source.front.node);
+                let point = point_in_polygon(beam.outline, beam.area, spot);
+                let (before, last) = way(&grown.beams, point);
+                assert_eq!(last, source.front.node);
+                let mut exits = vec![];
+                // Luck of 0 follows the ray to the end; what is less likely than certain counts for more.
+                let ray = tail.follow(place, spot, 0.0, |direction, share| exits.push((direction, share)));
+                let (beyond, _) = way(&finer, point);
+                let mut left = medium.transmittance(beam.path.at(point)) / beam.transmittance;
+                for ((direction, share), (exit, weight)) in exits.iter().zip(&beyond[before.len()..]) {
+                    let share = share / (ROULETTE / left).max(1.0);
+                    let expected = weight / beam.onward;
+                    assert!((*direction - *exit).length() < 1e-9, "{direction} is not {exit}");
+                    // Beams know the mean over their outline of what absorption leaves, a ray what it leaves at its point.
+                    let slack = if medium.is_clear() { 1e-9 } else { 0.2 * expected };
+                    assert!((share - expected).abs() < slack, "{share} of the light leaves, not {expected}");
+                    left -= share;
+                    compared += 1;
+                    if !medium.is_clear() {
+                        break;
+                    }
+                }
+                assert!(medium.is_clear() || ray.absorbed > 0.0);
+            }
+            assert!(compared > 30, "only {compared} exits were compared");
+        }
+    }
+
+    #[test]
+    fn all_rays_together_stand_for_the_light_and_the_area_that_were_left() {
+        let polytope = brilliant();
+        let view = View { tilt: 0.2, ..View::default() };
+        let options = BeamOptions { unresolved: 0.1, ..BeamOptions::default() };
+        let grown = grow(&polytope, Medium::clear(2.42), &view, &options, None, &unwatched).unwrap();
+        let tail = Tail::new(&polytope, &grown).unwrap();
+        assert!((tail.light() - grown.beams.unresolved()).abs() < 1e-9);
+        assert!((tail.undecided() - grown.beams.undecided(&grown.beams.strongest_exits())).abs() < 1e-9);
+        let rays = 20_000;
+        let (mut light, mut area, mut shares) = (0.0, 0.0, 0.0);
+        for k in 0..rays {
+            let place = (f64::from(k) + 0.5) / f64::from(rays);
+            let fraction = |step: f64| (f64::from(k) * step).fract();
+            let mut left = 0.0;
+            let spot = DVec2::new(fraction(0.754_877_666), fraction(0.569_840_291));
+            let ray = tail.follow(place, spot, fraction(0.618_033_989), |_, share| left += share);
+            light += ray.light / f64::from(rays);
+            area += ray.area / f64::from(rays);
+            shares += ray.light * (left + ray.absorbed + ray.unresolved) / f64::from(rays);
+        }
+        assert!((light / tail.light() - 1.0).abs() < 1e-3, "{light} for {}", tail.light());
+        assert!((area / tail.undecided() - 1.0).abs() < 1e-2, "{area} for {}", tail.undecided());
+        assert!((shares / tail.light() - 1.0).abs() < 3e-3, "{shares} for {}", tail.light());
+    }
+}
