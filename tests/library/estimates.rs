@@ -122,10 +122,10 @@ fn an_estimate_that_is_split_at_the_horizon_joins_to_the_same_zone() {
         vec![band("below", -90.0, [0; 3]), band("red", -20.0, [255, 0, 0]), band("blue", 60.0, [0, 0, 255])];
     let wide = Scope { name: "wide".into(), bands };
     let measured = brillianteer::measure::measured(&wide, 2.42, "beam", |scope| {
-        by_beams_and_rays(&case.polytope, &grown, scope, 1e-3, &unwatched)
+        by_beams_and_rays(&case.polytope, &grown, scope, 1.0, &unwatched)
     });
     let joined = measured.unwrap().figures;
-    let plain = by_beams_and_rays(&case.polytope, &grown, &wide, 1e-3, &unwatched).unwrap();
+    let plain = by_beams_and_rays(&case.polytope, &grown, &wide, 1.0, &unwatched).unwrap();
     let [a, b] = [&joined, &plain].map(|figures| figures.estimate.clone().unwrap());
     assert_eq!(a.rays, b.rays);
     assert!(largest_difference(&a.transmitted, &b.transmitted) < 1e-12);
