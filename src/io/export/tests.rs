@@ -2,7 +2,7 @@ use super::*;
 use crate::io::{cut_file, library};
 use crate::picture::named;
 use crate::render::{Renderer, Wanted};
-use crate::scene::{Lean, Medium, Projection, Side, Specimen, Viewpoint};
+use crate::scene::{Glare, Lean, Medium, Projection, Side, Specimen, Viewpoint};
 use crate::trace::unwatched;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -142,7 +142,10 @@ fn a_drawing_of_a_turned_stone_shows_what_its_picture_shows() {
 fn a_picture_of_a_turned_stone_holds_all_of_it() {
     let design = cut_file::parse(library::cut("cube").unwrap(), "cube").unwrap();
     let specimen = Specimen::new(design).unwrap();
-    let turned = Viewing { turned_deg: 45.0, tracer: Wanted::Rays, ..viewing(&specimen) };
+    // Seen from above, the cube is as black as what is around it.
+    let viewpoint = Viewpoint { tilt_deg: 25.0, ..Viewpoint::default() };
+    let glare = Some(Glare::Included);
+    let turned = Viewing { viewpoint, turned_deg: 45.0, glare, tracer: Wanted::Rays, ..viewing(&specimen) };
     let pixels = &exported_pixels(turned, &[OutputFormat::Png])[0];
     let is_edge = |k: usize| [k % 96, k / 96].iter().any(|place| [0, 95].contains(place));
     assert!((0..96 * 96).all(|k| !is_edge(k) || pixels[k] == pixels[0]), "a corner is cut off");
