@@ -133,11 +133,12 @@ pub struct LightOptions {
     /// and arrows, which have their own hole for the eye)
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
     pub head: f64,
-    /// Follow the beams until no more than this part of the light is unresolved [default: 0.001 for pictures, 0.00015 for
-    /// figures with --exact]
+    /// Follow the beams until no more than this part of the light is unresolved, and estimate nothing in figures [default:
+    /// 0.001 for pictures, 0.00015 for figures with --exact]
     #[arg(long, value_name = "PART", allow_negative_numbers = true, value_parser = number)]
     pub unresolved: Option<f64>,
-    /// Estimate nothing in figures: without this option, rays estimate where the light goes that the beams leave unresolved
+    /// Estimate nothing in figures: follow the beams until little light is unresolved. Otherwise rays estimate where the
+    /// light goes that fewer beams leave
     #[arg(long)]
     pub exact: bool,
     /// Treat the light as unpolarised at every surface, to compare with programs that do so
@@ -188,7 +189,7 @@ impl LightOptions {
             wavelength_nm: self.index.is_none().then(|| self.wavelength()),
             head_deg: self.head()?,
             unresolved: self.unresolved()?,
-            standard_error: (!self.exact).then_some(STANDARD_ERROR),
+            standard_error: (!self.exact && self.unresolved.is_none()).then_some(STANDARD_ERROR),
             polarised: !self.unpolarised,
             glare: match (self.glare, self.no_glare) {
                 (true, _) => Some(Glare::Included),

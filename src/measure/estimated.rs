@@ -1,8 +1,7 @@
 //! The figures of one view by exact beams, and an estimate of the light that the beams leave.
 //!
 //! All places of the light that is left are divided into strata of equal weight, with two rays in each, so that the scatter
-//! within the strata gives the variance of the sum (Cochran, Sampling Techniques, 3rd ed. 1977, §5A.12 on collapsed strata
-//! uses the same difference of pairs). Every number of a ray follows from its stratum, so that figures repeat on any number
+//! within the strata gives the variance of the sum (W. G. Cochran, Sampling Techniques, 3rd ed. 1977, chapter 5). Every number of a ray follows from its stratum, so that figures repeat on any number
 //! of cores.
 
 use super::figures::{Figures, Zones, by_beams};
