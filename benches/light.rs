@@ -3,6 +3,7 @@
 
 use brillianteer::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
 use brillianteer::io::{WriteError, write_png};
+use brillianteer::measure::by_beams_and_rays;
 use brillianteer::picture::{Layer, Palette, paint};
 use brillianteer::scene::{ASET_CONE, Backing, Film, Glare, Medium, Scope, Stone, View};
 use brillianteer::trace::{beam, ray, unwatched};
@@ -44,6 +45,25 @@ fn beam_tracing(c: &mut Criterion) {
     c.bench_function("beams: tilted 15 degrees, 1 % unresolved (goal 60 ms)", |b| {
         b.iter(|| beams(&stone, 15.0, 0.01));
     });
+}
+
+fn figures(c: &mut Criterion) {
+    let stone = modern_ideal(3.0);
+    let scope = Scope::aset(ASET_CONE, Backing::Black);
+    let mut run = |name: &str, tilt_deg: f64, standard_error: f64| {
+        let view = View { tilt: tilt_deg.to_radians(), azimuth: 0.2, ..View::default() };
+        let options = beam::BeamOptions { unresolved: 1.0, ..beam::BeamOptions::default() };
+        c.bench_function(name, |b| {
+            b.iter(|| {
+                let (polytope, to) = (&stone.polytope, Some(standard_error));
+                let grown = beam::grow(polytope, DIAMOND, &view, &options, to, &unwatched).expect("unwatched");
+                by_beams_and_rays(polytope, &grown, &scope, standard_error, &unwatched).expect("unwatched")
+            });
+        });
+    };
+    run("figures: face up, standard error 1e-4 (goal 3 ms)", 0.0, 1e-4);
+    run("figures: tilted 15 degrees, standard error 1e-4 (goal 60 ms)", 15.0, 1e-4);
+    run("figures: tilted 15 degrees, standard error 1e-3", 15.0, 1e-3);
 }
 
 fn energy_picture(c: &mut Criterion) {
@@ -109,5 +129,5 @@ fn on_one_core() -> Criterion {
     Criterion::default().sample_size(20)
 }
 
-criterion_group! { name = light; config = on_one_core(); targets = beam_tracing, energy_picture, rays, geometry }
+criterion_group! { name = light; config = on_one_core(); targets = beam_tracing, figures, energy_picture, rays, geometry }
 criterion_main!(light);

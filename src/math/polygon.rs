@@ -74,6 +74,26 @@ pub fn clip(corners: &[DVec2], keep: Affine, out: &mut Vec<DVec2>) {
 mod tests {
     use super::*;
 
+    #[test]
+    fn evenly_spread_places_give_evenly_spread_points() {
+        let corners =
+            [DVec2::new(0.0, 0.0), DVec2::new(3.0, 0.0), DVec2::new(4.0, 1.0), DVec2::new(1.0, 2.0)];
+        let (whole, n) = (area(&corners), 300);
+        let places = (0..n * n).map(|k| DVec2::new(f64::from(k % n) + 0.5, f64::from(k / n) + 0.5) / f64::from(n));
+        let points: Vec<DVec2> = places.map(|place| point_in_polygon(&corners, whole, place)).collect();
+        assert!(points.iter().all(|&p| contains(&corners, p, -1e-12)));
+        let mean = points.iter().sum::<DVec2>() / f64::from(n * n);
+        assert!((mean - centroid(&corners)).length() < 1e-4);
+        // Each half holds points in proportion to its area.
+        for cut in [(DVec2::new(1.0, 0.3), 1.7), (DVec2::new(-0.4, 1.0), 0.2)] {
+            let keep = Affine::new(-cut.1, cut.0);
+            let mut half = vec![];
+            clip(&corners, keep, &mut half);
+            let found = points.iter().filter(|&&p| keep.at(p) > 0.0).count() as f64 / f64::from(n * n);
+            assert!((found - area(&half) / whole).abs() < 2e-3, "{found}");
+        }
+    }
+
     const SQUARE: [DVec2; 4] =
         [DVec2::new(0.0, 0.0), DVec2::new(2.0, 0.0), DVec2::new(2.0, 2.0), DVec2::new(0.0, 2.0)];
 

@@ -16,6 +16,9 @@ use rayon::prelude::*;
 /// The strata of the first estimate, which says how many are needed.
 const FIRST: u64 = 128;
 
+/// How many times as many strata as all before the next estimate has at most, because the first ones say it only roughly.
+const GROWTH: u64 = 7;
+
 /// The most strata.
 const MOST: u64 = 1 << 20;
 
@@ -26,8 +29,8 @@ const PIECE: u64 = 64;
 /// left, so the same error would take many times the rays.
 const OF_AREAS: f64 = 10.0;
 
-/// How many more strata are taken than the last estimate says are needed.
-const SPARE: f64 = 1.1;
+/// How many times as many strata are taken as all estimates together say are needed, so that few are needed after them.
+const SPARE: f64 = 1.03;
 
 /// An estimate of the light that exact beams have left, by rays.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,6 +76,25 @@ impl Estimate {
         self.standard_errors().into_iter().fold(0.0, f64::max)
     }
 
+    /// Returns the mean of two estimates that have nothing in common, the second with this weight.
+    fn and(self, other: Self, weight: f64) -> Self {
+        let mean = |a: f64, b: f64| a * (1.0 - weight) + b * weight;
+        let variance = |a: f64, b: f64| a * (1.0 - weight).powi(2) + b * weight.powi(2);
+        let each = |of: &dyn Fn(f64, f64) -> f64, a: &[f64], b: &[f64]| {
+            a.iter().zip(b).map(|(a, b)| of(*a, *b)).collect::<Vec<_>>()
+        };
+        Self {
+            transmitted: each(&mean, &self.transmitted, &other.transmitted),
+            strongest_exit_area: each(&mean, &self.strongest_exit_area, &other.strongest_exit_area),
+            absorbed: mean(self.absorbed, other.absorbed),
+            unresolved: mean(self.unresolved, other.unresolved),
+            rays: self.rays + other.rays,
+            absorbed_error: variance(self.absorbed_error.powi(2), other.absorbed_error.powi(2)).sqrt(),
+            covariance: each(&variance, &self.covariance, &other.covariance),
+            area_variance: each(&variance, &self.area_variance, &other.area_variance),
+        }
+    }
+
     /// Adds the zone after `k` to zone `k`.
     pub(super) fn join(&mut self, k: usize) {
         let n = self.transmitted.len();
@@ -106,18 +128,21 @@ pub fn by_beams_and_rays(
     let Some(tail) = Tail::new(polytope, grown) else { return Ok(figures) };
     let sampler = Sampler { tail: &tail, scope, zenith: grown.beams.zenith };
     let mut strata = FIRST;
+    let mut all = sampler.estimate(strata, 0);
     loop {
-        if watch((FIRST as f64 / strata as f64).min(1.0)).is_break() {
-            return Err(Stopped);
-        }
-        let estimate = sampler.estimate(strata);
-        let area_error = estimate.area_errors().into_iter().fold(0.0, f64::max) / OF_AREAS;
-        let excess = estimate.standard_error().max(area_error) / standard_error;
+        let area_error = all.area_errors().into_iter().fold(0.0, f64::max) / OF_AREAS;
+        let excess = all.standard_error().max(area_error) / standard_error;
         if excess <= 1.0 || strata >= MOST {
-            figures.take_in(estimate);
+            figures.take_in(all);
             return Ok(figures);
         }
-        strata = ((strata as f64 * excess * excess * SPARE).ceil() as u64).clamp(strata + 1, MOST);
+        if watch(excess.powi(-2)).is_break() {
+            return Err(Stopped);
+        }
+        let missing = (strata as f64 * (excess * excess * SPARE - 1.0)).ceil() as u64;
+        let more = missing.clamp(strata / 8, GROWTH * strata).min(MOST);
+        all = all.and(sampler.estimate(more, strata), more as f64 / (strata + more) as f64);
+        strata += more;
     }
 }
 
@@ -149,12 +174,12 @@ struct Sums {
 }
 
 impl Sampler<'_> {
-    /// Estimates by two rays in each of these strata.
-    fn estimate(&self, strata: u64) -> Estimate {
+    /// Estimates by two rays in each of so many strata; `before` strata were sampled by other rays.
+    fn estimate(&self, strata: u64, before: u64) -> Estimate {
         let bands = self.scope.bands.len();
         let pieces: Vec<Sums> = (0..strata.div_ceil(PIECE))
             .into_par_iter()
-            .map(|piece| self.piece(piece * PIECE..((piece + 1) * PIECE).min(strata), strata))
+            .map(|piece| self.piece(piece * PIECE..((piece + 1) * PIECE).min(strata), (strata, before)))
             .collect();
         let sums = pieces.into_iter().fold(Sums::new(bands), Sums::and);
         let n = strata as f64;
@@ -172,26 +197,25 @@ impl Sampler<'_> {
         }
     }
 
-    fn piece(&self, range: std::ops::Range<u64>, strata: u64) -> Sums {
+    fn piece(&self, range: std::ops::Range<u64>, (strata, before): (u64, u64)) -> Sums {
         let bands = self.scope.bands.len();
         let mut sums = Sums::new(bands);
         let mut pair = [vec![0.0; 2 * bands + 2], vec![0.0; 2 * bands + 2]];
         for stratum in range {
             for (which, values) in (0..).zip(&mut pair) {
-                self.ray((stratum, strata), 2 * stratum + which, values);
+                self.ray((stratum, strata), 2 * (before + stratum) + which, values);
             }
             sums.add(&pair, bands);
         }
         sums
     }
 
-    /// Leaves in `values` what one ray says: light by bands, area by bands, light that is absorbed, light that is not
+    /// Leaves in `values` what the ray of a number says: light by bands, area by bands, light that is absorbed, light that is not
     /// followed.
     fn ray(&self, (stratum, strata): (u64, u64), number: u64, values: &mut [f64]) {
         let bands = self.scope.bands.len();
         values.fill(0.0);
-        let [place, x, y, luck] =
-            [0, 1, 2, 3].map(|k| unit(mixed((4 * number + k) ^ strata.rotate_left(40))));
+        let [place, x, y, luck] = [0, 1, 2, 3].map(|k| unit(mixed(4 * number + k)));
         let place = (stratum as f64 + place) / strata as f64;
         let ray = self.tail.follow(place, DVec2::new(x, y), luck, |direction, share| {
             values[self.scope.band(direction, self.zenith)] += share;
