@@ -56,7 +56,8 @@ fn figures(c: &mut Criterion) {
         c.bench_function(name, |b| {
             b.iter(|| {
                 let (polytope, to) = (&stone.polytope, Some(standard_error));
-                let grown = beam::grow(polytope, DIAMOND, &view, &options, to, &unwatched).expect("unwatched");
+                let grown =
+                    beam::grow(polytope, DIAMOND, &view, &options, to, &unwatched).expect("unwatched");
                 by_beams_and_rays(polytope, &grown, &scope, standard_error, &unwatched).expect("unwatched")
             });
         });

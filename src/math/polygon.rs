@@ -79,7 +79,8 @@ mod tests {
         let corners =
             [DVec2::new(0.0, 0.0), DVec2::new(3.0, 0.0), DVec2::new(4.0, 1.0), DVec2::new(1.0, 2.0)];
         let (whole, n) = (area(&corners), 300);
-        let places = (0..n * n).map(|k| DVec2::new(f64::from(k % n) + 0.5, f64::from(k / n) + 0.5) / f64::from(n));
+        let places =
+            (0..n * n).map(|k| DVec2::new(f64::from(k % n) + 0.5, f64::from(k / n) + 0.5) / f64::from(n));
         let points: Vec<DVec2> = places.map(|place| point_in_polygon(&corners, whole, place)).collect();
         assert!(points.iter().all(|&p| contains(&corners, p, -1e-12)));
         let mean = points.iter().sum::<DVec2>() / f64::from(n * n);

@@ -4,10 +4,7 @@ use super::*;
 use crate::app::model::dialog::Dialog;
 use crate::cut::Crown;
 use crate::io::cut_file;
-use crate::measure::by_beams;
-use crate::optics::line;
-use crate::scene::{ASET_CONE, Backing, Scope, Specimen, View};
-use crate::trace::{beam, unwatched};
+use crate::render::{MeasureOptions, measure};
 use egui_kittest::kittest::NodeT;
 
 #[test]
@@ -77,14 +74,9 @@ fn what_is_edited_and_saved_opens_again_equal_and_its_figures_are_those_of_the_f
     let design = bench.editor().model.document.work.design.clone();
     assert_eq!(cut_file::read(&path).unwrap(), design);
     let shown = &bench.editor().model.session.measured.figures[&Which::Present];
-    let specimen = Specimen::new(cut_file::read(&path).unwrap()).unwrap();
-    let options = beam::BeamOptions { unresolved: 1.5e-4, ..beam::BeamOptions::default() };
-    let medium = specimen.medium(line::SODIUM_D);
-    let beams =
-        beam::trace(&specimen.stone().unwrap().polytope, medium, &View::default(), &options, &unwatched)
-            .unwrap();
+    let measured = measure(&cut_file::read(&path).unwrap(), &MeasureOptions::default()).unwrap();
     assert_eq!(shown.grade, Grade::Fine);
-    assert_eq!(shown.figures, by_beams(&beams, &Scope::aset(ASET_CONE, Backing::Black)));
+    assert_eq!(shown.figures, measured.figures);
     let mut again = Bench::with(Setup { file: Some(path), ..Setup::default() });
     again.settle();
     assert_eq!(again.editor().model.document.work.design, design);
