@@ -77,7 +77,7 @@ fn table(report: &FigureReport, timing: bool) -> String {
         let columns = [(glare, 12), (Some(light), 13), (of_light, 8), (Some(area), 11), (of_area, 8)];
         let columns = columns.into_iter().filter_map(|(text, width)| Some((text?, width)));
         let columns: String = columns.map(|(text, width)| format!("{text:>width$}")).collect();
-        let _ = writeln!(text, "{name:<12}{columns}");
+        let _ = writeln!(text, "{}", format!("{name:<12}{columns}").trim_end());
     };
     let of = |part: f64| format!("{:.3}", 100.0 * part);
     let heads = ["glare", "transmitted", "strongest"].map(String::from);
@@ -99,30 +99,20 @@ fn table(report: &FigureReport, timing: bool) -> String {
         true => format!("with glare {:.3} %", 100.0 * (returned + glare)),
         false => format!("glare of {:.3} % is left out", 100.0 * measured.glare()),
     };
-    let error = measured.light_return_error().map_or(String::new(), |error| format!(" ± {} %", of(error)));
-    let _ =
-        write!(text, "\nlight return {} %{error}, {glare}, absorbed {} %, ", of(returned), of(f.absorbed),);
-    let polarised = if viewing.polarised { "polarised" } else { "unpolarised" };
-    let (open, how) = (of(f.unresolved), report.backend.description());
-    let _ = match &f.estimate {
-        Some(estimate) => write!(
-            text,
-            "certain but for {open} %, of which rays estimate where it goes\n{polarised}, {} by {how}, and {} rays; \
-                errors are standard errors",
-            f.beams, estimate.rays,
-        ),
-        None if report.backend.is_beams() => write!(
-            text,
-            "unresolved {open} % (the most by which any light is too low)\n{polarised}, {} by {how}",
-            f.beams,
-        ),
-        None => write!(
-            text,
-            "unresolved {open} %, standard error {} %\n{polarised}, {} by {how}",
-            of(f.standard_error),
-            f.beams,
-        ),
+    let error = measured.light_return_error();
+    let error = error.map_or(String::new(), |error| format!(" ± {} % (standard error)", of(error)));
+    let (absorbed, open) = (of(f.absorbed), of(f.unresolved));
+    let _ = write!(text, "\nlight return {} %{error}, {glare}, absorbed {absorbed} %, ", of(returned));
+    let _ = match (&f.estimate, report.backend.is_beams()) {
+        (Some(_), _) => write!(text, "estimated {open} % (included; no light can be off by more)"),
+        (None, true) => write!(text, "unresolved {open} % (the most by which any light is too low)"),
+        (None, false) => write!(text, "unresolved {open} %, standard error {} %", of(f.standard_error)),
     };
+    let polarised = if viewing.polarised { "polarised" } else { "unpolarised" };
+    let _ = write!(text, "\n{polarised}, {} by {}", f.beams, report.backend.description());
+    if let Some(estimate) = &f.estimate {
+        let _ = write!(text, " and {} rays for what they left", estimate.rays);
+    }
     if timing {
         let _ = write!(text, " in {:.3} s", report.seconds);
     }

@@ -185,6 +185,14 @@ impl Sampler<'_> {
         let n = strata as f64;
         let mean = |k: usize| sums.means[k] / n;
         let of_products = |k: usize| sums.products[k] / (n * n);
+        // Where no ray has come, one may have been about to.
+        let [of_light, of_area] =
+            [self.tail.light(), self.tail.undecided()].map(|whole| (whole / (2.0 * n)).powi(2));
+        let covariance = |k: usize| match k.is_multiple_of(bands + 1) {
+            true => of_products(k).max(of_light),
+            false => of_products(k),
+        };
+        let areas = bands * bands..bands * bands + bands;
         Estimate {
             transmitted: (0..bands).map(mean).collect(),
             strongest_exit_area: (bands..2 * bands).map(mean).collect(),
@@ -192,8 +200,8 @@ impl Sampler<'_> {
             unresolved: mean(2 * bands + 1),
             rays: 2 * strata,
             absorbed_error: of_products(bands * bands + bands).sqrt(),
-            covariance: (0..bands * bands).map(of_products).collect(),
-            area_variance: (bands * bands..bands * bands + bands).map(of_products).collect(),
+            covariance: (0..bands * bands).map(covariance).collect(),
+            area_variance: areas.map(|k| of_products(k).max(of_area)).collect(),
         }
     }
 

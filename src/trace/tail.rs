@@ -126,11 +126,14 @@ impl<'a> Tail<'a> {
         let (mut strongest, mut exit) = source.strongest;
         let mut before = light.weight() * self.beams.medium.transmittance(path);
         let mut absorbed = 0.0;
+        let absorbs = !self.beams.medium.is_clear();
         let end = self.tracer.follow_inside(ray, (light, path), luck * ROULETTE, |met| {
             // The ray comes here with a chance of before / ROULETTE, so all that happens here counts for more.
             let scale = (ROULETTE / before).max(1.0);
             let left = met.leaving.as_ref().map_or(0.0, |leaving| leaving.weight);
-            absorbed += (before - left - met.onward) * scale;
+            if absorbs {
+                absorbed += (before - left - met.onward) * scale;
+            }
             before = met.onward;
             if let Some(leaving) = met.leaving {
                 leave(leaving.direction, left * scale);
