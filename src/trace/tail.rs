@@ -13,6 +13,9 @@ use glam::{DVec2, DVec3};
 /// The share of a ray's light below which the ray goes on by chance alone, by Russian roulette.
 const ROULETTE: f64 = 0.15;
 
+/// The least luck of a ray: with less, it would be followed until nothing is left.
+const LEAST_LUCK: f64 = 1e-9;
+
 /// The share of the rays that are spread over the light. The others are spread over the area whose strongest exit is
 /// undecided, of which little light may be left.
 const BY_LIGHT: f64 = 0.8;
@@ -127,7 +130,8 @@ impl<'a> Tail<'a> {
         let mut before = light.weight() * self.beams.medium.transmittance(path);
         let mut absorbed = 0.0;
         let absorbs = !self.beams.medium.is_clear();
-        let end = self.tracer.follow_inside(ray, (light, path), luck * ROULETTE, |met| {
+        let least = luck.max(LEAST_LUCK) * ROULETTE;
+        let end = self.tracer.follow_inside(ray, (light, path), least, |met| {
             // The ray comes here with a chance of before / ROULETTE, so all that happens here counts for more.
             let scale = (ROULETTE / before).max(1.0);
             let left = met.leaving.as_ref().map_or(0.0, |leaving| leaving.weight);
@@ -142,7 +146,7 @@ impl<'a> Tail<'a> {
                 }
             }
         });
-        let is_caught = before > luck * ROULETTE;
+        let is_caught = before > least;
         TailRay {
             light: source.light / source.density,
             area: source.undecided / source.density,
@@ -212,7 +216,7 @@ mod tests {
                 let (before, last) = way(&grown.beams, point);
                 assert_eq!(last, source.front.node);
                 let mut exits = vec![];
-                // Luck of 0 follows the ray to the end; what is less likely than certain counts for more.
+                // Without luck the ray is followed to the end; what is less likely than certain counts for more.
                 let ray = tail.follow(place, spot, 0.0, |direction, share| exits.push((direction, share)));
                 let (beyond, _) = way(&finer, point);
                 let mut left = medium.transmittance(beam.path.at(point)) / beam.transmittance;
