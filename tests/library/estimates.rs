@@ -27,7 +27,7 @@ fn case(number: u32) -> Case {
     let [star, lower] = [from(45.0, 60.0, 0.819), from(70.0, 85.0, 0.672)];
     let stone = built(&brilliant((table, crown, pavilion), (star, lower), 16));
     let index = [2.4175, 1.544, 1.77, 2.65, 2.16][number as usize % 5];
-    let absorption = if number % 3 == 0 { [0.02, 0.15] } else { [0.0; 2] };
+    let absorption = if number.is_multiple_of(3) { [0.02, 0.15] } else { [0.0; 2] };
     let tilt_deg = from(0.0, 35.0, 0.4656);
     let azimuth_deg = from(0.0, 360.0, 0.245);
     Case {
