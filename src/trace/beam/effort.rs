@@ -14,13 +14,13 @@ const FEWEST: usize = 400;
 /// N rays estimate a part t of all light to a standard error of about `SPREAD` t / √N. So all of the work is that of n beams
 /// and of N = (`SPREAD` t / standard error)² rays. Each step of the beams multiplies n and t by factors that change little
 /// from step to step; the beams go on while the next step makes the sum smaller.
-pub(super) struct Effort {
+pub(super) struct BeamEffort {
     standard_error: f64,
     /// The number of beams and the part of the light left, after the step before.
     before: Option<(f64, f64)>,
 }
 
-impl Effort {
+impl BeamEffort {
     /// Makes the effort that reaches a standard error, which is a part of all light.
     pub fn to(standard_error: f64) -> Self {
         Self { standard_error, before: None }

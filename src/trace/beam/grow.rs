@@ -5,7 +5,7 @@
 //! its own, in any order and on any core, with the same result.
 
 use super::coherency::Coherency;
-use super::effort::Effort;
+use super::effort::BeamEffort;
 use super::follow::{Follower, Front, Growth, SLIVER, s_axis};
 use super::split::{Ray, opposites};
 use super::tree::{BeamNode, Beams, ROOT};
@@ -78,7 +78,7 @@ pub struct GrownBeams {
 }
 
 /// Follows light as [`trace`] does and keeps what is left. With a standard error, tracing goes on until rays that estimate
-/// what is left to that error take less time than more beams would: see [`Effort`](super::effort::Effort).
+/// what is left to that error take less time than more beams would: see [`BeamEffort`](super::effort::BeamEffort).
 ///
 /// # Errors
 /// [`Stopped`] when `watch` asks to stop.
@@ -92,7 +92,7 @@ pub fn grow(
 ) -> Result<GrownBeams, Stopped> {
     let mut tracer = Tracer::new(polytope, medium, view, options);
     tracer.enter();
-    tracer.run(options, standard_error.map(Effort::to), watch)?;
+    tracer.run(options, standard_error.map(BeamEffort::to), watch)?;
     Ok(GrownBeams { beams: tracer.beams, open: tracer.fronts })
 }
 
@@ -178,7 +178,7 @@ impl<'a> Tracer<'a> {
     fn run(
         &mut self,
         options: &BeamOptions,
-        mut effort: Option<Effort>,
+        mut effort: Option<BeamEffort>,
         watch: Watch,
     ) -> Result<(), Stopped> {
         let whole = self.beams.silhouette_area / f64::from(self.beams.symmetry.order());
