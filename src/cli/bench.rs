@@ -5,12 +5,13 @@ use super::specimen::LoadedSpecimen;
 use crate::io::Failure;
 use crate::io::mesh_options::MeshOptions;
 use crate::math::Polytope;
+use crate::measure::{Bounds, STANDARD_ERROR};
 use crate::optics::line;
 use crate::render::{
-    Card, Job, LightProduct, Product, Quality, Reading, RenderError, Renderer, ScopeProduct, Steps,
-    Surroundings, Wanted,
+    Card, FiguresProduct, Job, LightProduct, Product, Quality, Reading, RenderError, Renderer, ScopeProduct,
+    Steps, Surroundings, Wanted,
 };
-use crate::scene::{ASET_CONE, Backing, Film, Glare, Light, Medium, Scene, Scope, View};
+use crate::scene::{ASET_CONE, Backing, Film, Glare, Light, Medium, Scene, Scope, View, Viewpoint};
 use crate::trace::environment::{EnvironmentMap, Lighting};
 use crate::trace::ray::{Camera, RayOptions, StoneTracer};
 use crate::trace::sampling::SamplePass;
@@ -37,6 +38,12 @@ const SCOPES: [(u32, u32); 2] = [(512, 7), (1024, 32)];
 /// The picture under light: pixels along each side with a real graphics card and without one, the most bounces of a ray, and
 /// the wavelengths of its single sample pass.
 const LIT: ([u32; 2], u32, u32) = ([1024, 256], 32, 16);
+
+/// The tilts at which figures are measured, degrees: without and with symmetry lost.
+const TILTS: [f64; 2] = [0.0, 15.0];
+
+/// The azimuth toward which the stone is tilted, degrees: in none of its mirror planes.
+const AZIMUTH: f64 = 20.0;
 
 #[derive(Debug, Args)]
 pub struct BenchArguments {
@@ -77,6 +84,9 @@ impl BenchArguments {
             done(in_scope(&specimen, size, bounces)?)?;
         }
         done(under_light(&specimen, has_card)?)?;
+        for tilt_deg in TILTS {
+            done(figures(&specimen, tilt_deg)?)?;
+        }
         if !self.json {
             return Ok(());
         }
@@ -103,7 +113,7 @@ impl Task {
             format!("\n{:>10.2} ms {rate:>12}  {}", row.milliseconds, row.by)
         };
         let rows: String = self.rows.iter().map(line).collect();
-        format!("{}\n{:>13} {:>12}{rows}", self.what, "a picture", "plane tests")
+        format!("{}\n{:>13} {:>12}{rows}", self.what, "time", "plane tests")
     }
 }
 
@@ -218,6 +228,23 @@ fn under_light(specimen: &LoadedSpecimen, has_card: bool) -> Result<Task, Failur
         polytope.facets().len()
     );
     Ok(Task { what, plane_tests: tests, rows: rows(&job)? })
+}
+
+/// Times the figures of a stone in the ASET by beams, whose rest is estimated by rays.
+fn figures(specimen: &LoadedSpecimen, tilt_deg: f64) -> Result<Task, Failure> {
+    let medium = Medium::clear(specimen.material.index(line::SODIUM_D));
+    let product = FiguresProduct { scope: Scope::aset(ASET_CONE, Backing::Black), medium };
+    let (scene, product) = (Arc::new(Scene::alone(specimen)), Product::Figures(product));
+    let view = Viewpoint { tilt_deg, azimuth_deg: AZIMUTH, ..Viewpoint::default() }.view();
+    let quality = Quality::of_figures(&Bounds::default(), Wanted::Beams);
+    let job = Job { scene, view, film: Film::NONE, product, quality };
+    let milliseconds = timed(|| {
+        let done = Renderer::default().run(&job, &unwatched, &mut |_| Ok::<_, Failure>(()));
+        done.map(|_| ())
+    })?;
+    let by = format!("exact beams and rays, standard error {STANDARD_ERROR}");
+    let what = format!("figures, tilted {tilt_deg} degrees, {} planes", polytope(specimen)?.facets().len());
+    Ok(Task { what, plane_tests: 0.0, rows: vec![Row { tracer: "beam", by, milliseconds }] })
 }
 
 /// Returns how many planes are tested for a picture, if each ray tests all planes at each bounce. The count is extrapolated
