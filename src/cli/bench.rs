@@ -73,7 +73,7 @@ impl BenchArguments {
         let has_card = has_card();
         let threads = rayon::current_num_threads();
         if !self.json {
-            print(&format!("modern ideal face up; {threads} threads"))?;
+            print(&format!("modern ideal; {threads} threads"))?;
         }
         let mut tasks = vec![];
         let mut done = |task: Task| {

@@ -137,8 +137,8 @@ pub struct LightOptions {
     /// 0.001 for pictures, 0.00015 for figures with --exact]
     #[arg(long, value_name = "PART", allow_negative_numbers = true, value_parser = number)]
     pub unresolved: Option<f64>,
-    /// Estimate nothing in figures: follow the beams until little light is unresolved. Otherwise rays estimate where the
-    /// light goes that fewer beams leave
+    /// Estimate nothing in figures by exact beams: follow the beams until little light is unresolved. Otherwise rays estimate
+    /// where the light goes that fewer beams leave
     #[arg(long)]
     pub exact: bool,
     /// Treat the light as unpolarised at every surface, to compare with programs that do so

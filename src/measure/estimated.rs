@@ -22,6 +22,9 @@ const GROWTH: u64 = 7;
 /// The most strata.
 const MOST: u64 = 1 << 20;
 
+/// The most strata that are sampled before the watch is asked again.
+const MOST_AT_ONCE: u64 = 1 << 14;
+
 /// Strata that are sampled as one piece of work. It does not depend on the number of cores, as the result must not.
 const PIECE: u64 = 64;
 
@@ -113,7 +116,8 @@ impl Estimate {
 }
 
 /// Sums up exact beams to the figures under a scope, and adds an estimate of the light that they have left, whose standard
-/// error is at most `standard_error` in each zone, a part of the silhouette's light.
+/// error is at most `standard_error` in each zone, a part of the silhouette's light. It is larger where two million rays do
+/// not suffice for that.
 ///
 /// # Errors
 /// [`Stopped`] when `watch` asks to stop.
@@ -140,7 +144,7 @@ pub fn by_beams_and_rays(
             return Err(Stopped);
         }
         let missing = (strata as f64 * (excess * excess * SPARE - 1.0)).ceil() as u64;
-        let more = missing.clamp(strata / 8, GROWTH * strata).min(MOST);
+        let more = missing.clamp(strata / 8, GROWTH * strata).min(MOST_AT_ONCE);
         all = all.and(sampler.estimate(more, strata), more as f64 / (strata + more) as f64);
         strata += more;
     }
@@ -148,13 +152,16 @@ pub fn by_beams_and_rays(
 
 impl Figures {
     /// Adds what was estimated to what is certain.
-    fn take_in(&mut self, estimate: Estimate) {
+    fn take_in(&mut self, mut estimate: Estimate) {
         let add = |to: &mut Zones, from: &Zones| to.iter_mut().zip(from).for_each(|(a, b)| *a += b);
         add(&mut self.transmitted, &estimate.transmitted);
+        // All areas together are known exactly, so the estimated ones are never more than what was undecided.
+        let area = estimate.strongest_exit_area.iter().sum::<f64>();
+        let excess = (area / self.strongest_exit_undecided).max(1.0);
+        estimate.strongest_exit_area.iter_mut().for_each(|zone| *zone /= excess);
         add(&mut self.strongest_exit_area, &estimate.strongest_exit_area);
         self.absorbed += estimate.absorbed;
-        self.strongest_exit_undecided =
-            (self.strongest_exit_undecided - estimate.strongest_exit_area.iter().sum::<f64>()).max(0.0);
+        self.strongest_exit_undecided = (self.strongest_exit_undecided - area / excess).max(0.0);
         self.standard_error = estimate.standard_error();
         self.estimate = Some(estimate);
     }
@@ -186,8 +193,8 @@ impl Sampler<'_> {
         let mean = |k: usize| sums.means[k] / n;
         let of_products = |k: usize| sums.products[k] / (n * n);
         // Where no ray has come, one may have been about to.
-        let [of_light, of_area] =
-            [self.tail.light(), self.tail.undecided()].map(|whole| (whole / (2.0 * n)).powi(2));
+        let one_ray = |whole: f64| (whole / (2.0 * n)).powi(2);
+        let [of_light, of_area] = self.tail.most_of_a_ray().map(one_ray);
         let covariance = |k: usize| match k.is_multiple_of(bands + 1) {
             true => of_products(k).max(of_light),
             false => of_products(k),

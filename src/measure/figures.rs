@@ -48,6 +48,14 @@ impl Figures {
         self.surface.iter().chain(&self.transmitted).sum::<f64>() + self.absorbed + self.uncertain()
     }
 
+    /// Returns the largest standard error of the area of any zone's strongest exits.
+    pub fn area_error(&self) -> f64 {
+        match &self.estimate {
+            Some(estimate) => estimate.area_errors().into_iter().fold(0.0, f64::max),
+            None => self.standard_error,
+        }
+    }
+
     /// Returns the part of the light of which nothing is known, not even by an estimate.
     pub fn uncertain(&self) -> f64 {
         self.estimate.as_ref().map_or(self.unresolved, |estimate| estimate.unresolved)
@@ -74,6 +82,7 @@ impl Figures {
         }
         if let Some(estimate) = &mut self.estimate {
             estimate.join(k);
+            self.standard_error = estimate.standard_error();
         }
     }
 }

@@ -42,6 +42,11 @@ impl Bounds {
         Self { unresolved: Some(unresolved), standard_error: None, ..Self::default() }
     }
 
+    /// Returns the part of its light that a ray may leave unresolved: less than matters beside the standard error.
+    pub fn left_by_rays(&self) -> f64 {
+        self.unresolved.unwrap_or(self.standard_error.map_or(UNRESOLVED, |error| error.max(UNRESOLVED)))
+    }
+
     /// Returns the part of the light that beams may leave unresolved: all of it where only an estimate was asked for.
     pub fn left_by_beams(&self) -> f64 {
         self.unresolved.unwrap_or(if self.standard_error.is_some() { 1.0 } else { UNRESOLVED })
@@ -145,10 +150,12 @@ impl Measured {
     /// Returns how far off a share of light may be.
     ///
     /// With beams alone, a share may be too low by this much and is never too high. With an estimate of what beams have
-    /// left, it is twice the standard error; a share is then certainly no lower than without its estimated part, and no
+    /// left, it is twice the largest standard error; a share is then certainly no lower than without its estimated part, and no
     /// higher than that by more than [`Figures::unresolved`]. With rays, it is what they leave and twice the standard error.
     pub fn error(&self) -> f64 {
-        self.figures.uncertain() + 2.0 * self.figures.standard_error
+        let absorbed = self.figures.estimate.as_ref().map_or(0.0, |estimate| estimate.absorbed_error);
+        let share = self.figures.standard_error.max(self.light_return_error.unwrap_or(0.0)).max(absorbed);
+        self.figures.uncertain() + 2.0 * share
     }
 
     /// Returns the standard error of [`light_return`](Self::light_return), where a part of it is estimated.

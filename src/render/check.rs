@@ -107,6 +107,11 @@ pub(super) fn demand(
     if is_right { Ok(()) } else { Err(OutOfRange { key, value, range }) }
 }
 
+/// Refuses a standard error that is out of its range.
+pub(super) fn demand_error(key: &'static str, error: f64) -> Result<(), OutOfRange> {
+    demand((1e-6..1.0).contains(&error), key, error, "a part from 0.000001 to below 1")
+}
+
 /// Refuses a count that is out of its range.
 pub(super) fn demand_count(key: &'static str, count: u32, counts: &Counts) -> Result<(), OutOfRange> {
     demand(counts.range.contains(&count), key, f64::from(count), counts.text)
@@ -166,7 +171,7 @@ impl Job {
 impl Quality {
     fn check(&self, product: &Product) -> Result<(), JobError> {
         share("quality.beams.unresolved", self.beams.unresolved)?;
-        self.standard_error.map_or(Ok(()), |error| positive("quality.standard_error", error))?;
+        self.standard_error.map_or(Ok(()), |error| demand_error("quality.standard_error", error))?;
         share("quality.rays.least_weight", self.rays.least_weight)?;
         let counts = match product {
             Product::Light(_) | Product::RefractionMap(_) | Product::LiquidGlass(_) => PASSES,

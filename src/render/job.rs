@@ -3,7 +3,7 @@
 
 use super::Wanted;
 use super::surroundings::Surroundings;
-use crate::measure::{Bounds, UNRESOLVED};
+use crate::measure::Bounds;
 use crate::optics::{Stratum, strata};
 use crate::picture::liquid_glass::GlassPane;
 use crate::picture::{Backdrop, Survey};
@@ -187,7 +187,7 @@ impl Quality {
     /// Returns the quality of figures that are followed to these bounds.
     pub fn of_figures(bounds: &Bounds, tracer: Wanted) -> Self {
         let Bounds { standard_error, polarised, lattice, .. } = *bounds;
-        let (unresolved, least_weight) = (bounds.left_by_beams(), bounds.unresolved.unwrap_or(UNRESOLVED));
+        let (unresolved, least_weight) = (bounds.left_by_beams(), bounds.left_by_rays());
         Self {
             tracer,
             beams: BeamOptions { unresolved, polarised, ..BeamOptions::default() },

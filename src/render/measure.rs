@@ -1,7 +1,7 @@
 //! Measures a design: from the design to its figures in one call.
 
 use super::card::Card;
-use super::check::{LATTICES, OutOfRange, demand, demand_count, positive};
+use super::check::{LATTICES, OutOfRange, demand, demand_count, demand_error, positive};
 use super::job::{FiguresProduct, Job, Product, Quality};
 use super::plan::Wanted;
 use super::renderer::{RenderError, Renderer};
@@ -107,7 +107,7 @@ impl MeasureOptions {
 
     /// Checks that the scope is valid and every number in its range.
     fn check(&self) -> Result<(), MeasureError> {
-        let (view, Bounds { unresolved, standard_error, lattice, .. }) = (&self.viewpoint, self.bounds);
+        let (view, Bounds { standard_error, lattice, .. }) = (&self.viewpoint, self.bounds);
         let (head, nm) = (self.head_deg, self.wavelength_nm);
         demand((0.0..90.0).contains(&head), "head_deg", head, "0 to below 90 degrees")?;
         self.scope_with_head().validate()?;
@@ -119,9 +119,9 @@ impl MeasureOptions {
             positive("distance", distance)?;
         }
         let is_part = |part: f64| part > 0.0 && part < 1.0;
-        for (name, part) in [("unresolved", unresolved), ("standard_error", standard_error)] {
-            part.map_or(Ok(()), |part| demand(is_part(part), name, part, "a part between 0 and 1"))?;
-        }
+        let unresolved = |part| demand(is_part(part), "unresolved", part, "a part between 0 and 1");
+        self.bounds.unresolved.map_or(Ok(()), unresolved)?;
+        standard_error.map_or(Ok(()), |error| demand_error("standard_error", error))?;
         demand_count("lattice", lattice, &LATTICES)?;
         Ok(())
     }

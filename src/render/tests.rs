@@ -205,6 +205,7 @@ fn jobs_that_make_no_sense_are_refused_with_key_value_and_range() {
         (in_scope(), "/quality/samples".into(), json!(0), "quality.samples is 0; give 1 to 1024 rays"),
         (measured(), "/quality/samples".into(), json!(0), "quality.samples is 0; give 1 to 16,384"),
         (measured(), "/quality/beams/unresolved".into(), json!(-1.0), "quality.beams.unresolved is -1;"),
+        (measured(), "/quality/standard_error".into(), json!(0.0), "quality.standard_error is 0;"),
         (lit(), "/product/Light/wavelengths".into(), json!(0), "wavelengths is 0; give 1 to 1024 bands"),
         (lit(), "/product/Light/strength".into(), json!(2.0), "strength is 2; give a part from 0 to 1"),
         (lit(), "/product/Light/surroundings/head".into(), json!(9.0), "surroundings.head is 9;"),

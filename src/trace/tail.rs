@@ -20,6 +20,13 @@ const LEAST_LUCK: f64 = 1e-9;
 /// undecided, of which little light may be left.
 const BY_LIGHT: f64 = 0.8;
 
+/// The least light that a beam must have left, as a part of the silhouette's light, for rays to go on from it. Far less has
+/// no reciprocal.
+const LEAST_LIGHT: f64 = 1e-30;
+
+/// The least light that all beams must have left to be estimated: less is below the rounding of figures.
+const LEAST: f64 = 1e-15;
+
 /// The light that exact beams have left, ready to be sampled.
 pub struct Tail<'a> {
     beams: &'a Beams,
@@ -79,12 +86,13 @@ impl<'a> Tail<'a> {
                 strongest: (best.weight, best.exit.map(|id| beams.get(id).exit)),
             }
         };
-        let mut sources: Vec<TailSource> = grown.open.iter().map(source).collect();
+        let mut sources: Vec<TailSource> =
+            grown.open.iter().map(source).filter(|s| s.light > LEAST_LIGHT).collect();
         // Neighbours in the tree have most of their way in common.
         sources.sort_unstable_by_key(|source| source.front.node);
         let sum = |part: fn(&TailSource) -> f64| sources.iter().map(part).sum::<f64>();
         let (light, undecided) = (sum(|s| s.light), sum(|s| s.undecided));
-        if light <= 0.0 {
+        if light <= LEAST {
             return None;
         }
         let by_light = if undecided > 0.0 { BY_LIGHT } else { 1.0 };
@@ -108,6 +116,11 @@ impl<'a> Tail<'a> {
     /// Returns the part of the silhouette's area whose strongest exit is undecided.
     pub fn undecided(&self) -> f64 {
         self.undecided
+    }
+
+    /// Returns the most light and the most undecided area that one ray can stand for, as parts of the silhouette.
+    pub fn most_of_a_ray(&self) -> [f64; 2] {
+        [self.light / BY_LIGHT, self.undecided / (1.0 - BY_LIGHT)]
     }
 
     /// Follows one ray, and calls `leave` for each exit with its direction and its share of the ray's light.

@@ -86,7 +86,8 @@ fn the_light_of_a_cube_is_that_of_closed_forms_under_every_option() {
     let (sin, cos) = 10_f64.to_radians().sin_cos();
     for (lean, azimuth, above) in [("tilt", 180, "red"), ("eye_tilt", 0, "blue"), ("eye_tilt", 45, "blue")] {
         let option = lean.replace('_', "-");
-        let figures = measured(&desk, &format!("cube.toml --index 2 --{option} 10 --azimuth {azimuth}"));
+        let figures =
+            measured(&desk, &format!("cube.toml --exact --index 2 --{option} 10 --azimuth {azimuth}"));
         let (faces, across) = if azimuth == 45 { (2.0, sin * 0.5_f64.sqrt()) } else { (1.0, sin) };
         let (top, sides) = (cos / (cos + faces * across), faces * across / (cos + faces * across));
         near(at(&figures, "silhouette_area"), 4.0 * (cos + faces * across), 1e-9, lean);
@@ -103,6 +104,39 @@ fn the_light_of_a_cube_is_that_of_closed_forms_under_every_option() {
             let figures = measured(&desk, &format!("slanted.toml --unresolved 0.05 {same}"));
             near(at(&figures, "silhouette_area"), 2.0 * width, 1e-9, &same);
         }
+    }
+}
+
+#[test]
+fn figures_say_what_is_estimated_and_how_far_off_it_may_be() {
+    let desk = Desk::new();
+    let view = "modern-ideal --tilt 12 --azimuth 25";
+    let [usual, bound] =
+        ["", " --unresolved 0.002"].map(|more| desk.json(&format!("measure --json {view}{more}")));
+    assert!(
+        bound["estimated"].is_null() && desk.json("measure --json tolkowsky --exact")["estimated"].is_null()
+    );
+    let error = |zone: &str| at(&usual, &format!("estimated/standard_error/transmitted/{zone}"));
+    for zone in ZONES {
+        let [found, estimated] =
+            ["", "estimated/"].map(|part| at(&usual, &format!("{part}transmitted/{zone}")));
+        let (certain, slack) = (at(&bound, &format!("transmitted/{zone}")), 5.0 * error(zone));
+        assert!((1e-7..=1e-4).contains(&error(zone)), "{zone}: {}", error(zone));
+        assert!(found - estimated <= certain + at(&bound, "unresolved"), "{zone}");
+        assert!(
+            (certain - slack..=certain + at(&bound, "unresolved") + slack).contains(&found),
+            "{zone}: {found}"
+        );
+    }
+    let placed = sum(&usual["estimated"]["transmitted"]) + at(&usual, "estimated/absorbed");
+    near(placed + at(&usual, "estimated/unresolved"), at(&usual, "unresolved"), 5e-4, "all that was left");
+    let all = sum(&usual["surface"]) + sum(&usual["transmitted"]) + at(&usual, "absorbed");
+    near(all + at(&usual, "estimated/unresolved"), 1.0, 5e-4, "all light");
+    near(sum(&usual["strongest_exit_area"]), 1.0, 1e-9, "all areas");
+    assert!((1e-6..=2e-4).contains(&at(&usual, "estimated/standard_error/light_return")));
+    let [table, without] = ["", " --exact"].map(|more| desk.done(&format!("measure tolkowsky{more}")));
+    for text in ["± error", "(standard error)", "rays for what they left"] {
+        assert!(table.contains(text) && !without.contains(text), "{table}\n{without}");
     }
 }
 

@@ -185,8 +185,11 @@ fn error(present: &ShownFigures, other: &ShownFigures, by_area: bool) -> f64 {
         true => figures.strongest_exit_undecided,
         false => figures.uncertain(),
     });
-    let sampled = SIGMAS * (present.figures.standard_error + other.figures.standard_error);
-    unresolved[0].max(unresolved[1]) + sampled
+    let sampled = both.map(|ShownFigures { figures, .. }| match by_area {
+        true => figures.area_error(),
+        false => figures.standard_error,
+    });
+    unresolved[0].max(unresolved[1]) + SIGMAS * (sampled[0] + sampled[1])
 }
 
 /// Returns the common ASET with an observer's head of a half angle in degrees; 0 for none.

@@ -49,8 +49,9 @@ pub fn measure<'a>(
     let backend = rendered.backend.clone();
     let measured = rendered.figures()?;
     if backend.is_beams() {
-        let open = (measured.figures.unresolved, measured.figures.beams);
-        viewing.warn_of_open(open, job.quality.beams.unresolved, tell)?;
+        let open = (measured.figures.uncertain(), measured.figures.beams);
+        let aim = if measured.figures.estimate.is_some() { UNRESOLVED } else { job.quality.beams.unresolved };
+        viewing.warn_of_open(open, aim, tell)?;
     }
     Ok(FigureReport { viewing, scoped: scoped.clone(), measured, backend, seconds })
 }

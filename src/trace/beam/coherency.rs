@@ -32,8 +32,10 @@ impl Coherency {
     /// Returns two fields, each as its parts along s and p, that together are this light: the mean of their coherency
     /// matrices is this matrix (its Cholesky decomposition).
     pub fn fields(&self) -> [[Complex64; 2]; 2] {
-        let s = (2.0 * self.ss).sqrt();
+        // Rounding may have left a little less than nothing.
+        let s = (2.0 * self.ss.max(0.0)).sqrt();
         let p = if s > 0.0 { Complex64::new(self.re, -self.im) * 2.0 / s } else { Complex64::ZERO };
+        let p = p * (2.0 * self.pp.max(0.0) / p.norm_sqr()).sqrt().min(1.0);
         let rest = (2.0 * self.pp - p.norm_sqr()).max(0.0).sqrt();
         [[s.into(), p], [Complex64::ZERO, rest.into()]]
     }

@@ -50,6 +50,9 @@ const AT_ONCE: usize = 64;
 /// overshoot.
 const STEPS: std::ops::RangeInclusive<f64> = 0.25..=0.8;
 
+/// The part of the light that is left in the end, for the progress of work whose end another rule decides.
+const FORESEEN: f64 = 1e-2;
+
 /// The factor by which the level of energy falls where more beams are worth their time.
 const EFFORT_STEP: f64 = 0.6;
 
@@ -188,7 +191,7 @@ impl<'a> Tracer<'a> {
         loop {
             let left = self.fronts.iter().map(|f| f.energy).sum::<f64>() + self.beams.dropped;
             // The light left falls about as a power of the level, so that its logarithm falls evenly.
-            let done = ((left / whole).ln() / options.unresolved.max(1e-12).ln()).clamp(0.0, 1.0);
+            let done = ((left / whole).ln() / options.unresolved.clamp(1e-12, FORESEEN).ln()).clamp(0.0, 1.0);
             if watch(done).is_break() {
                 return Err(Stopped);
             }
