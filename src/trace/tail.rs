@@ -121,8 +121,7 @@ impl<'a> Tail<'a> {
         let path = beam.path.at(point);
         // The light of the ray is 1 in the mean over the outline.
         let light = self.light_of(front, beam.onward);
-        let [o, u, v] = front.ray.origin;
-        let ray = (o + u * point.x + v * point.y, front.ray.direction);
+        let ray = (front.ray.start(point), front.ray.direction);
         let (mut strongest, mut exit) = source.strongest;
         let mut before = light.weight() * self.beams.medium.transmittance(path);
         let mut absorbed = 0.0;

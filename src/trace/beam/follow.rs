@@ -1,6 +1,7 @@
 //! Follows a few beams, and all that they split into, as long as they are strong enough.
 
 use super::coherency::Coherency;
+use super::guess::FacetGuess;
 use super::split::{Landing, Ray, Splitter, twice_area};
 use super::tree::{BeamNode, Beams};
 use crate::math::{Affine, Polytope, integral_of_decay};
@@ -56,8 +57,8 @@ pub(super) struct Follower<'a> {
 }
 
 impl<'a> Follower<'a> {
-    pub fn new(polytope: &'a Polytope, opposite: &'a [u32], before: &'a Beams) -> Self {
-        let splitter = Splitter::new(polytope, opposite);
+    pub fn new(polytope: &'a Polytope, guess: &'a FacetGuess, before: &'a Beams) -> Self {
+        let splitter = Splitter::new(polytope, guess);
         Self { splitter, before, growth: Growth::default(), outline: vec![] }
     }
 
@@ -82,7 +83,7 @@ impl<'a> Follower<'a> {
         let start = parent.corners.0 as usize;
         outline.extend(&all[start..start + parent.corners.1 as usize]);
         let sliver = SLIVER * before.silhouette_area;
-        let missed = splitter.split(&front.ray, outline, parent.facet, |landing| {
+        let missed = splitter.split(&front.ray, outline, |landing| {
             let area = twice_area(landing.outline.iter().map(|c| c.at)) / 2.0;
             if area <= sliver {
                 growth.dropped += front.light.weight() * area.max(0.0);

@@ -7,7 +7,8 @@
 use super::coherency::Coherency;
 use super::effort::Effort;
 use super::follow::{Follower, Front, Growth, SLIVER, s_axis};
-use super::split::{Ray, opposites};
+use super::guess::FacetGuess;
+use super::split::Ray;
 use super::tree::{BeamNode, Beams, ROOT};
 use crate::math::{Affine, Basis, Plane, Polytope, Symmetry, area, clip};
 use crate::optics::{fresnel, reflect, refract};
@@ -98,7 +99,7 @@ pub fn grow(
 
 struct Tracer<'a> {
     polytope: &'a Polytope,
-    opposite: Vec<u32>,
+    guess: FacetGuess,
     beams: Beams,
     fronts: Vec<Front>,
 }
@@ -119,7 +120,7 @@ impl<'a> Tracer<'a> {
             nodes: vec![],
             corners: vec![],
         };
-        Self { polytope, opposite: opposites(polytope), beams, fronts: vec![] }
+        Self { polytope, guess: FacetGuess::new(polytope.planes()), beams, fronts: vec![] }
     }
 
     /// Starts a beam on every facet that the eye sees in one domain of the symmetry.
@@ -226,7 +227,7 @@ impl<'a> Tracer<'a> {
             let base = self.beams.nodes.len() as u32;
             let this = &*self;
             let work = |piece: &[Front]| {
-                Follower::new(this.polytope, &this.opposite, &this.beams).follow(piece, |f| strong(f))
+                Follower::new(this.polytope, &this.guess, &this.beams).follow(piece, |f| strong(f))
             };
             let grown: Vec<Growth> = batch.par_chunks(PIECE).map(work).collect();
             for growth in grown {

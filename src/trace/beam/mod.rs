@@ -11,6 +11,7 @@ mod coherency;
 mod effort;
 mod follow;
 mod grow;
+mod guess;
 mod split;
 mod sweep;
 mod tree;

@@ -1,5 +1,6 @@
 //! Finds the facets that a beam lands on next, and the part of its outline that lands on each.
 
+use super::guess::FacetGuess;
 use crate::math::{Affine, Polytope, centroid};
 use glam::{DVec2, DVec3};
 
@@ -25,6 +26,12 @@ pub(in crate::trace) struct Ray {
 }
 
 impl Ray {
+    /// Returns where the ray of image point `p` starts.
+    pub fn start(&self, p: DVec2) -> DVec3 {
+        let [o, u, v] = self.origin;
+        o + u * p.x + v * p.y
+    }
+
     /// Returns the points that the rays reach after these distances, in the form of `origin`.
     pub fn advanced(&self, distance: Affine) -> [DVec3; 3] {
         let [o, u, v] = self.origin;
@@ -53,8 +60,8 @@ pub(super) struct Landing<'a> {
 /// Splits beams among the facets of one polytope, and holds the work space that this needs.
 pub(super) struct Splitter<'a> {
     polytope: &'a Polytope,
-    /// For each facet, the facet that faces it most squarely: the search for a first landing starts there.
-    opposite: &'a [u32],
+    /// Says where the search for a first landing starts.
+    guess: &'a FacetGuess,
     /// For each facet, the distance to its plane, over the image.
     distance: Vec<Affine>,
     /// Half the extent of the largest image of the stone.
@@ -71,23 +78,13 @@ pub(super) struct Splitter<'a> {
     values: Vec<f64>,
 }
 
-/// Returns [`Splitter::opposite`] for all facets.
-pub(super) fn opposites(polytope: &Polytope) -> Vec<u32> {
-    let normals: Vec<DVec3> = polytope.planes().map(|p| p.normal).collect();
-    let faces = |n: &DVec3| {
-        let squarest = (0..normals.len()).min_by(|&a, &b| normals[a].dot(*n).total_cmp(&normals[b].dot(*n)));
-        squarest.unwrap_or(0) as u32
-    };
-    normals.iter().map(faces).collect()
-}
-
 impl<'a> Splitter<'a> {
-    pub fn new(polytope: &'a Polytope, opposite: &'a [u32]) -> Self {
+    pub fn new(polytope: &'a Polytope, guess: &'a FacetGuess) -> Self {
         let n = polytope.facets().len();
         let extent = polytope.vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
         Self {
             polytope,
-            opposite,
+            guess,
             extent,
             distance: vec![Affine::default(); n],
             known: vec![0; n],
@@ -100,14 +97,14 @@ impl<'a> Splitter<'a> {
         }
     }
 
-    /// Calls `land` for each facet that the beam with this outline, coming from facet `from`, lands on.
+    /// Calls `land` for each facet that the beam with this outline lands on.
     ///
     /// The landings make up the outline but for slivers, whose area is returned. They are found by going from neighbour to
     /// neighbour; should that have missed any, all facets are tried.
-    pub fn split(&mut self, ray: &Ray, outline: &[DVec2], from: u32, mut land: impl FnMut(Landing)) -> f64 {
+    pub fn split(&mut self, ray: &Ray, outline: &[DVec2], mut land: impl FnMut(Landing)) -> f64 {
         self.beam += 1;
         let whole = twice_area(outline.iter().copied());
-        let Some(first) = self.first(ray, centroid(outline), from) else { return whole / 2.0 };
+        let Some(first) = self.first(ray, centroid(outline)) else { return whole / 2.0 };
         self.queue.clear();
         self.queue.push(first);
         self.visited[first as usize] = self.beam;
@@ -178,8 +175,8 @@ impl<'a> Splitter<'a> {
     }
 
     /// Returns the facet that the ray of image point `p` meets, found by walking to ever nearer neighbours.
-    fn first(&mut self, ray: &Ray, p: DVec2, from: u32) -> Option<u32> {
-        let mut at = self.opposite[from as usize];
+    fn first(&mut self, ray: &Ray, p: DVec2) -> Option<u32> {
+        let mut at = self.guess.ahead_of(ray.start(p), ray.direction);
         if !self.is_ahead(ray, at) {
             at = (0..self.known.len() as u32).find(|&k| self.is_ahead(ray, k))?;
         }
