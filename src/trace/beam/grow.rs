@@ -6,10 +6,10 @@
 
 use super::coherency::Coherency;
 use super::effort::Effort;
-use super::follow::{Follower, Front, Growth, SLIVER, s_axis};
+use super::follow::{Flight, Follower, Front, SLIVER, s_axis};
 use super::guess::FacetGuess;
 use super::split::Ray;
-use super::tree::{BeamNode, Beams, ROOT};
+use super::tree::{BeamBlock, BeamNode, Beams, ROOT};
 use crate::math::{Affine, Basis, Plane, Polytope, Symmetry, area, clip};
 use crate::optics::{fresnel, reflect, refract};
 use crate::scene::{Medium, View};
@@ -46,6 +46,10 @@ const PIECE: usize = 128;
 
 /// Pieces between two checks of `watch` and of the number of beams.
 const AT_ONCE: usize = 64;
+
+/// Pieces that are found, for each thread, before they are added to the tree. With more, threads wait for each other less;
+/// with fewer, less memory is needed beside the tree.
+const PIECES_A_THREAD: usize = 8;
 
 /// The least and the greatest factor by which the level of energy falls at a step: with a smaller one the last step might
 /// overshoot.
@@ -91,7 +95,8 @@ pub fn grow(
     standard_error: Option<f64>,
     watch: Watch,
 ) -> Result<GrownBeams, Stopped> {
-    let mut tracer = Tracer::new(polytope, medium, view, options);
+    let guess = FacetGuess::new(polytope.planes());
+    let mut tracer = Tracer::new(polytope, &guess, medium, view, options);
     tracer.enter();
     tracer.run(options, standard_error.map(Effort::to), watch)?;
     Ok(GrownBeams { beams: tracer.beams, open: tracer.fronts })
@@ -99,13 +104,20 @@ pub fn grow(
 
 struct Tracer<'a> {
     polytope: &'a Polytope,
-    guess: FacetGuess,
     beams: Beams,
     fronts: Vec<Front>,
+    /// Each follows one piece of work at a time.
+    followers: Vec<Follower<'a>>,
 }
 
 impl<'a> Tracer<'a> {
-    fn new(polytope: &'a Polytope, medium: Medium, view: &View, options: &BeamOptions) -> Self {
+    fn new(
+        polytope: &'a Polytope,
+        guess: &'a FacetGuess,
+        medium: Medium,
+        view: &View,
+        options: &BeamOptions,
+    ) -> Self {
         let (basis, zenith) = (view.basis(), view.zenith());
         let symmetry =
             if options.symmetry { Symmetry::of(polytope.planes(), &basis, zenith) } else { Symmetry::NONE };
@@ -117,10 +129,11 @@ impl<'a> Tracer<'a> {
             polarised: options.polarised,
             silhouette_area: polytope.silhouette_area(basis.toward),
             dropped: 0.0,
-            nodes: vec![],
-            corners: vec![],
+            blocks: vec![],
         };
-        Self { polytope, guess: FacetGuess::new(polytope.planes()), beams, fronts: vec![] }
+        let pieces = rayon::current_num_threads() * PIECES_A_THREAD;
+        let followers = (0..pieces).map(|_| Follower::new(polytope, guess)).collect();
+        Self { polytope, beams, fronts: vec![], followers }
     }
 
     /// Starts a beam on every facet that the eye sees in one domain of the symmetry.
@@ -154,13 +167,10 @@ impl<'a> Tracer<'a> {
         let light = if self.beams.polarised { light } else { light.unpolarised() };
         let cosines = (cos_i, surface.cos_t.unwrap_or(0.0));
         let direction = refract(-view.toward, plane.normal, eta, cosines);
-        let node = self.beams.nodes.len() as u32;
-        let start = self.beams.corners.len() as u32;
-        self.beams.corners.extend(outline);
-        self.beams.nodes.push(BeamNode {
+        let node = BeamNode {
             parent: ROOT,
             facet,
-            corners: (start, outline.len() as u32),
+            corners: (0, outline.len() as u32),
             area,
             exit: reflect(-view.toward, plane.normal, cos_i),
             weight: glare,
@@ -169,11 +179,13 @@ impl<'a> Tracer<'a> {
             transmittance: 1.0,
             absorbed: 0.0,
             open: false,
-        });
+        };
+        let id = self.beams.len() as u32;
+        self.beams.extend(&BeamBlock { nodes: vec![node], corners: outline.to_vec() });
         let ray = Ray { origin: entry_points(&view, &plane), direction };
         let s = s_axis(direction, plane.normal, view.right);
         let energy = light.weight() * area;
-        self.fronts.push(Front { node, bounces: 0, ray, light, s, energy });
+        self.fronts.push(Front { node: id, bounces: 0, energy, flight: Box::new(Flight { ray, light, s }) });
     }
 
     fn run(
@@ -194,8 +206,8 @@ impl<'a> Tracer<'a> {
                 return Err(Stopped);
             }
             let movable = self.fronts.iter().any(|f| f.bounces < MOST_BOUNCES && f.energy > 0.0);
-            let is_enough = effort.as_mut().is_none_or(|e| e.suffices(self.beams.nodes.len(), left / whole));
-            if left <= goal && is_enough || !movable || self.beams.nodes.len() > options.most_beams {
+            let is_enough = effort.as_mut().is_none_or(|e| e.suffices(self.beams.len(), left / whole));
+            if left <= goal && is_enough || !movable || self.beams.len() > options.most_beams {
                 break;
             }
             level = match left <= goal {
@@ -205,7 +217,7 @@ impl<'a> Tracer<'a> {
             self.follow_above(level, options.most_beams, &|| watch(done))?;
         }
         for front in &self.fronts {
-            self.beams.nodes[front.node as usize].open = true;
+            self.beams.node_mut(front.node).open = true;
         }
         Ok(())
     }
@@ -217,46 +229,41 @@ impl<'a> Tracer<'a> {
         most_beams: usize,
         watch: &impl Fn() -> ControlFlow<()>,
     ) -> Result<(), Stopped> {
-        let strong = |f: &Front| f.energy >= level && f.bounces < MOST_BOUNCES;
-        let go: Vec<Front> = self.fronts.extract_if(.., |f| strong(f)).collect();
+        let strong = |energy: f64, bounces: u32| energy >= level && bounces < MOST_BOUNCES;
+        let go: Vec<Front> = self.fronts.extract_if(.., |f| strong(f.energy, f.bounces)).collect();
         let mut batches = go.chunks(AT_ONCE * PIECE);
         for batch in batches.by_ref() {
             if watch().is_break() {
                 return Err(Stopped);
             }
-            let base = self.beams.nodes.len() as u32;
-            let this = &*self;
-            let work = |piece: &[Front]| {
-                Follower::new(this.polytope, &this.guess, &this.beams).follow(piece, |f| strong(f))
-            };
-            let grown: Vec<Growth> = batch.par_chunks(PIECE).map(work).collect();
-            for growth in grown {
-                self.take_in(growth, base);
+            for part in batch.chunks(self.followers.len() * PIECE) {
+                let (before, followers) = (&self.beams, self.followers.par_iter_mut());
+                let work = |(piece, follower): (&[Front], &mut Follower)| follower.follow(before, piece, strong);
+                part.par_chunks(PIECE).zip(followers).for_each(work);
+                self.take_in(part.len().div_ceil(PIECE));
             }
-            if self.beams.nodes.len() > most_beams {
+            if self.beams.len() > most_beams {
                 break;
             }
         }
-        self.fronts.extend(batches.flatten());
+        self.fronts.extend(batches.flatten().cloned());
         Ok(())
     }
 
-    /// Adds the beams that a piece of work has found to the tree. Its nodes are numbered on from `base`; they are moved
-    /// behind those of the pieces added before it.
-    fn take_in(&mut self, mut growth: Growth, base: u32) {
-        let beams = &mut self.beams;
-        let shift = beams.nodes.len() as u32 - base;
-        let moved = |id: &mut u32| *id += if *id >= base { shift } else { 0 };
-        let first_corner = beams.corners.len() as u32;
-        for node in &mut growth.nodes {
-            moved(&mut node.parent);
-            node.corners.0 += first_corner;
+    /// Adds the beams that the last pieces of work have found to the tree. The nodes of each are numbered on from the same
+    /// number; they are moved behind those of the pieces added before it.
+    fn take_in(&mut self, pieces: usize) {
+        let base = self.beams.len() as u32;
+        for follower in &mut self.followers[..pieces] {
+            let growth = &mut follower.growth;
+            let shift = self.beams.len() as u32 - base;
+            let moved = |id: &mut u32| *id += if *id >= base { shift } else { 0 };
+            growth.beams.nodes.iter_mut().for_each(|node| moved(&mut node.parent));
+            growth.left.iter_mut().for_each(|front| moved(&mut front.node));
+            self.beams.extend(&growth.beams);
+            self.beams.dropped += growth.dropped;
+            self.fronts.append(&mut growth.left);
         }
-        growth.left.iter_mut().for_each(|f| moved(&mut f.node));
-        beams.nodes.append(&mut growth.nodes);
-        beams.corners.append(&mut growth.corners);
-        beams.dropped += growth.dropped;
-        self.fronts.append(&mut growth.left);
     }
 }
 
