@@ -1,10 +1,9 @@
 //! Follows a few beams, and all that they split into, as long as they are strong enough.
 
 use super::coherency::Coherency;
-use super::guess::FacetGuess;
-use super::split::{Landing, Ray, Splitter, twice_area};
+use super::split::{Facets, Landing, Ray, Splitter};
 use super::tree::{BeamBlock, BeamNode, Beams};
-use crate::math::{Affine, Polytope, integral_of_decay};
+use crate::math::{Affine, integral_of_decay};
 use crate::optics::{fresnel, reflect, refract};
 use crate::scene::Medium;
 use glam::{DVec2, DVec3};
@@ -81,8 +80,8 @@ pub(super) struct Follower<'a> {
 }
 
 impl<'a> Follower<'a> {
-    pub fn new(polytope: &'a Polytope, guess: &'a FacetGuess) -> Self {
-        let splitter = Splitter::new(polytope, guess);
+    pub fn new(facets: &'a Facets<'a>) -> Self {
+        let splitter = Splitter::new(facets);
         Self { splitter, growth: Growth::default(), outline: vec![], stack: vec![] }
     }
 
@@ -108,14 +107,14 @@ impl<'a> Follower<'a> {
         let path = parent.path;
         let sliver = SLIVER * before.silhouette_area;
         let missed = splitter.split(&front.flight.ray, outline, |landing| {
-            let area = twice_area(landing.outline.iter().map(|c| c.at)) / 2.0;
+            let area = landing.twice_area / 2.0;
             if area <= sliver {
                 growth.dropped += front.flight.light.weight() * area.max(0.0);
                 return;
             }
             let id = (base + growth.beams.nodes.len()) as u32;
             let start = growth.beams.corners.len() as u32;
-            growth.beams.corners.extend(landing.outline.iter().map(|c| c.at));
+            growth.beams.corners.extend_from_slice(landing.outline);
             let (node, onward) = land(front, path, &landing, area, before, (id, start), &growth.beams.corners);
             growth.beams.nodes.push(node);
             if strong(onward.energy, onward.bounces) {

@@ -7,8 +7,7 @@
 use super::coherency::Coherency;
 use super::effort::Effort;
 use super::follow::{Flight, Follower, Front, SLIVER, s_axis};
-use super::guess::FacetGuess;
-use super::split::Ray;
+use super::split::{Facets, Ray};
 use super::tree::{BeamBlock, BeamNode, Beams, ROOT};
 use crate::math::{Affine, Basis, Plane, Polytope, Symmetry, area, clip};
 use crate::optics::{fresnel, reflect, refract};
@@ -95,8 +94,8 @@ pub fn grow(
     standard_error: Option<f64>,
     watch: Watch,
 ) -> Result<GrownBeams, Stopped> {
-    let guess = FacetGuess::new(polytope.planes());
-    let mut tracer = Tracer::new(polytope, &guess, medium, view, options);
+    let facets = Facets::new(polytope);
+    let mut tracer = Tracer::new(polytope, &facets, medium, view, options);
     tracer.enter();
     tracer.run(options, standard_error.map(Effort::to), watch)?;
     Ok(GrownBeams { beams: tracer.beams, open: tracer.fronts })
@@ -104,6 +103,7 @@ pub fn grow(
 
 struct Tracer<'a> {
     polytope: &'a Polytope,
+    facets: &'a Facets<'a>,
     beams: Beams,
     fronts: Vec<Front>,
     /// Each follows one piece of work at a time.
@@ -113,7 +113,7 @@ struct Tracer<'a> {
 impl<'a> Tracer<'a> {
     fn new(
         polytope: &'a Polytope,
-        guess: &'a FacetGuess,
+        facets: &'a Facets<'a>,
         medium: Medium,
         view: &View,
         options: &BeamOptions,
@@ -131,9 +131,7 @@ impl<'a> Tracer<'a> {
             dropped: 0.0,
             blocks: vec![],
         };
-        let pieces = rayon::current_num_threads() * PIECES_A_THREAD;
-        let followers = (0..pieces).map(|_| Follower::new(polytope, guess)).collect();
-        Self { polytope, beams, fronts: vec![], followers }
+        Self { polytope, facets, beams, fronts: vec![], followers: vec![] }
     }
 
     /// Starts a beam on every facet that the eye sees in one domain of the symmetry.
@@ -236,7 +234,10 @@ impl<'a> Tracer<'a> {
             if watch().is_break() {
                 return Err(Stopped);
             }
-            for part in batch.chunks(self.followers.len() * PIECE) {
+            for part in batch.chunks(rayon::current_num_threads() * PIECES_A_THREAD * PIECE) {
+                while self.followers.len() < part.len().div_ceil(PIECE) {
+                    self.followers.push(Follower::new(self.facets));
+                }
                 let (before, followers) = (&self.beams, self.followers.par_iter_mut());
                 let work = |(piece, follower): (&[Front], &mut Follower)| follower.follow(before, piece, strong);
                 part.par_chunks(PIECE).zip(followers).for_each(work);

@@ -67,25 +67,31 @@ impl WithSimd for Ahead<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f32 {
-        let splat = |v: DVec3| v.as_vec3().to_array().map(|c| simd.splat_f32s(c));
-        let (point, direction) = (splat(self.point), splat(self.direction));
+        let (point, direction) = (splat(simd, self.point), splat(simd, self.direction));
         let least_gap = simd.splat_f32s(LEAST_GAP);
         let clear = simd.splat_f32s(f32::from_bits(!self.planes.tag_bits));
-        let [x, y, z] = self.planes.normal.each_ref().map(|column| S::as_simd_f32s(column).0);
+        let [x, y, z] = &self.planes.normal;
+        let (x, y, z) = (S::as_simd_f32s(x).0, S::as_simd_f32s(y).0, S::as_simd_f32s(z).0);
         let (offset, tag) = (S::as_simd_f32s(&self.planes.offset).0, S::as_simd_f32s(&self.planes.tag).0);
         let mut greatest = simd.splat_f32s(0.0);
-        for ((((&x, &y), &z), &offset), &tag) in x.iter().zip(y).zip(z).zip(offset).zip(tag) {
-            let speed = dot(simd, [x, y, z], direction);
-            let gap = simd.sub_f32s(offset, dot(simd, [x, y, z], point));
+        for row in 0..tag.len() {
+            let normal = [x[row], y[row], z[row]];
+            let speed = dot(simd, normal, direction);
+            let gap = simd.sub_f32s(offset[row], dot(simd, normal, point));
             let ratio = simd.div_f32s(speed, simd.max_f32s(gap, least_gap));
-            greatest = simd.max_f32s(simd.or_f32s(simd.and_f32s(ratio, clear), tag), greatest);
+            greatest = simd.max_f32s(simd.or_f32s(simd.and_f32s(ratio, clear), tag[row]), greatest);
         }
         simd.reduce_max_f32s(greatest)
     }
 }
 
 #[inline(always)]
-fn dot<S: Simd>(simd: S, normal: [S::f32s; 3], v: [S::f32s; 3]) -> S::f32s {
-    let [x, y, z] = [0, 1, 2].map(|i| simd.mul_f32s(normal[i], v[i]));
-    simd.add_f32s(simd.add_f32s(x, y), z)
+fn dot<S: Simd>(simd: S, a: [S::f32s; 3], b: [S::f32s; 3]) -> S::f32s {
+    let xy = simd.add_f32s(simd.mul_f32s(a[0], b[0]), simd.mul_f32s(a[1], b[1]));
+    simd.add_f32s(xy, simd.mul_f32s(a[2], b[2]))
+}
+
+#[inline(always)]
+fn splat<S: Simd>(simd: S, v: DVec3) -> [S::f32s; 3] {
+    [simd.splat_f32s(v.x as f32), simd.splat_f32s(v.y as f32), simd.splat_f32s(v.z as f32)]
 }

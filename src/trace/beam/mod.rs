@@ -15,6 +15,7 @@ mod guess;
 mod split;
 mod sweep;
 mod tree;
+mod whole;
 
 pub use cells::Cell;
 pub(in crate::trace) use follow::Front;
