@@ -32,7 +32,7 @@ impl Beams {
     /// absorbs, weights are means over outlines, so that the map is exact only as far as absorption is even in each.
     pub fn strongest_exits(&self) -> Vec<Cell> {
         let (best, parted) = (self.strongest_so_far(), self.parted());
-        let open_above = |id: usize| match self.node(id as u32).parent {
+        let open_above = |id: usize| match self.nodes[id as u32].parent {
             ROOT => true,
             parent => !best[parent as usize].is_decided,
         };
@@ -61,7 +61,7 @@ impl Beams {
     /// Returns, for each beam, whether it was split further.
     fn parted(&self) -> Vec<bool> {
         let mut parted = vec![false; self.len()];
-        for parent in self.nodes().map(|n| n.parent).filter(|&p| p != ROOT) {
+        for parent in self.nodes.iter().map(|n| n.parent).filter(|&p| p != ROOT) {
             parted[parent as usize] = true;
         }
         parted
@@ -71,7 +71,7 @@ impl Beams {
     pub fn undecided(&self, cells: &[Cell]) -> f64 {
         let open = cells.iter().filter(|c| c.undecided || c.strongest.is_none());
         // Not `sum`, which makes -0 of nothing.
-        let area = open.fold(0.0, |area, c| area + self.node(c.outline).area);
+        let area = open.fold(0.0, |area, c| area + self.nodes[c.outline].area);
         area * f64::from(self.symmetry.order()) / self.silhouette_area
     }
 

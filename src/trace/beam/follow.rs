@@ -2,7 +2,7 @@
 
 use super::coherency::Coherency;
 use super::split::{Facets, Landing, Ray, Splitter};
-use super::tree::{BeamBlock, BeamNode, Beams};
+use super::tree::{BeamExit, BeamLoss, BeamNode, Beams, NO_EXIT, NewBeams};
 use crate::math::{Affine, integral_of_decay};
 use crate::optics::{fresnel, reflect, refract};
 use crate::scene::Medium;
@@ -32,6 +32,8 @@ pub(in crate::trace) struct Flight {
     pub light: Coherency,
     /// The axis s of `light`: a unit vector perpendicular to the ray.
     pub s: DVec3,
+    /// The integral over the outline of the share that absorption has left.
+    pub left: f64,
 }
 
 impl<F> Front<F> {
@@ -45,7 +47,7 @@ impl<F> Front<F> {
 /// The beams that one piece of work has found. Its nodes are numbered on from the end of the existing tree.
 #[derive(Default)]
 pub(super) struct Growth {
-    pub beams: BeamBlock,
+    pub beams: NewBeams,
     /// Beams too weak to be followed.
     pub left: Vec<Front>,
     /// Energy lost in slivers.
@@ -55,8 +57,7 @@ pub(super) struct Growth {
 impl Growth {
     /// Empties it for the next piece of work.
     fn clear(&mut self) {
-        self.beams.nodes.clear();
-        self.beams.corners.clear();
+        self.beams.clear();
         self.left.clear();
         self.dropped = 0.0;
     }
@@ -97,14 +98,18 @@ impl<'a> Follower<'a> {
     /// Splits one beam among the facets that it lands on.
     fn step(&mut self, before: &Beams, front: &Front<Flight>, strong: &impl Fn(f64, u32) -> bool) {
         let Self { splitter, growth, outline, stack } = self;
-        outline.clear();
-        let base = before.len();
-        let (parent, block) = match (front.node as usize).checked_sub(base) {
-            None => before.node_in_block(front.node),
-            Some(own) => (&growth.beams.nodes[own], &growth.beams),
+        let base = before.size();
+        let beams = &mut growth.beams;
+        let parent = match front.node.checked_sub(base.nodes) {
+            None => before.nodes[front.node],
+            Some(own) => beams.nodes[own as usize],
         };
-        outline.extend(block.outline(parent));
-        let path = parent.path;
+        let (start, all) = match parent.corners.0.checked_sub(base.corners) {
+            None => (parent.corners.0 as usize, &before.corners),
+            Some(own) => (own as usize, &beams.corners),
+        };
+        outline.clear();
+        outline.extend_from_slice(&all[start..start + parent.corners.1 as usize]);
         let sliver = SLIVER * before.silhouette_area;
         let missed = splitter.split(&front.flight.ray, outline, |landing| {
             let area = landing.twice_area / 2.0;
@@ -112,75 +117,93 @@ impl<'a> Follower<'a> {
                 growth.dropped += front.flight.light.weight() * area.max(0.0);
                 return;
             }
-            let id = (base + growth.beams.nodes.len()) as u32;
-            let start = growth.beams.corners.len() as u32;
-            growth.beams.corners.extend_from_slice(landing.outline);
-            let (node, onward) = land(front, path, &landing, area, before, (id, start), &growth.beams.corners);
-            growth.beams.nodes.push(node);
-            if strong(onward.energy, onward.bounces) {
-                stack.push(onward);
-            } else if onward.energy > 0.0 {
-                growth.left.push(onward.kept(Box::new));
+            let corners = match landing.is_whole {
+                true => parent.corners,
+                false => (base.corners + beams.corners.len() as u32, landing.outline.len() as u32),
+            };
+            if !landing.is_whole {
+                beams.corners.extend_from_slice(landing.outline);
+            }
+            let landed = land(front, parent.path, &landing, before);
+            let exit = match landed.exit {
+                Some(exit) => {
+                    beams.exits.push(exit);
+                    base.exits + beams.exits.len() as u32 - 1
+                }
+                None => NO_EXIT,
+            };
+            if let Some(loss) = landed.loss {
+                beams.losses.push(loss);
+            }
+            let Landed { flight, path, .. } = landed;
+            let (light, onward) = (flight.light.weight(), front.bounces + 1);
+            let node = base.nodes + beams.nodes.len() as u32;
+            beams.nodes.push(BeamNode {
+                parent: front.node,
+                facet: landing.facet,
+                corners,
+                area,
+                onward: light,
+                path,
+                exit,
+                open: false,
+            });
+            let front = Front { node, bounces: onward, energy: light * flight.left, flight };
+            if strong(front.energy, front.bounces) {
+                stack.push(front);
+            } else if front.energy > 0.0 {
+                growth.left.push(front.kept(Box::new));
             }
         });
         growth.dropped += front.flight.light.weight() * missed;
     }
 }
 
-/// Splits a beam's light at the facet on which it has landed: returns the node, with the light that leaves, and the front
-/// that goes on.
+/// What becomes of a beam's light at the facet on which it lands.
+struct Landed {
+    path: Affine,
+    exit: Option<BeamExit>,
+    /// `None` where nothing absorbs.
+    loss: Option<BeamLoss>,
+    flight: Flight,
+}
+
+/// Splits a beam's light at the facet on which it has landed.
 #[inline]
-fn land(
-    front: &Front<Flight>,
-    path_before: Affine,
-    landing: &Landing,
-    area: f64,
-    beams: &Beams,
-    (id, start): (u32, u32),
-    corners: &[DVec2],
-) -> (BeamNode, Front<Flight>) {
-    let Flight { ray, light: arriving_light, s: s_before } = &front.flight;
+fn land(front: &Front<Flight>, path_before: Affine, landing: &Landing, beams: &Beams) -> Landed {
+    let Flight { ray, light: arriving, s: s_before, .. } = &front.flight;
     let (direction, normal) = (ray.direction, landing.normal);
     let index = beams.medium.index;
     let cos_i = direction.dot(normal);
     let surface = fresnel(cos_i, index);
     let s = s_axis(direction, normal, *s_before);
     let p_before = direction.cross(*s_before);
-    let arriving = arriving_light.turned(s_before.dot(s), p_before.dot(s));
-    let (reflected, weight) = arriving.split(&surface);
+    let (reflected, weight) = arriving.turned(s_before.dot(s), p_before.dot(s)).split(&surface);
     let light = if beams.polarised { reflected } else { reflected.unpolarised() };
-    let exit = surface.cos_t.map_or(DVec3::ZERO, |cos_t| refract(direction, -normal, index, (cos_i, cos_t)));
+    let exit = surface.cos_t.map(|cos_t| {
+        let direction = refract(direction, -normal, index, (cos_i, cos_t));
+        BeamExit { direction, weight }
+    });
     let path = path_before + landing.distance;
-    let own = &corners[start as usize..];
-    let (before, after) = attenuated(own, path_before, path, &beams.medium, area);
-    let node = BeamNode {
-        parent: front.node,
-        facet: landing.facet,
-        corners: (start, own.len() as u32),
-        area,
-        exit,
-        weight,
-        onward: light.weight(),
-        path,
-        transmittance: after / area,
-        absorbed: arriving_light.weight() * (before - after),
-        open: false,
+    let area = landing.twice_area / 2.0;
+    let (left, loss) = match beams.medium.is_clear() {
+        true => (area, None),
+        false => {
+            let left = |path| attenuated(landing.outline, path, &beams.medium);
+            let before = if landing.is_whole { front.flight.left } else { left(path_before) };
+            let after = left(path);
+            let absorbed = arriving.weight() * (before - after);
+            (after, Some(BeamLoss { transmittance: after / area, absorbed }))
+        }
     };
     let origin = ray.advanced(landing.distance);
     let ray = Ray { origin, direction: reflect(direction, -normal, cos_i) };
-    let energy = light.weight() * after;
-    let onward = Front { node: id, bounces: front.bounces + 1, energy, flight: Flight { ray, light, s } };
-    (node, onward)
+    Landed { path, exit, loss, flight: Flight { ray, light, s, left } }
 }
 
-/// Integrates the transmittance over the outline, after each of two paths; both are the area where nothing absorbs.
-fn attenuated(outline: &[DVec2], before: Affine, after: Affine, medium: &Medium, area: f64) -> (f64, f64) {
-    if medium.is_clear() {
-        return (area, area);
-    }
-    let left = |path: Affine| {
-        let [o, e] = medium.absorption.map(|a| integral_of_decay(outline, path * a));
-        0.5 * (o + e)
-    };
-    (left(before), left(after))
+/// Integrates over the outline the share that absorption leaves after a path.
+pub(super) fn attenuated(outline: &[DVec2], path: Affine, medium: &Medium) -> f64 {
+    let [o, e] = medium.absorption;
+    let left = |absorption| integral_of_decay(outline, path * absorption);
+    if o == e { left(o) } else { 0.5 * (left(o) + left(e)) }
 }

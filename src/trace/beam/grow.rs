@@ -4,11 +4,12 @@
 //! lowering the level, is therefore following the best first; and within one level every beam can be followed on
 //! its own, in any order and on any core, with the same result.
 
+use super::blocks::Blocks;
 use super::coherency::Coherency;
 use super::effort::Effort;
-use super::follow::{Flight, Follower, Front, SLIVER, s_axis};
+use super::follow::{Flight, Follower, Front, SLIVER, attenuated, s_axis};
 use super::split::{Facets, Ray};
-use super::tree::{BeamBlock, BeamNode, Beams, ROOT};
+use super::tree::{BeamExit, BeamLoss, BeamNode, Beams, ROOT, TreeSize};
 use crate::math::{Affine, Basis, Plane, Polytope, Symmetry, area, clip};
 use crate::optics::{fresnel, reflect, refract};
 use crate::scene::{Medium, View};
@@ -129,7 +130,10 @@ impl<'a> Tracer<'a> {
             polarised: options.polarised,
             silhouette_area: polytope.silhouette_area(basis.toward),
             dropped: 0.0,
-            blocks: vec![],
+            nodes: Blocks::default(),
+            corners: vec![],
+            exits: vec![],
+            losses: Blocks::default(),
         };
         Self { polytope, facets, beams, fronts: vec![], followers: vec![] }
     }
@@ -165,25 +169,30 @@ impl<'a> Tracer<'a> {
         let light = if self.beams.polarised { light } else { light.unpolarised() };
         let cosines = (cos_i, surface.cos_t.unwrap_or(0.0));
         let direction = refract(-view.toward, plane.normal, eta, cosines);
+        let TreeSize { nodes: id, corners, exits: exit } = self.beams.size();
         let node = BeamNode {
             parent: ROOT,
             facet,
-            corners: (0, outline.len() as u32),
+            corners: (corners, outline.len() as u32),
             area,
-            exit: reflect(-view.toward, plane.normal, cos_i),
-            weight: glare,
             onward: light.weight(),
             path: Affine::default(),
-            transmittance: 1.0,
-            absorbed: 0.0,
+            exit,
             open: false,
         };
-        let id = self.beams.len() as u32;
-        self.beams.extend(&BeamBlock { nodes: vec![node], corners: outline.to_vec() });
+        self.beams.nodes.extend(&[node]);
+        self.beams.corners.extend_from_slice(outline);
+        let reflected = reflect(-view.toward, plane.normal, cos_i);
+        self.beams.exits.push(BeamExit { direction: reflected, weight: glare });
+        if !self.beams.medium.is_clear() {
+            self.beams.losses.extend(&[BeamLoss::NONE]);
+        }
         let ray = Ray { origin: entry_points(&view, &plane), direction };
         let s = s_axis(direction, plane.normal, view.right);
+        let flight =
+            Flight { ray, light, s, left: attenuated(outline, Affine::default(), &self.beams.medium) };
         let energy = light.weight() * area;
-        self.fronts.push(Front { node: id, bounces: 0, energy, flight: Box::new(Flight { ray, light, s }) });
+        self.fronts.push(Front { node: id, bounces: 0, energy, flight: Box::new(flight) });
     }
 
     fn run(
@@ -215,7 +224,7 @@ impl<'a> Tracer<'a> {
             self.follow_above(level, options.most_beams, &|| watch(done))?;
         }
         for front in &self.fronts {
-            self.beams.node_mut(front.node).open = true;
+            self.beams.nodes[front.node].open = true;
         }
         Ok(())
     }
@@ -239,7 +248,8 @@ impl<'a> Tracer<'a> {
                     self.followers.push(Follower::new(self.facets));
                 }
                 let (before, followers) = (&self.beams, self.followers.par_iter_mut());
-                let work = |(piece, follower): (&[Front], &mut Follower)| follower.follow(before, piece, strong);
+                let work =
+                    |(piece, follower): (&[Front], &mut Follower)| follower.follow(before, piece, strong);
                 part.par_chunks(PIECE).zip(followers).for_each(work);
                 self.take_in(part.len().div_ceil(PIECE));
             }
@@ -254,14 +264,11 @@ impl<'a> Tracer<'a> {
     /// Adds the beams that the last pieces of work have found to the tree. The nodes of each are numbered on from the same
     /// number; they are moved behind those of the pieces added before it.
     fn take_in(&mut self, pieces: usize) {
-        let base = self.beams.len() as u32;
+        let base = self.beams.size();
         for follower in &mut self.followers[..pieces] {
             let growth = &mut follower.growth;
-            let shift = self.beams.len() as u32 - base;
-            let moved = |id: &mut u32| *id += if *id >= base { shift } else { 0 };
-            growth.beams.nodes.iter_mut().for_each(|node| moved(&mut node.parent));
-            growth.left.iter_mut().for_each(|front| moved(&mut front.node));
-            self.beams.extend(&growth.beams);
+            let shift = self.beams.extend(&mut growth.beams, base);
+            growth.left.iter_mut().filter(|f| f.node >= base.nodes).for_each(|f| f.node += shift);
             self.beams.dropped += growth.dropped;
             self.fronts.append(&mut growth.left);
         }

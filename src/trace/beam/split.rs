@@ -50,6 +50,8 @@ pub(super) struct Landing<'a> {
     pub distance: Affine,
     pub outline: &'a [DVec2],
     pub twice_area: f64,
+    /// Whether the outline is that of the whole beam.
+    pub is_whole: bool,
 }
 
 /// The facets of one polytope, ready to be looked up.
@@ -135,7 +137,7 @@ impl<'a> Splitter<'a> {
             let distance = self.distance[guess as usize];
             let extent = self.facets.extent;
             if self.facets.around.hold(Candidate { ray, outline, centre, facet: guess, distance, extent }) {
-                land(self.landing(guess, outline, whole));
+                land(Landing { is_whole: true, ..self.landing(guess, outline, whole) });
                 return 0.0;
             }
         }
@@ -157,7 +159,7 @@ impl<'a> Splitter<'a> {
     fn landing<'b>(&self, facet: u32, outline: &'b [DVec2], twice_area: f64) -> Landing<'b> {
         let distance = self.distance[facet as usize];
         let normal = self.facets.polytope.facets()[facet as usize].plane.normal;
-        Landing { facet, normal, distance, outline, twice_area }
+        Landing { facet, normal, distance, outline, twice_area, is_whole: false }
     }
 
     /// Lands on the facets in the queue and on their neighbours; returns twice the area that has landed.

@@ -103,8 +103,7 @@ impl WithSimd for Hold<'_> {
                 simd.sub_f64s(there[1], here[1]),
                 simd.sub_f64s(there[2], here[2]),
             ];
-            let (mut least, mut most) =
-                (simd.splat_f64s(f64::INFINITY), simd.splat_f64s(f64::NEG_INFINITY));
+            let (mut least, mut most) = (simd.splat_f64s(f64::INFINITY), simd.splat_f64s(f64::NEG_INFINITY));
             for &corner in outline {
                 let value = at(simd, farther, corner);
                 least = simd.min_f64s(value, least);
