@@ -1,8 +1,8 @@
 //! Follows a few beams, and all that they split into, as long as they are strong enough.
 
 use super::coherency::Coherency;
-use super::split::{Facets, Landing, Ray, Splitter};
-use super::tree::{BeamExit, BeamLoss, BeamNode, Beams, NO_EXIT, NewBeams};
+use super::split::{Facets, Landing, Outline, Ray, Splitter};
+use super::tree::{BeamExit, BeamLoss, BeamNode, Beams, NO_EXIT, NewBeams, TreeSize};
 use crate::math::{Affine, integral_of_decay};
 use crate::optics::{fresnel, reflect, refract};
 use crate::scene::Medium;
@@ -10,6 +10,9 @@ use glam::{DVec2, DVec3};
 
 /// Outlines with less than this share of the silhouette's area come from rounding and are dropped.
 pub(super) const SLIVER: f64 = 1e-15;
+
+/// The place of an outline that is not there.
+const NOWHERE: (u32, u32) = (u32::MAX, 0);
 
 /// The sine of the angle between a beam and a facet's normal below which there is no plane of incidence, and none is needed.
 const SQUARE_ON: f64 = 1e-9;
@@ -36,11 +39,9 @@ pub(in crate::trace) struct Flight {
     pub left: f64,
 }
 
-impl<F> Front<F> {
-    /// Returns the same front with its flight kept in another way.
-    fn kept<G>(self, how: impl FnOnce(F) -> G) -> Front<G> {
-        let Self { node, bounces, energy, flight } = self;
-        Front { node, bounces, energy, flight: how(flight) }
+impl Front {
+    fn unboxed(&self) -> Front<Flight> {
+        Front { node: self.node, bounces: self.bounces, energy: self.energy, flight: *self.flight }
     }
 }
 
@@ -75,21 +76,29 @@ pub(super) struct Follower<'a> {
     splitter: Splitter<'a>,
     /// What the last piece has found.
     pub growth: Growth,
-    /// The outline of the beam being split.
-    outline: Vec<DVec2>,
+    /// The outline of the beam being split, and where it lies among all corners.
+    outline: Outline,
+    outline_at: (u32, u32),
     stack: Vec<Front<Flight>>,
 }
 
 impl<'a> Follower<'a> {
     pub fn new(facets: &'a Facets<'a>) -> Self {
         let splitter = Splitter::new(facets);
-        Self { splitter, growth: Growth::default(), outline: vec![], stack: vec![] }
+        Self {
+            splitter,
+            growth: Growth::default(),
+            outline: Outline::default(),
+            outline_at: NOWHERE,
+            stack: vec![],
+        }
     }
 
     /// Follows these fronts, and every beam that they split into, while the energy and the number of bounces are `strong`.
     pub fn follow(&mut self, before: &Beams, fronts: &[Front], strong: impl Fn(f64, u32) -> bool) {
         self.growth.clear();
-        self.stack.extend(fronts.iter().rev().map(|front| front.clone().kept(|flight| *flight)));
+        self.outline_at = NOWHERE;
+        self.stack.extend(fronts.iter().rev().map(Front::unboxed));
         while let Some(front) = self.stack.pop() {
             self.step(before, &front, &strong);
         }
@@ -97,19 +106,22 @@ impl<'a> Follower<'a> {
 
     /// Splits one beam among the facets that it lands on.
     fn step(&mut self, before: &Beams, front: &Front<Flight>, strong: &impl Fn(f64, u32) -> bool) {
-        let Self { splitter, growth, outline, stack } = self;
+        let Self { splitter, growth, outline, outline_at, stack } = self;
         let base = before.size();
         let beams = &mut growth.beams;
         let parent = match front.node.checked_sub(base.nodes) {
             None => before.nodes[front.node],
             Some(own) => beams.nodes[own as usize],
         };
-        let (start, all) = match parent.corners.0.checked_sub(base.corners) {
-            None => (parent.corners.0 as usize, &before.corners),
-            Some(own) => (own as usize, &beams.corners),
-        };
-        outline.clear();
-        outline.extend_from_slice(&all[start..start + parent.corners.1 as usize]);
+        // Most beams land as a whole, and the next to be followed is what became of them.
+        if *outline_at != parent.corners {
+            let (start, all) = match parent.corners.0.checked_sub(base.corners) {
+                None => (parent.corners.0 as usize, &before.corners),
+                Some(own) => (own as usize, &beams.corners),
+            };
+            outline.load(&all[start..start + parent.corners.1 as usize]);
+            *outline_at = parent.corners;
+        }
         let sliver = SLIVER * before.silhouette_area;
         let missed = splitter.split(&front.flight.ray, outline, |landing| {
             let area = landing.twice_area / 2.0;
@@ -117,45 +129,48 @@ impl<'a> Follower<'a> {
                 growth.dropped += front.flight.light.weight() * area.max(0.0);
                 return;
             }
-            let corners = match landing.is_whole {
-                true => parent.corners,
-                false => (base.corners + beams.corners.len() as u32, landing.outline.len() as u32),
-            };
-            if !landing.is_whole {
-                beams.corners.extend_from_slice(landing.outline);
-            }
             let landed = land(front, parent.path, &landing, before);
-            let exit = match landed.exit {
-                Some(exit) => {
-                    beams.exits.push(exit);
-                    base.exits + beams.exits.len() as u32 - 1
-                }
-                None => NO_EXIT,
-            };
-            if let Some(loss) = landed.loss {
-                beams.losses.push(loss);
-            }
-            let Landed { flight, path, .. } = landed;
-            let (light, onward) = (flight.light.weight(), front.bounces + 1);
-            let node = base.nodes + beams.nodes.len() as u32;
-            beams.nodes.push(BeamNode {
-                parent: front.node,
-                facet: landing.facet,
-                corners,
-                area,
-                onward: light,
-                path,
-                exit,
-                open: false,
-            });
-            let front = Front { node, bounces: onward, energy: light * flight.left, flight };
-            if strong(front.energy, front.bounces) {
-                stack.push(front);
-            } else if front.energy > 0.0 {
-                growth.left.push(front.kept(Box::new));
+            let node = beams.add((front.node, parent.corners), &landing, &landed, base);
+            let (energy, bounces) = (landed.light.weight() * landed.left, front.bounces + 1);
+            if strong(energy, bounces) {
+                stack.push(Front {
+                    node,
+                    bounces,
+                    energy,
+                    flight: landed.flight(&front.flight.ray, &landing),
+                });
+            } else if energy > 0.0 {
+                let flight = Box::new(landed.flight(&front.flight.ray, &landing));
+                growth.left.push(Front { node, bounces, energy, flight });
             }
         });
         growth.dropped += front.flight.light.weight() * missed;
+    }
+}
+
+impl NewBeams {
+    /// Adds what has landed of a beam with this id and these corners; returns its id.
+    fn add(&mut self, of: (u32, (u32, u32)), landing: &Landing, landed: &Landed, base: TreeSize) -> u32 {
+        let (parent, mut corners) = of;
+        if !landing.is_whole {
+            corners = (base.corners + self.corners.len() as u32, landing.outline.len() as u32);
+            self.corners.extend_from_slice(landing.outline);
+        }
+        let exit = landed.exit.map_or(NO_EXIT, |_| base.exits + self.exits.len() as u32);
+        self.exits.extend(landed.exit);
+        self.losses.extend(landed.loss);
+        let id = base.nodes + self.nodes.len() as u32;
+        self.nodes.push(BeamNode {
+            parent,
+            facet: landing.facet,
+            corners,
+            area: landing.twice_area / 2.0,
+            onward: landed.light.weight(),
+            path: landed.path,
+            exit,
+            open: false,
+        });
+        id
     }
 }
 
@@ -165,11 +180,26 @@ struct Landed {
     exit: Option<BeamExit>,
     /// `None` where nothing absorbs.
     loss: Option<BeamLoss>,
-    flight: Flight,
+    /// The light that goes on, its axis s, and the integral of what absorption leaves: see [`Flight`].
+    light: Coherency,
+    s: DVec3,
+    left: f64,
+    /// The cosine of the angle of incidence.
+    cos_i: f64,
+}
+
+impl Landed {
+    /// Returns how the light goes on that has landed with this ray.
+    #[inline(always)]
+    fn flight(&self, ray: &Ray, landing: &Landing) -> Flight {
+        let origin = ray.advanced(landing.distance);
+        let direction = reflect(ray.direction, -landing.normal, self.cos_i);
+        Flight { ray: Ray { origin, direction }, light: self.light, s: self.s, left: self.left }
+    }
 }
 
 /// Splits a beam's light at the facet on which it has landed.
-#[inline]
+#[inline(always)]
 fn land(front: &Front<Flight>, path_before: Affine, landing: &Landing, beams: &Beams) -> Landed {
     let Flight { ray, light: arriving, s: s_before, .. } = &front.flight;
     let (direction, normal) = (ray.direction, landing.normal);
@@ -196,9 +226,7 @@ fn land(front: &Front<Flight>, path_before: Affine, landing: &Landing, beams: &B
             (after, Some(BeamLoss { transmittance: after / area, absorbed }))
         }
     };
-    let origin = ray.advanced(landing.distance);
-    let ray = Ray { origin, direction: reflect(direction, -normal, cos_i) };
-    Landed { path, exit, loss, flight: Flight { ray, light, s, left } }
+    Landed { path, exit, loss, light, s, left, cos_i }
 }
 
 /// Integrates over the outline the share that absorption leaves after a path.

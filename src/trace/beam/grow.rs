@@ -238,27 +238,30 @@ impl<'a> Tracer<'a> {
     ) -> Result<(), Stopped> {
         let strong = |energy: f64, bounces: u32| energy >= level && bounces < MOST_BOUNCES;
         let go: Vec<Front> = self.fronts.extract_if(.., |f| strong(f.energy, f.bounces)).collect();
-        let mut batches = go.chunks(AT_ONCE * PIECE);
-        for batch in batches.by_ref() {
+        let mut go = go.into_iter();
+        while !go.as_slice().is_empty() && self.beams.len() <= most_beams {
             if watch().is_break() {
                 return Err(Stopped);
             }
-            for part in batch.chunks(rayon::current_num_threads() * PIECES_A_THREAD * PIECE) {
-                while self.followers.len() < part.len().div_ceil(PIECE) {
-                    self.followers.push(Follower::new(self.facets));
-                }
-                let (before, followers) = (&self.beams, self.followers.par_iter_mut());
-                let work =
-                    |(piece, follower): (&[Front], &mut Follower)| follower.follow(before, piece, strong);
-                part.par_chunks(PIECE).zip(followers).for_each(work);
-                self.take_in(part.len().div_ceil(PIECE));
-            }
-            if self.beams.len() > most_beams {
-                break;
-            }
+            let batch: Vec<Front> = go.by_ref().take(AT_ONCE * PIECE).collect();
+            self.follow(&batch, strong);
         }
-        self.fronts.extend(batches.flatten().cloned());
+        self.fronts.extend(go);
         Ok(())
+    }
+
+    /// Follows these beams, and all that they split into while the energy and the number of bounces are `strong`.
+    fn follow(&mut self, fronts: &[Front], strong: impl Fn(f64, u32) -> bool + Copy + Sync) {
+        for part in fronts.chunks(rayon::current_num_threads() * PIECES_A_THREAD * PIECE) {
+            let pieces = part.len().div_ceil(PIECE);
+            while self.followers.len() < pieces {
+                self.followers.push(Follower::new(self.facets));
+            }
+            let (before, followers) = (&self.beams, self.followers.par_iter_mut());
+            let work = |(piece, follower): (&[Front], &mut Follower)| follower.follow(before, piece, strong);
+            part.par_chunks(PIECE).zip(followers).for_each(work);
+            self.take_in(pieces);
+        }
     }
 
     /// Adds the beams that the last pieces of work have found to the tree. The nodes of each are numbered on from the same

@@ -41,6 +41,23 @@ impl Ray {
     }
 }
 
+/// The outline of a beam that is split.
+#[derive(Default)]
+pub(super) struct Outline {
+    corners: Vec<DVec2>,
+    twice_area: f64,
+    centre: DVec2,
+}
+
+impl Outline {
+    /// Takes on these corners.
+    pub fn load(&mut self, corners: &[DVec2]) {
+        self.corners.clear();
+        self.corners.extend_from_slice(corners);
+        (self.twice_area, self.centre) = (twice_area(corners), centroid(corners));
+    }
+}
+
 /// The part of one beam that lands on one facet.
 pub(super) struct Landing<'a> {
     pub facet: u32,
@@ -128,10 +145,9 @@ impl<'a> Splitter<'a> {
     ///
     /// The landings make up the outline but for slivers, whose area is returned. They are found by going from neighbour to
     /// neighbour; should that have missed any, all facets are tried.
-    pub fn split(&mut self, ray: &Ray, outline: &[DVec2], mut land: impl FnMut(Landing)) -> f64 {
+    pub fn split(&mut self, ray: &Ray, outline: &Outline, mut land: impl FnMut(Landing)) -> f64 {
         self.beam += 1;
-        let whole = twice_area(outline);
-        let centre = centroid(outline);
+        let &Outline { corners: ref outline, twice_area: whole, centre } = outline;
         let guess = self.facets.guess.ahead_of(ray.start(centre), ray.direction);
         if self.is_ahead(ray, guess) {
             let distance = self.distance[guess as usize];
@@ -204,6 +220,7 @@ impl<'a> Splitter<'a> {
     }
 
     /// Works out the distance to a facet's plane, once for each beam; returns false where the beam does not run toward it.
+    #[inline]
     fn is_ahead(&mut self, ray: &Ray, facet: u32) -> bool {
         let k = facet as usize;
         if self.known[k] != self.beam {
