@@ -1,7 +1,7 @@
 //! Follows a few beams, and all that they split into, as long as they are strong enough.
 
 use super::coherency::Coherency;
-use super::split::{Facets, Landing, Outline, Ray, Splitter};
+use super::split::{BeamOutline, Facets, Landing, Ray, Splitter};
 use super::tree::{BeamExit, BeamLoss, BeamNode, Beams, NO_EXIT, NewBeams, TreeSize};
 use crate::math::{Affine, integral_of_decay};
 use crate::optics::{fresnel, reflect, refract};
@@ -77,7 +77,7 @@ pub(super) struct Follower<'a> {
     /// What the last piece has found.
     pub growth: Growth,
     /// The outline of the beam being split, and where it lies among all corners.
-    outline: Outline,
+    outline: BeamOutline,
     outline_at: (u32, u32),
     stack: Vec<Front<Flight>>,
 }
@@ -88,7 +88,7 @@ impl<'a> Follower<'a> {
         Self {
             splitter,
             growth: Growth::default(),
-            outline: Outline::default(),
+            outline: BeamOutline::default(),
             outline_at: NOWHERE,
             stack: vec![],
         }

@@ -1,7 +1,7 @@
 //! Finds the facets that a beam lands on next, and the part of its outline that lands on each.
 
 use super::guess::FacetGuess;
-use super::whole::{Candidate, Surroundings};
+use super::whole::{Candidate, FacetNeighbours};
 use crate::math::{Affine, Polytope, centroid};
 use glam::{DVec2, DVec3};
 
@@ -43,13 +43,13 @@ impl Ray {
 
 /// The outline of a beam that is split.
 #[derive(Default)]
-pub(super) struct Outline {
+pub(super) struct BeamOutline {
     corners: Vec<DVec2>,
     twice_area: f64,
     centre: DVec2,
 }
 
-impl Outline {
+impl BeamOutline {
     /// Takes on these corners.
     pub fn load(&mut self, corners: &[DVec2]) {
         self.corners.clear();
@@ -75,7 +75,7 @@ pub(super) struct Landing<'a> {
 pub(super) struct Facets<'a> {
     polytope: &'a Polytope,
     guess: FacetGuess,
-    around: Surroundings,
+    around: FacetNeighbours,
     /// Half the extent of the largest image of the stone.
     extent: f64,
 }
@@ -83,7 +83,7 @@ pub(super) struct Facets<'a> {
 impl<'a> Facets<'a> {
     pub fn new(polytope: &'a Polytope) -> Self {
         let extent = polytope.vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
-        let (guess, around) = (FacetGuess::new(polytope.planes()), Surroundings::new(polytope));
+        let (guess, around) = (FacetGuess::new(polytope.planes()), FacetNeighbours::new(polytope));
         Self { polytope, guess, around, extent }
     }
 }
@@ -145,9 +145,9 @@ impl<'a> Splitter<'a> {
     ///
     /// The landings make up the outline but for slivers, whose area is returned. They are found by going from neighbour to
     /// neighbour; should that have missed any, all facets are tried.
-    pub fn split(&mut self, ray: &Ray, outline: &Outline, mut land: impl FnMut(Landing)) -> f64 {
+    pub fn split(&mut self, ray: &Ray, outline: &BeamOutline, mut land: impl FnMut(Landing)) -> f64 {
         self.beam += 1;
-        let &Outline { corners: ref outline, twice_area: whole, centre } = outline;
+        let &BeamOutline { corners: ref outline, twice_area: whole, centre } = outline;
         let guess = self.facets.guess.ahead_of(ray.start(centre), ray.direction);
         if self.is_ahead(ray, guess) {
             let distance = self.distance[guess as usize];

@@ -15,7 +15,7 @@ const WIDEST: usize = 8;
 /// The planes around each facet, coordinate by coordinate, filled up to whole rows with the zero normal, toward which no
 /// ray runs.
 #[derive(Debug, Clone)]
-pub(super) struct Surroundings {
+pub(super) struct FacetNeighbours {
     normal: [Vec<f64>; 3],
     offset: Vec<f64>,
     /// For each facet, the first of the planes around it, and their number.
@@ -37,7 +37,7 @@ pub(super) struct Candidate<'a> {
     pub extent: f64,
 }
 
-impl Surroundings {
+impl FacetNeighbours {
     pub fn new(polytope: &Polytope) -> Self {
         let facets = polytope.facets();
         let (mut planes, mut of) = (vec![], vec![]);
@@ -62,7 +62,7 @@ impl Surroundings {
 }
 
 struct Hold<'a> {
-    around: &'a Surroundings,
+    around: &'a FacetNeighbours,
     candidate: Candidate<'a>,
 }
 
