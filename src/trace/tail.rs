@@ -5,7 +5,7 @@
 //! goes. The polygons stand in the order of the tree, in which neighbours have most of their way in common: samples from
 //! successive pieces of that order differ little, and so does their mean from the true one.
 
-use super::beam::{Beams, Front, GrownBeams};
+use super::beam::{Beams, Flight, Front, GrownBeams};
 use super::ray::{PathLight, RayOptions, StoneTracer};
 use crate::math::{Polytope, point_in_polygon};
 use glam::{DVec2, DVec3};
@@ -31,7 +31,7 @@ const LEAST: f64 = 1e-15;
 pub struct Tail<'a> {
     beams: &'a Beams,
     tracer: StoneTracer,
-    sources: Vec<TailSource>,
+    sources: Vec<TailSource<'a>>,
     /// The part of the silhouette's light that was left.
     light: f64,
     /// The part of the silhouette's area whose strongest exit is undecided.
@@ -39,8 +39,8 @@ pub struct Tail<'a> {
 }
 
 /// The end of one beam, from which rays go on.
-struct TailSource {
-    front: Front,
+struct TailSource<'a> {
+    front: &'a Front,
     /// Where its part of all places ends, 0 to 1.
     until: f64,
     /// Its part of the places, above 0.
@@ -75,10 +75,10 @@ impl<'a> Tail<'a> {
         let beams = &grown.beams;
         let share = f64::from(beams.symmetry.order()) / beams.silhouette_area;
         let best = beams.strongest_so_far();
-        let source = |front: &Front| {
+        let source = |front: &'a Front| {
             let (beam, best) = (beams.get(front.node), &best[front.node as usize]);
             TailSource {
-                front: *front,
+                front,
                 until: 0.0,
                 density: 0.0,
                 light: front.energy * share,
@@ -86,7 +86,7 @@ impl<'a> Tail<'a> {
                 strongest: (best.weight, best.exit.map(|id| beams.get(id).exit)),
             }
         };
-        let mut sources: Vec<TailSource> =
+        let mut sources: Vec<TailSource<'a>> =
             grown.open.iter().map(source).filter(|s| s.light > LEAST_LIGHT).collect();
         // Neighbours in the tree have most of their way in common.
         sources.sort_unstable_by_key(|source| source.front.node);
@@ -131,14 +131,13 @@ impl<'a> Tail<'a> {
     pub fn follow(&self, place: f64, spot: DVec2, luck: f64, mut leave: impl FnMut(DVec3, f64)) -> TailRay {
         let k = self.sources.partition_point(|source| source.until <= place).min(self.sources.len() - 1);
         let source = &self.sources[k];
-        let front = &source.front;
+        let front = source.front;
         let beam = self.beams.get(front.node);
         let point = point_in_polygon(beam.outline, beam.area, spot);
         let path = beam.path.at(point);
         // The light of the ray is 1 in the mean over the outline.
-        let light = self.light_of(front, beam.onward);
-        let [o, u, v] = front.ray.origin;
-        let ray = (o + u * point.x + v * point.y, front.ray.direction);
+        let light = self.light_of(&front.flight, beam.onward);
+        let ray = (front.flight.ray.start(point), front.flight.ray.direction);
         let (mut strongest, mut exit) = source.strongest;
         let mut before = light.weight() * self.beams.medium.transmittance(path);
         let mut absorbed = 0.0;
@@ -169,14 +168,14 @@ impl<'a> Tail<'a> {
         }
     }
 
-    /// Returns the light of a front, scaled so that `onward`, its weight with absorption, becomes 1.
-    fn light_of(&self, front: &Front, onward: f64) -> PathLight {
+    /// Returns the light of a flight, scaled so that `onward`, its weight with absorption, becomes 1.
+    fn light_of(&self, flight: &Flight, onward: f64) -> PathLight {
         let scale = 1.0 / onward;
         if !self.beams.polarised {
-            return PathLight::Unpolarised(front.light.weight() * scale);
+            return PathLight::Unpolarised(flight.light.weight() * scale);
         }
-        let fields = front.light.fields().map(|parts| parts.map(|part| part * scale.sqrt()));
-        PathLight::of_fields(fields, [front.s, front.ray.direction.cross(front.s)])
+        let fields = flight.light.fields().map(|parts| parts.map(|part| part * scale.sqrt()));
+        PathLight::of_fields(fields, [flight.s, flight.ray.direction.cross(flight.s)])
     }
 }
 

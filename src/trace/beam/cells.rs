@@ -32,7 +32,7 @@ impl Beams {
     /// absorbs, weights are means over outlines, so that the map is exact only as far as absorption is even in each.
     pub fn strongest_exits(&self) -> Vec<Cell> {
         let (best, parted) = (self.strongest_so_far(), self.parted());
-        let open_above = |id: usize| match self.nodes[id].parent {
+        let open_above = |id: usize| match self.nodes[id as u32].parent {
             ROOT => true,
             parent => !best[parent as usize].is_decided,
         };
@@ -44,7 +44,7 @@ impl Beams {
 
     /// Returns, for each beam, the strongest exit on its way.
     pub(in crate::trace) fn strongest_so_far(&self) -> Vec<StrongestExit> {
-        let mut best = vec![StrongestExit { weight: 0.0, exit: None, is_decided: false }; self.nodes.len()];
+        let mut best = vec![StrongestExit { weight: 0.0, exit: None, is_decided: false }; self.len()];
         for (id, beam) in self.iter().enumerate() {
             if let Some(parent) = beam.parent {
                 best[id] = best[parent as usize];
@@ -60,7 +60,7 @@ impl Beams {
 
     /// Returns, for each beam, whether it was split further.
     fn parted(&self) -> Vec<bool> {
-        let mut parted = vec![false; self.nodes.len()];
+        let mut parted = vec![false; self.len()];
         for parent in self.nodes.iter().map(|n| n.parent).filter(|&p| p != ROOT) {
             parted[parent as usize] = true;
         }
@@ -71,7 +71,7 @@ impl Beams {
     pub fn undecided(&self, cells: &[Cell]) -> f64 {
         let open = cells.iter().filter(|c| c.undecided || c.strongest.is_none());
         // Not `sum`, which makes -0 of nothing.
-        let area = open.fold(0.0, |area, c| area + self.nodes[c.outline as usize].area);
+        let area = open.fold(0.0, |area, c| area + self.nodes[c.outline].area);
         area * f64::from(self.symmetry.order()) / self.silhouette_area
     }
 
@@ -79,6 +79,6 @@ impl Beams {
     /// light of a point is that of such a beam and of all beams that this one came from.
     pub fn leaves(&self) -> impl Iterator<Item = u32> {
         let parted = self.parted();
-        (0..self.nodes.len() as u32).filter(move |&id| !parted[id as usize])
+        (0..self.len() as u32).filter(move |&id| !parted[id as usize])
     }
 }

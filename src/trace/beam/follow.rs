@@ -1,9 +1,9 @@
 //! Follows a few beams, and all that they split into, as long as they are strong enough.
 
 use super::coherency::Coherency;
-use super::split::{Landing, Ray, Splitter, twice_area};
-use super::tree::{BeamNode, Beams};
-use crate::math::{Affine, Polytope, integral_of_decay};
+use super::split::{BeamOutline, Facets, Landing, Ray, Splitter};
+use super::tree::{BeamExit, BeamLoss, BeamNode, Beams, NO_EXIT, NewBeams, TreeSize};
+use crate::math::{Affine, integral_of_decay};
 use crate::optics::{fresnel, reflect, refract};
 use crate::scene::Medium;
 use glam::{DVec2, DVec3};
@@ -11,32 +11,57 @@ use glam::{DVec2, DVec3};
 /// Outlines with less than this share of the silhouette's area come from rounding and are dropped.
 pub(super) const SLIVER: f64 = 1e-15;
 
+/// The place of an outline that is not there.
+const NOWHERE: (u32, u32) = (u32::MAX, 0);
+
 /// The sine of the angle between a beam and a facet's normal below which there is no plane of incidence, and none is needed.
 const SQUARE_ON: f64 = 1e-9;
 
-/// A beam that is still to be followed from its last facet on.
+/// A beam that is still to be followed from its last facet on. Those that wait are kept in boxes, as they are many.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::trace) struct Front {
+pub(in crate::trace) struct Front<F = Box<Flight>> {
     pub node: u32,
     pub bounces: u32,
+    /// Weight times area times the share that absorption has left.
+    pub energy: f64,
+    pub flight: F,
+}
+
+/// How a beam goes on from a facet.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::trace) struct Flight {
     pub ray: Ray,
     /// Weight and polarisation, without absorption.
     pub light: Coherency,
     /// The axis s of `light`: a unit vector perpendicular to the ray.
     pub s: DVec3,
-    /// Weight times area times the share that absorption has left.
-    pub energy: f64,
+    /// The integral over the outline of the share that absorption has left.
+    pub left: f64,
+}
+
+impl Front {
+    fn unboxed(&self) -> Front<Flight> {
+        Front { node: self.node, bounces: self.bounces, energy: self.energy, flight: *self.flight }
+    }
 }
 
 /// The beams that one piece of work has found. Its nodes are numbered on from the end of the existing tree.
 #[derive(Default)]
 pub(super) struct Growth {
-    pub nodes: Vec<BeamNode>,
-    pub corners: Vec<DVec2>,
+    pub beams: NewBeams,
     /// Beams too weak to be followed.
     pub left: Vec<Front>,
     /// Energy lost in slivers.
     pub dropped: f64,
+}
+
+impl Growth {
+    /// Empties it for the next piece of work.
+    fn clear(&mut self) {
+        self.beams.clear();
+        self.left.clear();
+        self.dropped = 0.0;
+    }
 }
 
 /// Returns the unit axis perpendicular to a ray and a facet's normal, or `otherwise` where the ray is square to the facet.
@@ -46,117 +71,167 @@ pub(super) fn s_axis(direction: DVec3, normal: DVec3, otherwise: DVec3) -> DVec3
     if length > SQUARE_ON { s / length } else { otherwise }
 }
 
-/// Follows beams as one piece of work.
+/// Follows beams piece by piece.
 pub(super) struct Follower<'a> {
     splitter: Splitter<'a>,
-    before: &'a Beams,
-    growth: Growth,
-    /// The outline of the beam being split.
-    outline: Vec<DVec2>,
+    /// What the last piece has found.
+    pub growth: Growth,
+    /// The outline of the beam being split, and where it lies among all corners.
+    outline: BeamOutline,
+    outline_at: (u32, u32),
+    stack: Vec<Front<Flight>>,
 }
 
 impl<'a> Follower<'a> {
-    pub fn new(polytope: &'a Polytope, opposite: &'a [u32], before: &'a Beams) -> Self {
-        let splitter = Splitter::new(polytope, opposite);
-        Self { splitter, before, growth: Growth::default(), outline: vec![] }
+    pub fn new(facets: &'a Facets<'a>) -> Self {
+        let splitter = Splitter::new(facets);
+        Self {
+            splitter,
+            growth: Growth::default(),
+            outline: BeamOutline::default(),
+            outline_at: NOWHERE,
+            stack: vec![],
+        }
     }
 
-    /// Follows these fronts, and every beam that they split into while `strong` accepts it.
-    pub fn follow(mut self, fronts: &[Front], strong: impl Fn(&Front) -> bool) -> Growth {
-        let mut stack: Vec<Front> = fronts.iter().rev().copied().collect();
-        while let Some(front) = stack.pop() {
-            self.step(&front, &strong, &mut stack);
+    /// Follows these fronts, and every beam that they split into, while the energy and the number of bounces are `strong`.
+    pub fn follow(&mut self, before: &Beams, fronts: &[Front], strong: impl Fn(f64, u32) -> bool) {
+        self.growth.clear();
+        self.outline_at = NOWHERE;
+        self.stack.extend(fronts.iter().rev().map(Front::unboxed));
+        while let Some(front) = self.stack.pop() {
+            self.step(before, &front, &strong);
         }
-        self.growth
     }
 
     /// Splits one beam among the facets that it lands on.
-    fn step(&mut self, front: &Front, strong: &impl Fn(&Front) -> bool, stack: &mut Vec<Front>) {
-        let Self { splitter, before, growth, outline } = self;
-        outline.clear();
-        let base = before.nodes.len();
-        let (&parent, all) = match (front.node as usize).checked_sub(base) {
-            None => (&before.nodes[front.node as usize], &before.corners),
-            Some(own) => (&growth.nodes[own], &growth.corners),
+    fn step(&mut self, before: &Beams, front: &Front<Flight>, strong: &impl Fn(f64, u32) -> bool) {
+        let Self { splitter, growth, outline, outline_at, stack } = self;
+        let base = before.size();
+        let beams = &mut growth.beams;
+        let parent = match front.node.checked_sub(base.nodes) {
+            None => before.nodes[front.node],
+            Some(own) => beams.nodes[own as usize],
         };
-        let start = parent.corners.0 as usize;
-        outline.extend(&all[start..start + parent.corners.1 as usize]);
+        // Most beams land as a whole, and the next to be followed is what became of them.
+        if *outline_at != parent.corners {
+            let (start, all) = match parent.corners.0.checked_sub(base.corners) {
+                None => (parent.corners.0 as usize, &before.corners),
+                Some(own) => (own as usize, &beams.corners),
+            };
+            outline.load(&all[start..start + parent.corners.1 as usize]);
+            *outline_at = parent.corners;
+        }
         let sliver = SLIVER * before.silhouette_area;
-        let missed = splitter.split(&front.ray, outline, parent.facet, |landing| {
-            let area = twice_area(landing.outline.iter().map(|c| c.at)) / 2.0;
+        let missed = splitter.split(&front.flight.ray, outline, |landing| {
+            let area = landing.twice_area / 2.0;
             if area <= sliver {
-                growth.dropped += front.light.weight() * area.max(0.0);
+                growth.dropped += front.flight.light.weight() * area.max(0.0);
                 return;
             }
-            let id = (base + growth.nodes.len()) as u32;
-            let start = growth.corners.len() as u32;
-            growth.corners.extend(landing.outline.iter().map(|c| c.at));
-            let (node, onward) =
-                land(front, parent.path, &landing, area, before, (id, start), &growth.corners);
-            growth.nodes.push(node);
-            if strong(&onward) {
-                stack.push(onward);
-            } else if onward.energy > 0.0 {
-                growth.left.push(onward);
+            let landed = land(front, parent.path, &landing, before);
+            let node = beams.add((front.node, parent.corners), &landing, &landed, base);
+            let (energy, bounces) = (landed.light.weight() * landed.left, front.bounces + 1);
+            if strong(energy, bounces) {
+                stack.push(Front {
+                    node,
+                    bounces,
+                    energy,
+                    flight: landed.flight(&front.flight.ray, &landing),
+                });
+            } else if energy > 0.0 {
+                let flight = Box::new(landed.flight(&front.flight.ray, &landing));
+                growth.left.push(Front { node, bounces, energy, flight });
             }
         });
-        growth.dropped += front.light.weight() * missed;
+        growth.dropped += front.flight.light.weight() * missed;
     }
 }
 
-/// Splits a beam's light at the facet on which it has landed: returns the node, with the light that leaves, and the front
-/// that goes on.
-#[inline]
-fn land(
-    front: &Front,
-    path_before: Affine,
-    landing: &Landing,
-    area: f64,
-    beams: &Beams,
-    (id, start): (u32, u32),
-    corners: &[DVec2],
-) -> (BeamNode, Front) {
-    let (direction, normal) = (front.ray.direction, landing.normal);
+impl NewBeams {
+    /// Adds what has landed of a beam with this id and these corners; returns its id.
+    fn add(&mut self, of: (u32, (u32, u32)), landing: &Landing, landed: &Landed, base: TreeSize) -> u32 {
+        let (parent, mut corners) = of;
+        if !landing.is_whole {
+            corners = (base.corners + self.corners.len() as u32, landing.outline.len() as u32);
+            self.corners.extend_from_slice(landing.outline);
+        }
+        let exit = landed.exit.map_or(NO_EXIT, |_| base.exits + self.exits.len() as u32);
+        self.exits.extend(landed.exit);
+        self.losses.extend(landed.loss);
+        let id = base.nodes + self.nodes.len() as u32;
+        self.nodes.push(BeamNode {
+            parent,
+            facet: landing.facet,
+            corners,
+            area: landing.twice_area / 2.0,
+            onward: landed.light.weight(),
+            path: landed.path,
+            exit,
+            open: false,
+        });
+        id
+    }
+}
+
+/// What becomes of a beam's light at the facet on which it lands.
+struct Landed {
+    path: Affine,
+    exit: Option<BeamExit>,
+    /// `None` where nothing absorbs.
+    loss: Option<BeamLoss>,
+    /// The light that goes on, its axis s, and the integral of what absorption leaves: see [`Flight`].
+    light: Coherency,
+    s: DVec3,
+    left: f64,
+    /// The cosine of the angle of incidence.
+    cos_i: f64,
+}
+
+impl Landed {
+    /// Returns how the light goes on that has landed with this ray.
+    #[inline(always)]
+    fn flight(&self, ray: &Ray, landing: &Landing) -> Flight {
+        let origin = ray.advanced(landing.distance);
+        let direction = reflect(ray.direction, -landing.normal, self.cos_i);
+        Flight { ray: Ray { origin, direction }, light: self.light, s: self.s, left: self.left }
+    }
+}
+
+/// Splits a beam's light at the facet on which it has landed.
+#[inline(always)]
+fn land(front: &Front<Flight>, path_before: Affine, landing: &Landing, beams: &Beams) -> Landed {
+    let Flight { ray, light: arriving, s: s_before, .. } = &front.flight;
+    let (direction, normal) = (ray.direction, landing.normal);
     let index = beams.medium.index;
     let cos_i = direction.dot(normal);
     let surface = fresnel(cos_i, index);
-    let s = s_axis(direction, normal, front.s);
-    let p_before = direction.cross(front.s);
-    let arriving = front.light.turned(front.s.dot(s), p_before.dot(s));
-    let (reflected, weight) = arriving.split(&surface);
+    let s = s_axis(direction, normal, *s_before);
+    let p_before = direction.cross(*s_before);
+    let (reflected, weight) = arriving.turned(s_before.dot(s), p_before.dot(s)).split(&surface);
     let light = if beams.polarised { reflected } else { reflected.unpolarised() };
-    let exit = surface.cos_t.map_or(DVec3::ZERO, |cos_t| refract(direction, -normal, index, (cos_i, cos_t)));
+    let exit = surface.cos_t.map(|cos_t| {
+        let direction = refract(direction, -normal, index, (cos_i, cos_t));
+        BeamExit { direction, weight }
+    });
     let path = path_before + landing.distance;
-    let own = &corners[start as usize..];
-    let (before, after) = attenuated(own, path_before, path, &beams.medium, area);
-    let node = BeamNode {
-        parent: front.node,
-        facet: landing.facet,
-        corners: (start, own.len() as u32),
-        area,
-        exit,
-        weight,
-        onward: light.weight(),
-        path,
-        transmittance: after / area,
-        absorbed: front.light.weight() * (before - after),
-        open: false,
+    let area = landing.twice_area / 2.0;
+    let (left, loss) = match beams.medium.is_clear() {
+        true => (area, None),
+        false => {
+            let left = |path| attenuated(landing.outline, path, &beams.medium);
+            let before = if landing.is_whole { front.flight.left } else { left(path_before) };
+            let after = left(path);
+            let absorbed = arriving.weight() * (before - after);
+            (after, Some(BeamLoss { transmittance: after / area, absorbed }))
+        }
     };
-    let origin = front.ray.advanced(landing.distance);
-    let ray = Ray { origin, direction: reflect(direction, -normal, cos_i) };
-    let energy = light.weight() * after;
-    let onward = Front { node: id, bounces: front.bounces + 1, ray, light, s, energy };
-    (node, onward)
+    Landed { path, exit, loss, light, s, left, cos_i }
 }
 
-/// Integrates the transmittance over the outline, after each of two paths; both are the area where nothing absorbs.
-fn attenuated(outline: &[DVec2], before: Affine, after: Affine, medium: &Medium, area: f64) -> (f64, f64) {
-    if medium.is_clear() {
-        return (area, area);
-    }
-    let left = |path: Affine| {
-        let [o, e] = medium.absorption.map(|a| integral_of_decay(outline, path * a));
-        0.5 * (o + e)
-    };
-    (left(before), left(after))
+/// Integrates over the outline the share that absorption leaves after a path.
+pub(super) fn attenuated(outline: &[DVec2], path: Affine, medium: &Medium) -> f64 {
+    let [o, e] = medium.absorption;
+    let left = |absorption| integral_of_decay(outline, path * absorption);
+    if o == e { left(o) } else { 0.5 * (left(o) + left(e)) }
 }

@@ -4,11 +4,12 @@
 //! lowering the level, is therefore following the best first; and within one level every beam can be followed on
 //! its own, in any order and on any core, with the same result.
 
+use super::blocks::Blocks;
 use super::coherency::Coherency;
 use super::effort::BeamEffort;
-use super::follow::{Follower, Front, Growth, SLIVER, s_axis};
-use super::split::{Ray, opposites};
-use super::tree::{BeamNode, Beams, ROOT};
+use super::follow::{Flight, Follower, Front, SLIVER, attenuated, s_axis};
+use super::split::{Facets, Ray};
+use super::tree::{BeamExit, BeamLoss, BeamNode, Beams, ROOT, TreeSize};
 use crate::math::{Affine, Basis, Plane, Polytope, Symmetry, area, clip};
 use crate::optics::{fresnel, reflect, refract};
 use crate::scene::{Medium, View};
@@ -45,6 +46,10 @@ const PIECE: usize = 128;
 
 /// Pieces between two checks of `watch` and of the number of beams.
 const AT_ONCE: usize = 64;
+
+/// Pieces that are found, for each thread, before they are added to the tree. With more, threads wait for each other less;
+/// with fewer, less memory is needed beside the tree.
+const PIECES_A_THREAD: usize = 8;
 
 /// The least and the greatest factor by which the level of energy falls at a step: with a smaller one the last step might
 /// overshoot.
@@ -93,7 +98,8 @@ pub fn grow(
     standard_error: Option<f64>,
     watch: Watch,
 ) -> Result<GrownBeams, Stopped> {
-    let mut tracer = Tracer::new(polytope, medium, view, options);
+    let facets = Facets::new(polytope);
+    let mut tracer = Tracer::new(polytope, &facets, medium, view, options);
     tracer.enter();
     tracer.run(options, standard_error.map(BeamEffort::to), watch)?;
     Ok(GrownBeams { beams: tracer.beams, open: tracer.fronts })
@@ -101,13 +107,21 @@ pub fn grow(
 
 struct Tracer<'a> {
     polytope: &'a Polytope,
-    opposite: Vec<u32>,
+    facets: &'a Facets<'a>,
     beams: Beams,
     fronts: Vec<Front>,
+    /// Each follows one piece of work at a time.
+    followers: Vec<Follower<'a>>,
 }
 
 impl<'a> Tracer<'a> {
-    fn new(polytope: &'a Polytope, medium: Medium, view: &View, options: &BeamOptions) -> Self {
+    fn new(
+        polytope: &'a Polytope,
+        facets: &'a Facets<'a>,
+        medium: Medium,
+        view: &View,
+        options: &BeamOptions,
+    ) -> Self {
         let (basis, zenith) = (view.basis(), view.zenith());
         let symmetry =
             if options.symmetry { Symmetry::of(polytope.planes(), &basis, zenith) } else { Symmetry::NONE };
@@ -119,10 +133,12 @@ impl<'a> Tracer<'a> {
             polarised: options.polarised,
             silhouette_area: polytope.silhouette_area(basis.toward),
             dropped: 0.0,
-            nodes: vec![],
+            nodes: Blocks::default(),
             corners: vec![],
+            exits: vec![],
+            losses: Blocks::default(),
         };
-        Self { polytope, opposite: opposites(polytope), beams, fronts: vec![] }
+        Self { polytope, facets, beams, fronts: vec![], followers: vec![] }
     }
 
     /// Starts a beam on every facet that the eye sees in one domain of the symmetry.
@@ -156,26 +172,30 @@ impl<'a> Tracer<'a> {
         let light = if self.beams.polarised { light } else { light.unpolarised() };
         let cosines = (cos_i, surface.cos_t.unwrap_or(0.0));
         let direction = refract(-view.toward, plane.normal, eta, cosines);
-        let node = self.beams.nodes.len() as u32;
-        let start = self.beams.corners.len() as u32;
-        self.beams.corners.extend(outline);
-        self.beams.nodes.push(BeamNode {
+        let TreeSize { nodes: id, corners, exits: exit } = self.beams.size();
+        let node = BeamNode {
             parent: ROOT,
             facet,
-            corners: (start, outline.len() as u32),
+            corners: (corners, outline.len() as u32),
             area,
-            exit: reflect(-view.toward, plane.normal, cos_i),
-            weight: glare,
             onward: light.weight(),
             path: Affine::default(),
-            transmittance: 1.0,
-            absorbed: 0.0,
+            exit,
             open: false,
-        });
+        };
+        self.beams.nodes.extend(&[node]);
+        self.beams.corners.extend_from_slice(outline);
+        let reflected = reflect(-view.toward, plane.normal, cos_i);
+        self.beams.exits.push(BeamExit { direction: reflected, weight: glare });
+        if !self.beams.medium.is_clear() {
+            self.beams.losses.extend(&[BeamLoss::NONE]);
+        }
         let ray = Ray { origin: entry_points(&view, &plane), direction };
         let s = s_axis(direction, plane.normal, view.right);
+        let flight =
+            Flight { ray, light, s, left: attenuated(outline, Affine::default(), &self.beams.medium) };
         let energy = light.weight() * area;
-        self.fronts.push(Front { node, bounces: 0, ray, light, s, energy });
+        self.fronts.push(Front { node: id, bounces: 0, energy, flight: Box::new(flight) });
     }
 
     fn run(
@@ -196,8 +216,8 @@ impl<'a> Tracer<'a> {
                 return Err(Stopped);
             }
             let movable = self.fronts.iter().any(|f| f.bounces < MOST_BOUNCES && f.energy > 0.0);
-            let is_enough = effort.as_mut().is_none_or(|e| e.suffices(self.beams.nodes.len(), left / whole));
-            if left <= goal && is_enough || !movable || self.beams.nodes.len() > options.most_beams {
+            let is_enough = effort.as_mut().is_none_or(|e| e.suffices(self.beams.len(), left / whole));
+            if left <= goal && is_enough || !movable || self.beams.len() > options.most_beams {
                 break;
             }
             level = match left <= goal {
@@ -207,7 +227,7 @@ impl<'a> Tracer<'a> {
             self.follow_above(level, options.most_beams, &|| watch(done))?;
         }
         for front in &self.fronts {
-            self.beams.nodes[front.node as usize].open = true;
+            self.beams.nodes[front.node].open = true;
         }
         Ok(())
     }
@@ -219,46 +239,45 @@ impl<'a> Tracer<'a> {
         most_beams: usize,
         watch: &impl Fn() -> ControlFlow<()>,
     ) -> Result<(), Stopped> {
-        let strong = |f: &Front| f.energy >= level && f.bounces < MOST_BOUNCES;
-        let go: Vec<Front> = self.fronts.extract_if(.., |f| strong(f)).collect();
-        let mut batches = go.chunks(AT_ONCE * PIECE);
-        for batch in batches.by_ref() {
+        let strong = |energy: f64, bounces: u32| energy >= level && bounces < MOST_BOUNCES;
+        let go: Vec<Front> = self.fronts.extract_if(.., |f| strong(f.energy, f.bounces)).collect();
+        let mut go = go.into_iter();
+        while !go.as_slice().is_empty() && self.beams.len() <= most_beams {
             if watch().is_break() {
                 return Err(Stopped);
             }
-            let base = self.beams.nodes.len() as u32;
-            let this = &*self;
-            let work = |piece: &[Front]| {
-                Follower::new(this.polytope, &this.opposite, &this.beams).follow(piece, |f| strong(f))
-            };
-            let grown: Vec<Growth> = batch.par_chunks(PIECE).map(work).collect();
-            for growth in grown {
-                self.take_in(growth, base);
-            }
-            if self.beams.nodes.len() > most_beams {
-                break;
-            }
+            let batch: Vec<Front> = go.by_ref().take(AT_ONCE * PIECE).collect();
+            self.follow(&batch, strong);
         }
-        self.fronts.extend(batches.flatten());
+        self.fronts.extend(go);
         Ok(())
     }
 
-    /// Adds the beams that a piece of work has found to the tree. Its nodes are numbered on from `base`; they are moved
-    /// behind those of the pieces added before it.
-    fn take_in(&mut self, mut growth: Growth, base: u32) {
-        let beams = &mut self.beams;
-        let shift = beams.nodes.len() as u32 - base;
-        let moved = |id: &mut u32| *id += if *id >= base { shift } else { 0 };
-        let first_corner = beams.corners.len() as u32;
-        for node in &mut growth.nodes {
-            moved(&mut node.parent);
-            node.corners.0 += first_corner;
+    /// Follows these beams, and all that they split into while the energy and the number of bounces are `strong`.
+    fn follow(&mut self, fronts: &[Front], strong: impl Fn(f64, u32) -> bool + Copy + Sync) {
+        for part in fronts.chunks(rayon::current_num_threads() * PIECES_A_THREAD * PIECE) {
+            let pieces = part.len().div_ceil(PIECE);
+            while self.followers.len() < pieces {
+                self.followers.push(Follower::new(self.facets));
+            }
+            let (before, followers) = (&self.beams, self.followers.par_iter_mut());
+            let work = |(piece, follower): (&[Front], &mut Follower)| follower.follow(before, piece, strong);
+            part.par_chunks(PIECE).zip(followers).for_each(work);
+            self.take_in(pieces);
         }
-        growth.left.iter_mut().for_each(|f| moved(&mut f.node));
-        beams.nodes.append(&mut growth.nodes);
-        beams.corners.append(&mut growth.corners);
-        beams.dropped += growth.dropped;
-        self.fronts.append(&mut growth.left);
+    }
+
+    /// Adds the beams that the last pieces of work have found to the tree. The nodes of each are numbered on from the same
+    /// number; they are moved behind those of the pieces added before it.
+    fn take_in(&mut self, pieces: usize) {
+        let base = self.beams.size();
+        for follower in &mut self.followers[..pieces] {
+            let growth = &mut follower.growth;
+            let shift = self.beams.extend(&mut growth.beams, base);
+            growth.left.iter_mut().filter(|f| f.node >= base.nodes).for_each(|f| f.node += shift);
+            self.beams.dropped += growth.dropped;
+            self.fronts.append(&mut growth.left);
+        }
     }
 }
 

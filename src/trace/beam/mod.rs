@@ -6,16 +6,19 @@
 //! whole tracing happens in two dimensions. Light is reversible: it is followed from the eye inward, and a beam's weight is
 //! the share of the light from its exit direction that reaches the eye.
 
+mod blocks;
 mod cells;
 mod coherency;
 mod effort;
 mod follow;
 mod grow;
+mod guess;
 mod split;
 mod sweep;
 mod tree;
+mod whole;
 
 pub use cells::Cell;
-pub(in crate::trace) use follow::Front;
+pub(in crate::trace) use follow::{Flight, Front};
 pub use grow::{BeamOptions, GrownBeams, grow, trace};
 pub use tree::{Beam, Beams};

@@ -1,13 +1,15 @@
 //! Finds the facets that a beam lands on next, and the part of its outline that lands on each.
 
+use super::guess::FacetGuess;
+use super::whole::{Candidate, FacetNeighbours};
 use crate::math::{Affine, Polytope, centroid};
 use glam::{DVec2, DVec3};
 
 /// The cosine between a beam and a facet's normal up to which the beam cannot land on the facet: it runs along it.
-const GRAZING: f64 = 1e-12;
+pub(super) const GRAZING: f64 = 1e-12;
 
 /// Distances that differ by less than this share of their terms count as equal: some hundred roundings.
-const SAME: f64 = 2e-14;
+pub(super) const SAME: f64 = 2e-14;
 
 /// The share of a beam's outline that may land nowhere: slivers are less. Where more is missing, all facets are tried.
 const MISSED: f64 = 1e-10;
@@ -25,6 +27,12 @@ pub(in crate::trace) struct Ray {
 }
 
 impl Ray {
+    /// Returns where the ray of image point `p` starts.
+    pub fn start(&self, p: DVec2) -> DVec3 {
+        let [o, u, v] = self.origin;
+        o + u * p.x + v * p.y
+    }
+
     /// Returns the points that the rays reach after these distances, in the form of `origin`.
     pub fn advanced(&self, distance: Affine) -> [DVec3; 3] {
         let [o, u, v] = self.origin;
@@ -33,11 +41,21 @@ impl Ray {
     }
 }
 
-/// A corner of an outline, and the facet beyond the edge that begins there.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct OutlineCorner {
-    pub at: DVec2,
-    beyond: u32,
+/// The outline of a beam that is split.
+#[derive(Default)]
+pub(super) struct BeamOutline {
+    corners: Vec<DVec2>,
+    twice_area: f64,
+    centre: DVec2,
+}
+
+impl BeamOutline {
+    /// Takes on these corners.
+    pub fn load(&mut self, corners: &[DVec2]) {
+        self.corners.clear();
+        self.corners.extend_from_slice(corners);
+        (self.twice_area, self.centre) = (twice_area(corners), centroid(corners));
+    }
 }
 
 /// The part of one beam that lands on one facet.
@@ -47,18 +65,54 @@ pub(super) struct Landing<'a> {
     pub normal: DVec3,
     /// Distance from the beam's start, over the image.
     pub distance: Affine,
-    pub outline: &'a [OutlineCorner],
+    pub outline: &'a [DVec2],
+    pub twice_area: f64,
+    /// Whether the outline is that of the whole beam.
+    pub is_whole: bool,
+}
+
+/// The facets of one polytope, ready to be looked up.
+pub(super) struct Facets<'a> {
+    polytope: &'a Polytope,
+    guess: FacetGuess,
+    around: FacetNeighbours,
+    /// Half the extent of the largest image of the stone.
+    extent: f64,
+}
+
+impl<'a> Facets<'a> {
+    pub fn new(polytope: &'a Polytope) -> Self {
+        let extent = polytope.vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
+        let (guess, around) = (FacetGuess::new(polytope.planes()), FacetNeighbours::new(polytope));
+        Self { polytope, guess, around, extent }
+    }
+}
+
+/// Corners of an outline.
+#[derive(Default)]
+struct Corners {
+    at: Vec<DVec2>,
+    /// The facet beyond the edge that begins at each corner.
+    beyond: Vec<u32>,
+}
+
+impl Corners {
+    fn clear(&mut self) {
+        self.at.clear();
+        self.beyond.clear();
+    }
+
+    fn push(&mut self, at: DVec2, beyond: u32) {
+        self.at.push(at);
+        self.beyond.push(beyond);
+    }
 }
 
 /// Splits beams among the facets of one polytope, and holds the work space that this needs.
 pub(super) struct Splitter<'a> {
-    polytope: &'a Polytope,
-    /// For each facet, the facet that faces it most squarely: the search for a first landing starts there.
-    opposite: &'a [u32],
+    facets: &'a Facets<'a>,
     /// For each facet, the distance to its plane, over the image.
     distance: Vec<Affine>,
-    /// Half the extent of the largest image of the stone.
-    extent: f64,
     /// For each facet, the number of the beam for which `distance` was last worked out.
     known: Vec<u32>,
     /// For each facet, the number of the beam for which it was last put into the queue.
@@ -66,48 +120,44 @@ pub(super) struct Splitter<'a> {
     /// The number of the present beam.
     beam: u32,
     queue: Vec<u32>,
-    outline: Vec<OutlineCorner>,
-    spare: Vec<OutlineCorner>,
+    outline: Corners,
+    spare: Corners,
     values: Vec<f64>,
 }
 
-/// Returns [`Splitter::opposite`] for all facets.
-pub(super) fn opposites(polytope: &Polytope) -> Vec<u32> {
-    let normals: Vec<DVec3> = polytope.planes().map(|p| p.normal).collect();
-    let faces = |n: &DVec3| {
-        let squarest = (0..normals.len()).min_by(|&a, &b| normals[a].dot(*n).total_cmp(&normals[b].dot(*n)));
-        squarest.unwrap_or(0) as u32
-    };
-    normals.iter().map(faces).collect()
-}
-
 impl<'a> Splitter<'a> {
-    pub fn new(polytope: &'a Polytope, opposite: &'a [u32]) -> Self {
-        let n = polytope.facets().len();
-        let extent = polytope.vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
+    pub fn new(facets: &'a Facets<'a>) -> Self {
+        let n = facets.polytope.facets().len();
         Self {
-            polytope,
-            opposite,
-            extent,
+            facets,
             distance: vec![Affine::default(); n],
             known: vec![0; n],
             visited: vec![0; n],
             beam: 0,
             queue: vec![],
-            outline: vec![],
-            spare: vec![],
+            outline: Corners::default(),
+            spare: Corners::default(),
             values: vec![],
         }
     }
 
-    /// Calls `land` for each facet that the beam with this outline, coming from facet `from`, lands on.
+    /// Calls `land` for each facet that the beam with this outline lands on.
     ///
     /// The landings make up the outline but for slivers, whose area is returned. They are found by going from neighbour to
     /// neighbour; should that have missed any, all facets are tried.
-    pub fn split(&mut self, ray: &Ray, outline: &[DVec2], from: u32, mut land: impl FnMut(Landing)) -> f64 {
+    pub fn split(&mut self, ray: &Ray, outline: &BeamOutline, mut land: impl FnMut(Landing)) -> f64 {
         self.beam += 1;
-        let whole = twice_area(outline.iter().copied());
-        let Some(first) = self.first(ray, centroid(outline), from) else { return whole / 2.0 };
+        let &BeamOutline { corners: ref outline, twice_area: whole, centre } = outline;
+        let guess = self.facets.guess.ahead_of(ray.start(centre), ray.direction);
+        if self.is_ahead(ray, guess) {
+            let distance = self.distance[guess as usize];
+            let extent = self.facets.extent;
+            if self.facets.around.hold(Candidate { ray, outline, centre, facet: guess, distance, extent }) {
+                land(Landing { is_whole: true, ..self.landing(guess, outline, whole) });
+                return 0.0;
+            }
+        }
+        let Some(first) = self.first(ray, centre, guess) else { return whole / 2.0 };
         self.queue.clear();
         self.queue.push(first);
         self.visited[first as usize] = self.beam;
@@ -121,6 +171,13 @@ impl<'a> Splitter<'a> {
         (whole - covered).max(0.0) / 2.0
     }
 
+    /// Returns the landing of this outline on a facet whose distance is known.
+    fn landing<'b>(&self, facet: u32, outline: &'b [DVec2], twice_area: f64) -> Landing<'b> {
+        let distance = self.distance[facet as usize];
+        let normal = self.facets.polytope.facets()[facet as usize].plane.normal;
+        Landing { facet, normal, distance, outline, twice_area, is_whole: false }
+    }
+
     /// Lands on the facets in the queue and on their neighbours; returns twice the area that has landed.
     fn flood(&mut self, ray: &Ray, outline: &[DVec2], land: &mut impl FnMut(Landing)) -> f64 {
         let mut covered = 0.0;
@@ -128,17 +185,15 @@ impl<'a> Splitter<'a> {
             if !self.is_ahead(ray, facet) || !self.cell(ray, outline, facet) {
                 continue;
             }
-            covered += twice_area(self.outline.iter().map(|c| c.at));
-            for corner in &self.outline {
-                let k = corner.beyond as usize;
-                if corner.beyond != NONE && self.visited[k] != self.beam {
-                    self.visited[k] = self.beam;
-                    self.queue.push(corner.beyond);
+            for &beyond in &self.outline.beyond {
+                if beyond != NONE && self.visited[beyond as usize] != self.beam {
+                    self.visited[beyond as usize] = self.beam;
+                    self.queue.push(beyond);
                 }
             }
-            let distance = self.distance[facet as usize];
-            let normal = self.polytope.facets()[facet as usize].plane.normal;
-            land(Landing { facet, normal, distance, outline: &self.outline });
+            let part = twice_area(&self.outline.at);
+            covered += part;
+            land(self.landing(facet, &self.outline.at, part));
         }
         covered
     }
@@ -147,15 +202,16 @@ impl<'a> Splitter<'a> {
     /// there is none.
     fn cell(&mut self, ray: &Ray, outline: &[DVec2], facet: u32) -> bool {
         self.outline.clear();
-        self.outline.extend(outline.iter().map(|&at| OutlineCorner { at, beyond: NONE }));
-        let polytope = self.polytope;
+        self.outline.at.extend_from_slice(outline);
+        self.outline.beyond.resize(outline.len(), NONE);
+        let polytope = self.facets.polytope;
         let here = self.distance[facet as usize];
         for &neighbour in &polytope.facets()[facet as usize].neighbours {
             if !self.is_ahead(ray, neighbour) {
                 continue;
             }
             let there = self.distance[neighbour as usize];
-            let tolerance = SAME * (here.magnitude(self.extent) + there.magnitude(self.extent));
+            let tolerance = SAME * (here.magnitude(self.facets.extent) + there.magnitude(self.facets.extent));
             if !self.cut(there - here, tolerance, neighbour) {
                 return false;
             }
@@ -164,11 +220,12 @@ impl<'a> Splitter<'a> {
     }
 
     /// Works out the distance to a facet's plane, once for each beam; returns false where the beam does not run toward it.
+    #[inline]
     fn is_ahead(&mut self, ray: &Ray, facet: u32) -> bool {
         let k = facet as usize;
         if self.known[k] != self.beam {
             self.known[k] = self.beam;
-            let plane = &self.polytope.facets()[k].plane;
+            let plane = &self.facets.polytope.facets()[k].plane;
             let speed = plane.normal.dot(ray.direction);
             let per = if speed > GRAZING { 1.0 / speed } else { f64::INFINITY };
             let [o, u, v] = ray.origin.map(|o| plane.normal.dot(o));
@@ -177,13 +234,12 @@ impl<'a> Splitter<'a> {
         self.distance[k].constant.is_finite()
     }
 
-    /// Returns the facet that the ray of image point `p` meets, found by walking to ever nearer neighbours.
-    fn first(&mut self, ray: &Ray, p: DVec2, from: u32) -> Option<u32> {
-        let mut at = self.opposite[from as usize];
+    /// Returns the facet that the ray of image point `p` meets, found by walking from `at` to ever nearer neighbours.
+    fn first(&mut self, ray: &Ray, p: DVec2, mut at: u32) -> Option<u32> {
         if !self.is_ahead(ray, at) {
             at = (0..self.known.len() as u32).find(|&k| self.is_ahead(ray, k))?;
         }
-        let polytope = self.polytope;
+        let polytope = self.facets.polytope;
         loop {
             let mut nearest = self.distance[at as usize].at(p);
             let mut next = at;
@@ -204,44 +260,46 @@ impl<'a> Splitter<'a> {
     /// the tolerance of the line count as on it, so that both sides of a cut agree.
     fn cut(&mut self, keep: Affine, tolerance: f64, beyond: u32) -> bool {
         self.values.clear();
-        self.values.extend(self.outline.iter().map(|c| keep.at(c.at)));
+        self.values.extend(self.outline.at.iter().map(|&c| keep.at(c)));
         if !self.values.iter().any(|&v| v > tolerance) {
             return false;
         }
         if self.values.iter().all(|&v| v >= -tolerance) {
             return true;
         }
-        self.spare.clear();
-        let n = self.outline.len();
+        let Self { outline, spare, values, .. } = self;
+        spare.clear();
+        let n = values.len();
         for i in 0..n {
             let j = if i + 1 == n { 0 } else { i + 1 };
-            let (a, b) = (self.outline[i], self.outline[j]);
-            let (at_a, at_b) = (self.values[i], self.values[j]);
-            let crossing = || a.at + (b.at - a.at) * (at_a / (at_a - at_b));
+            let (a, b) = (outline.at[i], outline.at[j]);
+            let beyond_a = outline.beyond[i];
+            let (at_a, at_b) = (values[i], values[j]);
+            let crossing = || a + (b - a) * (at_a / (at_a - at_b));
             let leaves = at_b < -tolerance;
             if at_a > tolerance {
-                self.spare.push(a);
+                spare.push(a, beyond_a);
                 if leaves {
-                    self.spare.push(OutlineCorner { at: crossing(), beyond });
+                    spare.push(crossing(), beyond);
                 }
             } else if at_a >= -tolerance {
-                self.spare.push(if leaves { OutlineCorner { at: a.at, beyond } } else { a });
+                spare.push(a, if leaves { beyond } else { beyond_a });
             } else if at_b > tolerance {
-                self.spare.push(OutlineCorner { at: crossing(), beyond: a.beyond });
+                spare.push(crossing(), beyond_a);
             }
         }
-        std::mem::swap(&mut self.outline, &mut self.spare);
+        std::mem::swap(outline, spare);
         true
     }
 }
 
 /// Returns twice the area of a counter-clockwise outline.
-pub(super) fn twice_area(mut corners: impl Iterator<Item = DVec2>) -> f64 {
-    let (Some(first), Some(second)) = (corners.next(), corners.next()) else { return 0.0 };
-    let mut last = second - first;
+fn twice_area(corners: &[DVec2]) -> f64 {
+    let [first, second, rest @ ..] = corners else { return 0.0 };
+    let mut last = *second - *first;
     let mut sum = 0.0;
-    for corner in corners {
-        let next = corner - first;
+    for corner in rest {
+        let next = *corner - *first;
         sum += last.perp_dot(next);
         last = next;
     }

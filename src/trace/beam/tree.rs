@@ -1,5 +1,6 @@
 //! The result of tracing beams: a tree of nested outlines, each with the light that leaves at its end.
 
+use super::blocks::Blocks;
 use crate::math::{Affine, Basis, Symmetry};
 use crate::scene::Medium;
 use glam::{DVec2, DVec3};
@@ -7,29 +8,70 @@ use glam::{DVec2, DVec3};
 /// The number that stands for the parent of a beam that has just entered.
 pub(super) const ROOT: u32 = u32::MAX;
 
+/// The number that stands for the exit of a beam under total reflection.
+pub(super) const NO_EXIT: u32 = u32::MAX;
+
 /// One beam, up to the facet that ends it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BeamNode {
     pub parent: u32,
     pub facet: u32,
-    /// The index of the first corner in [`Beams::corners`], and the number of corners.
+    /// The index of the first corner in [`Beams::corners`], and the number of corners. A beam that lands as a whole shares
+    /// them with the one that it came from.
     pub corners: (u32, u32),
     /// The outline's area.
     pub area: f64,
-    /// Unit direction of the light that leaves here; zero under total reflection.
-    pub exit: DVec3,
-    /// Weight of the light that leaves here, without absorption; 0 under total reflection.
-    pub weight: f64,
     /// Weight of the light that goes on, without absorption.
     pub onward: f64,
     /// Length of the path inside the stone up to here, over the image.
     pub path: Affine,
+    /// The index in [`Beams::exits`], or [`NO_EXIT`].
+    pub exit: u32,
+    /// Whether the light that goes on was left unresolved.
+    pub open: bool,
+}
+
+/// The light that leaves where a beam ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BeamExit {
+    /// Unit direction.
+    pub direction: DVec3,
+    /// Weight without absorption.
+    pub weight: f64,
+}
+
+/// What absorption takes from a beam.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BeamLoss {
     /// The share that absorption has left up to here, mean over the outline.
     pub transmittance: f64,
     /// Energy (weight times image area) absorbed between the facet before and this one.
     pub absorbed: f64,
-    /// Whether the light that goes on was left unresolved.
-    pub open: bool,
+}
+
+impl BeamLoss {
+    /// The loss of all beams where nothing absorbs.
+    pub const NONE: Self = Self { transmittance: 1.0, absorbed: 0.0 };
+}
+
+/// Beams that are to be added to a tree. All numbers go on from those of that tree.
+#[derive(Default)]
+pub(super) struct NewBeams {
+    pub nodes: Vec<BeamNode>,
+    pub corners: Vec<DVec2>,
+    pub exits: Vec<BeamExit>,
+    /// One for each node, or none where nothing absorbs.
+    pub losses: Vec<BeamLoss>,
+}
+
+impl NewBeams {
+    pub fn clear(&mut self) {
+        let Self { nodes, corners, exits, losses } = self;
+        nodes.clear();
+        corners.clear();
+        exits.clear();
+        losses.clear();
+    }
 }
 
 /// All beams of one picture, as [`trace`](super::trace) returns them.
@@ -52,8 +94,19 @@ pub struct Beams {
     pub silhouette_area: f64,
     /// Energy of one domain lost in slivers too small to follow; it counts as unresolved.
     pub(super) dropped: f64,
-    pub(super) nodes: Vec<BeamNode>,
+    pub(super) nodes: Blocks<BeamNode>,
     pub(super) corners: Vec<DVec2>,
+    pub(super) exits: Vec<BeamExit>,
+    /// One for each node, or none where nothing absorbs.
+    pub(super) losses: Blocks<BeamLoss>,
+}
+
+/// The numbers of beams, corners and exits in a tree.
+#[derive(Clone, Copy)]
+pub(super) struct TreeSize {
+    pub nodes: u32,
+    pub corners: u32,
+    pub exits: u32,
 }
 
 /// One beam: a virtual facet of the image, and the light that reaches the eye through it from one direction.
@@ -106,42 +159,80 @@ impl Beams {
 
     /// Returns the beam with this id.
     pub fn get(&self, id: u32) -> Beam<'_> {
-        let node = &self.nodes[id as usize];
-        let (start, count) = (node.corners.0 as usize, node.corners.1 as usize);
+        let node = &self.nodes[id];
+        let (direction, weight) = match node.exit {
+            NO_EXIT => (DVec3::ZERO, 0.0),
+            exit => (self.exits[exit as usize].direction, self.exits[exit as usize].weight),
+        };
+        let BeamLoss { transmittance, absorbed } = self.loss(id);
         Beam {
             id,
             parent: (node.parent != ROOT).then_some(node.parent),
             facet: node.facet,
-            outline: &self.corners[start..start + count],
+            outline: self.outline(node),
             area: node.area,
-            exit: node.exit,
-            weight: node.weight * node.transmittance,
-            onward: node.onward * node.transmittance,
+            exit: direction,
+            weight: weight * transmittance,
+            onward: node.onward * transmittance,
             open: node.open,
             path: node.path,
-            transmittance: node.transmittance,
-            absorbed: node.absorbed,
+            transmittance,
+            absorbed,
         }
+    }
+
+    /// Returns the outline of one of the nodes.
+    pub(super) fn outline(&self, node: &BeamNode) -> &[DVec2] {
+        let (start, count) = (node.corners.0 as usize, node.corners.1 as usize);
+        &self.corners[start..start + count]
+    }
+
+    fn loss(&self, id: u32) -> BeamLoss {
+        if self.losses.is_empty() { BeamLoss::NONE } else { self.losses[id] }
+    }
+
+    /// Adds beams whose numbers go on from a former state of this tree, when it had as many beams, corners and exits as
+    /// `base` says. Returns by how much the ids of the beams have changed.
+    pub(super) fn extend(&mut self, new: &mut NewBeams, base: TreeSize) -> u32 {
+        let (old, moved) = (self.size(), |number: &mut u32, base: u32, now: u32| {
+            *number += if *number >= base && *number != u32::MAX { now - base } else { 0 };
+        });
+        for node in &mut new.nodes {
+            moved(&mut node.parent, base.nodes, old.nodes);
+            moved(&mut node.corners.0, base.corners, old.corners);
+            moved(&mut node.exit, base.exits, old.exits);
+        }
+        self.nodes.extend(&new.nodes);
+        self.corners.extend_from_slice(&new.corners);
+        self.exits.extend_from_slice(&new.exits);
+        self.losses.extend(&new.losses);
+        old.nodes - base.nodes
+    }
+
+    pub(super) fn size(&self) -> TreeSize {
+        let [nodes, corners, exits] =
+            [self.nodes.len(), self.corners.len(), self.exits.len()].map(|n| n as u32);
+        TreeSize { nodes, corners, exits }
     }
 
     /// Returns all beams; a beam's parent comes before it.
     pub fn iter(&self) -> impl Iterator<Item = Beam<'_>> + Clone {
-        (0..self.nodes.len() as u32).map(|id| self.get(id))
+        (0..self.len() as u32).map(|id| self.get(id))
     }
 
     /// Returns the facets that a beam has met, from the one by which it entered to the one on which it ends.
     pub fn facets(&self, id: u32) -> Vec<u32> {
-        let up = |&id: &u32| Some(self.nodes[id as usize].parent).filter(|&p| p != ROOT);
-        let mut met: Vec<u32> =
-            std::iter::successors(Some(id), up).map(|i| self.nodes[i as usize].facet).collect();
+        let up = |&id: &u32| Some(self.nodes[id].parent).filter(|&p| p != ROOT);
+        let mut met: Vec<u32> = std::iter::successors(Some(id), up).map(|i| self.nodes[i].facet).collect();
         met.reverse();
         met
     }
 
     /// Returns the share of the silhouette's light that was not followed to its end; it bounds the error of every figure.
     pub fn unresolved(&self) -> f64 {
-        let open = |n: &BeamNode| n.onward * n.transmittance * n.area;
-        let left: f64 = self.nodes.iter().filter(|n| n.open).map(open).sum();
+        let ids = (0..self.len() as u32).filter(|&id| self.nodes[id].open);
+        let open = |id| self.nodes[id].onward * self.loss(id).transmittance * self.nodes[id].area;
+        let left: f64 = ids.map(open).sum();
         (left + self.dropped) * f64::from(self.symmetry.order()) / self.silhouette_area
     }
 }
