@@ -99,7 +99,9 @@ impl Scenes {
             let entry = |(name, stones, title)| json!({ "name": name, "title": title, "stones": stones });
             return print(&json(&Value::Array(rows.into_iter().map(entry).collect())));
         }
-        let line = |(name, stones, title)| format!("{name:<14}{title:<20}{stones} stones");
+        let line = |(name, stones, title)| {
+            format!("{name:<14}{title:<20}{stones} {}", if stones == 1 { "stone" } else { "stones" })
+        };
         print(&rows.into_iter().map(line).collect::<Vec<_>>().join("\n"))
     }
 }

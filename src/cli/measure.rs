@@ -1,7 +1,7 @@
 //! `measure`: prints the figures of one view.
 
 use super::batch::each_file;
-use super::console::{json, print};
+use super::console::{json, print, say};
 use super::mesh_options::MeshArguments;
 use super::options::{LightOptions, ViewOptions, scoped};
 use super::progress::WorkProgress;
@@ -47,6 +47,11 @@ impl Measure {
                 let progress = WorkProgress::new(&format!("measuring {}", specimen.path));
                 measure(&viewing, &scoped, &mut renderer, &progress.watch(), &|event| progress.report(event))?
             };
+            if self.light.exact && !report.backend.is_beams() {
+                say(
+                    "note: --exact is about exact beams; these figures are sampled by rays, with a standard error",
+                );
+            }
             if self.json {
                 let value = report.json(self.timing);
                 return print(&if self.files.len() > 1 { value.to_string() } else { json(&value) });
@@ -74,7 +79,7 @@ fn table(report: &FigureReport, timing: bool) -> String {
     let mut line = |name: &str, [glare, light, area]: [String; 3], [of_light, of_area]: [String; 2]| {
         let glare = Some(glare).filter(|_| has_glare);
         let [of_light, of_area] = [of_light, of_area].map(|error| errors.as_ref().map(|_| error));
-        let columns = [(glare, 12), (Some(light), 13), (of_light, 8), (Some(area), 11), (of_area, 8)];
+        let columns = [(glare, 12), (Some(light), 12), (of_light, 8), (Some(area), 12), (of_area, 8)];
         let columns = columns.into_iter().filter_map(|(text, width)| Some((text?, width)));
         let columns: String = columns.map(|(text, width)| format!("{text:>width$}")).collect();
         let _ = writeln!(text, "{}", format!("{name:<12}{columns}").trim_end());

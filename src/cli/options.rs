@@ -4,7 +4,7 @@ use super::specimen::{LoadedSpecimen, note_colour};
 use crate::cut::Size;
 use crate::io::export::Viewing;
 use crate::io::mesh_options::MeshOptions;
-use crate::io::{Failure, scope_file};
+use crate::io::{Failure, nearest, scope_file};
 use crate::measure::STANDARD_ERROR;
 use crate::optics::line;
 use crate::picture::{Picture, Scoped, named, names};
@@ -158,8 +158,13 @@ pub fn scoped(given: &Path) -> Result<Scoped, Failure> {
     let is_name = !given.exists() && given.components().count() == 1 && given.extension().is_none();
     if is_name {
         let is_scope = |name: &&str| matches!(named(name), Some(Picture::Scoped(_)));
-        let known = names().into_iter().filter(is_scope).collect::<Vec<_>>().join(", ");
-        return Err(Failure::Usage(format!("--scope {name}: give the file of a scope, or one of {known}")));
+        let known: Vec<&str> = names().into_iter().filter(is_scope).collect();
+        let meant = nearest(&name.to_lowercase(), &known);
+        let meant = meant.map_or(String::new(), |near| format!("; did you mean '{near}'?"));
+        return Err(Failure::Usage(format!(
+            "--scope {name}: give the file of a scope, or one of {}{meant}",
+            known.join(", ")
+        )));
     }
     let scope = scope_file::read(given)?;
     Ok(Scoped { scope, side: None, takes_head: true })
@@ -227,10 +232,15 @@ impl LightOptions {
         let material = &specimen.material;
         let index = match self.index {
             Some(index) => index,
-            None => material
-                .dispersion
-                .try_index(wavelength)
-                .map_err(|e| Failure::Input(format!("{}: {}: {e}", specimen.path, material.name)))?,
+            None => material.dispersion.try_index(wavelength).map_err(|error| {
+                match (self.wavelength, material.valid_nm) {
+                    (Some(nm), Some((first, last))) if !material.is_valid_at(nm) => Failure::Usage(format!(
+                        "--wavelength {nm}: {} was measured from {first} to {last} nm and has no index there",
+                        material.name
+                    )),
+                    _ => Failure::Input(format!("{}: {}: {error}", specimen.path, material.name)),
+                }
+            })?,
         };
         if !(1.0..=5.0).contains(&index) {
             return Err(Failure::Usage(format!("an index of {index} is not from 1 (air) to 5")));

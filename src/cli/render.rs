@@ -81,6 +81,13 @@ impl Render {
         let setting = Arc::new(studio.assembly.setting.clone());
         let job = studio.job(&setting, &view, studio.pixel(&setting, &view)?);
         if let Some(at) = self.probe {
+            let [width, height] = job.film.size.map(f64::from);
+            if !(0.0..width).contains(&at.x) || !(0.0..height).contains(&at.y) {
+                return Err(Failure::Usage(format!(
+                    "--probe {},{}: the picture has {width} by {height} pixels, counted from 0",
+                    at.x, at.y
+                )));
+            }
             return print(&studio.probe(&job, at));
         }
         let taken = {

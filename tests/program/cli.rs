@@ -135,6 +135,8 @@ fn figures_say_what_is_estimated_and_how_far_off_it_may_be() {
     near(sum(&usual["strongest_exit_area"]), 1.0, 1e-9, "all areas");
     assert!((1e-6..=2e-4).contains(&at(&usual, "estimated/standard_error/light_return")));
     let [table, without] = ["", " --exact"].map(|more| desk.done(&format!("measure tolkowsky{more}")));
+    let (_, _, note) = desk.run("measure tolkowsky --exact --tracer ray --unresolved 0.05");
+    assert!(note.contains("--exact is about exact beams"), "{note}");
     for text in ["± error", "(standard error)", "rays for what they left"] {
         assert!(table.contains(text) && !without.contains(text), "{table}\n{without}");
     }

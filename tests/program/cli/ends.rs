@@ -47,7 +47,7 @@ fn a_signal_ends_a_bench_at_once_with_its_own_exit_code() {
         let mut printed = BufReader::new(bench.stdout.take().unwrap());
         let mut line = String::new();
         printed.read_line(&mut line).unwrap();
-        assert!(line.starts_with("modern ideal face up"), "{line}");
+        assert!(line.starts_with("modern ideal; "), "{line}");
         signal(&bench, name);
         let rest: Vec<String> = printed.lines().map(Result::unwrap).collect();
         assert!(

@@ -271,7 +271,15 @@ fn measure_takes_a_scope_a_material_a_size_and_its_files_are_the_same_every_time
     assert!(
         at(&mine, "transmitted/red") > at(&desk.json(measure), "transmitted/red") && mine["scope"] == "mine"
     );
-    assert!(desk.refused("measure tolkowsky --scope asset", 2).contains("one of aset, aset-white"));
+    let unknown = desk.refused("measure tolkowsky --scope asset", 2);
+    assert!(
+        unknown.contains("one of aset, aset-white") && unknown.contains("did you mean 'aset'?"),
+        "{unknown}"
+    );
+    let dark = desk.refused("measure tolkowsky --wavelength 100", 2);
+    assert!(dark.contains("--wavelength 100: diamond was measured from 226 to 760 nm"), "{dark}");
+    let beside = desk.refused("render tolkowsky --size 64 --probe 64,3", 2);
+    assert!(beside.contains("--probe 64,3: the picture has 64 by 64 pixels"), "{beside}");
 
     let ruby = |stone: &str| {
         let (code, printed, stderr) = desk.run(&format!("{measure} --material ruby --stone {stone}"));
