@@ -86,7 +86,7 @@ pub struct GrownBeams {
 }
 
 /// Follows light as [`trace`] does and keeps what is left. With a standard error, tracing goes on until rays that estimate
-/// what is left to that error take less time than more beams would: see [`BeamEffort`](super::effort::BeamEffort).
+/// what is left to that error take less time than more beams would.
 ///
 /// # Errors
 /// [`Stopped`] when `watch` asks to stop.
