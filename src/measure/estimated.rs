@@ -19,7 +19,7 @@ const FIRST: u64 = 128;
 /// How many times as many strata as all before the next estimate has at most, because the first ones say it only roughly.
 const GROWTH: u64 = 7;
 
-/// The most strata.
+/// The number of strata after which no more are sampled, whatever the error is.
 const MOST: u64 = 1 << 20;
 
 /// The most strata that are sampled before the watch is asked again.

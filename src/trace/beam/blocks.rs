@@ -30,7 +30,7 @@ impl<T: Copy> Blocks<T> {
         self.blocks.iter().flatten()
     }
 
-    /// Adds items to the end.
+    /// Adds items to the end; those that are there stay where they are in memory.
     pub fn extend(&mut self, mut items: &[T]) {
         while !items.is_empty() {
             let room = self.blocks.len() * BLOCK - self.len();

@@ -80,8 +80,9 @@ pub fn trace(
 
 /// Beams, and the light that they have left unresolved.
 pub struct GrownBeams {
-    /// The beams.
+    /// All beams that were followed, as a tree.
     pub beams: Beams,
+    /// The light that goes on from beams too weak to be followed.
     pub(in crate::trace) open: Vec<Front>,
 }
 

@@ -50,7 +50,7 @@ pub(super) struct BeamOutline {
 }
 
 impl BeamOutline {
-    /// Takes on these corners.
+    /// Replaces the outline by these corners, and works out its area and centre.
     pub fn load(&mut self, corners: &[DVec2]) {
         self.corners.clear();
         self.corners.extend_from_slice(corners);
@@ -88,7 +88,7 @@ impl<'a> Facets<'a> {
     }
 }
 
-/// Corners of an outline.
+/// The corners of an outline while it is cut, with what lies beyond each edge.
 #[derive(Default)]
 struct Corners {
     at: Vec<DVec2>,

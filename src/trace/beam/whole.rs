@@ -28,7 +28,7 @@ pub(super) struct FacetNeighbours {
 pub(super) struct Candidate<'a> {
     pub ray: &'a Ray,
     pub outline: &'a [DVec2],
-    /// A point within the outline.
+    /// The centre of the outline, in the image.
     pub centre: DVec2,
     pub facet: u32,
     /// Distance to the facet, over the image.
