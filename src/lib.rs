@@ -9,7 +9,8 @@
 //! let design = brillianteer::io::cut_file::read("cuts/tolkowsky.toml")?;
 //! let measured = brillianteer::measure(&design, &Default::default())?;
 //! assert!((measured.light_return() - 0.750).abs() < 0.001);
-//! assert!((measured.figures.sum() - 1.0).abs() < 1e-9);
+//! // All light is accounted for, up to the error of the part that rays estimate.
+//! assert!((measured.figures.sum() - 1.0).abs() < 1e-3);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
