@@ -93,6 +93,12 @@ impl<S: Simd> Mask<S> {
         self.simd.first_true_m32s(self.mask) != S::F32_LANES
     }
 
+    /// Whether all lanes say yes.
+    #[inline(always)]
+    pub fn all(self) -> bool {
+        self.simd.first_true_m32s(self.simd.not_m32s(self.mask)) == S::F32_LANES
+    }
+
     /// Returns `yes` in the lanes of the mask, else `no`.
     #[inline(always)]
     pub fn select(self, yes: Lanes<S>, no: Lanes<S>) -> Lanes<S> {
