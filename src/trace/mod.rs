@@ -5,6 +5,7 @@ pub mod beam;
 pub mod environment;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+mod packet;
 pub mod ray;
 pub mod sampling;
 mod scope_shot;
