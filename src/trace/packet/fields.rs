@@ -16,8 +16,8 @@ mod wave;
 #[cfg(test)]
 mod tests;
 
-use self::body::{Body, Jet};
-use self::wave::Wave;
+use self::body::{PacketBody, PacketJet};
+use self::wave::PacketWave;
 use super::lanes::{Lanes, Mask, Vector, along, dot, times, values, vector};
 use super::{Met, PacketSurface, Vec3s};
 use crate::math::ImplicitSurface;
@@ -44,8 +44,8 @@ const LEAST: f32 = 1e-30;
 /// A glass shape as packets of rays meet it, in girdle radii.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PacketShape {
-    body: Body,
-    wave: Option<Wave>,
+    body: PacketBody,
+    wave: Option<PacketWave>,
     reach: f32,
 }
 
@@ -67,7 +67,7 @@ struct Stretch<S: Simd> {
 impl PacketShape {
     /// Takes over a shape.
     pub fn new(surface: &ImplicitSurface) -> Self {
-        Self { body: Body::new(surface), wave: Wave::new(surface), reach: surface.reach() as f32 }
+        Self { body: PacketBody::new(surface), wave: PacketWave::new(surface), reach: surface.reach() as f32 }
     }
 
     #[inline(always)]
@@ -108,7 +108,8 @@ impl PacketShape {
             if !open.any() {
                 break;
             }
-            let Jet { value, gradient, change, radius } = self.body.jet(along(from, direction, t), direction);
+            let PacketJet { value, gradient, change, radius } =
+                self.body.jet(along(from, direction, t), direction);
             let slope = dot(gradient, direction);
             let tangent = t - value / slope;
             let falls = slope.is_negative();
@@ -137,7 +138,7 @@ impl PacketShape {
 
     /// Returns the value of the plate's function and its slope along a line.
     #[inline(always)]
-    fn sheared<S: Simd>(&self, wave: &Wave, p: Vector<S>, v: Vector<S>) -> [Lanes<S>; 2] {
+    fn sheared<S: Simd>(&self, wave: &PacketWave, p: Vector<S>, v: Vector<S>) -> [Lanes<S>; 2] {
         let wave = wave.at(p);
         let v = [v[0], v[1], v[2] - (wave.rise[0] * v[0] + wave.rise[1] * v[1])];
         let jet = self.body.jet([p[0], p[1], p[2] - wave.height], v);
@@ -146,7 +147,13 @@ impl PacketShape {
 
     /// Returns where lines enter a plate with waves from outside; infinity where they do not.
     #[inline(always)]
-    fn way_in<S: Simd>(&self, wave: &Wave, from: Vector<S>, v: Vector<S>, stretch: Stretch<S>) -> Lanes<S> {
+    fn way_in<S: Simd>(
+        &self,
+        wave: &PacketWave,
+        from: Vector<S>,
+        v: Vector<S>,
+        stretch: Stretch<S>,
+    ) -> Lanes<S> {
         let Stretch { first: mut t, last, mut open } = stretch;
         let zero = t.all(0.0);
         let least = t.all(LEAST_STEP * self.reach);
@@ -173,7 +180,13 @@ impl PacketShape {
 
     /// Returns where lines leave a plate whose edges would be sharp.
     #[inline(always)]
-    fn way_out<S: Simd>(&self, wave: &Wave, from: Vector<S>, v: Vector<S>, stretch: Stretch<S>) -> Lanes<S> {
+    fn way_out<S: Simd>(
+        &self,
+        wave: &PacketWave,
+        from: Vector<S>,
+        v: Vector<S>,
+        stretch: Stretch<S>,
+    ) -> Lanes<S> {
         let Stretch { first: mut t, last, mut open } = stretch;
         let (zero, half) = (t.all(0.0), self.body.half + self.body.edge);
         let least = t.all(LEAST_STEP * self.reach);
@@ -200,7 +213,7 @@ impl PacketShape {
 
     /// Returns where a ray leaves a plate with waves.
     #[inline(always)]
-    fn leave<S: Simd>(&self, wave: &Wave, line: &Line<S>) -> Lanes<S> {
+    fn leave<S: Simd>(&self, wave: &PacketWave, line: &Line<S>) -> Lanes<S> {
         let Line { from, direction, start } = *line;
         let [_, last] = self.body.between(from, direction, wave.amplitude);
         let (open, none) = (start.less(last), start.all(f32::INFINITY));
@@ -269,7 +282,7 @@ impl PacketSurface for PacketShape {
         let wave = wave.at(p);
         let [x, y] = wave.rise;
         let sheared_by = [by[0], by[1], by[2] - (x * by[0] + y * by[1])];
-        let Jet { gradient, change, .. } = self.body.jet([p[0], p[1], p[2] - wave.height], sheared_by);
+        let PacketJet { gradient, change, .. } = self.body.jet([p[0], p[1], p[2] - wave.height], sheared_by);
         let fall = gradient[2];
         let bent = [
             change[0] - x * change[2] - (wave.bend[0] * by[0] + wave.bend[1] * by[1]) * fall,

@@ -10,8 +10,8 @@ use pulp::Simd;
 
 /// A convex body around the origin.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Body {
-    pub outline: Outline,
+pub(super) struct PacketBody {
+    pub outline: PacketOutline,
     /// Half the length of the core along the axis.
     pub half: f32,
     /// The radius of the ball.
@@ -20,7 +20,7 @@ pub(super) struct Body {
 
 /// A convex outline.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Outline {
+pub(super) enum PacketOutline {
     /// A rectangle with its corners at ±`half`, and a disc of radius `round` rolled around it.
     Rectangle { half: [f32; 2], round: f32 },
     /// An isosceles triangle with its base below.
@@ -37,7 +37,7 @@ pub(super) enum Outline {
 }
 
 /// The signed distance from a body at a point, with its derivatives.
-pub(super) struct Jet<S: Simd> {
+pub(super) struct PacketJet<S: Simd> {
     pub value: Lanes<S>,
     pub gradient: Vector<S>,
     /// The change of the gradient over the displacement that was given.
@@ -56,15 +56,15 @@ struct FlatJet<S: Simd> {
 /// A least divisor, so that no direction is quite parallel to a plane.
 const LEAST: f32 = 1e-20;
 
-impl Body {
+impl PacketBody {
     /// Takes over the body of a shape.
     pub fn new(surface: &ImplicitSurface) -> Self {
         let SurfaceParts { corner, round, flank, half, edge, .. } = surface.parts();
         let length = |x: f64| (x * surface.reach()) as f32;
         let corner = [length(corner.x), length(corner.y)];
         let outline = match flank {
-            None => Outline::Rectangle { half: corner, round: length(round) },
-            Some((normal, flank)) => Outline::Triangle {
+            None => PacketOutline::Rectangle { half: corner, round: length(round) },
+            Some((normal, flank)) => PacketOutline::Triangle {
                 corner,
                 apex: length(round),
                 normal: normal.as_vec2().to_array(),
@@ -88,7 +88,7 @@ impl Body {
 
     #[inline(always)]
     fn is_triangular(&self) -> bool {
-        matches!(self.outline, Outline::Triangle { .. })
+        matches!(self.outline, PacketOutline::Triangle { .. })
     }
 
     /// Returns a vector mirrored as a point is when it is folded; a second time undoes it.
@@ -105,11 +105,11 @@ impl Body {
     pub fn between<S: Simd>(&self, o: Vector<S>, v: Vector<S>, lift: f32) -> [Lanes<S>; 2] {
         let ends = slab(o[2], v[2], self.half + self.edge + lift);
         match self.outline {
-            Outline::Rectangle { half, round } => {
+            PacketOutline::Rectangle { half, round } => {
                 let (a, b) = (half[0] + round + self.edge, half[1] + round + self.edge);
                 common(ends, common(slab(o[0], v[0], a), slab(o[1], v[1], b)))
             }
-            Outline::Triangle { corner, normal, .. } => {
+            PacketOutline::Triangle { corner, normal, .. } => {
                 let base = half_space(-o[1], -v[1], self.edge - corner[1]);
                 let offset = normal[0] * corner[0] + normal[1] * corner[1] + self.edge;
                 let (across, up) = (o[0] * normal[0], o[1] * normal[1]);
@@ -123,17 +123,17 @@ impl Body {
 
     /// Returns the function at a point of the surface or outside, with the change of its gradient over a displacement.
     #[inline(always)]
-    pub fn jet<S: Simd>(&self, p: Vector<S>, by: Vector<S>) -> Jet<S> {
+    pub fn jet<S: Simd>(&self, p: Vector<S>, by: Vector<S>) -> PacketJet<S> {
         let jet = self.folded_jet(self.folded(p, p), self.folded(by, p));
-        Jet { gradient: self.folded(jet.gradient, p), change: self.folded(jet.change, p), ..jet }
+        PacketJet { gradient: self.folded(jet.gradient, p), change: self.folded(jet.change, p), ..jet }
     }
 
     #[inline(always)]
-    fn folded_jet<S: Simd>(&self, p: Vector<S>, by: Vector<S>) -> Jet<S> {
+    fn folded_jet<S: Simd>(&self, p: Vector<S>, by: Vector<S>) -> PacketJet<S> {
         let zero = p[2].all(0.0);
         let (outline, round) = match self.outline {
-            Outline::Rectangle { half, round } => (self.rectangle(half, round, p, by), round),
-            Outline::Triangle { .. } => (self.triangle(p, by), 0.0),
+            PacketOutline::Rectangle { half, round } => (self.rectangle(half, round, p, by), round),
+            PacketOutline::Triangle { .. } => (self.triangle(p, by), 0.0),
         };
         let FlatJet { value: level, gradient: [ga, gb], change: [ca, cb] } = outline;
         let end = p[2] - self.half;
@@ -154,7 +154,7 @@ impl Body {
             (by[2] - to_end * along) * per,
         ];
 
-        Jet {
+        PacketJet {
             value: is_edge.select(distance, level.max(end)) - self.edge,
             gradient: [
                 is_edge.select(rim[0], is_side.select(ga, zero)),
@@ -191,7 +191,7 @@ impl Body {
     #[inline(always)]
     fn triangle<S: Simd>(&self, p: Vector<S>, by: Vector<S>) -> FlatJet<S> {
         let zero = p[0].all(0.0);
-        let Outline::Triangle { corner, apex, normal, flank } = self.outline else {
+        let PacketOutline::Triangle { corner, apex, normal, flank } = self.outline else {
             return FlatJet { value: zero, gradient: [zero; 2], change: [zero; 2] };
         };
         let from_corner = [p[0] - corner[0], p[1] - corner[1]];

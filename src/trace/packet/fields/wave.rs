@@ -7,7 +7,7 @@ use std::f32::consts::TAU;
 
 /// The height z = a sin(k x + phase) sin(k y + phase).
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Wave {
+pub(super) struct PacketWave {
     pub amplitude: f32,
     /// The wave number k.
     number: f32,
@@ -26,7 +26,7 @@ pub(super) struct WavePoint<S: Simd> {
     pub bend: [Lanes<S>; 2],
 }
 
-impl Wave {
+impl PacketWave {
     /// Takes over the wave of a shape.
     pub fn new(surface: &ImplicitSurface) -> Option<Self> {
         let reach = surface.reach();
