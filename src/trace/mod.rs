@@ -5,10 +5,10 @@ pub mod beam;
 pub mod environment;
 #[cfg(feature = "gpu")]
 pub mod gpu;
-pub mod ray;
-pub mod sampling;
 mod lanes;
 mod packet;
+pub mod ray;
+pub mod sampling;
 mod scope_shot;
 pub mod tail;
 

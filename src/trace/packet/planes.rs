@@ -82,9 +82,9 @@ impl Cylinder {
     /// Whether any of these points lies outside, or is not a point.
     #[inline(always)]
     fn is_left<S: Simd>(&self, simd: S, points: Vectors<S>) -> bool {
-        let from = points - Vectors::all(simd, self.middle);
-        let (x, y) = (from.x * Lanes::all(simd, self.scale.x), from.y * Lanes::all(simd, self.scale.y));
-        !Lanes::all(simd, 1.0).exceeds(x * x + y * y).all()
+        let from = points - Vectors::splat(simd, self.middle);
+        let (x, y) = (from[0] * self.scale.x, from[1] * self.scale.y);
+        !(x * x + y * y).less(x.all(1.0)).all()
     }
 }
 
@@ -105,15 +105,15 @@ impl<S: Simd> Nearest<S> {
         first: usize,
         (origin, direction): (Vectors<S>, Vectors<S>),
     ) -> Self {
-        let least_gap = Lanes::all(simd, LEAST_GAP);
+        let least_gap = Lanes::splat(simd, LEAST_GAP);
         let Self { mut ratio, mut plane } = self;
         let mut number = first as f32;
         for tried in planes {
-            let normal = Vectors::all(simd, tried.truncate());
+            let normal = Vectors::splat(simd, tried.truncate());
             let speed = normal.dot(direction);
-            let gap = Lanes::all(simd, tried.w) - normal.dot(origin);
+            let gap = Lanes::splat(simd, tried.w) - normal.dot(origin);
             let own = speed / gap.max(least_gap);
-            plane = own.exceeds(ratio).select(Lanes::all(simd, number), plane);
+            plane = ratio.less(own).select(Lanes::splat(simd, number), plane);
             ratio = own.max(ratio);
             number += 1.0;
         }
@@ -125,35 +125,61 @@ impl PacketSurface for PacketPlanes {
     const IS_CURVED: bool = false;
 
     #[inline(always)]
+    fn entry<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> Met<S> {
+        let (zero, none) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, f32::INFINITY));
+        let (mut into, mut out) = (zero, none);
+        let mut normal = Vectors::splat(simd, Vec3::ZERO);
+        for plane in &self.planes {
+            let own = Vectors::splat(simd, plane.truncate());
+            let speed = own.dot(direction);
+            let gap = Lanes::splat(simd, plane.w) - own.dot(origin);
+            let distance = gap / speed;
+            let is_entered = speed.is_negative() & into.less(distance);
+            into = is_entered.select(distance, into);
+            normal = Vectors([
+                is_entered.select(own[0], normal[0]),
+                is_entered.select(own[1], normal[1]),
+                is_entered.select(own[2], normal[2]),
+            ]);
+            out = speed.is_positive().select(out.min(distance), out);
+            // A ray that runs along a plane on its outer side never enters.
+            let is_beside = speed.at_most(zero) & zero.at_most(speed) & gap.is_negative();
+            out = is_beside.select(zero, out);
+        }
+        let is_met = into.is_positive() & into.less(out);
+        Met { distance: is_met.select(into, none), normal }
+    }
+
+    #[inline(always)]
     fn exit<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> Met<S> {
         let ray = (origin, direction);
         let [crown, face] = self.ends;
-        let [down, up] = [Lanes::all(simd, self.steep[0]), Lanes::all(simd, self.steep[1])];
-        let mut nearest = Nearest { ratio: Lanes::all(simd, 0.0), plane: Lanes::all(simd, 0.0) };
-        if direction.z.exceeds(down).any() {
+        let [down, up] = [Lanes::splat(simd, self.steep[0]), Lanes::splat(simd, self.steep[1])];
+        let mut nearest = Nearest { ratio: Lanes::splat(simd, 0.0), plane: Lanes::splat(simd, 0.0) };
+        if down.less(direction[2]).any() {
             nearest = nearest.among(simd, &self.planes[..crown], 0, ray);
         }
-        if up.exceeds(direction.z).any() {
+        if direction[2].less(up).any() {
             nearest = nearest.among(simd, &self.planes[crown..face], crown, ray);
         }
-        let distance = Lanes::all(simd, 1.0) / nearest.ratio.max(Lanes::all(simd, LEAST_GAP));
+        let distance = Lanes::splat(simd, 1.0) / nearest.ratio.max(Lanes::splat(simd, LEAST_GAP));
         if self.cylinder.is_left(simd, origin + direction * distance) {
             nearest = nearest.among(simd, &self.planes[face..], face, ray);
         }
-        let mut normal = Vectors::all(simd, Vec3::ZERO);
-        let mut offset = Lanes::all(simd, 0.0);
+        let mut normal = Vectors::splat(simd, Vec3::ZERO);
+        let mut offset = Lanes::splat(simd, 0.0);
         for (lane, &number) in nearest.plane.as_slice().iter().enumerate() {
             let plane = self.planes[number as usize];
             normal.set_lane(lane, plane.truncate());
             offset.set_lane(lane, plane.w);
         }
-        let gap = (offset - normal.dot(origin)).max(Lanes::all(simd, 0.0));
-        let speed = normal.dot(direction).max(Lanes::all(simd, LEAST_GAP));
+        let gap = (offset - normal.dot(origin)).max(Lanes::splat(simd, 0.0));
+        let speed = normal.dot(direction).max(Lanes::splat(simd, LEAST_GAP));
         Met { distance: gap / speed, normal }
     }
 
     #[inline(always)]
     fn turned<S: Simd>(&self, simd: S, _point: Vectors<S>, _by: Vectors<S>) -> Vectors<S> {
-        Vectors::all(simd, Vec3::ZERO)
+        Vectors::splat(simd, Vec3::ZERO)
     }
 }
