@@ -19,7 +19,7 @@ pub enum Wanted {
     /// Exact beams, in f64, for parallel rays.
     #[cfg_attr(feature = "cli", value(name = "beam"))]
     Beams,
-    /// Point rays on the processor, in f64.
+    /// Point rays on the processor: in f32 for pictures under light without meshes, in f64 for all else.
     #[cfg_attr(feature = "cli", value(name = "ray"))]
     Rays,
     /// Point rays on a graphics card, in f32.
