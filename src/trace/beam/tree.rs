@@ -209,6 +209,24 @@ impl Beams {
         old.nodes - base.nodes
     }
 
+    /// Drops all beams but these, which have not been followed, and numbers them anew in this order. They have no parent and
+    /// no exit any more.
+    pub(super) fn keep(&mut self, ids: &[u32]) {
+        let corners = ids.iter().map(|&id| self.nodes[id].corners.1 as usize).sum();
+        let mut kept = (Blocks::default(), Vec::with_capacity(corners), Blocks::default());
+        for &id in ids {
+            let node = &self.nodes[id];
+            let corners = (kept.1.len() as u32, node.corners.1);
+            kept.0.extend(&[BeamNode { parent: ROOT, corners, exit: NO_EXIT, open: true, ..*node }]);
+            kept.1.extend_from_slice(self.outline(node));
+            if !self.losses.is_empty() {
+                kept.2.extend(&[self.losses[id]]);
+            }
+        }
+        (self.nodes, self.corners, self.losses) = kept;
+        self.exits.clear();
+    }
+
     pub(super) fn size(&self) -> TreeSize {
         let [nodes, corners, exits] =
             [self.nodes.len(), self.corners.len(), self.exits.len()].map(|n| n as u32);
