@@ -162,7 +162,7 @@ pub struct Environment<'a> {
 }
 
 /// The square of a sweep below which a ray counts as one direction.
-const STILL: f64 = 1e-14;
+pub(super) const STILL: f64 = 1e-14;
 
 /// The cosine between a ray and the axis to the eye below which the ray counts as running along the backplate.
 const ALONG: f64 = 1e-6;
@@ -255,11 +255,17 @@ impl EnvironmentMap {
 }
 
 impl Environment<'_> {
+    /// Returns the light, by channel, of the photograph behind the stones; `None` where a ray does not meet it.
+    pub(in crate::trace) fn photograph(&self, from: DVec3, direction: DVec3) -> Option<DVec4> {
+        let seen = self.backplate?.at(&self.eye, from, direction)?;
+        Some(seen.extend(0.0).wxyz())
+    }
+
     /// Returns the radiance, by channel, that arrives along a ray from outside the stones. The ray begins at `from`; `sweep`
     /// is the change of its direction over the wavelengths that it stands for.
     pub fn radiance(&self, from: DVec3, direction: DVec3, sweep: DVec3) -> DVec4 {
-        if let Some(seen) = self.backplate.and_then(|behind| behind.at(&self.eye, from, direction)) {
-            return seen.extend(0.0).wxyz();
+        if let Some(seen) = self.photograph(from, direction) {
+            return seen;
         }
         let own =
             |v: DVec3| DVec3::new(self.basis.right.dot(v), self.basis.up.dot(v), self.basis.toward.dot(v));
@@ -339,7 +345,7 @@ fn direction(at: DVec2) -> DVec3 {
 }
 
 /// Returns the coordinates of a texel; beyond the map's edge, of the one that lies next to that edge on the sphere.
-fn wrapped(mut p: IVec2, size: i32) -> IVec2 {
+pub(super) fn wrapped(mut p: IVec2, size: i32) -> IVec2 {
     if p.x < 0 || p.x >= size {
         p = IVec2::new(if p.x < 0 { -1 - p.x } else { 2 * size - 1 - p.x }, size - 1 - p.y);
     }

@@ -7,6 +7,8 @@ pub mod environment;
 pub mod gpu;
 pub mod ray;
 pub mod sampling;
+mod lanes;
+mod packet;
 mod scope_shot;
 pub mod tail;
 

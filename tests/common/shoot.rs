@@ -88,7 +88,17 @@ impl Shoot {
         Sampling { strength: self.strength, ..Sampling::of(self.samples) }
     }
 
+    /// Traces the picture by single rays in double precision.
     pub fn by_rays(&self) -> (Linear, Remainder) {
+        let strata = strata(self.wavelengths, &self.light.spectrum, true);
+        self.with(|lit_scene| {
+            let prepare = |rows| Ok::<_, Stopped>(ByRays::in_f64(*lit_scene, rows));
+            expose(lit_scene, (&strata, self.sampling()), self.size, prepare, &unwatched).unwrap()
+        })
+    }
+
+    /// Traces the picture by packets of rays in single precision.
+    pub fn by_packets(&self) -> (Linear, Remainder) {
         let strata = strata(self.wavelengths, &self.light.spectrum, true);
         self.with(|lit_scene| {
             let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));

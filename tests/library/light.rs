@@ -21,12 +21,13 @@ fn a_white_furnace_is_white_in_every_clear_material() {
         for key in [Illuminant::D65, Illuminant::A] {
             let mut shoot = Shoot::new(&stone, &m.name, Light { spectrum: key, ..Light::white() });
             shoot.options.most_bounces = 1000;
-            let (picture, remainder) = shoot.by_rays();
-            let unresolved = remainder.unresolved + 1e-9;
-            assert!(unresolved < 2e-3, "{}: {unresolved} unresolved", m.name);
-            let mean = picture.pixels.iter().map(colour).sum::<DVec3>() / picture.pixels.len() as f64;
-            // Only unresolved light is missing; its share differs between wavelengths.
-            assert!((mean - 1.0).abs().max_element() < 3.0 * unresolved + 1e-6, "{}: {mean}", m.name);
+            for (picture, remainder) in [shoot.by_rays(), shoot.by_packets()] {
+                let unresolved = remainder.unresolved + 1e-9;
+                assert!(unresolved < 2e-3, "{}: {unresolved} unresolved", m.name);
+                let mean = picture.pixels.iter().map(colour).sum::<DVec3>() / picture.pixels.len() as f64;
+                // Only unresolved light is missing; its share differs between wavelengths.
+                assert!((mean - 1.0).abs().max_element() < 3.0 * unresolved + 1e-6, "{}: {mean}", m.name);
+            }
         }
     }
 }
@@ -37,7 +38,7 @@ fn a_furnace_loses_just_what_a_stone_of_colour_absorbs() {
         let mut shoot = Shoot::new(&modern(), &m.name, Light { spectrum: Illuminant::E, ..Light::white() });
         // In one single band light is white.
         (shoot.backdrop, shoot.samples, shoot.wavelengths) = (false, 2, 1);
-        for (picture, remainder) in [shoot.by_rays(), shoot.glanced()] {
+        for (picture, remainder) in [shoot.by_rays(), shoot.by_packets(), shoot.glanced()] {
             let cover: f64 = picture.pixels.iter().map(|p| f64::from(p[3])).sum();
             let mean = picture.pixels.iter().map(colour).sum::<DVec3>() / cover;
             let left = 1.0 - remainder.absorbed - remainder.unresolved;
@@ -166,7 +167,7 @@ fn a_film_that_is_shifted_sees_the_same_elsewhere() {
     (shoot.backdrop, shoot.wavelengths) = (false, 2);
     let (across, up) = (9_u32, 5_u32);
     let taken = |shoot: &Shoot| {
-        let mut all = vec![shoot.by_rays().0, shoot.by_beams().0];
+        let mut all = vec![shoot.by_rays().0, shoot.by_packets().0, shoot.by_beams().0];
         #[cfg(feature = "gpu")]
         all.extend(card("a_film_that_is_shifted_sees_the_same_elsewhere").map(|gpu| shoot.by_card(&gpu).0));
         all

@@ -24,6 +24,7 @@ mod licences;
 mod light;
 mod mirror;
 mod overlay;
+mod packets;
 mod polytope;
 mod reference;
 mod refraction;

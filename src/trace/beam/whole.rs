@@ -6,6 +6,7 @@
 
 use super::split::{GRAZING, Ray, SAME};
 use crate::math::{Affine, Plane, Polytope};
+use crate::trace::lanes::{Vec3s, dot, splat};
 use glam::{DVec2, DVec3};
 use pulp::{Arch, Simd, WithSimd};
 
@@ -116,14 +117,14 @@ impl WithSimd for Hold<'_> {
 
 /// Returns affine functions, each a constant and a gradient, at a point.
 #[inline(always)]
-fn at<S: Simd>(simd: S, [constant, x, y]: [S::f64s; 3], p: DVec2) -> S::f64s {
+fn at<S: Simd>(simd: S, [constant, x, y]: Vec3s<S>, p: DVec2) -> S::f64s {
     let (px, py) = (simd.splat_f64s(p.x), simd.splat_f64s(p.y));
     simd.add_f64s(constant, simd.add_f64s(simd.mul_f64s(x, px), simd.mul_f64s(y, py)))
 }
 
 /// Returns the least and the greatest values of affine functions at these points.
 #[inline(always)]
-fn range<S: Simd>(simd: S, functions: [S::f64s; 3], points: &[DVec2]) -> (S::f64s, S::f64s) {
+fn range<S: Simd>(simd: S, functions: Vec3s<S>, points: &[DVec2]) -> (S::f64s, S::f64s) {
     let (mut least, mut most) = (simd.splat_f64s(f64::INFINITY), simd.splat_f64s(f64::NEG_INFINITY));
     for &point in points {
         let value = at(simd, functions, point);
@@ -135,23 +136,12 @@ fn range<S: Simd>(simd: S, functions: [S::f64s; 3], points: &[DVec2]) -> (S::f64
 
 /// Does what [`Affine::magnitude`] does to several functions at once.
 #[inline(always)]
-fn magnitudes<S: Simd>(simd: S, [constant, x, y]: [S::f64s; 3], extent: S::f64s) -> S::f64s {
+fn magnitudes<S: Simd>(simd: S, [constant, x, y]: Vec3s<S>, extent: S::f64s) -> S::f64s {
     let slope = simd.add_f64s(simd.abs_f64s(x), simd.abs_f64s(y));
     simd.add_f64s(simd.abs_f64s(constant), simd.mul_f64s(extent, slope))
 }
 
 #[inline(always)]
-fn minus<S: Simd>(simd: S, a: [S::f64s; 3], b: [S::f64s; 3]) -> [S::f64s; 3] {
+fn minus<S: Simd>(simd: S, a: Vec3s<S>, b: Vec3s<S>) -> Vec3s<S> {
     [simd.sub_f64s(a[0], b[0]), simd.sub_f64s(a[1], b[1]), simd.sub_f64s(a[2], b[2])]
-}
-
-#[inline(always)]
-fn dot<S: Simd>(simd: S, a: [S::f64s; 3], b: [S::f64s; 3]) -> S::f64s {
-    let xy = simd.add_f64s(simd.mul_f64s(a[0], b[0]), simd.mul_f64s(a[1], b[1]));
-    simd.add_f64s(xy, simd.mul_f64s(a[2], b[2]))
-}
-
-#[inline(always)]
-fn splat<S: Simd>(simd: S, v: DVec3) -> [S::f64s; 3] {
-    [simd.splat_f64s(v.x), simd.splat_f64s(v.y), simd.splat_f64s(v.z)]
 }

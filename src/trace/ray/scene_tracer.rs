@@ -1,8 +1,11 @@
 //! Traces pictures under light by point rays: several stones, and light that goes from one to the next.
 
 use super::sight::{Met, nearest};
+use super::instance_tracer::BodyArrival;
 use super::{Camera, Exit, InstanceTracer, Loss};
 use crate::scene::Medium;
+use crate::trace::environment::Environment;
+use crate::trace::packet::PacketTracer;
 use crate::trace::sampling::{LitScene, MOST_WAITING, ProgressiveImage, RadiancePixel, SamplePass};
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3, DVec4};
@@ -36,6 +39,15 @@ pub struct WaitingRay {
 }
 
 impl WaitingRay {
+    /// Returns a ray that has left a stone: its point, direction, sweep and weight.
+    pub(in crate::trace) fn leaving(
+        stone: usize,
+        (origin, direction, sweep): (DVec3, DVec3, DVec3),
+        weight: f64,
+    ) -> Self {
+        Self { origin, direction, sweep, weight, left: Some(stone), bounces: 0 }
+    }
+
     /// Returns a ray from the eye.
     pub fn from_eye((origin, direction): (DVec3, DVec3)) -> Self {
         Self { origin, direction, sweep: DVec3::ZERO, weight: 1.0, left: None, bounces: 0 }
@@ -67,6 +79,17 @@ impl SceneTracer {
     /// Returns the stone that a ray meets first, and where; `None` where it meets none.
     pub fn first(&self, ray: &WaitingRay) -> Option<First> {
         nearest(&self.tracers, (ray.origin, ray.direction), ray.left).map(First)
+    }
+
+    /// Returns how a ray arrives at the stone that it meets first, in the frame of that stone's body.
+    pub(in crate::trace) fn arrival(&self, ray: &WaitingRay, first: &First) -> BodyArrival {
+        let (stone, met) = first.0;
+        self.tracers[stone].arrival(met, (ray.origin, ray.direction, ray.sweep))
+    }
+
+    /// Returns the tracer of one stone.
+    pub(in crate::trace) fn instance(&self, stone: usize) -> &InstanceTracer {
+        &self.tracers[stone]
     }
 
     /// Follows a ray through all stones, from the one that it is known to meet; calls `leave` for each ray that meets no
@@ -136,11 +159,20 @@ impl SceneTracer {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct First(Met);
 
+impl First {
+    /// Returns the stone, by its place in the scene.
+    pub(in crate::trace) fn stone(&self) -> usize {
+        self.0.0
+    }
+}
+
 /// Rows of a picture under light, traced by the processor in f64.
 pub struct ByRays<'a> {
     lit_scene: LitScene<'a>,
     camera: Camera,
     tracer: SceneTracer,
+    /// Packets in single precision, which are quicker, where all stones are convex.
+    packets: Option<PacketTracer<'a>>,
     rows: Range<u32>,
     passes: u32,
     sums: Vec<RadiancePixel>,
@@ -150,9 +182,16 @@ impl<'a> ByRays<'a> {
     /// The most rows to trace at once: the sums of their passes are held in memory.
     pub const MOST_ROWS: u32 = 256;
 
-    /// Prepares some rows of a picture.
+    /// Prepares some rows of a picture: by packets of rays in single precision where all stones are convex, else in double
+    /// precision.
     pub fn new(lit_scene: LitScene<'a>, rows: Range<u32>) -> Self {
+        Self { packets: PacketTracer::new(lit_scene), ..Self::in_f64(lit_scene, rows) }
+    }
+
+    /// Prepares some rows of a picture in double precision.
+    pub fn in_f64(lit_scene: LitScene<'a>, rows: Range<u32>) -> Self {
         Self {
+            packets: None,
             lit_scene,
             camera: Camera::reaching(lit_scene.view, lit_scene.scene.reach()),
             tracer: SceneTracer::new(&lit_scene),
@@ -165,6 +204,7 @@ impl<'a> ByRays<'a> {
     /// Returns what one ray of a pixel sees, over all wavelengths.
     fn see(&self, bands: &[SceneTracer], pass: &SamplePass, at: DVec2) -> RadiancePixel {
         let straight = self.camera.ray(at);
+        let environment = &self.lit_scene.environment;
         let start = WaitingRay::from_eye(straight);
         // The ray meets the first stone at the same point in all wavelengths.
         let first = self.tracer.first(&start);
@@ -175,11 +215,11 @@ impl<'a> ByRays<'a> {
             match &first {
                 Some(first) => {
                     let rest =
-                        tracer.follow(&start, first, |ray| light += self.arriving(ray, straight, pass));
+                        tracer.follow(&start, first, |ray| light += pass.seen(environment, ray, straight));
                     lit.unresolved += rest.unresolved;
                     lit.absorbed += rest.absorbed;
                 }
-                None if is_seen => light = self.arriving(&start, straight, pass),
+                None if is_seen => light = pass.seen(environment, &start, straight),
                 None => {}
             }
             lit.colour += response.iter().zip(light.to_array()).map(|(&c, l)| c * l).sum::<DVec3>();
@@ -189,12 +229,50 @@ impl<'a> ByRays<'a> {
         RadiancePixel { unresolved: unresolved * share, absorbed: absorbed * share, ..lit }
     }
 
+    /// Adds what one ray of each pixel sees to the sums of some pixels, which stand row by row from the number `first` on.
+    fn add(&self, bands: &[SceneTracer], pass: &SamplePass, first: usize, sums: &mut [RadiancePixel]) {
+        let across = self.lit_scene.film.size[0] as usize;
+        let at = |k: usize| {
+            let (x, y) = ((k % across) as u32, self.rows.start + (k / across) as u32);
+            self.lit_scene.film.image_from_pixels(DVec2::new(f64::from(x), f64::from(y)) + pass.shift)
+        };
+        if let Some(packets) = &self.packets {
+            let rays: Vec<_> = (first..first + sums.len()).map(|k| self.camera.ray(at(k))).collect();
+            packets.see(pass, &rays, sums);
+            return;
+        }
+        for (k, sum) in (first..).zip(sums) {
+            let lit = self.see(bands, pass, at(k));
+            sum.colour += lit.colour;
+            sum.cover += lit.cover;
+            sum.unresolved += lit.unresolved;
+            sum.absorbed += lit.absorbed;
+        }
+    }
+}
+
+impl SamplePass {
     /// Returns the environment's light along a ray that has left all stones; `straight` is the ray from the eye that it goes
     /// back to.
-    fn arriving(&self, ray: &WaitingRay, straight: (DVec3, DVec3), pass: &SamplePass) -> DVec4 {
+    pub(in crate::trace) fn seen(
+        &self,
+        environment: &Environment,
+        ray: &WaitingRay,
+        straight: (DVec3, DVec3),
+    ) -> DVec4 {
+        let (from, direction, sweep) = self.looked_up(ray, straight);
+        environment.radiance(from, direction, sweep) * ray.weight
+    }
+
+    /// Returns the point, the direction and the sweep for which light that has left all stones is looked up.
+    pub(in crate::trace) fn looked_up(
+        &self,
+        ray: &WaitingRay,
+        straight: (DVec3, DVec3),
+    ) -> (DVec3, DVec3, DVec3) {
         let own = (ray.origin, ray.direction, ray.sweep);
-        let (from, direction, sweep) = pass.mixed(straight, own);
-        self.lit_scene.environment.radiance(from, pass.middle(direction, sweep), sweep) * ray.weight
+        let (from, direction, sweep) = self.mixed(straight, own);
+        (from, self.middle(direction, sweep), sweep)
     }
 }
 
@@ -202,6 +280,7 @@ impl<E: From<Stopped>> ProgressiveImage<E> for ByRays<'_> {
     fn add_pass(&mut self, pass: &SamplePass, watch: Watch) -> Result<(), E> {
         let bands = self.tracer.made_of(pass);
         let across = self.lit_scene.film.size[0] as usize;
+        let at_once = (PacketTracer::RAYS_AT_ONCE / pass.responses.len().max(1)).max(1);
         let mut sums = std::mem::take(&mut self.sums);
         let pieces = sums.chunks_mut(across * PIECE).enumerate();
         let count = pieces.len();
@@ -211,19 +290,9 @@ impl<E: From<Stopped>> ProgressiveImage<E> for ByRays<'_> {
             if stopped {
                 break;
             }
-            pixels.par_iter_mut().enumerate().for_each(|(k, sum)| {
-                let (x, y) = ((k % across) as u32, self.rows.start + (piece * PIECE + k / across) as u32);
-                let lit = self.see(
-                    &bands,
-                    pass,
-                    self.lit_scene
-                        .film
-                        .image_from_pixels(DVec2::new(f64::from(x), f64::from(y)) + pass.shift),
-                );
-                sum.colour += lit.colour;
-                sum.cover += lit.cover;
-                sum.unresolved += lit.unresolved;
-                sum.absorbed += lit.absorbed;
+            let pixels = pixels.par_chunks_mut(at_once).enumerate();
+            pixels.for_each(|(k, sums)| {
+                self.add(&bands, pass, piece * PIECE * across + k * at_once, sums);
             });
         }
         self.sums = sums;

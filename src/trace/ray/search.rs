@@ -1,9 +1,10 @@
 //! Finds the plane that a ray meets: all are tried, as many side by side as the processor takes.
 //!
-//! What the processor can do is found out when the program runs, so that one build is quick on all. Sums are not fused, so
-//! that the answer does not depend on the processor.
+//! What the processor can do is found out when the program runs, so that one build is quick on all. Closures would not be
+//! compiled for it, so there are none in the loops. Sums are not fused, so that the answer does not depend on the processor.
 
 use crate::math::Plane;
+use crate::trace::lanes::{Vec3s, dot, splat};
 use glam::DVec3;
 use pulp::{Arch, Simd, WithSimd};
 
@@ -60,13 +61,14 @@ impl Search {
         (tagged.to_bits() & self.tag_bits) as usize
     }
 
-    /// Returns the coordinates and tags of all planes, row by row.
     #[inline(always)]
-    fn rows<S: Simd>(&self) -> impl Iterator<Item = [S::f64s; 5]> {
-        let [x, y, z] = self.normal.each_ref().map(|c| S::as_simd_f64s(c).0);
-        let (offset, tag) = (S::as_simd_f64s(&self.offset).0, S::as_simd_f64s(&self.tag).0);
-        let rows = x.iter().zip(y).zip(z).zip(offset).zip(tag);
-        rows.map(|((((x, y), z), offset), tag)| [*x, *y, *z, *offset, *tag])
+    fn rows<S: Simd>(&self) -> Rows<'_, S> {
+        let [x, y, z] = &self.normal;
+        Rows {
+            normal: [S::as_simd_f64s(x).0, S::as_simd_f64s(y).0, S::as_simd_f64s(z).0],
+            offset: S::as_simd_f64s(&self.offset).0,
+            tag: S::as_simd_f64s(&self.tag).0,
+        }
     }
 
     #[inline(always)]
@@ -75,10 +77,19 @@ impl Search {
     }
 }
 
-#[inline(always)]
-fn dot<S: Simd>(simd: S, normal: [S::f64s; 3], v: [S::f64s; 3]) -> S::f64s {
-    let [x, y, z] = [0, 1, 2].map(|i| simd.mul_f64s(normal[i], v[i]));
-    simd.add_f64s(simd.add_f64s(x, y), z)
+/// The planes as rows of as many as the processor tries at once.
+struct Rows<'a, S: Simd> {
+    normal: [&'a [S::f64s]; 3],
+    offset: &'a [S::f64s],
+    tag: &'a [S::f64s],
+}
+
+impl<S: Simd> Rows<'_, S> {
+    #[inline(always)]
+    fn normal(&self, row: usize) -> Vec3s<S> {
+        let [x, y, z] = self.normal;
+        [x[row], y[row], z[row]]
+    }
 }
 
 struct Next<'a> {
@@ -92,19 +103,20 @@ impl WithSimd for Next<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
-        let splat = |v: DVec3| v.to_array().map(|c| simd.splat_f64s(c));
-        let (point, direction) = (splat(self.point), splat(self.direction));
+        let (point, direction) = (splat(simd, self.point), splat(simd, self.direction));
         let (zero, least_gap) = (simd.splat_f64s(0.0), simd.splat_f64s(LEAST_GAP));
         let clear = self.search.clear(simd);
         let mut greatest = zero;
-        for [x, y, z, offset, tag] in self.search.rows::<S>() {
-            let speed = dot(simd, [x, y, z], direction);
+        let rows = self.search.rows::<S>();
+        for row in 0..rows.tag.len() {
+            let normal = rows.normal(row);
+            let speed = dot(simd, normal, direction);
             if simd.first_true_m64s(simd.greater_than_f64s(speed, zero)) == S::F64_LANES {
                 continue;
             }
-            let gap = simd.sub_f64s(offset, dot(simd, [x, y, z], point));
+            let gap = simd.sub_f64s(rows.offset[row], dot(simd, normal, point));
             let ratio = simd.div_f64s(speed, simd.max_f64s(gap, least_gap));
-            let tagged = simd.or_f64s(simd.and_f64s(ratio, clear), tag);
+            let tagged = simd.or_f64s(simd.and_f64s(ratio, clear), rows.tag[row]);
             greatest = simd.max_f64s(tagged, greatest);
         }
         simd.reduce_max_f64s(greatest)
@@ -122,16 +134,17 @@ impl WithSimd for Entry<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Option<f64> {
-        let splat = |v: DVec3| v.to_array().map(|c| simd.splat_f64s(c));
-        let (origin, direction) = (splat(self.origin), splat(self.direction));
+        let (origin, direction) = (splat(simd, self.origin), splat(simd, self.direction));
         let (zero, never) = (simd.splat_f64s(0.0), simd.splat_f64s(f64::INFINITY));
         let clear = self.search.clear(simd);
         let (mut into, mut out) = (zero, never);
-        for [x, y, z, offset, tag] in self.search.rows::<S>() {
-            let speed = dot(simd, [x, y, z], direction);
-            let gap = simd.sub_f64s(offset, dot(simd, [x, y, z], origin));
+        let rows = self.search.rows::<S>();
+        for row in 0..rows.tag.len() {
+            let normal = rows.normal(row);
+            let speed = dot(simd, normal, direction);
+            let gap = simd.sub_f64s(rows.offset[row], dot(simd, normal, origin));
             let distance = simd.div_f64s(gap, speed);
-            let tagged = simd.or_f64s(simd.and_f64s(distance, clear), tag);
+            let tagged = simd.or_f64s(simd.and_f64s(distance, clear), rows.tag[row]);
             let (before, behind) = (simd.less_than_f64s(speed, zero), simd.greater_than_f64s(speed, zero));
             into = simd.max_f64s(simd.select_f64s(before, tagged, zero), into);
             out = simd.min_f64s(simd.select_f64s(behind, distance, never), out);

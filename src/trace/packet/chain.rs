@@ -1,0 +1,176 @@
+//! Chains of bounces inside a body, one in each lane.
+
+use super::entering::enter;
+use super::lanes::{Lanes, MOST_LANES, Vectors};
+use super::optics::{Coherency, LEAST_COS, Meeting, Reflection, s_axis};
+use super::rays::{EnteringRay, InnerRay, InnerRays, LeavingRay, PacketLoss};
+use super::{Met, PacketSurface};
+use crate::trace::ray::RayOptions;
+use pulp::{Simd, WithSimd};
+
+/// The greatest component of a sweep or a shift. Larger ones mean a sweep beyond the whole sphere or a shift beyond the body,
+/// and each bounce may multiply them.
+const MOST_SWEPT: f32 = 1e4;
+
+/// The passage of rays through one body, from where they enter until too little light is left.
+pub(super) struct Passage<'a, P> {
+    pub surface: &'a P,
+    pub rays: &'a [EnteringRay],
+    pub options: RayOptions,
+    /// Takes the light that leaves.
+    pub leaving: &'a mut Vec<LeavingRay>,
+    /// Takes what does not leave.
+    pub losses: &'a mut Vec<PacketLoss>,
+}
+
+/// The ray in a lane and the number of its bounces; `None` where the lane is empty.
+type Occupant = Option<(u32, u32)>;
+
+impl<P: PacketSurface> WithSimd for Passage<'_, P> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        let kinds = (self.options.polarised, P::IS_CURVED);
+        let inner = enter(simd, self.rays, kinds, self.leaving);
+        let absorbs = self.rays.iter().any(|ray| !ray.medium.is_clear());
+        let mut lanes = InnerRays::dark(simd);
+        let mut occupants: [Occupant; MOST_LANES] = [None; MOST_LANES];
+        let mut next = 0;
+        loop {
+            let mut is_empty = true;
+            for (lane, occupant) in occupants[..S::F32_LANES].iter_mut().enumerate() {
+                while occupant.is_none() && next < inner.len() {
+                    let ray = &inner[next];
+                    next += 1;
+                    *occupant = self.admitted(ray);
+                    if occupant.is_some() {
+                        lanes.set_lane(lane, ray);
+                    }
+                }
+                is_empty &= occupant.is_none();
+            }
+            if is_empty {
+                break;
+            }
+            let before = lanes.weight();
+            self.bounce(simd, &mut lanes, &occupants, absorbs);
+            self.end(&mut lanes, &mut occupants, before);
+        }
+    }
+}
+
+impl<P: PacketSurface> Passage<'_, P> {
+    /// Returns the occupant that a ray becomes; `None` where it has too little light to be followed.
+    #[inline(always)]
+    fn admitted(&mut self, ray: &InnerRay) -> Occupant {
+        let weight = ray.light.ss + ray.light.pp;
+        if weight > self.options.least_weight as f32 && self.options.most_bounces > 0 {
+            return Some((ray.tag, 0));
+        }
+        self.losses.push(PacketLoss { absorbed: 0.0, unresolved: weight, tag: ray.tag });
+        None
+    }
+
+    /// Follows all rays to the next facet: a part of their light leaves, the rest is reflected.
+    #[inline(always)]
+    fn bounce<S: Simd>(
+        &mut self,
+        simd: S,
+        rays: &mut InnerRays<S>,
+        occupants: &[Occupant; MOST_LANES],
+        absorbs: bool,
+    ) {
+        let Met { distance, normal } = self.surface.exit(simd, rays.origin, rays.direction);
+        let point = rays.origin + rays.direction * distance;
+        rays.path = rays.path + distance;
+        let cos_i = rays.direction.dot(normal);
+        let mut of_normal = None;
+        if P::IS_CURVED {
+            let by = rays.shift + rays.sweep * distance;
+            let speed = cos_i.max(cos_i.same(LEAST_COS));
+            rays.shift = tamed(by - rays.direction * (normal.dot(by) / speed));
+            of_normal = Some(-self.surface.turned(simd, point, rays.shift));
+        }
+        if absorbs {
+            absorb(rays);
+        }
+        let surface = Reflection::of(cos_i, rays.index);
+        if self.options.polarised {
+            let across = s_axis(rays.direction, normal, rays.s);
+            let sine = rays.direction.cross(rays.s).dot(across);
+            rays.light = rays.light.turned(rays.s.dot(across), sine);
+            rays.s = across;
+        }
+        let meeting =
+            Meeting { direction: rays.direction, normal: -normal, cos_i, of_direction: rays.sweep, of_normal };
+        let weight = rays.light.passed(&surface) * rays.left;
+        let outward = meeting.refracted(rays.index, surface.cos_t);
+        let swept = meeting.refracted_change(rays.index, rays.spread, surface.cos_t);
+        let swept = if P::IS_CURVED { tamed(swept) } else { swept };
+        for (lane, occupant) in occupants[..S::F32_LANES].iter().enumerate() {
+            let weight = weight.lane(lane);
+            if let Some((tag, _)) = *occupant
+                && weight > 0.0
+            {
+                let (point, direction, sweep) = (point.lane(lane), outward.lane(lane), swept.lane(lane));
+                self.leaving.push(LeavingRay { point, direction, sweep, weight, tag });
+            }
+        }
+        rays.light = rays.light.reflected(&surface);
+        if !self.options.polarised {
+            rays.light = Coherency::unpolarised(rays.light.weight());
+        }
+        let reflected_sweep = meeting.reflected_change();
+        rays.sweep = if P::IS_CURVED { tamed(reflected_sweep) } else { reflected_sweep };
+        rays.direction = meeting.reflected();
+        rays.origin = point;
+    }
+
+    /// Counts the bounce, and empties the lanes of rays that end. `before` is the light before the bounce.
+    #[inline(always)]
+    fn end<S: Simd>(
+        &mut self,
+        rays: &mut InnerRays<S>,
+        occupants: &mut [Occupant; MOST_LANES],
+        before: Lanes<S>,
+    ) {
+        let weights = rays.weight();
+        for (lane, occupant) in occupants[..S::F32_LANES].iter_mut().enumerate() {
+            let Some((tag, bounces)) = occupant else { continue };
+            *bounces += 1;
+            let (weight, absorbed) = (weights.lane(lane), rays.absorbed.lane(lane));
+            if weight > self.options.least_weight as f32 && *bounces < self.options.most_bounces {
+                continue;
+            }
+            let mut loss = PacketLoss { absorbed, unresolved: weight, tag: *tag };
+            if !(weight + absorbed).is_finite() {
+                // Rounding has let the ray slip out of the body.
+                loss = PacketLoss { absorbed: 0.0, unresolved: before.lane(lane), tag: *tag };
+            }
+            self.losses.push(loss);
+            rays.set_lane(lane, &InnerRay::DARK);
+            *occupant = None;
+        }
+    }
+}
+
+/// Takes out the light that is absorbed on the way.
+#[inline(always)]
+fn absorb<S: Simd>(rays: &mut InnerRays<S>) {
+    let mut after = rays.left;
+    for lane in 0..S::F32_LANES {
+        let [o, e] = [rays.absorption[0].lane(lane), rays.absorption[1].lane(lane)];
+        let path = rays.path.lane(lane);
+        after.set_lane(lane, 0.5 * ((-o * path).exp() + (-e * path).exp()));
+    }
+    rays.absorbed = rays.absorbed + rays.light.weight() * (rays.left - after);
+    rays.left = after;
+}
+
+/// Returns vectors, scaled down until no component exceeds `MOST_SWEPT`.
+#[inline(always)]
+fn tamed<S: Simd>(v: Vectors<S>) -> Vectors<S> {
+    let most = v.x.abs().max(v.y.abs()).max(v.z.abs()).max(v.x.same(1e-30));
+    v * (v.x.same(MOST_SWEPT) / most).min(v.x.same(1.0))
+}

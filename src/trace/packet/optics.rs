@@ -1,0 +1,217 @@
+//! Snell, Fresnel and polarisation in lanes, in single precision: the twins of `src/optics` and of `shaders/optics.wgsl`, where
+//! the sources are.
+
+use super::lanes::{Lanes, Mask, Vectors};
+use pulp::Simd;
+
+/// The sine of the angle between a ray and a facet's normal below which the ray counts as square to the facet.
+const SQUARE_ON: f32 = 1e-4;
+
+/// The least cosine that a change is divided by.
+pub(super) const LEAST_COS: f32 = 1e-4;
+
+/// The amplitudes of reflection of s and p, each as its real and imaginary part.
+#[derive(Clone, Copy)]
+pub(super) struct Reflection<S: Simd> {
+    s: [Lanes<S>; 2],
+    p: [Lanes<S>; 2],
+    /// The cosine of the angle of refraction; 0 where reflection is total.
+    pub cos_t: Lanes<S>,
+    /// Where a part of the light passes.
+    pub is_partial: Mask<S>,
+}
+
+/// The light of rays: its coherency matrix along the axes `s` and direction × `s`.
+#[derive(Clone, Copy)]
+pub(super) struct Coherency<T> {
+    pub ss: T,
+    pub pp: T,
+    pub re: T,
+    pub im: T,
+}
+
+/// Directions of light that meets a surface, and how they change over the spread of wavelengths.
+#[derive(Clone, Copy)]
+pub(super) struct Meeting<S: Simd> {
+    pub direction: Vectors<S>,
+    /// The unit normal on the side that the light comes from.
+    pub normal: Vectors<S>,
+    /// The cosine of the angle of incidence.
+    pub cos_i: Lanes<S>,
+    /// The change of the direction.
+    pub of_direction: Vectors<S>,
+    /// The change of that normal; `None` on flat facets.
+    pub of_normal: Option<Vectors<S>>,
+}
+
+impl<S: Simd> Reflection<S> {
+    /// Returns the coefficients for light that meets a surface at an angle of cosine `cos_i`; `eta` is the incident index
+    /// over the transmitted one.
+    #[inline(always)]
+    pub fn of(cos_i: Lanes<S>, eta: Lanes<S>) -> Self {
+        let (zero, one) = (cos_i.same(0.0), cos_i.same(1.0));
+        let cos_i = cos_i.max(zero).min(one);
+        let normal_part = eta * cos_i;
+        let squared = (one - eta) * (one + eta) + normal_part * normal_part;
+        let is_partial = squared.exceeds(zero);
+        let root = squared.abs().sqrt();
+        let [s, p] = [[normal_part, root], [cos_i, eta * root]];
+        Self {
+            s: amplitude(is_partial, s),
+            p: amplitude(is_partial, p),
+            cos_t: is_partial.select(root, zero),
+            is_partial,
+        }
+    }
+
+    /// Returns the reflected shares of the power of s and of p.
+    #[inline(always)]
+    fn powers(&self) -> [Lanes<S>; 2] {
+        let one = self.cos_t.same(1.0);
+        let [s, p] = [self.s[0] * self.s[0], self.p[0] * self.p[0]];
+        [self.is_partial.select(s, one), self.is_partial.select(p, one)]
+    }
+}
+
+/// Returns (a - b) / (a + b) where a part of the light passes, else (a - ib) / (a + ib).
+#[inline(always)]
+fn amplitude<S: Simd>(is_partial: Mask<S>, [a, b]: [Lanes<S>; 2]) -> [Lanes<S>; 2] {
+    let (tiny, two) = (a.same(1e-30), a.same(2.0));
+    let (aa, bb) = (a * a, b * b);
+    let divisor = is_partial.select(a + b, aa + bb).max(tiny);
+    let per = a.same(1.0) / divisor;
+    let re = is_partial.select(a - b, aa - bb) * per;
+    let im = is_partial.select(a.same(0.0), -(two * a * b)) * per;
+    [re, im]
+}
+
+impl<S: Simd> Coherency<Lanes<S>> {
+    #[inline(always)]
+    pub fn weight(&self) -> Lanes<S> {
+        self.ss + self.pp
+    }
+
+    /// Returns unpolarised light of this weight.
+    #[inline(always)]
+    pub fn unpolarised(weight: Lanes<S>) -> Self {
+        let (half, none) = (weight * weight.same(0.5), weight.same(0.0));
+        Self { ss: half, pp: half, re: none, im: none }
+    }
+
+    /// Returns the light in axes turned from s toward p by the angle of this cosine and sine.
+    #[inline(always)]
+    pub fn turned(self, cos: Lanes<S>, sin: Lanes<S>) -> Self {
+        let (cc, ss, cs) = (cos * cos, sin * sin, cos * sin);
+        let twice = cs * self.re * cs.same(2.0);
+        Self {
+            ss: cc * self.ss + ss * self.pp + twice,
+            pp: ss * self.ss + cc * self.pp - twice,
+            re: (cc - ss) * self.re + cs * (self.pp - self.ss),
+            im: self.im,
+        }
+    }
+
+    /// Returns the light that a surface reflects.
+    #[inline(always)]
+    pub fn reflected(self, by: &Reflection<S>) -> Self {
+        let [power_s, power_p] = by.powers();
+        let ([s_re, s_im], [p_re, p_im]) = (by.s, by.p);
+        let (re, im) = (s_re * p_re + s_im * p_im, s_im * p_re - s_re * p_im);
+        Self {
+            ss: self.ss * power_s,
+            pp: self.pp * power_p,
+            re: self.re * re - self.im * im,
+            im: self.re * im + self.im * re,
+        }
+    }
+
+    /// Returns the light that passes a surface; refraction shifts no phase.
+    #[inline(always)]
+    pub fn transmitted(self, by: &Reflection<S>) -> Self {
+        let (zero, one) = (self.ss.same(0.0), self.ss.same(1.0));
+        let [power_s, power_p] = by.powers();
+        let (s, p) = ((one - power_s).max(zero), (one - power_p).max(zero));
+        let both = (s * p).sqrt();
+        Self { ss: self.ss * s, pp: self.pp * p, re: self.re * both, im: self.im * both }
+    }
+
+    /// Returns the weight of the light that passes a surface.
+    #[inline(always)]
+    pub fn passed(self, by: &Reflection<S>) -> Lanes<S> {
+        let one = self.ss.same(1.0);
+        let [power_s, power_p] = by.powers();
+        self.ss * (one - power_s) + self.pp * (one - power_p)
+    }
+}
+
+impl<S: Simd> Meeting<S> {
+    /// Returns the direction of the reflected rays.
+    #[inline(always)]
+    pub fn reflected(&self) -> Vectors<S> {
+        let reflected = self.direction + self.normal * (self.cos_i + self.cos_i);
+        // One Newton step toward unit length: a chain of bounces would drift from it.
+        let (half, three_halves) = (self.cos_i.same(0.5), self.cos_i.same(1.5));
+        reflected * (three_halves - half * reflected.dot(reflected))
+    }
+
+    /// Returns the direction of the refracted rays.
+    #[inline(always)]
+    pub fn refracted(&self, eta: Lanes<S>, cos_t: Lanes<S>) -> Vectors<S> {
+        self.direction * eta + self.normal * (eta * self.cos_i - cos_t)
+    }
+
+    /// Returns the change of the reflected direction.
+    #[inline(always)]
+    pub fn reflected_change(&self) -> Vectors<S> {
+        let Self { direction, normal, of_direction, .. } = *self;
+        let across = of_direction.dot(normal);
+        match self.of_normal {
+            None => of_direction - normal * (across + across),
+            Some(of_normal) => {
+                let turn = across + direction.dot(of_normal);
+                let along = direction.dot(normal);
+                of_direction - normal * (turn + turn) - of_normal * (along + along)
+            }
+        }
+    }
+
+    /// Returns the change of the refracted direction, where eta changes by `of_eta`.
+    #[inline(always)]
+    pub fn refracted_change(&self, eta: Lanes<S>, of_eta: Lanes<S>, cos_t: Lanes<S>) -> Vectors<S> {
+        let Self { direction, normal, cos_i, of_direction, of_normal } = *self;
+        let mut of_cos_i = -of_direction.dot(normal);
+        if let Some(of_normal) = of_normal {
+            of_cos_i = of_cos_i - direction.dot(of_normal);
+        }
+        let (one, least) = (eta.same(1.0), eta.same(LEAST_COS));
+        let square = one - cos_i * cos_i;
+        let of_cos_t = eta * (eta * cos_i * of_cos_i - square * of_eta) / cos_t.max(least);
+        let swept =
+            direction * of_eta + of_direction * eta + normal * (of_eta * cos_i + eta * of_cos_i - of_cos_t);
+        match of_normal {
+            None => swept,
+            Some(of_normal) => swept + of_normal * (eta * cos_i - cos_t),
+        }
+    }
+}
+
+/// Returns the unit axes perpendicular to rays and to the facets' normals. Where a ray is square to its facet, the axis is
+/// `otherwise`, made perpendicular to the ray.
+#[inline(always)]
+pub(super) fn s_axis<S: Simd>(
+    direction: Vectors<S>,
+    normal: Vectors<S>,
+    otherwise: Vectors<S>,
+) -> Vectors<S> {
+    let across = direction.cross(normal);
+    let square = across.dot(across);
+    let is_clear = square.exceeds(square.same(SQUARE_ON * SQUARE_ON));
+    // Made perpendicular to this ray, so that the axes do not drift.
+    let kept = otherwise - direction * direction.dot(otherwise);
+    let axis = Vectors {
+        x: is_clear.select(across.x, kept.x),
+        y: is_clear.select(across.y, kept.y),
+        z: is_clear.select(across.z, kept.z),
+    };
+    axis * (square.same(1.0) / axis.dot(axis).max(square.same(1e-12)).sqrt())
+}

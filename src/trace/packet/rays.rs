@@ -1,0 +1,174 @@
+//! Rays on their way into a body, inside it and away from it: single ones, or one in each lane.
+
+use super::lanes::{Lanes, Vectors};
+use super::optics::Coherency;
+use crate::scene::Medium;
+use glam::Vec3;
+use pulp::Simd;
+
+/// A medium at one wavelength, in single precision.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PacketMedium {
+    pub index: f32,
+    /// The change of the index over the wavelengths that this one stands for.
+    pub spread: f32,
+    /// Absorption of the two polarisations, per unit of the body's frame.
+    pub absorption: [f32; 2],
+}
+
+/// A ray outside a body that is known to meet it, in the frame of the body.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct EnteringRay {
+    /// The point where it meets the surface.
+    pub point: Vec3,
+    /// The unit outward normal there.
+    pub normal: Vec3,
+    /// The unit direction in which the light travels.
+    pub direction: Vec3,
+    /// The change of that direction over the spread of wavelengths.
+    pub sweep: Vec3,
+    /// The displacement of the point over the spread of wavelengths.
+    pub shift: Vec3,
+    /// The change of the normal over the spread of wavelengths.
+    pub of_normal: Vec3,
+    /// The share of the light from that direction that reaches the eye.
+    pub weight: f32,
+    /// The body's medium.
+    pub medium: PacketMedium,
+    /// Which ray of the picture this is a part of.
+    pub tag: u32,
+}
+
+/// A ray inside a body.
+#[derive(Clone, Copy)]
+pub(super) struct InnerRay {
+    pub origin: Vec3,
+    pub direction: Vec3,
+    pub sweep: Vec3,
+    /// The displacement of the origin over the spread of wavelengths.
+    pub shift: Vec3,
+    /// The axis s of the light's polarisation.
+    pub s: Vec3,
+    pub light: Coherency<f32>,
+    pub medium: PacketMedium,
+    pub tag: u32,
+}
+
+/// Light that has left a body, in the frame of the body.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LeavingRay {
+    pub point: Vec3,
+    pub direction: Vec3,
+    pub sweep: Vec3,
+    pub weight: f32,
+    pub tag: u32,
+}
+
+/// The part of a ray's light that did not leave the body.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PacketLoss {
+    pub absorbed: f32,
+    pub unresolved: f32,
+    pub tag: u32,
+}
+
+/// Rays inside a body, one in each lane.
+#[derive(Clone, Copy)]
+pub(super) struct InnerRays<S: Simd> {
+    pub origin: Vectors<S>,
+    pub direction: Vectors<S>,
+    pub sweep: Vectors<S>,
+    pub shift: Vectors<S>,
+    pub s: Vectors<S>,
+    pub light: Coherency<Lanes<S>>,
+    pub index: Lanes<S>,
+    pub spread: Lanes<S>,
+    pub absorption: [Lanes<S>; 2],
+    /// The share of the light that absorption has left.
+    pub left: Lanes<S>,
+    /// Length of the way inside.
+    pub path: Lanes<S>,
+    /// The light that was absorbed.
+    pub absorbed: Lanes<S>,
+}
+
+impl PacketMedium {
+    pub fn new(medium: &Medium) -> Self {
+        Self {
+            index: medium.index as f32,
+            spread: medium.spread as f32,
+            absorption: medium.absorption.map(|a| a as f32),
+        }
+    }
+
+    pub fn is_clear(&self) -> bool {
+        self.absorption == [0.0; 2]
+    }
+}
+
+impl InnerRay {
+    /// No light, in a lane that waits for a ray.
+    pub const DARK: Self = Self {
+        origin: Vec3::ZERO,
+        direction: Vec3::Z,
+        sweep: Vec3::ZERO,
+        shift: Vec3::ZERO,
+        s: Vec3::X,
+        light: Coherency { ss: 0.0, pp: 0.0, re: 0.0, im: 0.0 },
+        medium: PacketMedium { index: 1.0, spread: 0.0, absorption: [0.0; 2] },
+        tag: 0,
+    };
+}
+
+impl<S: Simd> InnerRays<S> {
+    /// Returns lanes without light.
+    #[inline(always)]
+    pub fn dark(simd: S) -> Self {
+        let zero = Lanes::all(simd, 0.0);
+        let none = Vectors::all(simd, Vec3::ZERO);
+        let mut lanes = Self {
+            origin: none,
+            direction: none,
+            sweep: none,
+            shift: none,
+            s: none,
+            light: Coherency { ss: zero, pp: zero, re: zero, im: zero },
+            index: zero,
+            spread: zero,
+            absorption: [zero; 2],
+            left: zero,
+            path: zero,
+            absorbed: zero,
+        };
+        for lane in 0..S::F32_LANES {
+            lanes.set_lane(lane, &InnerRay::DARK);
+        }
+        lanes
+    }
+
+    /// Puts a ray that has just entered into a lane.
+    #[inline(always)]
+    pub fn set_lane(&mut self, lane: usize, ray: &InnerRay) {
+        self.origin.set_lane(lane, ray.origin);
+        self.direction.set_lane(lane, ray.direction);
+        self.sweep.set_lane(lane, ray.sweep);
+        self.shift.set_lane(lane, ray.shift);
+        self.s.set_lane(lane, ray.s);
+        self.light.ss.set_lane(lane, ray.light.ss);
+        self.light.pp.set_lane(lane, ray.light.pp);
+        self.light.re.set_lane(lane, ray.light.re);
+        self.light.im.set_lane(lane, ray.light.im);
+        self.index.set_lane(lane, ray.medium.index);
+        self.spread.set_lane(lane, ray.medium.spread);
+        self.absorption[0].set_lane(lane, ray.medium.absorption[0]);
+        self.absorption[1].set_lane(lane, ray.medium.absorption[1]);
+        self.left.set_lane(lane, 1.0);
+        self.path.set_lane(lane, 0.0);
+        self.absorbed.set_lane(lane, 0.0);
+    }
+
+    #[inline(always)]
+    pub fn weight(&self) -> Lanes<S> {
+        self.light.weight() * self.left
+    }
+}

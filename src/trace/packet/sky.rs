@@ -1,0 +1,198 @@
+//! Looks the light around the bodies up for many rays at once, in single precision: the twin of `Environment::radiance` in
+//! `src/trace/environment.rs` and of `shaders/environment.wgsl`.
+
+use super::lanes::{Lanes, Vectors};
+use crate::trace::environment::{Environment, EnvironmentMap, HEAD_EDGE, STILL, TEXEL_ANGLE, wrapped};
+use glam::{DVec4, IVec2, Vec2, Vec3, Vec4};
+use pulp::{Simd, WithSimd};
+
+/// Light that has left all bodies and meets no backplate.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SkyRay {
+    /// The direction in the middle of the wavelengths that the ray stands for.
+    pub direction: Vec3,
+    /// The change of that direction over these wavelengths.
+    pub sweep: Vec3,
+    pub weight: f32,
+    pub tag: u32,
+}
+
+/// The environment without its backplate, in single precision.
+#[derive(Clone)]
+pub(super) struct PacketSky<'a> {
+    map: &'a EnvironmentMap,
+    /// The axes of the light's frame in the world.
+    axes: [Vec3; 3],
+    lamps: Vec<Lamp>,
+    /// The direction to the eye.
+    eye: Vec3,
+    /// The cosine of the half angle of the observer's head; `None` without a head.
+    head: Option<f32>,
+}
+
+#[derive(Clone, Copy)]
+struct Lamp {
+    toward: Vec3,
+    chord_squared: f32,
+    radiance: Vec4,
+}
+
+/// A look-up of many rays; the light of each is added to `light` at its tag.
+pub(super) struct LookUp<'a> {
+    pub sky: &'a PacketSky<'a>,
+    pub rays: &'a [SkyRay],
+    pub light: &'a mut [DVec4],
+}
+
+impl<'a> PacketSky<'a> {
+    pub fn new(environment: &Environment<'a>) -> Self {
+        let lamps = environment.map.lamps.iter().map(|lamp| Lamp {
+            toward: lamp.toward.as_vec3(),
+            chord_squared: lamp.chord_squared as f32,
+            radiance: lamp.radiance.as_vec4(),
+        });
+        let basis = &environment.basis;
+        Self {
+            map: environment.map,
+            axes: [basis.right, basis.up, basis.toward].map(|axis| axis.as_vec3()),
+            lamps: lamps.collect(),
+            eye: environment.eye.toward.as_vec3(),
+            head: (environment.head > 0.0).then(|| environment.head.cos() as f32),
+        }
+    }
+
+    /// Returns vectors of the world in the light's frame.
+    #[inline(always)]
+    fn own<S: Simd>(&self, simd: S, v: Vectors<S>) -> Vectors<S> {
+        let [right, up, toward] = &self.axes;
+        Vectors {
+            x: Vectors::all(simd, *right).dot(v),
+            y: Vectors::all(simd, *up).dot(v),
+            z: Vectors::all(simd, *toward).dot(v),
+        }
+    }
+
+    /// Returns the light of the map at a place, 0 to 1 along each side, averaged over some texels.
+    fn at(&self, at: Vec2, texels: f32) -> Vec4 {
+        let level = texels.max(1.0).log2().min((self.map.levels.len() - 1) as f32);
+        let (fine, part) = (level as usize, level.fract());
+        let whole = self.level(at, fine);
+        if part <= 0.0 {
+            return whole;
+        }
+        whole + (self.level(at, fine + 1) - whole) * part
+    }
+
+    /// Interpolates one level of the map.
+    fn level(&self, at: Vec2, level: usize) -> Vec4 {
+        let size = (self.map.side >> level) as i32;
+        let p = at * size as f32 - 0.5;
+        let base = p.floor();
+        let (part, base) = (p - base, base.as_ivec2());
+        let texels = &self.map.levels[level];
+        let texel = |p: IVec2| Vec4::from_array(texels[(p.y * size + p.x) as usize]);
+        let is_inside = base.min_element() >= 0 && base.max_element() < size - 1;
+        let corners = [IVec2::ZERO, IVec2::X, IVec2::Y, IVec2::ONE].map(|step| base + step);
+        let [a, b, c, d] =
+            if is_inside { corners.map(texel) } else { corners.map(|p| texel(wrapped(p, size))) };
+        let (low, high) = (a + (b - a) * part.x, c + (d - c) * part.x);
+        low + (high - low) * part.y
+    }
+}
+
+impl WithSimd for LookUp<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { sky, rays, light } = self;
+        for chunk in rays.chunks(S::F32_LANES) {
+            let mut direction = Vectors::all(simd, Vec3::Z);
+            let mut sweep = Vectors::all(simd, Vec3::ZERO);
+            for (lane, ray) in chunk.iter().enumerate() {
+                direction.set_lane(lane, ray.direction);
+                sweep.set_lane(lane, ray.sweep);
+            }
+            let own = Swept { direction: sky.own(simd, direction), sweep: sky.own(simd, sweep) };
+            let swept = own.sweep.length_squared().sqrt();
+            let lamps = own.lamps(simd, &sky.lamps);
+            let (x, y) = octahedral(own.direction);
+            let texels = swept * Lanes::all(simd, (f64::from(sky.map.side as u32) / TEXEL_ANGLE) as f32);
+            let clear = sky.beside_the_head(simd, direction, swept);
+            for (lane, ray) in chunk.iter().enumerate() {
+                let at = Vec2::new(x.lane(lane), y.lane(lane));
+                let lit = Vec4::new(
+                    lamps[0].lane(lane),
+                    lamps[1].lane(lane),
+                    lamps[2].lane(lane),
+                    lamps[3].lane(lane),
+                );
+                let seen = (sky.at(at, texels.lane(lane)) + lit) * (clear.lane(lane) * ray.weight);
+                light[ray.tag as usize] += seen.as_dvec4();
+            }
+        }
+    }
+}
+
+impl PacketSky<'_> {
+    /// Returns the share of the light that passes the observer's head, whose edge is as wide as the sweep.
+    #[inline(always)]
+    fn beside_the_head<S: Simd>(&self, simd: S, direction: Vectors<S>, swept: Lanes<S>) -> Lanes<S> {
+        let (zero, one) = (Lanes::all(simd, 0.0), Lanes::all(simd, 1.0));
+        let Some(head) = self.head else { return one };
+        let cosine = direction.dot(Vectors::all(simd, self.eye));
+        let edge = swept.max(Lanes::all(simd, HEAD_EDGE as f32));
+        let beside = (Lanes::all(simd, head) - cosine) / edge + Lanes::all(simd, 0.5);
+        beside.max(zero).min(one)
+    }
+}
+
+/// Directions in the light's frame, and how they sweep.
+struct Swept<S: Simd> {
+    direction: Vectors<S>,
+    sweep: Vectors<S>,
+}
+
+impl<S: Simd> Swept<S> {
+    /// Returns the light of the lamps, channel by channel: of each lamp, by the share of the sweep that lies inside its disc.
+    #[inline(always)]
+    fn lamps(&self, simd: S, lamps: &[Lamp]) -> [Lanes<S>; 4] {
+        let (zero, one, half) = (Lanes::all(simd, 0.0), Lanes::all(simd, 1.0), Lanes::all(simd, 0.5));
+        let still = Lanes::all(simd, STILL as f32);
+        let square = self.sweep.length_squared();
+        let is_swept = square.exceeds(still);
+        let per_square = one / square.max(still);
+        let mut light = [zero; 4];
+        for lamp in lamps {
+            let from_middle = self.direction - Vectors::all(simd, lamp.toward);
+            let chord_squared = Lanes::all(simd, lamp.chord_squared);
+            // Computed from the nearest point, as the difference of large squares has no digits in single precision.
+            let nearest = is_swept.select(-from_middle.dot(self.sweep) * per_square, zero);
+            let inside = chord_squared - (from_middle + self.sweep * nearest).length_squared();
+            let is_inside = inside.exceeds(zero);
+            if !is_inside.any() {
+                continue;
+            }
+            let chord = (inside.max(zero) * per_square).sqrt();
+            let along = ((nearest + chord).min(half) - (nearest - chord).max(-half)).max(zero);
+            let share = is_inside.select(is_swept.select(along, one), zero);
+            for (light, radiance) in light.iter_mut().zip(lamp.radiance.to_array()) {
+                *light = *light + share * Lanes::all(simd, radiance);
+            }
+        }
+        light
+    }
+}
+
+/// Returns the places of directions in the map, 0 to 1 along each side.
+#[inline(always)]
+fn octahedral<S: Simd>(d: Vectors<S>) -> (Lanes<S>, Lanes<S>) {
+    let (zero, one, half) = (d.x.same(0.0), d.x.same(1.0), d.x.same(0.5));
+    let per = one / (d.x.abs() + d.y.abs() + d.z.abs());
+    let (x, y) = (d.x * per, d.y * per);
+    let below = zero.exceeds(d.z);
+    let (folded_x, folded_y) = (one - y.abs(), one - x.abs());
+    let x = below.select(zero.exceeds(x).select(-folded_x, folded_x), x);
+    let y = below.select(zero.exceeds(y).select(-folded_y, folded_y), y);
+    (half + half * x, half + half * y)
+}

@@ -1,0 +1,109 @@
+//! Compares pictures by packets of rays in single precision with those by single rays in double precision.
+
+use crate::common::shoot::*;
+use crate::common::*;
+use brillianteer::math::{Plane, Polytope, Pose};
+use brillianteer::optics::{Material, material};
+use brillianteer::scene::{Instance, Light, Projection, light};
+use glam::{DQuat, DVec3};
+
+/// Returns the largest difference of a block's mean between packets and single rays, as a fraction of the brightest block.
+fn differ(shoot: &Shoot, twin: &Shoot) -> f64 {
+    apart(&shoot.by_rays().0, &twin.by_packets().0)
+}
+
+fn modern() -> Polytope {
+    built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16)).polytope
+}
+
+#[test]
+fn packets_show_what_single_rays_show_in_every_material_light_and_perspective() {
+    for (material, name, distance, polarised) in [
+        ("diamond", "lamps", 9.0, true),
+        ("ruby", "studio", 7.0, true),
+        ("emerald", "ring", 30.0, false),
+        ("quartz", "office", 5.0, true),
+    ] {
+        let shoot = |strength: f64, tint: &str| {
+            let mut shoot = Shoot::new(&modern(), tint, light(name).unwrap());
+            (shoot.samples, shoot.strength, shoot.light.head) = (8, strength, 12.0);
+            (shoot.wavelengths, shoot.options.polarised) = (5, polarised);
+            shoot.view.projection = Projection::Perspective { distance };
+            shoot
+        };
+        for strength in [1.0, 0.4] {
+            let found = differ(&shoot(strength, material), &shoot(strength, material));
+            assert!(found < 0.005, "{material}, {name}, strength {strength}: {found}");
+        }
+        let mutant = differ(&shoot(1.0, material), &shoot(1.0, "cubic zirconia"));
+        assert!(mutant > 0.01, "another material makes only {mutant}");
+    }
+}
+
+#[test]
+fn packets_lose_what_single_rays_lose() {
+    let mut shoot = Shoot::new(&modern(), "ruby", light("studio").unwrap());
+    let rest = |shoot: &Shoot| [shoot.by_rays().1, shoot.by_packets().1];
+    let apart = |[a, b]: [brillianteer::picture::spectral::Remainder; 2]| {
+        [(a.absorbed - b.absorbed).abs(), (a.unresolved - b.unresolved).abs()]
+    };
+    let found = apart(rest(&shoot));
+    assert!(found[0] < 2e-4 && found[1] < 1e-5, "{found:?}");
+    // A ray that may bounce but thrice leaves much light unresolved.
+    shoot.options.most_bounces = 3;
+    let [single, packets] = rest(&shoot);
+    assert!(single.unresolved > 0.05, "{single:?}");
+    let found = apart([single, packets]);
+    assert!(found[0] < 2e-4 && found[1] < 1e-3, "{found:?}");
+}
+
+/// Two octahedra beside each other, the second one turned and smaller, so that light goes from one to the other.
+fn two_stones(index: f64) -> Shoot {
+    let corner = |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)) * 2.0 - 1.0;
+    let planes: Vec<Plane> = (0..8).map(|k| Plane::new(corner(k) / 3.0_f64.sqrt(), 0.3)).collect();
+    let body = Polytope::from_planes(&planes).unwrap();
+    let stone = |index, at, turn, scale| {
+        let glass = Material::from_index("glass", index).unwrap();
+        Instance::new(body.clone(), glass).moved(&Pose { at, turn, scale })
+    };
+    let mut shoot = Shoot::new(&body, "diamond", light("studio").unwrap());
+    shoot.setting.instances = vec![
+        stone(1.7, DVec3::new(-0.4, 0.1, 0.2), DQuat::IDENTITY, 1.0),
+        stone(index, DVec3::new(0.35, -0.2, 0.0), DQuat::from_rotation_y(0.5), 0.8),
+    ];
+    shoot.samples = 8;
+    shoot
+}
+
+#[test]
+fn packets_go_from_stone_to_stone() {
+    let found = differ(&two_stones(1.6), &two_stones(1.6));
+    assert!(found < 0.005, "{found}");
+    assert!(differ(&two_stones(1.6), &two_stones(1.65)) > 0.01);
+    let mut alone = two_stones(1.6);
+    alone.setting.instances.pop();
+    assert!(differ(&two_stones(1.6), &alone) > 0.1);
+}
+
+#[test]
+fn packets_are_equal_to_the_bit_on_any_number_of_cores() {
+    let shoot = two_stones(1.6);
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| shoot.by_packets().0)
+    };
+    assert!(on(1) == on(3));
+}
+
+#[test]
+fn a_stone_of_colour_absorbs_on_every_way() {
+    let mut shoot = Shoot::new(&modern(), "diamond", Light { head: 0.0, ..light("white").unwrap() });
+    shoot.setting.instances[0].material = material("ruby").unwrap().clone();
+    (shoot.backdrop, shoot.wavelengths) = (false, 1);
+    let [(rays, lost), (packets, packets_lost)] = [shoot.by_rays(), shoot.by_packets()];
+    let mean = |picture: &brillianteer::picture::Linear| {
+        picture.pixels.iter().map(colour).sum::<DVec3>() / picture.pixels.len() as f64
+    };
+    assert!((mean(&rays) - mean(&packets)).abs().max_element() < 1e-5);
+    assert!((lost.absorbed - packets_lost.absorbed).abs() < 1e-5, "{lost:?} {packets_lost:?}");
+}
