@@ -95,9 +95,7 @@ impl StoneTracer {
     /// Prepares a stone for tracing.
     pub fn new<'a>(solid: impl Into<SolidRef<'a>>, medium: Medium, options: RayOptions) -> Self {
         let shape = match solid.into() {
-            SolidRef::Convex(polytope) => {
-                SolidFacets::Planes(Arc::new(Planes::new(polytope.planes().collect())))
-            }
+            SolidRef::Convex(polytope) => SolidFacets::Planes(Arc::new(Planes::new(polytope))),
             SolidRef::Triangles(mesh) => SolidFacets::Triangles(TriangleFacets::new(mesh)),
             SolidRef::Smooth(smooth) if smooth.field().is_convex() => {
                 SolidFacets::Smooth(SmoothFacets(*smooth.field()))

@@ -56,8 +56,9 @@ const PIECES_A_THREAD: usize = 8;
 /// overshoot.
 const STEPS: std::ops::RangeInclusive<f64> = 0.25..=0.8;
 
-/// The beams that may be split already and are still stored, beside as many as wait to be split, where beams are summed up.
-const SPLIT_KEPT: usize = 1 << 15;
+/// Where beams are summed up, those that were split are dropped as soon as there are more of them than this, and than half
+/// as many as wait to be split.
+const SPLIT_KEPT: usize = 1 << 14;
 
 /// The part of the light that is left in the end, for the progress of work whose end another rule decides.
 const FORESEEN: f64 = 1e-2;
@@ -289,7 +290,8 @@ impl<'a> Tracer<'a> {
             }
             let batch: Vec<Front> = go.by_ref().take(AT_ONCE * PIECE).collect();
             self.follow(&batch, strong);
-            if self.beams.len() > 2 * (self.fronts.len() + go.len()) + SPLIT_KEPT {
+            let waiting = self.fronts.len() + go.len();
+            if self.beams.len() > waiting + waiting / 2 + SPLIT_KEPT {
                 self.drop_split(go.as_mut_slice());
             }
         }

@@ -12,7 +12,6 @@ mod coherency;
 mod effort;
 mod follow;
 mod grow;
-mod guess;
 mod split;
 mod sums;
 mod sweep;

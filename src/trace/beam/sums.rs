@@ -108,7 +108,10 @@ impl BeamAdder {
                 self.undecided += beams.get(id).area;
             }
         }
-        self.standings = ids.iter().map(|&id| self.standings[id as usize]).collect();
+        for (new, &id) in ids.iter().enumerate() {
+            self.standings[new] = self.standings[id as usize];
+        }
+        self.standings.truncate(ids.len());
     }
 
     /// Returns the sums, now that the tree does not grow any more.

@@ -53,8 +53,8 @@ impl PathLight {
         }
     }
 
-    /// Splits light at a surface.
-    #[inline]
+    /// Splits light at a surface. It is always inlined, so that what passes is computed only where it is used.
+    #[inline(always)]
     pub fn split(&self, ray: DVec3, normal: DVec3, eta: f64) -> SplitLight {
         let cos_i = ray.dot(normal).abs();
         match self {
@@ -76,7 +76,7 @@ const SQUARE_ON: f64 = 1e-9;
 
 impl ElectricFields {
     /// Returns the same fields with s perpendicular to a facet's normal, too.
-    #[inline]
+    #[inline(always)]
     fn turned(&self, ray: DVec3, normal: DVec3) -> Self {
         let across = ray.cross(normal);
         let length = across.length();
@@ -90,7 +90,7 @@ impl ElectricFields {
     }
 
     /// Splits fields at a surface to which s belongs.
-    #[inline]
+    #[inline(always)]
     fn split(&self, cos_i: f64, eta: f64) -> SplitLight {
         let surface = fresnel(cos_i, eta);
         let [of_s, of_p] = powers(&self.parts);
