@@ -105,11 +105,8 @@ impl<'a> PacketTracer<'a> {
             // The ray meets the first body at the same point in all wavelengths.
             let entering = self.entering(&start, &first, pixels.media[first.stone()][0], 0);
             let rays = pixels.media[first.stone()].iter().zip(pixel * bands..);
-            queues[first.stone()].extend(rays.map(|(&medium, tag)| EnteringRay {
-                medium,
-                tag: tag as u32,
-                ..entering
-            }));
+            queues[first.stone()]
+                .extend(rays.map(|(&medium, tag)| EnteringRay { medium, tag: tag as u32, ..entering }));
         }
         queues
     }

@@ -102,13 +102,8 @@ impl<P: PacketSurface> Passage<'_, P> {
             rays.light = rays.light.turned(rays.s.dot(across), sine);
             rays.s = across;
         }
-        let meeting = Meeting {
-            direction: rays.direction,
-            normal: -normal,
-            cos_i,
-            of_direction: rays.sweep,
-            of_normal,
-        };
+        let meeting =
+            Meeting { direction: rays.direction, normal: -normal, cos_i, of_direction: rays.sweep, of_normal };
         let weight = rays.light.passed(&surface) * rays.left;
         let outward = meeting.refracted(rays.index, surface.cos_t);
         let swept = meeting.refracted_change(rays.index, rays.spread, surface.cos_t);

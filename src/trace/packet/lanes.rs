@@ -132,7 +132,11 @@ impl<S: Simd> Neg for Lanes<S> {
 impl<S: Simd> Vectors<S> {
     #[inline(always)]
     pub fn all(simd: S, vector: Vec3) -> Self {
-        Self { x: Lanes::all(simd, vector.x), y: Lanes::all(simd, vector.y), z: Lanes::all(simd, vector.z) }
+        Self {
+            x: Lanes::all(simd, vector.x),
+            y: Lanes::all(simd, vector.y),
+            z: Lanes::all(simd, vector.z),
+        }
     }
 
     #[inline(always)]

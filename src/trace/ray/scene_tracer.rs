@@ -1,7 +1,7 @@
 //! Traces pictures under light by point rays: several stones, and light that goes from one to the next.
 
-use super::instance_tracer::BodyArrival;
 use super::sight::{Met, nearest};
+use super::instance_tracer::BodyArrival;
 use super::{Camera, Exit, InstanceTracer, Loss};
 use crate::scene::Medium;
 use crate::trace::environment::Environment;
