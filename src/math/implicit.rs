@@ -10,7 +10,6 @@ use serde::{Deserialize, Serialize};
 mod body;
 mod error;
 mod jet;
-#[cfg(feature = "gpu")]
 mod parts;
 mod profile;
 mod roots;
@@ -23,7 +22,6 @@ mod tests;
 use self::body::RoundedBody;
 pub use self::error::{ImplicitSurfaceError, MOST_WAVES, STEEPEST};
 pub use self::jet::Jet;
-#[cfg(feature = "gpu")]
 pub(crate) use self::parts::SurfaceParts;
 use self::profile::{Profile, Triangle};
 use self::wave::Wave;

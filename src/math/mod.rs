@@ -40,7 +40,6 @@ pub(crate) use eigen::{eigen, outer};
 pub use extent::{bounds, span};
 pub use grouping::grouped;
 pub use hull::convex_hull;
-#[cfg(feature = "gpu")]
 pub(crate) use implicit::SurfaceParts;
 pub use implicit::{ImplicitForm, ImplicitSurface, ImplicitSurfaceError, Jet, MOST_WAVES, STEEPEST};
 pub use mesh::{Mesh, triangulate};

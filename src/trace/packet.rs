@@ -4,35 +4,42 @@
 //! that has left never returns. Each ray has a medium of its own, so that the wavelengths of one pixel share a packet. When a
 //! ray ends, the next one takes its lane. `shaders/trace.wgsl` does the same on a graphics card.
 
-mod by_packets;
 mod chain;
 mod entering;
+mod fields;
 mod lanes;
 mod optics;
+mod outside;
 mod planes;
 mod rays;
 mod sky;
+mod tracer;
 
-pub(in crate::trace) use self::by_packets::PacketTracer;
 use self::lanes::{Lanes, Vectors};
+pub(in crate::trace) use self::tracer::PacketTracer;
 use pulp::Simd;
 
 /// Where rays meet a surface.
 struct Met<S: Simd> {
-    /// Infinite where a ray misses.
+    /// The distance along each ray; infinite where it misses.
     distance: Lanes<S>,
-    /// The unit outward normals.
+    /// The unit outward normals; anything, NaN included, where a ray misses.
     normal: Vectors<S>,
 }
 
-/// The surface of a convex body, as packets meet it.
+/// A surface that packets of rays meet, in its own frame.
+///
+/// Each lane depends on its own ray alone. A lane that holds NaN misses.
 trait PacketSurface: Sync {
     /// Whether normals change along the surface.
     const IS_CURVED: bool;
 
-    /// Returns where rays from points inside or on the surface leave.
+    /// Returns where rays from outside enter. A ray from the surface outward does not meet its own start.
+    fn entry<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> Met<S>;
+
+    /// Returns where rays from inside or from the surface leave.
     fn exit<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> Met<S>;
 
-    /// Returns the change of the unit normals where points move along the surface.
+    /// Returns the change of the unit normals where points of the surface move along it.
     fn turned<S: Simd>(&self, simd: S, point: Vectors<S>, by: Vectors<S>) -> Vectors<S>;
 }

@@ -300,16 +300,6 @@ impl StoneTracer {
         rest
     }
 
-    /// Returns the point at which a ray meets a facet at a distance.
-    fn arrival(&self, ray: &DispersedRay, (facet, distance): (usize, f64)) -> Arrival {
-        match &self.shape {
-            SolidFacets::Planes(planes) => ray.arrival(&**planes, facet, distance),
-            SolidFacets::Triangles(triangles) => ray.arrival(triangles, facet, distance),
-            SolidFacets::Smooth(smooth) => ray.arrival(smooth, facet, distance),
-            SolidFacets::Wavy(wavy) => ray.arrival(wavy, facet, distance),
-        }
-    }
-
     /// Returns the facet and the distance at which a ray from outside enters; `None` where it misses.
     pub fn meet(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)> {
         self.shape.entry(origin, direction)

@@ -123,6 +123,17 @@ impl SamplePass {
         direction + sweep * (0.5 - self.part)
     }
 
+    /// Returns the point, the direction and the sweep for which light that has left all stones is looked up. `own` are those
+    /// of its ray, and `straight` is the ray from the eye that it goes back to.
+    pub(super) fn looked_up(
+        &self,
+        own: (DVec3, DVec3, DVec3),
+        straight: (DVec3, DVec3),
+    ) -> (DVec3, DVec3, DVec3) {
+        let (from, direction, sweep) = self.mixed(straight, own);
+        (from, self.middle(direction, sweep), sweep)
+    }
+
     /// Returns the ray on which light is looked up: its point, unit direction and sweep.
     ///
     /// The light leaves the stones along its own ray; without any stone it would follow `straight`, a point and a unit

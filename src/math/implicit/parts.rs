@@ -17,6 +17,7 @@ pub(crate) struct SurfaceParts {
     /// The radius of the ball.
     pub edge: f64,
     /// The distance of the body's farthest point from the origin.
+    #[cfg_attr(not(feature = "gpu"), expect(dead_code, reason = "only the card's shader needs it"))]
     pub body_reach: f64,
     /// The amplitude of the wave, its waves per unit, and its phase in turns.
     pub wave: Option<[f64; 3]>,

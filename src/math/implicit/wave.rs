@@ -20,7 +20,6 @@ impl Wave {
     }
 
     /// Returns the amplitude in units of `unit`, the number of waves in a unit, and the phase as a part of a turn, 0 to 1.
-    #[cfg(feature = "gpu")]
     pub fn parts(&self, unit: f64) -> [f64; 3] {
         [self.amplitude / unit, self.number * unit / TAU, (self.phase / TAU).rem_euclid(1.0)]
     }

@@ -2,8 +2,8 @@
 
 use super::entering::enter;
 use super::lanes::{Lanes, MOST_LANES, Vectors};
-use super::optics::{Coherency, LEAST_COS, Meeting, Reflection, s_axis};
-use super::rays::{EnteringRay, InnerRay, InnerRays, LeavingRay, PacketLoss};
+use super::optics::{LEAST_COS, Meeting, PacketLight, Reflection, s_axis};
+use super::rays::{EnteringRay, InnerRay, InnerRays, OuterRay, PacketLoss};
 use super::{Met, PacketSurface};
 use crate::trace::ray::RayOptions;
 use pulp::{Simd, WithSimd};
@@ -18,7 +18,7 @@ pub(super) struct Passage<'a, P> {
     pub rays: &'a [EnteringRay],
     pub options: RayOptions,
     /// Takes the light that leaves.
-    pub leaving: &'a mut Vec<LeavingRay>,
+    pub leaving: &'a mut Vec<OuterRay>,
     /// Takes what does not leave.
     pub losses: &'a mut Vec<PacketLoss>,
 }
@@ -31,8 +31,7 @@ impl<P: PacketSurface> WithSimd for Passage<'_, P> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) {
-        let kinds = (self.options.polarised, P::IS_CURVED);
-        let inner = enter(simd, self.rays, kinds, self.leaving);
+        let inner = enter(simd, self.surface, self.rays, self.options.polarised, self.leaving);
         let absorbs = self.rays.iter().any(|ray| !ray.medium.is_clear());
         let mut lanes = InnerRays::dark(simd);
         let mut occupants: [Occupant; MOST_LANES] = [None; MOST_LANES];
@@ -87,9 +86,7 @@ impl<P: PacketSurface> Passage<'_, P> {
         let cos_i = rays.direction.dot(normal);
         let mut of_normal = None;
         if P::IS_CURVED {
-            let by = rays.shift + rays.sweep * distance;
-            let speed = cos_i.max(cos_i.same(LEAST_COS));
-            rays.shift = tamed(by - rays.direction * (normal.dot(by) / speed));
+            rays.shift = along_surface(rays.shift + rays.sweep * distance, rays.direction, normal);
             of_normal = Some(-self.surface.turned(simd, point, rays.shift));
         }
         if absorbs {
@@ -102,24 +99,36 @@ impl<P: PacketSurface> Passage<'_, P> {
             rays.light = rays.light.turned(rays.s.dot(across), sine);
             rays.s = across;
         }
-        let meeting =
-            Meeting { direction: rays.direction, normal: -normal, cos_i, of_direction: rays.sweep, of_normal };
-        let weight = rays.light.passed(&surface) * rays.left;
+        let meeting = Meeting {
+            direction: rays.direction,
+            normal: -normal,
+            cos_i,
+            of_direction: rays.sweep,
+            of_normal,
+        };
+        let passed = rays.light.transmitted(&surface);
+        let weight = passed.weight() * rays.left;
         let outward = meeting.refracted(rays.index, surface.cos_t);
         let swept = meeting.refracted_change(rays.index, rays.spread, surface.cos_t);
         let swept = if P::IS_CURVED { tamed(swept) } else { swept };
         for (lane, occupant) in occupants[..S::F32_LANES].iter().enumerate() {
-            let weight = weight.lane(lane);
             if let Some((tag, _)) = *occupant
-                && weight > 0.0
+                && weight.lane(lane) > 0.0
             {
-                let (point, direction, sweep) = (point.lane(lane), outward.lane(lane), swept.lane(lane));
-                self.leaving.push(LeavingRay { point, direction, sweep, weight, tag });
+                self.leaving.push(OuterRay {
+                    origin: point.lane(lane),
+                    direction: outward.lane(lane),
+                    sweep: swept.lane(lane),
+                    shift: rays.shift.lane(lane),
+                    s: rays.s.lane(lane),
+                    light: passed.lane(lane).times(rays.left.lane(lane)),
+                    tag,
+                });
             }
         }
         rays.light = rays.light.reflected(&surface);
         if !self.options.polarised {
-            rays.light = Coherency::unpolarised(rays.light.weight());
+            rays.light = PacketLight::<Lanes<S>>::unpolarised(rays.light.weight());
         }
         let reflected_sweep = meeting.reflected_change();
         rays.sweep = if P::IS_CURVED { tamed(reflected_sweep) } else { reflected_sweep };
@@ -168,9 +177,21 @@ fn absorb<S: Simd>(rays: &mut InnerRays<S>) {
     rays.left = after;
 }
 
+/// Returns the displacements along the surface of the points where rays meet it, when the rays there move by `by`.
+#[inline(always)]
+pub(super) fn along_surface<S: Simd>(
+    by: Vectors<S>,
+    direction: Vectors<S>,
+    normal: Vectors<S>,
+) -> Vectors<S> {
+    let speed = direction.dot(normal);
+    let divisor = speed.abs().max(speed.all(LEAST_COS)).turned_as(speed);
+    tamed(by - direction * (normal.dot(by) / divisor))
+}
+
 /// Returns vectors, scaled down until no component exceeds `MOST_SWEPT`.
 #[inline(always)]
 fn tamed<S: Simd>(v: Vectors<S>) -> Vectors<S> {
-    let most = v.x.abs().max(v.y.abs()).max(v.z.abs()).max(v.x.same(1e-30));
-    v * (v.x.same(MOST_SWEPT) / most).min(v.x.same(1.0))
+    let most = v[0].abs().max(v[1].abs()).max(v[2].abs()).max(v[0].all(1e-30));
+    v * (most.all(MOST_SWEPT) / most).min(most.all(1.0))
 }

@@ -1,39 +1,45 @@
 //! Light that enters a body: the surface's glare, and what goes on inside.
 
+use super::PacketSurface;
+use super::chain::along_surface;
 use super::lanes::{Lanes, Vectors};
-use super::optics::{Coherency, Meeting, Reflection, s_axis};
-use super::rays::{EnteringRay, InnerRay, LeavingRay};
+use super::optics::{Meeting, PacketLight, Reflection, s_axis};
+use super::rays::{EnteringRay, InnerRay, OuterRay};
 use glam::Vec3;
 use pulp::Simd;
 
 /// Splits the light of rays that enter: glare is put into `leaving`, and what goes on inside is returned.
 #[inline(always)]
-pub(super) fn enter<S: Simd>(
+pub(super) fn enter<S: Simd, P: PacketSurface>(
     simd: S,
+    surface: &P,
     rays: &[EnteringRay],
-    (is_polarised, is_curved): (bool, bool),
-    leaving: &mut Vec<LeavingRay>,
+    is_polarised: bool,
+    leaving: &mut Vec<OuterRay>,
 ) -> Vec<InnerRay> {
     let mut inner = Vec::with_capacity(rays.len());
     for chunk in rays.chunks(S::F32_LANES) {
-        let entered = Entered::of(simd, chunk, is_curved);
-        for (lane, ray) in chunk.iter().enumerate() {
-            let [glare, inside] = entered.lane(lane, is_polarised);
-            leaving.push(LeavingRay {
-                point: ray.point,
-                direction: entered.back.lane(lane),
-                sweep: entered.swept_back.lane(lane),
-                weight: glare.ss + glare.pp,
+        let Split { point, shift, s, back, swept_back, glare, inward, swept, inside } =
+            Arrivals::of(simd, chunk).split(simd, surface, is_polarised);
+        for (lane, EnteringRay { ray, medium, .. }) in chunk.iter().enumerate() {
+            let (point, shift, s) = (point.lane(lane), shift.lane(lane), s.lane(lane));
+            leaving.push(OuterRay {
+                origin: point,
+                direction: back.lane(lane),
+                sweep: swept_back.lane(lane),
+                shift,
+                s,
+                light: glare.lane(lane),
                 tag: ray.tag,
             });
             inner.push(InnerRay {
-                origin: ray.point,
-                direction: entered.inward.lane(lane),
-                sweep: entered.swept.lane(lane),
-                shift: ray.shift,
-                s: entered.s.lane(lane),
-                light: inside,
-                medium: ray.medium,
+                origin: point,
+                direction: inward.lane(lane),
+                sweep: swept.lane(lane),
+                shift,
+                s,
+                light: inside.lane(lane),
+                medium: *medium,
                 tag: ray.tag,
             });
         }
@@ -41,71 +47,99 @@ pub(super) fn enter<S: Simd>(
     inner
 }
 
-/// What becomes of the rays of one packet.
-struct Entered<S: Simd> {
+/// Rays that meet a surface from outside, one in each lane.
+struct Arrivals<S: Simd> {
+    origin: Vectors<S>,
+    direction: Vectors<S>,
+    sweep: Vectors<S>,
+    shift: Vectors<S>,
+    s: Vectors<S>,
+    light: PacketLight<Lanes<S>>,
+    distance: Lanes<S>,
+    normal: Vectors<S>,
+    index: Lanes<S>,
+    spread: Lanes<S>,
+}
+
+/// What becomes of the light of such rays.
+struct Split<S: Simd> {
+    point: Vectors<S>,
+    shift: Vectors<S>,
+    s: Vectors<S>,
     back: Vectors<S>,
     swept_back: Vectors<S>,
+    glare: PacketLight<Lanes<S>>,
     inward: Vectors<S>,
     swept: Vectors<S>,
-    s: Vectors<S>,
-    glare: Coherency<Lanes<S>>,
-    inside: Coherency<Lanes<S>>,
+    inside: PacketLight<Lanes<S>>,
 }
 
-impl<S: Simd> Entered<S> {
+impl<S: Simd> Arrivals<S> {
     #[inline(always)]
-    fn of(simd: S, rays: &[EnteringRay], is_curved: bool) -> Self {
-        let none = Vectors::all(simd, Vec3::ZERO);
-        let up = Vectors::all(simd, Vec3::Z);
-        let (mut direction, mut normal, mut of_direction, mut of_normal) = (-up, up, none, none);
-        let (mut weight, mut index, mut spread) =
-            (Lanes::all(simd, 0.0), Lanes::all(simd, 1.0), Lanes::all(simd, 0.0));
-        for (lane, ray) in rays.iter().enumerate() {
-            direction.set_lane(lane, ray.direction);
-            normal.set_lane(lane, ray.normal);
-            of_direction.set_lane(lane, ray.sweep);
-            of_normal.set_lane(lane, ray.of_normal);
-            weight.set_lane(lane, ray.weight);
-            index.set_lane(lane, ray.medium.index);
-            spread.set_lane(lane, ray.medium.spread);
-        }
-        let cos_i = -direction.dot(normal);
-        let eta = Lanes::all(simd, 1.0) / index;
-        let meeting = Meeting {
-            direction,
-            normal,
-            cos_i,
-            of_direction,
-            of_normal: if is_curved { Some(of_normal) } else { None },
+    fn of(simd: S, rays: &[EnteringRay]) -> Self {
+        let none = Vectors::splat(simd, Vec3::ZERO);
+        let up = Vectors::splat(simd, Vec3::Z);
+        let (zero, one) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 1.0));
+        let mut all = Self {
+            origin: none,
+            direction: -up,
+            sweep: none,
+            shift: none,
+            s: Vectors::splat(simd, Vec3::X),
+            light: PacketLight::dark(simd),
+            distance: zero,
+            normal: up,
+            index: one,
+            spread: zero,
         };
-        let surface = Reflection::of(cos_i, eta);
-        let light = Coherency::unpolarised(weight);
-        Self {
+        for (lane, EnteringRay { ray, met, medium }) in rays.iter().enumerate() {
+            all.origin.set_lane(lane, ray.origin);
+            all.direction.set_lane(lane, ray.direction);
+            all.sweep.set_lane(lane, ray.sweep);
+            all.shift.set_lane(lane, ray.shift);
+            all.s.set_lane(lane, ray.s);
+            all.light.set_lane(lane, &ray.light);
+            all.distance.set_lane(lane, met.distance);
+            all.normal.set_lane(lane, met.normal);
+            all.index.set_lane(lane, medium.index);
+            all.spread.set_lane(lane, medium.spread);
+        }
+        all
+    }
+
+    #[inline(always)]
+    fn split<P: PacketSurface>(self, simd: S, surface: &P, is_polarised: bool) -> Split<S> {
+        let Self { direction, normal, sweep, .. } = self;
+        let point = self.origin + direction * self.distance;
+        let cos_i = -direction.dot(normal);
+        let (mut shift, mut of_normal) = (self.shift, None);
+        if P::IS_CURVED {
+            shift = along_surface(self.shift + sweep * self.distance, direction, normal);
+            of_normal = Some(surface.turned(simd, point, shift));
+        }
+        let eta = Lanes::splat(simd, 1.0) / self.index;
+        let reflection = Reflection::of(cos_i, eta);
+        let s = s_axis(direction, normal, self.s);
+        let mut light = self.light;
+        if is_polarised {
+            light = light.turned(self.s.dot(s), direction.cross(self.s).dot(s));
+        }
+        let (mut glare, mut inside) = (light.reflected(&reflection), light.transmitted(&reflection));
+        if !is_polarised {
+            glare = PacketLight::<Lanes<S>>::unpolarised(glare.weight());
+            inside = PacketLight::<Lanes<S>>::unpolarised(inside.weight());
+        }
+        let meeting = Meeting { direction, normal, cos_i, of_direction: sweep, of_normal };
+        Split {
+            point,
+            shift,
+            s,
             back: meeting.reflected(),
             swept_back: meeting.reflected_change(),
-            inward: meeting.refracted(eta, surface.cos_t),
-            swept: meeting.refracted_change(eta, -(spread * eta * eta), surface.cos_t),
-            s: s_axis(direction, normal, Vectors::all(simd, Vec3::X)),
-            glare: light.reflected(&surface),
-            inside: light.transmitted(&surface),
+            glare,
+            inward: meeting.refracted(eta, reflection.cos_t),
+            swept: meeting.refracted_change(eta, -(self.spread * eta * eta), reflection.cos_t),
+            inside,
         }
-    }
-
-    /// Returns the glare and the light inside in a lane.
-    #[inline(always)]
-    fn lane(&self, lane: usize, is_polarised: bool) -> [Coherency<f32>; 2] {
-        [self.glare.lane(lane, is_polarised), self.inside.lane(lane, is_polarised)]
-    }
-}
-
-impl<S: Simd> Coherency<Lanes<S>> {
-    #[inline(always)]
-    fn lane(&self, lane: usize, is_polarised: bool) -> Coherency<f32> {
-        let (ss, pp) = (self.ss.lane(lane), self.pp.lane(lane));
-        if is_polarised {
-            return Coherency { ss, pp, re: self.re.lane(lane), im: self.im.lane(lane) };
-        }
-        let half = 0.5 * (ss + pp);
-        Coherency { ss: half, pp: half, re: 0.0, im: 0.0 }
     }
 }

@@ -4,8 +4,8 @@
 //! Sums are not fused, so that an answer does not depend on the processor.
 
 use glam::Vec3;
-use pulp::Simd;
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use pulp::{Simd, bytemuck};
+use std::ops::{Add, BitAnd, BitOr, Div, Index, Mul, Neg, Not, Sub};
 
 /// The most lanes that any processor has.
 pub(super) const MOST_LANES: usize = 16;
@@ -17,13 +17,9 @@ pub(super) struct Lanes<S: Simd> {
     values: S::f32s,
 }
 
-/// A vector in each lane.
+/// A vector in each lane: its coordinates, lane by lane.
 #[derive(Clone, Copy)]
-pub(super) struct Vectors<S: Simd> {
-    pub x: Lanes<S>,
-    pub y: Lanes<S>,
-    pub z: Lanes<S>,
-}
+pub(super) struct Vectors<S: Simd>(pub [Lanes<S>; 3]);
 
 /// A yes or no in each lane.
 #[derive(Clone, Copy)]
@@ -34,14 +30,14 @@ pub(super) struct Mask<S: Simd> {
 
 impl<S: Simd> Lanes<S> {
     #[inline(always)]
-    pub fn all(simd: S, value: f32) -> Self {
+    pub fn splat(simd: S, value: f32) -> Self {
         Self { simd, values: simd.splat_f32s(value) }
     }
 
-    /// Returns this number in all lanes.
+    /// Returns the same number in every lane.
     #[inline(always)]
-    pub fn same(self, value: f32) -> Self {
-        Self::all(self.simd, value)
+    pub fn all(self, value: f32) -> Self {
+        Self::splat(self.simd, value)
     }
 
     #[inline(always)]
@@ -56,8 +52,8 @@ impl<S: Simd> Lanes<S> {
 
     #[inline(always)]
     pub fn abs(self) -> Self {
-        // The processor's own instruction for it is not inlined by `pulp`.
-        self.max(-self)
+        let all_but_sign = self.simd.splat_f32s(f32::from_bits(0x7fff_ffff));
+        Self { values: self.simd.and_f32s(self.values, all_but_sign), ..self }
     }
 
     #[inline(always)]
@@ -65,9 +61,31 @@ impl<S: Simd> Lanes<S> {
         Self { values: self.simd.sqrt_f32s(self.values), ..self }
     }
 
+    /// Returns the numbers, negated in the lanes where `other` is negative.
     #[inline(always)]
-    pub fn exceeds(self, other: Self) -> Mask<S> {
-        Mask { simd: self.simd, mask: self.simd.greater_than_f32s(self.values, other.values) }
+    pub fn turned_as(self, other: Self) -> Self {
+        let sign = self.simd.and_f32s(other.values, self.simd.splat_f32s(-0.0));
+        Self { values: self.simd.xor_f32s(self.values, sign), ..self }
+    }
+
+    #[inline(always)]
+    pub fn less(self, other: Self) -> Mask<S> {
+        Mask { simd: self.simd, mask: self.simd.less_than_f32s(self.values, other.values) }
+    }
+
+    #[inline(always)]
+    pub fn at_most(self, other: Self) -> Mask<S> {
+        Mask { simd: self.simd, mask: self.simd.less_than_or_equal_f32s(self.values, other.values) }
+    }
+
+    #[inline(always)]
+    pub fn is_negative(self) -> Mask<S> {
+        self.less(self.all(0.0))
+    }
+
+    #[inline(always)]
+    pub fn is_positive(self) -> Mask<S> {
+        self.all(0.0).less(self)
     }
 
     #[inline(always)]
@@ -77,12 +95,12 @@ impl<S: Simd> Lanes<S> {
 
     #[inline(always)]
     pub fn set_lane(&mut self, lane: usize, value: f32) {
-        pulp::bytemuck::cast_slice_mut(std::slice::from_mut(&mut self.values))[lane] = value;
+        bytemuck::cast_slice_mut(std::slice::from_mut(&mut self.values))[lane] = value;
     }
 
     #[inline(always)]
     pub fn as_slice(&self) -> &[f32] {
-        pulp::bytemuck::cast_slice(std::slice::from_ref(&self.values))
+        bytemuck::cast_slice(std::slice::from_ref(&self.values))
     }
 }
 
@@ -93,6 +111,12 @@ impl<S: Simd> Mask<S> {
         self.simd.first_true_m32s(self.mask) != S::F32_LANES
     }
 
+    /// Whether all lanes say yes.
+    #[inline(always)]
+    pub fn all(self) -> bool {
+        self.simd.first_true_m32s(self.simd.not_m32s(self.mask)) == S::F32_LANES
+    }
+
     /// Returns `yes` in the lanes of the mask, else `no`.
     #[inline(always)]
     pub fn select(self, yes: Lanes<S>, no: Lanes<S>) -> Lanes<S> {
@@ -100,7 +124,7 @@ impl<S: Simd> Mask<S> {
     }
 }
 
-/// Implements an operator for numbers.
+/// Implements an operator between numbers of the same lane, and between those of every lane and one number.
 macro_rules! operator {
     ($operator:ident, $method:ident, $instruction:ident) => {
         impl<S: Simd> $operator for Lanes<S> {
@@ -109,6 +133,15 @@ macro_rules! operator {
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
                 Self { values: self.simd.$instruction(self.values, other.values), ..self }
+            }
+        }
+
+        impl<S: Simd> $operator<f32> for Lanes<S> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: f32) -> Self {
+                Self { values: self.simd.$instruction(self.values, self.simd.splat_f32s(other)), ..self }
             }
         }
     };
@@ -124,33 +157,55 @@ impl<S: Simd> Neg for Lanes<S> {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        // The processor's own instruction for it is not inlined by `pulp`.
-        self.same(0.0) - self
+        Self { values: self.simd.xor_f32s(self.values, self.simd.splat_f32s(-0.0)), ..self }
+    }
+}
+
+impl<S: Simd> BitAnd for Mask<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        Self { mask: self.simd.and_m32s(self.mask, other.mask), ..self }
+    }
+}
+
+impl<S: Simd> BitOr for Mask<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        Self { mask: self.simd.or_m32s(self.mask, other.mask), ..self }
+    }
+}
+
+impl<S: Simd> Not for Mask<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self { mask: self.simd.not_m32s(self.mask), ..self }
     }
 }
 
 impl<S: Simd> Vectors<S> {
     #[inline(always)]
-    pub fn all(simd: S, vector: Vec3) -> Self {
-        Self {
-            x: Lanes::all(simd, vector.x),
-            y: Lanes::all(simd, vector.y),
-            z: Lanes::all(simd, vector.z),
-        }
+    pub fn splat(simd: S, vector: Vec3) -> Self {
+        Self([Lanes::splat(simd, vector.x), Lanes::splat(simd, vector.y), Lanes::splat(simd, vector.z)])
     }
 
     #[inline(always)]
     pub fn dot(self, other: Self) -> Lanes<S> {
-        self.x * other.x + self.y * other.y + self.z * other.z
+        self[0] * other[0] + self[1] * other[1] + self[2] * other[2]
     }
 
     #[inline(always)]
     pub fn cross(self, other: Self) -> Self {
-        Self {
-            x: self.y * other.z - self.z * other.y,
-            y: self.z * other.x - self.x * other.z,
-            z: self.x * other.y - self.y * other.x,
-        }
+        Self([
+            self[1] * other[2] - self[2] * other[1],
+            self[2] * other[0] - self[0] * other[2],
+            self[0] * other[1] - self[1] * other[0],
+        ])
     }
 
     #[inline(always)]
@@ -160,14 +215,23 @@ impl<S: Simd> Vectors<S> {
 
     #[inline(always)]
     pub fn lane(&self, lane: usize) -> Vec3 {
-        Vec3::new(self.x.lane(lane), self.y.lane(lane), self.z.lane(lane))
+        Vec3::new(self[0].lane(lane), self[1].lane(lane), self[2].lane(lane))
     }
 
     #[inline(always)]
     pub fn set_lane(&mut self, lane: usize, value: Vec3) {
-        self.x.set_lane(lane, value.x);
-        self.y.set_lane(lane, value.y);
-        self.z.set_lane(lane, value.z);
+        self.0[0].set_lane(lane, value.x);
+        self.0[1].set_lane(lane, value.y);
+        self.0[2].set_lane(lane, value.z);
+    }
+}
+
+impl<S: Simd> Index<usize> for Vectors<S> {
+    type Output = Lanes<S>;
+
+    #[inline(always)]
+    fn index(&self, axis: usize) -> &Lanes<S> {
+        &self.0[axis]
     }
 }
 
@@ -176,7 +240,7 @@ impl<S: Simd> Add for Vectors<S> {
 
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self { x: self.x + other.x, y: self.y + other.y, z: self.z + other.z }
+        Self([self[0] + other[0], self[1] + other[1], self[2] + other[2]])
     }
 }
 
@@ -185,7 +249,7 @@ impl<S: Simd> Sub for Vectors<S> {
 
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self { x: self.x - other.x, y: self.y - other.y, z: self.z - other.z }
+        Self([self[0] - other[0], self[1] - other[1], self[2] - other[2]])
     }
 }
 
@@ -194,7 +258,7 @@ impl<S: Simd> Mul<Lanes<S>> for Vectors<S> {
 
     #[inline(always)]
     fn mul(self, by: Lanes<S>) -> Self {
-        Self { x: self.x * by, y: self.y * by, z: self.z * by }
+        Self([self[0] * by, self[1] * by, self[2] * by])
     }
 }
 
@@ -203,6 +267,6 @@ impl<S: Simd> Neg for Vectors<S> {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        Self { x: -self.x, y: -self.y, z: -self.z }
+        Self([-self[0], -self[1], -self[2]])
     }
 }

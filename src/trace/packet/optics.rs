@@ -23,7 +23,7 @@ pub(super) struct Reflection<S: Simd> {
 
 /// The light of rays: its coherency matrix along the axes `s` and direction × `s`.
 #[derive(Clone, Copy)]
-pub(super) struct Coherency<T> {
+pub(super) struct PacketLight<T> {
     pub ss: T,
     pub pp: T,
     pub re: T,
@@ -49,11 +49,11 @@ impl<S: Simd> Reflection<S> {
     /// over the transmitted one.
     #[inline(always)]
     pub fn of(cos_i: Lanes<S>, eta: Lanes<S>) -> Self {
-        let (zero, one) = (cos_i.same(0.0), cos_i.same(1.0));
+        let (zero, one) = (cos_i.all(0.0), cos_i.all(1.0));
         let cos_i = cos_i.max(zero).min(one);
         let normal_part = eta * cos_i;
         let squared = (one - eta) * (one + eta) + normal_part * normal_part;
-        let is_partial = squared.exceeds(zero);
+        let is_partial = squared.is_positive();
         let root = squared.abs().sqrt();
         let [s, p] = [[normal_part, root], [cos_i, eta * root]];
         Self {
@@ -67,7 +67,7 @@ impl<S: Simd> Reflection<S> {
     /// Returns the reflected shares of the power of s and of p.
     #[inline(always)]
     fn powers(&self) -> [Lanes<S>; 2] {
-        let one = self.cos_t.same(1.0);
+        let one = self.cos_t.all(1.0);
         let [s, p] = [self.s[0] * self.s[0], self.p[0] * self.p[0]];
         [self.is_partial.select(s, one), self.is_partial.select(p, one)]
     }
@@ -76,16 +76,16 @@ impl<S: Simd> Reflection<S> {
 /// Returns (a - b) / (a + b) where a part of the light passes, else (a - ib) / (a + ib).
 #[inline(always)]
 fn amplitude<S: Simd>(is_partial: Mask<S>, [a, b]: [Lanes<S>; 2]) -> [Lanes<S>; 2] {
-    let (tiny, two) = (a.same(1e-30), a.same(2.0));
+    let (tiny, two) = (a.all(1e-30), a.all(2.0));
     let (aa, bb) = (a * a, b * b);
     let divisor = is_partial.select(a + b, aa + bb).max(tiny);
-    let per = a.same(1.0) / divisor;
+    let per = a.all(1.0) / divisor;
     let re = is_partial.select(a - b, aa - bb) * per;
-    let im = is_partial.select(a.same(0.0), -(two * a * b)) * per;
+    let im = is_partial.select(a.all(0.0), -(two * a * b)) * per;
     [re, im]
 }
 
-impl<S: Simd> Coherency<Lanes<S>> {
+impl<S: Simd> PacketLight<Lanes<S>> {
     #[inline(always)]
     pub fn weight(&self) -> Lanes<S> {
         self.ss + self.pp
@@ -94,7 +94,7 @@ impl<S: Simd> Coherency<Lanes<S>> {
     /// Returns unpolarised light of this weight.
     #[inline(always)]
     pub fn unpolarised(weight: Lanes<S>) -> Self {
-        let (half, none) = (weight * weight.same(0.5), weight.same(0.0));
+        let (half, none) = (weight * weight.all(0.5), weight.all(0.0));
         Self { ss: half, pp: half, re: none, im: none }
     }
 
@@ -102,7 +102,7 @@ impl<S: Simd> Coherency<Lanes<S>> {
     #[inline(always)]
     pub fn turned(self, cos: Lanes<S>, sin: Lanes<S>) -> Self {
         let (cc, ss, cs) = (cos * cos, sin * sin, cos * sin);
-        let twice = cs * self.re * cs.same(2.0);
+        let twice = cs * self.re * cs.all(2.0);
         Self {
             ss: cc * self.ss + ss * self.pp + twice,
             pp: ss * self.ss + cc * self.pp - twice,
@@ -128,19 +128,11 @@ impl<S: Simd> Coherency<Lanes<S>> {
     /// Returns the light that passes a surface; refraction shifts no phase.
     #[inline(always)]
     pub fn transmitted(self, by: &Reflection<S>) -> Self {
-        let (zero, one) = (self.ss.same(0.0), self.ss.same(1.0));
+        let (zero, one) = (self.ss.all(0.0), self.ss.all(1.0));
         let [power_s, power_p] = by.powers();
         let (s, p) = ((one - power_s).max(zero), (one - power_p).max(zero));
         let both = (s * p).sqrt();
         Self { ss: self.ss * s, pp: self.pp * p, re: self.re * both, im: self.im * both }
-    }
-
-    /// Returns the weight of the light that passes a surface.
-    #[inline(always)]
-    pub fn passed(self, by: &Reflection<S>) -> Lanes<S> {
-        let one = self.ss.same(1.0);
-        let [power_s, power_p] = by.powers();
-        self.ss * (one - power_s) + self.pp * (one - power_p)
     }
 }
 
@@ -150,7 +142,7 @@ impl<S: Simd> Meeting<S> {
     pub fn reflected(&self) -> Vectors<S> {
         let reflected = self.direction + self.normal * (self.cos_i + self.cos_i);
         // One Newton step toward unit length: a chain of bounces would drift from it.
-        let (half, three_halves) = (self.cos_i.same(0.5), self.cos_i.same(1.5));
+        let (half, three_halves) = (self.cos_i.all(0.5), self.cos_i.all(1.5));
         reflected * (three_halves - half * reflected.dot(reflected))
     }
 
@@ -183,7 +175,7 @@ impl<S: Simd> Meeting<S> {
         if let Some(of_normal) = of_normal {
             of_cos_i = of_cos_i - direction.dot(of_normal);
         }
-        let (one, least) = (eta.same(1.0), eta.same(LEAST_COS));
+        let (one, least) = (eta.all(1.0), eta.all(LEAST_COS));
         let square = one - cos_i * cos_i;
         let of_cos_t = eta * (eta * cos_i * of_cos_i - square * of_eta) / cos_t.max(least);
         let swept =
@@ -205,13 +197,13 @@ pub(super) fn s_axis<S: Simd>(
 ) -> Vectors<S> {
     let across = direction.cross(normal);
     let square = across.dot(across);
-    let is_clear = square.exceeds(square.same(SQUARE_ON * SQUARE_ON));
+    let is_clear = square.all(SQUARE_ON * SQUARE_ON).less(square);
     // Made perpendicular to this ray, so that the axes do not drift.
     let kept = otherwise - direction * direction.dot(otherwise);
-    let axis = Vectors {
-        x: is_clear.select(across.x, kept.x),
-        y: is_clear.select(across.y, kept.y),
-        z: is_clear.select(across.z, kept.z),
-    };
-    axis * (square.same(1.0) / axis.dot(axis).max(square.same(1e-12)).sqrt())
+    let axis = Vectors([
+        is_clear.select(across[0], kept[0]),
+        is_clear.select(across[1], kept[1]),
+        is_clear.select(across[2], kept[2]),
+    ]);
+    axis * (square.all(1.0) / axis.dot(axis).max(square.all(1e-12)).sqrt())
 }

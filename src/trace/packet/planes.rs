@@ -10,70 +10,81 @@ use pulp::Simd;
 /// plane, that plane is met at once.
 const LEAST_GAP: f32 = 1e-30;
 
-/// The part of a ball's radius that rounding in single precision may take.
+/// The greatest part of a girdle facet's normal along the stone's axis.
+const GIRDLE_TILT: f64 = 0.05;
+
+/// The share of a length or a cosine that rounding in single precision may take.
 const ROUNDING: f64 = 1e-5;
 
-/// Planes, each its unit outward normal and its offset.
+/// Planes, each its unit outward normal and its offset: of the crown, then of the pavilion, then of the girdle.
 ///
-/// Those that lie outside a ball are tried only for rays that leave the others outside that ball. A girdle of a hundred
-/// facets is met by few rays: they leave by the crown or the pavilion inside a ball that the girdle encloses.
+/// Rays that run steeply up meet no facet of the pavilion, and rays that run steeply down none of the crown. A girdle of a
+/// hundred facets is met by few rays: most leave by the crown or the pavilion inside a cylinder that the girdle encloses.
 #[derive(Debug, Clone)]
 pub(super) struct PacketPlanes {
-    /// The planes that are always tried come first.
     planes: Vec<Vec4>,
-    always: usize,
-    ball: Vec3,
-    radius_squared: f32,
+    /// The number of planes of the crown, and of crown and pavilion.
+    ends: [usize; 2],
+    /// The upward parts of directions at and below which no facet of the crown, and at and above which none of the pavilion
+    /// is met.
+    steep: [f32; 2],
+    cylinder: Cylinder,
+}
+
+/// An elliptical cylinder along the stone's axis, inside all planes of the girdle.
+#[derive(Debug, Clone, Copy)]
+struct Cylinder {
+    middle: Vec3,
+    /// What x and y are multiplied by, so that the cylinder has radius 1; z is multiplied by 0.
+    scale: Vec3,
 }
 
 impl PacketPlanes {
     pub fn new(polytope: &Polytope) -> Self {
-        let ball = polytope.vertices().iter().sum::<DVec3>() / polytope.vertices().len().max(1) as f64;
-        let mut planes: Vec<Plane> = polytope.planes().collect();
-        planes.sort_by(|a, b| b.distance(ball).total_cmp(&a.distance(ball)));
-        let surface = Pieces::of(polytope, ball);
-        let always = (0..=planes.len()).min_by(|&a, &b| {
-            let cost = |always: usize| {
-                let radius = planes.get(always).map_or(f64::INFINITY, |plane| -plane.distance(ball));
-                let others = (planes.len() - always) as f64;
-                always as f64 + others * surface.share_beyond(radius)
-            };
-            cost(a).total_cmp(&cost(b))
-        });
-        let always = always.unwrap_or(planes.len());
-        let radius = planes[always..].iter().map(|plane| -plane.distance(ball)).fold(f64::INFINITY, f64::min);
+        let all: Vec<Plane> = polytope.planes().collect();
+        let is_girdle = |plane: &&Plane| plane.normal.z.abs() <= GIRDLE_TILT;
+        let (girdle, faces): (Vec<&Plane>, Vec<&Plane>) = all.iter().partition(is_girdle);
+        let (crown, pavilion): (Vec<&Plane>, Vec<&Plane>) = faces.iter().partition(|p| p.normal.z > 0.0);
+        // Light that runs down at more than 90 degrees less the slope of a crown facet runs away from it.
+        let steep = |planes: &[&Plane]| {
+            let least = planes.iter().map(|plane| plane.normal.z.abs()).fold(1.0, f64::min);
+            ((1.0 - least * least).max(0.0).sqrt() + ROUNDING) as f32
+        };
+        let cylinder = Cylinder::inside(polytope, &girdle);
         Self {
-            planes: planes.iter().map(|plane| plane.normal.extend(plane.offset).as_vec4()).collect(),
-            always,
-            ball: ball.as_vec3(),
-            radius_squared: (radius * (1.0 - ROUNDING)).max(0.0).powi(2) as f32,
+            ends: [crown.len(), crown.len() + pavilion.len()],
+            steep: [-steep(&crown), steep(&pavilion)],
+            planes: [crown, pavilion, girdle]
+                .concat()
+                .iter()
+                .map(|plane| plane.normal.extend(plane.offset).as_vec4())
+                .collect(),
+            cylinder,
         }
     }
 }
 
-/// The surface of a stone in small pieces: the distance of each from a point, and its area.
-struct Pieces(Vec<(f64, f64)>);
-
-impl Pieces {
-    /// Cuts each facet into triangles at its first corner.
-    fn of(polytope: &Polytope, from: DVec3) -> Self {
-        let mut pieces = vec![];
-        for facet in polytope.facets() {
-            let corners: Vec<DVec3> = polytope.corners(facet).collect();
-            for k in 2..corners.len() {
-                let [a, b, c] = [corners[0], corners[k - 1], corners[k]];
-                let area = 0.5 * (b - a).cross(c - a).length();
-                pieces.push((from.distance((a + b + c) / 3.0), area));
-            }
-        }
-        Self(pieces)
+impl Cylinder {
+    /// Returns the largest cylinder of the outline's proportions inside these planes, as far as the stone reaches.
+    fn inside(polytope: &Polytope, planes: &[&Plane]) -> Self {
+        let (low, high) = polytope.bounds();
+        let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+        let part = |plane: &&Plane| {
+            let across = (plane.normal * half).truncate().length();
+            let gap = -plane.distance(middle) - plane.normal.z.abs() * half.z;
+            gap / across
+        };
+        let radius = planes.iter().map(part).fold(1.0, f64::min).max(0.0) * (1.0 - ROUNDING);
+        let scale = DVec3::new(1.0 / (radius * half.x), 1.0 / (radius * half.y), 0.0);
+        Self { middle: middle.as_vec3(), scale: scale.as_vec3() }
     }
 
-    /// Returns the share of the surface that lies farther away than a radius.
-    fn share_beyond(&self, radius: f64) -> f64 {
-        let all = self.0.iter().map(|(_, area)| area).sum::<f64>();
-        let beyond = self.0.iter().filter(|(distance, _)| *distance > radius);
-        beyond.map(|(_, area)| area).sum::<f64>() / all
+    /// Whether any of these points lies outside, or is not a point.
+    #[inline(always)]
+    fn is_left<S: Simd>(&self, simd: S, points: Vectors<S>) -> bool {
+        let from = points - Vectors::splat(simd, self.middle);
+        let (x, y) = (from[0] * self.scale.x, from[1] * self.scale.y);
+        !(x * x + y * y).less(x.all(1.0)).all()
     }
 }
 
@@ -94,15 +105,15 @@ impl<S: Simd> Nearest<S> {
         first: usize,
         (origin, direction): (Vectors<S>, Vectors<S>),
     ) -> Self {
-        let least_gap = Lanes::all(simd, LEAST_GAP);
+        let least_gap = Lanes::splat(simd, LEAST_GAP);
         let Self { mut ratio, mut plane } = self;
         let mut number = first as f32;
         for tried in planes {
-            let normal = Vectors::all(simd, tried.truncate());
+            let normal = Vectors::splat(simd, tried.truncate());
             let speed = normal.dot(direction);
-            let gap = Lanes::all(simd, tried.w) - normal.dot(origin);
+            let gap = Lanes::splat(simd, tried.w) - normal.dot(origin);
             let own = speed / gap.max(least_gap);
-            plane = own.exceeds(ratio).select(Lanes::all(simd, number), plane);
+            plane = ratio.less(own).select(Lanes::splat(simd, number), plane);
             ratio = own.max(ratio);
             number += 1.0;
         }
@@ -114,29 +125,61 @@ impl PacketSurface for PacketPlanes {
     const IS_CURVED: bool = false;
 
     #[inline(always)]
-    fn exit<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> Met<S> {
-        let none = Nearest { ratio: Lanes::all(simd, 0.0), plane: Lanes::all(simd, 0.0) };
-        let (always, others) = self.planes.split_at(self.always);
-        let mut nearest = none.among(simd, always, 0, (origin, direction));
-        let least_gap = Lanes::all(simd, LEAST_GAP);
-        let leaves = origin + direction * (Lanes::all(simd, 1.0) / nearest.ratio.max(least_gap));
-        let away = (leaves - Vectors::all(simd, self.ball)).length_squared();
-        if away.exceeds(Lanes::all(simd, self.radius_squared)).any() {
-            nearest = nearest.among(simd, others, self.always, (origin, direction));
+    fn entry<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> Met<S> {
+        let (zero, none) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, f32::INFINITY));
+        let (mut into, mut out) = (zero, none);
+        let mut normal = Vectors::splat(simd, Vec3::ZERO);
+        for plane in &self.planes {
+            let own = Vectors::splat(simd, plane.truncate());
+            let speed = own.dot(direction);
+            let gap = Lanes::splat(simd, plane.w) - own.dot(origin);
+            let distance = gap / speed;
+            let is_entered = speed.is_negative() & into.less(distance);
+            into = is_entered.select(distance, into);
+            normal = Vectors([
+                is_entered.select(own[0], normal[0]),
+                is_entered.select(own[1], normal[1]),
+                is_entered.select(own[2], normal[2]),
+            ]);
+            out = speed.is_positive().select(out.min(distance), out);
+            // A ray that runs along a plane on its outer side never enters.
+            let is_beside = speed.at_most(zero) & zero.at_most(speed) & gap.is_negative();
+            out = is_beside.select(zero, out);
         }
-        let mut normal = Vectors::all(simd, Vec3::ZERO);
-        let mut offset = Lanes::all(simd, 0.0);
+        let is_met = into.is_positive() & into.less(out);
+        Met { distance: is_met.select(into, none), normal }
+    }
+
+    #[inline(always)]
+    fn exit<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> Met<S> {
+        let ray = (origin, direction);
+        let [crown, face] = self.ends;
+        let [down, up] = [Lanes::splat(simd, self.steep[0]), Lanes::splat(simd, self.steep[1])];
+        let mut nearest = Nearest { ratio: Lanes::splat(simd, 0.0), plane: Lanes::splat(simd, 0.0) };
+        if down.less(direction[2]).any() {
+            nearest = nearest.among(simd, &self.planes[..crown], 0, ray);
+        }
+        if direction[2].less(up).any() {
+            nearest = nearest.among(simd, &self.planes[crown..face], crown, ray);
+        }
+        let distance = Lanes::splat(simd, 1.0) / nearest.ratio.max(Lanes::splat(simd, LEAST_GAP));
+        if self.cylinder.is_left(simd, origin + direction * distance) {
+            nearest = nearest.among(simd, &self.planes[face..], face, ray);
+        }
+        let mut normal = Vectors::splat(simd, Vec3::ZERO);
+        let mut offset = Lanes::splat(simd, 0.0);
         for (lane, &number) in nearest.plane.as_slice().iter().enumerate() {
             let plane = self.planes[number as usize];
             normal.set_lane(lane, plane.truncate());
             offset.set_lane(lane, plane.w);
         }
-        let gap = (offset - normal.dot(origin)).max(Lanes::all(simd, 0.0));
-        Met { distance: gap / normal.dot(direction).max(least_gap), normal }
+        let gap = (offset - normal.dot(origin)).max(Lanes::splat(simd, 0.0));
+        let speed = normal.dot(direction).max(Lanes::splat(simd, LEAST_GAP));
+        Met { distance: gap / speed, normal }
     }
 
     #[inline(always)]
     fn turned<S: Simd>(&self, simd: S, _point: Vectors<S>, _by: Vectors<S>) -> Vectors<S> {
-        Vectors::all(simd, Vec3::ZERO)
+        Vectors::splat(simd, Vec3::ZERO)
     }
 }

@@ -1,7 +1,7 @@
-//! Rays on their way into a body, inside it and away from it: single ones, or one in each lane.
+//! Rays outside bodies and inside them: single ones, or one in each lane.
 
 use super::lanes::{Lanes, Vectors};
-use super::optics::Coherency;
+use super::optics::PacketLight;
 use crate::scene::Medium;
 use glam::Vec3;
 use pulp::Simd;
@@ -16,27 +16,39 @@ pub(super) struct PacketMedium {
     pub absorption: [f32; 2],
 }
 
-/// A ray outside a body that is known to meet it, in the frame of the body.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct EnteringRay {
-    /// The point where it meets the surface.
-    pub point: Vec3,
-    /// The unit outward normal there.
-    pub normal: Vec3,
+/// A ray outside all bodies, in the world or in the frame of a body.
+#[derive(Clone, Copy)]
+pub(super) struct OuterRay {
+    pub origin: Vec3,
     /// The unit direction in which the light travels.
     pub direction: Vec3,
     /// The change of that direction over the spread of wavelengths.
     pub sweep: Vec3,
-    /// The displacement of the point over the spread of wavelengths.
+    /// The displacement of the origin over the spread of wavelengths.
     pub shift: Vec3,
-    /// The change of the normal over the spread of wavelengths.
-    pub of_normal: Vec3,
-    /// The share of the light from that direction that reaches the eye.
-    pub weight: f32,
-    /// The body's medium.
-    pub medium: PacketMedium,
+    /// The axis s of the light's polarisation.
+    pub s: Vec3,
+    pub light: PacketLight<f32>,
     /// Which ray of the picture this is a part of.
     pub tag: u32,
+}
+
+/// Where a ray meets a body, in the frame of the body.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SingleMeeting {
+    /// Infinite where the ray misses.
+    pub distance: f32,
+    /// The unit outward normal; anything where the ray misses.
+    pub normal: Vec3,
+}
+
+/// A ray that is about to enter a body, in the frame of the body.
+#[derive(Clone, Copy)]
+pub(super) struct EnteringRay {
+    pub ray: OuterRay,
+    pub met: SingleMeeting,
+    /// The body's medium.
+    pub medium: PacketMedium,
 }
 
 /// A ray inside a body.
@@ -49,18 +61,8 @@ pub(super) struct InnerRay {
     pub shift: Vec3,
     /// The axis s of the light's polarisation.
     pub s: Vec3,
-    pub light: Coherency<f32>,
+    pub light: PacketLight<f32>,
     pub medium: PacketMedium,
-    pub tag: u32,
-}
-
-/// Light that has left a body, in the frame of the body.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct LeavingRay {
-    pub point: Vec3,
-    pub direction: Vec3,
-    pub sweep: Vec3,
-    pub weight: f32,
     pub tag: u32,
 }
 
@@ -80,7 +82,7 @@ pub(super) struct InnerRays<S: Simd> {
     pub sweep: Vectors<S>,
     pub shift: Vectors<S>,
     pub s: Vectors<S>,
-    pub light: Coherency<Lanes<S>>,
+    pub light: PacketLight<Lanes<S>>,
     pub index: Lanes<S>,
     pub spread: Lanes<S>,
     pub absorption: [Lanes<S>; 2],
@@ -90,6 +92,48 @@ pub(super) struct InnerRays<S: Simd> {
     pub path: Lanes<S>,
     /// The light that was absorbed.
     pub absorbed: Lanes<S>,
+}
+
+impl PacketLight<f32> {
+    /// Returns unpolarised light of this weight.
+    pub fn unpolarised(weight: f32) -> Self {
+        Self { ss: 0.5 * weight, pp: 0.5 * weight, re: 0.0, im: 0.0 }
+    }
+
+    pub fn weight(&self) -> f32 {
+        self.ss + self.pp
+    }
+
+    /// Returns this share of the light.
+    pub fn times(&self, share: f32) -> Self {
+        Self { ss: self.ss * share, pp: self.pp * share, re: self.re * share, im: self.im * share }
+    }
+}
+
+impl<S: Simd> PacketLight<Lanes<S>> {
+    #[inline(always)]
+    pub fn dark(simd: S) -> Self {
+        let none = Lanes::splat(simd, 0.0);
+        Self { ss: none, pp: none, re: none, im: none }
+    }
+
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> PacketLight<f32> {
+        PacketLight {
+            ss: self.ss.lane(lane),
+            pp: self.pp.lane(lane),
+            re: self.re.lane(lane),
+            im: self.im.lane(lane),
+        }
+    }
+
+    #[inline(always)]
+    pub fn set_lane(&mut self, lane: usize, light: &PacketLight<f32>) {
+        self.ss.set_lane(lane, light.ss);
+        self.pp.set_lane(lane, light.pp);
+        self.re.set_lane(lane, light.re);
+        self.im.set_lane(lane, light.im);
+    }
 }
 
 impl PacketMedium {
@@ -114,7 +158,7 @@ impl InnerRay {
         sweep: Vec3::ZERO,
         shift: Vec3::ZERO,
         s: Vec3::X,
-        light: Coherency { ss: 0.0, pp: 0.0, re: 0.0, im: 0.0 },
+        light: PacketLight { ss: 0.0, pp: 0.0, re: 0.0, im: 0.0 },
         medium: PacketMedium { index: 1.0, spread: 0.0, absorption: [0.0; 2] },
         tag: 0,
     };
@@ -124,15 +168,15 @@ impl<S: Simd> InnerRays<S> {
     /// Returns lanes without light.
     #[inline(always)]
     pub fn dark(simd: S) -> Self {
-        let zero = Lanes::all(simd, 0.0);
-        let none = Vectors::all(simd, Vec3::ZERO);
+        let zero = Lanes::splat(simd, 0.0);
+        let none = Vectors::splat(simd, Vec3::ZERO);
         let mut lanes = Self {
             origin: none,
             direction: none,
             sweep: none,
             shift: none,
             s: none,
-            light: Coherency { ss: zero, pp: zero, re: zero, im: zero },
+            light: PacketLight::dark(simd),
             index: zero,
             spread: zero,
             absorption: [zero; 2],
@@ -154,10 +198,7 @@ impl<S: Simd> InnerRays<S> {
         self.sweep.set_lane(lane, ray.sweep);
         self.shift.set_lane(lane, ray.shift);
         self.s.set_lane(lane, ray.s);
-        self.light.ss.set_lane(lane, ray.light.ss);
-        self.light.pp.set_lane(lane, ray.light.pp);
-        self.light.re.set_lane(lane, ray.light.re);
-        self.light.im.set_lane(lane, ray.light.im);
+        self.light.set_lane(lane, &ray.light);
         self.index.set_lane(lane, ray.medium.index);
         self.spread.set_lane(lane, ray.medium.spread);
         self.absorption[0].set_lane(lane, ray.medium.absorption[0]);

@@ -65,11 +65,11 @@ impl<'a> PacketSky<'a> {
     #[inline(always)]
     fn own<S: Simd>(&self, simd: S, v: Vectors<S>) -> Vectors<S> {
         let [right, up, toward] = &self.axes;
-        Vectors {
-            x: Vectors::all(simd, *right).dot(v),
-            y: Vectors::all(simd, *up).dot(v),
-            z: Vectors::all(simd, *toward).dot(v),
-        }
+        Vectors([
+            Vectors::splat(simd, *right).dot(v),
+            Vectors::splat(simd, *up).dot(v),
+            Vectors::splat(simd, *toward).dot(v),
+        ])
     }
 
     /// Returns the light of the map at a place, 0 to 1 along each side, averaged over some texels.
@@ -107,8 +107,8 @@ impl WithSimd for LookUp<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { sky, rays, light } = self;
         for chunk in rays.chunks(S::F32_LANES) {
-            let mut direction = Vectors::all(simd, Vec3::Z);
-            let mut sweep = Vectors::all(simd, Vec3::ZERO);
+            let mut direction = Vectors::splat(simd, Vec3::Z);
+            let mut sweep = Vectors::splat(simd, Vec3::ZERO);
             for (lane, ray) in chunk.iter().enumerate() {
                 direction.set_lane(lane, ray.direction);
                 sweep.set_lane(lane, ray.sweep);
@@ -117,7 +117,7 @@ impl WithSimd for LookUp<'_> {
             let swept = own.sweep.length_squared().sqrt();
             let lamps = own.lamps(simd, &sky.lamps);
             let (x, y) = octahedral(own.direction);
-            let texels = swept * Lanes::all(simd, (f64::from(sky.map.side as u32) / TEXEL_ANGLE) as f32);
+            let texels = swept * Lanes::splat(simd, (f64::from(sky.map.side as u32) / TEXEL_ANGLE) as f32);
             let clear = sky.beside_the_head(simd, direction, swept);
             for (lane, ray) in chunk.iter().enumerate() {
                 let at = Vec2::new(x.lane(lane), y.lane(lane));
@@ -138,11 +138,11 @@ impl PacketSky<'_> {
     /// Returns the share of the light that passes the observer's head, whose edge is as wide as the sweep.
     #[inline(always)]
     fn beside_the_head<S: Simd>(&self, simd: S, direction: Vectors<S>, swept: Lanes<S>) -> Lanes<S> {
-        let (zero, one) = (Lanes::all(simd, 0.0), Lanes::all(simd, 1.0));
+        let (zero, one) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 1.0));
         let Some(head) = self.head else { return one };
-        let cosine = direction.dot(Vectors::all(simd, self.eye));
-        let edge = swept.max(Lanes::all(simd, HEAD_EDGE as f32));
-        let beside = (Lanes::all(simd, head) - cosine) / edge + Lanes::all(simd, 0.5);
+        let cosine = direction.dot(Vectors::splat(simd, self.eye));
+        let edge = swept.max(Lanes::splat(simd, HEAD_EDGE as f32));
+        let beside = (Lanes::splat(simd, head) - cosine) / edge + Lanes::splat(simd, 0.5);
         beside.max(zero).min(one)
     }
 }
@@ -157,19 +157,19 @@ impl<S: Simd> Swept<S> {
     /// Returns the light of the lamps, channel by channel: of each lamp, by the share of the sweep that lies inside its disc.
     #[inline(always)]
     fn lamps(&self, simd: S, lamps: &[Lamp]) -> [Lanes<S>; 4] {
-        let (zero, one, half) = (Lanes::all(simd, 0.0), Lanes::all(simd, 1.0), Lanes::all(simd, 0.5));
-        let still = Lanes::all(simd, STILL as f32);
+        let (zero, one, half) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 1.0), Lanes::splat(simd, 0.5));
+        let still = Lanes::splat(simd, STILL as f32);
         let square = self.sweep.length_squared();
-        let is_swept = square.exceeds(still);
+        let is_swept = still.less(square);
         let per_square = one / square.max(still);
         let mut light = [zero; 4];
         for lamp in lamps {
-            let from_middle = self.direction - Vectors::all(simd, lamp.toward);
-            let chord_squared = Lanes::all(simd, lamp.chord_squared);
+            let from_middle = self.direction - Vectors::splat(simd, lamp.toward);
+            let chord_squared = Lanes::splat(simd, lamp.chord_squared);
             // Computed from the nearest point, as the difference of large squares has no digits in single precision.
             let nearest = is_swept.select(-from_middle.dot(self.sweep) * per_square, zero);
             let inside = chord_squared - (from_middle + self.sweep * nearest).length_squared();
-            let is_inside = inside.exceeds(zero);
+            let is_inside = inside.is_positive();
             if !is_inside.any() {
                 continue;
             }
@@ -177,7 +177,7 @@ impl<S: Simd> Swept<S> {
             let along = ((nearest + chord).min(half) - (nearest - chord).max(-half)).max(zero);
             let share = is_inside.select(is_swept.select(along, one), zero);
             for (light, radiance) in light.iter_mut().zip(lamp.radiance.to_array()) {
-                *light = *light + share * Lanes::all(simd, radiance);
+                *light = *light + share * Lanes::splat(simd, radiance);
             }
         }
         light
@@ -187,12 +187,12 @@ impl<S: Simd> Swept<S> {
 /// Returns the places of directions in the map, 0 to 1 along each side.
 #[inline(always)]
 fn octahedral<S: Simd>(d: Vectors<S>) -> (Lanes<S>, Lanes<S>) {
-    let (zero, one, half) = (d.x.same(0.0), d.x.same(1.0), d.x.same(0.5));
-    let per = one / (d.x.abs() + d.y.abs() + d.z.abs());
-    let (x, y) = (d.x * per, d.y * per);
-    let below = zero.exceeds(d.z);
+    let one = d[0].all(1.0);
+    let per = one / (d[0].abs() + d[1].abs() + d[2].abs());
+    let (x, y) = (d[0] * per, d[1] * per);
+    let below = d[2].is_negative();
     let (folded_x, folded_y) = (one - y.abs(), one - x.abs());
-    let x = below.select(zero.exceeds(x).select(-folded_x, folded_x), x);
-    let y = below.select(zero.exceeds(y).select(-folded_y, folded_y), y);
-    (half + half * x, half + half * y)
+    let x = below.select(x.is_negative().select(-folded_x, folded_x), x);
+    let y = below.select(y.is_negative().select(-folded_y, folded_y), y);
+    (x * 0.5 + 0.5, y * 0.5 + 0.5)
 }

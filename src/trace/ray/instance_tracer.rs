@@ -1,7 +1,7 @@
 //! Follows rays through one stone in its place: they are carried into the frame of its body, and what they find is carried
 //! back.
 
-use super::{Arrival, DispersedRay, Exit, Loss, RayOptions, StoneTracer};
+use super::{Exit, Loss, RayOptions, StoneTracer};
 use crate::math::{Ball, Pose};
 use crate::scene::{Instance, Medium};
 use glam::DVec3;
@@ -14,22 +14,6 @@ pub struct InstanceTracer {
     pose: Option<Pose>,
     /// A ball around the stone, in the world.
     ball: Ball,
-}
-
-/// How a ray from outside arrives at a body, in the body's frame.
-pub(in crate::trace) struct BodyArrival {
-    /// The point where it meets the surface.
-    pub point: DVec3,
-    /// The unit outward normal there.
-    pub normal: DVec3,
-    /// The ray's unit direction.
-    pub direction: DVec3,
-    /// The change of the direction over the spread of wavelengths.
-    pub sweep: DVec3,
-    /// The displacement of the point over the spread of wavelengths.
-    pub shift: DVec3,
-    /// The change of the normal over the spread of wavelengths.
-    pub of_normal: DVec3,
 }
 
 impl InstanceTracer {
@@ -99,29 +83,6 @@ impl InstanceTracer {
         self.tracer.follow_from(met, origin, (direction, sweep), weight, is_taken, leave)
     }
 
-    /// Returns how a ray of the world, given by its origin, direction and sweep, arrives at the body that it is known to meet.
-    pub(super) fn arrival(
-        &self,
-        (facet, distance): (usize, f64),
-        (origin, direction, sweep): (DVec3, DVec3, DVec3),
-    ) -> BodyArrival {
-        let (origin, direction) = self.arriving((origin, direction));
-        let sweep = self.pose.map_or(sweep, |pose| pose.turn.inverse() * sweep);
-        let ray = DispersedRay { origin, direction, sweep, shift: DVec3::ZERO };
-        let Arrival { point, normal, shift, of_normal } =
-            self.tracer.arrival(&ray, (facet, distance / self.unit()));
-        BodyArrival { point, normal, direction, sweep, shift, of_normal }
-    }
-
-    /// Carries a point, a direction and its sweep from the frame of the body into the world.
-    pub(in crate::trace) fn in_world(
-        &self,
-        (point, direction, sweep): (DVec3, DVec3, DVec3),
-    ) -> (DVec3, DVec3, DVec3) {
-        let Some(pose) = &self.pose else { return (point, direction, sweep) };
-        (pose.place(point), pose.turn * direction, pose.turn * sweep)
-    }
-
     /// Returns the length in the world of the unit of the body's frame.
     fn unit(&self) -> f64 {
         self.pose.map_or(1.0, |pose| pose.scale)
@@ -136,7 +97,13 @@ impl InstanceTracer {
     /// Carries light that leaves the body into the world.
     #[inline]
     fn outward(&self, exit: Exit) -> Exit {
-        let (point, direction, sweep) = self.in_world((exit.point, exit.direction, exit.sweep));
-        Exit { point, path: exit.path * self.unit(), direction, sweep, ..exit }
+        let Some(pose) = &self.pose else { return exit };
+        Exit {
+            point: pose.place(exit.point),
+            path: exit.path * pose.scale,
+            direction: pose.turn * exit.direction,
+            sweep: pose.turn * exit.sweep,
+            ..exit
+        }
     }
 }

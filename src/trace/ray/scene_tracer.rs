@@ -1,10 +1,8 @@
 //! Traces pictures under light by point rays: several stones, and light that goes from one to the next.
 
 use super::sight::{Met, nearest};
-use super::instance_tracer::BodyArrival;
 use super::{Camera, Exit, InstanceTracer, Loss};
 use crate::scene::Medium;
-use crate::trace::environment::Environment;
 use crate::trace::packet::PacketTracer;
 use crate::trace::sampling::{LitScene, MOST_WAITING, ProgressiveImage, RadiancePixel, SamplePass};
 use crate::trace::{Stopped, Watch};
@@ -39,15 +37,6 @@ pub struct WaitingRay {
 }
 
 impl WaitingRay {
-    /// Returns a ray that has left a stone: its point, direction, sweep and weight.
-    pub(in crate::trace) fn leaving(
-        stone: usize,
-        (origin, direction, sweep): (DVec3, DVec3, DVec3),
-        weight: f64,
-    ) -> Self {
-        Self { origin, direction, sweep, weight, left: Some(stone), bounces: 0 }
-    }
-
     /// Returns a ray from the eye.
     pub fn from_eye((origin, direction): (DVec3, DVec3)) -> Self {
         Self { origin, direction, sweep: DVec3::ZERO, weight: 1.0, left: None, bounces: 0 }
@@ -79,17 +68,6 @@ impl SceneTracer {
     /// Returns the stone that a ray meets first, and where; `None` where it meets none.
     pub fn first(&self, ray: &WaitingRay) -> Option<First> {
         nearest(&self.tracers, (ray.origin, ray.direction), ray.left).map(First)
-    }
-
-    /// Returns how a ray arrives at the stone that it meets first, in the frame of that stone's body.
-    pub(in crate::trace) fn arrival(&self, ray: &WaitingRay, first: &First) -> BodyArrival {
-        let (stone, met) = first.0;
-        self.tracers[stone].arrival(met, (ray.origin, ray.direction, ray.sweep))
-    }
-
-    /// Returns the tracer of one stone.
-    pub(in crate::trace) fn instance(&self, stone: usize) -> &InstanceTracer {
-        &self.tracers[stone]
     }
 
     /// Follows a ray through all stones, from the one that it is known to meet; calls `leave` for each ray that meets no
@@ -159,13 +137,6 @@ impl SceneTracer {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct First(Met);
 
-impl First {
-    /// Returns the stone, by its place in the scene.
-    pub(in crate::trace) fn stone(&self) -> usize {
-        self.0.0
-    }
-}
-
 /// Rows of a picture under light, traced by the processor in f64.
 pub struct ByRays<'a> {
     lit_scene: LitScene<'a>,
@@ -204,7 +175,6 @@ impl<'a> ByRays<'a> {
     /// Returns what one ray of a pixel sees, over all wavelengths.
     fn see(&self, bands: &[SceneTracer], pass: &SamplePass, at: DVec2) -> RadiancePixel {
         let straight = self.camera.ray(at);
-        let environment = &self.lit_scene.environment;
         let start = WaitingRay::from_eye(straight);
         // The ray meets the first stone at the same point in all wavelengths.
         let first = self.tracer.first(&start);
@@ -215,11 +185,11 @@ impl<'a> ByRays<'a> {
             match &first {
                 Some(first) => {
                     let rest =
-                        tracer.follow(&start, first, |ray| light += pass.seen(environment, ray, straight));
+                        tracer.follow(&start, first, |ray| light += self.arriving(ray, straight, pass));
                     lit.unresolved += rest.unresolved;
                     lit.absorbed += rest.absorbed;
                 }
-                None if is_seen => light = pass.seen(environment, &start, straight),
+                None if is_seen => light = self.arriving(&start, straight, pass),
                 None => {}
             }
             lit.colour += response.iter().zip(light.to_array()).map(|(&c, l)| c * l).sum::<DVec3>();
@@ -227,6 +197,13 @@ impl<'a> ByRays<'a> {
         let share = 1.0 / pass.responses.len() as f64;
         let RadiancePixel { unresolved, absorbed, .. } = lit;
         RadiancePixel { unresolved: unresolved * share, absorbed: absorbed * share, ..lit }
+    }
+
+    /// Returns the environment's light along a ray that has left all stones; `straight` is the ray from the eye that it goes
+    /// back to.
+    fn arriving(&self, ray: &WaitingRay, straight: (DVec3, DVec3), pass: &SamplePass) -> DVec4 {
+        let (from, direction, sweep) = pass.looked_up((ray.origin, ray.direction, ray.sweep), straight);
+        self.lit_scene.environment.radiance(from, direction, sweep) * ray.weight
     }
 
     /// Adds what one ray of each pixel sees to the sums of some pixels, which stand row by row from the number `first` on.
@@ -248,31 +225,6 @@ impl<'a> ByRays<'a> {
             sum.unresolved += lit.unresolved;
             sum.absorbed += lit.absorbed;
         }
-    }
-}
-
-impl SamplePass {
-    /// Returns the environment's light along a ray that has left all stones; `straight` is the ray from the eye that it goes
-    /// back to.
-    pub(in crate::trace) fn seen(
-        &self,
-        environment: &Environment,
-        ray: &WaitingRay,
-        straight: (DVec3, DVec3),
-    ) -> DVec4 {
-        let (from, direction, sweep) = self.looked_up(ray, straight);
-        environment.radiance(from, direction, sweep) * ray.weight
-    }
-
-    /// Returns the point, the direction and the sweep for which light that has left all stones is looked up.
-    pub(in crate::trace) fn looked_up(
-        &self,
-        ray: &WaitingRay,
-        straight: (DVec3, DVec3),
-    ) -> (DVec3, DVec3, DVec3) {
-        let own = (ray.origin, ray.direction, ray.sweep);
-        let (from, direction, sweep) = self.mixed(straight, own);
-        (from, self.middle(direction, sweep), sweep)
     }
 }
 

@@ -1,0 +1,164 @@
+//! Rays outside bodies, and where they meet the bodies of a scene.
+
+use super::PacketSurface;
+use super::chain::Passage;
+use super::fields::PacketShape;
+use super::lanes::Vectors;
+use super::planes::PacketPlanes;
+use super::rays::{EnteringRay, OuterRay, PacketLoss, SingleMeeting};
+use crate::math::{Ball, Pose, SolidRef};
+use crate::scene::Instance;
+use crate::trace::ray::RayOptions;
+use glam::{Quat, Vec3};
+use pulp::{Arch, Simd, WithSimd};
+use std::sync::Arc;
+
+/// The surface of a body, in the body's frame.
+#[derive(Clone)]
+pub(super) enum PacketSolid {
+    Planes(Arc<PacketPlanes>),
+    Glass(PacketShape),
+}
+
+/// A body in its place.
+#[derive(Clone)]
+pub(super) struct PacketInstance {
+    solid: PacketSolid,
+    /// Whether light that has left may meet the body again.
+    branches: bool,
+    pose: SinglePose,
+    /// A ball around the body, in the world.
+    ball: Ball,
+}
+
+/// A [`Pose`] in single precision.
+#[derive(Clone, Copy)]
+struct SinglePose {
+    at: Vec3,
+    turn: Quat,
+    scale: f32,
+}
+
+impl From<Pose> for SinglePose {
+    fn from(pose: Pose) -> Self {
+        Self { at: pose.at.as_vec3(), turn: pose.turn.as_quat(), scale: pose.scale as f32 }
+    }
+}
+
+impl PacketInstance {
+    /// Prepares the bodies of a scene; `None` where one of them has triangles.
+    pub fn of_all(instances: &[Instance]) -> Option<Vec<Self>> {
+        let mut all: Vec<Self> = Vec::with_capacity(instances.len());
+        for (place, instance) in instances.iter().enumerate() {
+            let solid = instance.body.solid();
+            let twin = instances[..place].iter().position(|other| other.body.solid().is_same(solid));
+            let (solid, branches) = match (twin, solid) {
+                (Some(twin), _) => (all[twin].solid.clone(), all[twin].branches),
+                (None, SolidRef::Convex(polytope)) => {
+                    (PacketSolid::Planes(Arc::new(PacketPlanes::new(polytope))), false)
+                }
+                (None, SolidRef::Smooth(smooth)) => {
+                    let surface = smooth.field();
+                    (PacketSolid::Glass(PacketShape::new(surface)), !surface.is_convex())
+                }
+                (None, SolidRef::Triangles(_)) => return None,
+            };
+            all.push(Self { solid, branches, pose: instance.pose.into(), ball: instance.solid().ball() });
+        }
+        Some(all)
+    }
+
+    /// Whether a ray of the world may meet the body; `has_left` says that it has just left it.
+    pub fn may_meet(&self, ray: &OuterRay, has_left: bool) -> bool {
+        (!has_left || self.branches) && self.ball.is_met(ray.origin.as_dvec3(), ray.direction.as_dvec3())
+    }
+
+    /// Returns the length in the world of the unit of the body's frame.
+    pub fn unit(&self) -> f32 {
+        self.pose.scale
+    }
+
+    /// Carries a ray of the world into the frame of the body.
+    pub fn arriving(&self, ray: &OuterRay) -> OuterRay {
+        let SinglePose { at, turn, scale } = self.pose;
+        let back = turn.inverse();
+        OuterRay {
+            origin: back * (ray.origin - at) / scale,
+            direction: back * ray.direction,
+            sweep: back * ray.sweep,
+            shift: back * ray.shift / scale,
+            s: back * ray.s,
+            ..*ray
+        }
+    }
+
+    /// Carries a ray of the body's frame into the world.
+    pub fn departing(&self, ray: &OuterRay) -> OuterRay {
+        let SinglePose { at, turn, scale } = self.pose;
+        OuterRay {
+            origin: turn * ray.origin * scale + at,
+            direction: turn * ray.direction,
+            sweep: turn * ray.sweep,
+            shift: turn * ray.shift * scale,
+            s: turn * ray.s,
+            ..*ray
+        }
+    }
+
+    /// Returns where rays of the body's frame enter the body.
+    pub fn entries(&self, arch: Arch, rays: &[OuterRay]) -> Vec<SingleMeeting> {
+        match &self.solid {
+            PacketSolid::Planes(planes) => arch.dispatch(Entries { surface: &**planes, rays }),
+            PacketSolid::Glass(shape) => arch.dispatch(Entries { surface: shape, rays }),
+        }
+    }
+
+    /// Follows rays through the body; returns the light that leaves, in the body's frame, and what does not leave.
+    pub fn passage(
+        &self,
+        arch: Arch,
+        rays: &[EnteringRay],
+        options: RayOptions,
+    ) -> (Vec<OuterRay>, Vec<PacketLoss>) {
+        let (mut outer, mut lost) = (vec![], vec![]);
+        let (leaving, losses) = (&mut outer, &mut lost);
+        match &self.solid {
+            PacketSolid::Planes(planes) => {
+                arch.dispatch(Passage { surface: &**planes, rays, options, leaving, losses });
+            }
+            PacketSolid::Glass(shape) => {
+                arch.dispatch(Passage { surface: shape, rays, options, leaving, losses });
+            }
+        }
+        (outer, lost)
+    }
+}
+
+/// A search for the points where rays enter a body.
+struct Entries<'a, P> {
+    surface: &'a P,
+    rays: &'a [OuterRay],
+}
+
+impl<P: PacketSurface> WithSimd for Entries<'_, P> {
+    type Output = Vec<SingleMeeting>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<SingleMeeting> {
+        let mut found = Vec::with_capacity(self.rays.len());
+        for chunk in self.rays.chunks(S::F32_LANES) {
+            let mut origin = Vectors::splat(simd, Vec3::NAN);
+            let mut direction = origin;
+            for (lane, ray) in chunk.iter().enumerate() {
+                origin.set_lane(lane, ray.origin);
+                direction.set_lane(lane, ray.direction);
+            }
+            let met = self.surface.entry(simd, origin, direction);
+            for lane in 0..chunk.len() {
+                found
+                    .push(SingleMeeting { distance: met.distance.lane(lane), normal: met.normal.lane(lane) });
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,202 @@
+//! What pixels see of a scene under light, by packets of rays.
+
+use super::optics::PacketLight;
+use super::outside::PacketInstance;
+use super::rays::{EnteringRay, OuterRay, PacketMedium, SingleMeeting};
+use super::sky::{LookUp, PacketSky, SkyRay};
+use crate::trace::sampling::{LitScene, RadiancePixel, SamplePass};
+use glam::{DVec3, DVec4, Vec3};
+use pulp::Arch;
+
+/// Follows packets of rays through all bodies of a scene.
+#[derive(Clone)]
+pub(in crate::trace) struct PacketTracer<'a> {
+    lit_scene: LitScene<'a>,
+    instances: Vec<PacketInstance>,
+    sky: PacketSky<'a>,
+    arch: Arch,
+}
+
+/// A ray from the eye: a point and the unit direction in which it runs.
+type EyeRay = (DVec3, DVec3);
+
+/// Some pixels that are being traced, each with one ray from the eye.
+struct Pixels<'a> {
+    pass: &'a SamplePass,
+    eye_rays: &'a [EyeRay],
+    /// The light of each pixel and band: the pixel's number times the number of bands, and the band.
+    light: Vec<DVec4>,
+    lit: Vec<RadiancePixel>,
+    /// Of each body, in each band.
+    media: Vec<Vec<PacketMedium>>,
+}
+
+/// A body that a ray meets first, and where.
+#[derive(Clone, Copy)]
+struct FirstMeeting {
+    body: usize,
+    /// In the world.
+    distance: f32,
+    met: SingleMeeting,
+}
+
+impl<'a> PacketTracer<'a> {
+    /// The number of rays, over all bands, for which a processor's cache has room.
+    pub const RAYS_AT_ONCE: usize = 1024;
+
+    /// Prepares the bodies of a scene; `None` where one of them has triangles.
+    pub fn new(lit_scene: LitScene<'a>) -> Option<Self> {
+        let instances = PacketInstance::of_all(&lit_scene.scene.instances)?;
+        Some(Self { lit_scene, instances, sky: PacketSky::new(&lit_scene.environment), arch: Arch::new() })
+    }
+
+    /// Adds what pixels see, each along one ray from the eye, to their sums.
+    pub fn see(&self, pass: &SamplePass, eye_rays: &[EyeRay], sums: &mut [RadiancePixel]) {
+        let bands = pass.responses.len();
+        let mut pixels = Pixels {
+            pass,
+            eye_rays,
+            light: vec![DVec4::ZERO; eye_rays.len() * bands],
+            lit: vec![RadiancePixel::default(); eye_rays.len()],
+            media: pass.media.iter().map(|m| m.iter().map(PacketMedium::new).collect()).collect(),
+        };
+        let mut queues = self.seen_first(&mut pixels);
+        while queues.iter().any(|queue| !queue.is_empty()) {
+            let mut next = vec![vec![]; self.instances.len()];
+            for (body, queue) in queues.iter().enumerate().filter(|(_, queue)| !queue.is_empty()) {
+                self.pass_through(body, queue, &mut pixels, &mut next);
+            }
+            queues = next;
+        }
+        pixels.add_to(sums);
+    }
+
+    /// Returns, body by body, the rays that enter it straight from the eye.
+    fn seen_first(&self, pixels: &mut Pixels) -> Vec<Vec<EnteringRay>> {
+        let mut queues = vec![vec![]; self.instances.len()];
+        let bands = pixels.pass.responses.len();
+        let rays: Vec<OuterRay> = (0..).zip(pixels.eye_rays).map(|(tag, ray)| eye_ray(*ray, tag)).collect();
+        for ((pixel, first), ray) in self.first(&rays, None).into_iter().enumerate().zip(&rays) {
+            let backdrop = self.lit_scene.environment.backdrop;
+            if first.is_some() || backdrop {
+                pixels.lit[pixel].cover = 1.0;
+            }
+            match first {
+                Some(FirstMeeting { body, met, .. }) => {
+                    // The ray meets the body at the same point in all wavelengths.
+                    let instance = &self.instances[body];
+                    let ray = instance.arriving(ray);
+                    let tags = (pixel * bands) as u32..;
+                    queues[body].extend(
+                        pixels.media[body].iter().zip(tags).map(|(&medium, tag)| EnteringRay {
+                            ray: OuterRay { tag, ..ray },
+                            met,
+                            medium,
+                        }),
+                    );
+                }
+                None if backdrop => {
+                    let (origin, direction) = pixels.eye_rays[pixel];
+                    let seen = self.lit_scene.environment.radiance(origin, direction, DVec3::ZERO);
+                    pixels.light[pixel * bands..][..bands].fill(seen);
+                }
+                None => {}
+            }
+        }
+        queues
+    }
+
+    /// Returns the bodies that rays of the world meet first; `left` is the body that they have just left.
+    fn first(&self, rays: &[OuterRay], left: Option<usize>) -> Vec<Option<FirstMeeting>> {
+        let mut first: Vec<Option<FirstMeeting>> = vec![None; rays.len()];
+        for (body, instance) in self.instances.iter().enumerate() {
+            let near = rays.iter().enumerate().filter(|(_, ray)| instance.may_meet(ray, left == Some(body)));
+            let (places, own): (Vec<usize>, Vec<OuterRay>) =
+                near.map(|(place, ray)| (place, instance.arriving(ray))).unzip();
+            for (place, met) in places.into_iter().zip(instance.entries(self.arch, &own)) {
+                let distance = met.distance * instance.unit();
+                if distance.is_finite() && first[place].is_none_or(|first| distance < first.distance) {
+                    first[place] = Some(FirstMeeting { body, distance, met });
+                }
+            }
+        }
+        first
+    }
+
+    /// Follows rays through one body. Light that meets a body next is put into `next`; all else is looked up.
+    fn pass_through(
+        &self,
+        body: usize,
+        queue: &[EnteringRay],
+        pixels: &mut Pixels,
+        next: &mut [Vec<EnteringRay>],
+    ) {
+        let instance = &self.instances[body];
+        let (mut leaving, losses) = instance.passage(self.arch, queue, self.lit_scene.options);
+        let bands = pixels.pass.responses.len();
+        for loss in losses {
+            let lit = &mut pixels.lit[loss.tag as usize / bands];
+            lit.absorbed += f64::from(loss.absorbed);
+            lit.unresolved += f64::from(loss.unresolved);
+        }
+        leaving.iter_mut().for_each(|ray| *ray = instance.departing(ray));
+        let mut skyward: Vec<SkyRay> = Vec::with_capacity(leaving.len());
+        for (ray, first) in leaving.iter().zip(self.first(&leaving, Some(body))) {
+            let (tag, weight) = (ray.tag as usize, ray.light.weight());
+            match first {
+                None => skyward.extend(self.looked_up(ray, pixels)),
+                Some(FirstMeeting { body, met, .. })
+                    if f64::from(weight) > self.lit_scene.options.least_weight =>
+                {
+                    let (ray, medium) = (self.instances[body].arriving(ray), pixels.media[body][tag % bands]);
+                    next[body].push(EnteringRay { ray, met, medium });
+                }
+                Some(_) => pixels.lit[tag / bands].unresolved += f64::from(weight),
+            }
+        }
+        self.arch.dispatch(LookUp { sky: &self.sky, rays: &skyward, light: &mut pixels.light });
+    }
+
+    /// Returns for what light that has left all bodies is looked up; `None` where it comes from the photograph behind them,
+    /// which is added at once.
+    fn looked_up(&self, ray: &OuterRay, pixels: &mut Pixels) -> Option<SkyRay> {
+        let (tag, weight) = (ray.tag as usize, ray.light.weight());
+        let straight = pixels.eye_rays[tag / pixels.pass.responses.len()];
+        let own = (ray.origin.as_dvec3(), ray.direction.as_dvec3(), ray.sweep.as_dvec3());
+        let (from, direction, sweep) = pixels.pass.looked_up(own, straight);
+        if let Some(seen) = self.lit_scene.environment.photograph(from, direction) {
+            pixels.light[tag] += seen * f64::from(weight);
+            return None;
+        }
+        Some(SkyRay { direction: direction.as_vec3(), sweep: sweep.as_vec3(), weight, tag: ray.tag })
+    }
+}
+
+fn eye_ray((origin, direction): EyeRay, tag: u32) -> OuterRay {
+    let direction = direction.as_vec3();
+    OuterRay {
+        origin: origin.as_vec3(),
+        direction,
+        sweep: Vec3::ZERO,
+        shift: Vec3::ZERO,
+        s: direction.any_orthonormal_vector(),
+        light: PacketLight::<f32>::unpolarised(1.0),
+        tag,
+    }
+}
+
+impl Pixels<'_> {
+    /// Adds the light, as colours, to the sums of the pixels.
+    fn add_to(self, sums: &mut [RadiancePixel]) {
+        let bands = self.pass.responses.len();
+        let share = 1.0 / bands as f64;
+        for ((sum, lit), light) in sums.iter_mut().zip(&self.lit).zip(self.light.chunks(bands)) {
+            for (response, light) in self.pass.responses.iter().zip(light) {
+                sum.colour += response.iter().zip(light.to_array()).map(|(&c, l)| c * l).sum::<DVec3>();
+            }
+            sum.cover += lit.cover;
+            sum.unresolved += lit.unresolved * share;
+            sum.absorbed += lit.absorbed * share;
+        }
+    }
+}
