@@ -55,10 +55,11 @@ fn figures(c: &mut Criterion) {
         let options = beam::BeamOptions { unresolved: 1.0, ..beam::BeamOptions::default() };
         c.bench_function(name, |b| {
             b.iter(|| {
-                let (polytope, to) = (&stone.polytope, Some(standard_error));
-                let grown =
-                    beam::grow(polytope, DIAMOND, &view, &options, to, &unwatched).expect("unwatched");
-                by_beams_and_rays(polytope, &grown, &scope, standard_error, &unwatched).expect("unwatched")
+                let polytope = &stone.polytope;
+                let of = beam::SumOptions { scope: &scope, standard_error: Some(standard_error) };
+                let summed =
+                    beam::sum_up(polytope, DIAMOND, &view, &options, of, &unwatched).expect("unwatched");
+                by_beams_and_rays(polytope, &summed, standard_error, &unwatched).expect("unwatched")
             });
         });
     };

@@ -4,13 +4,12 @@
 //! within the strata gives the variance of the sum (W. G. Cochran, Sampling Techniques, 3rd ed. 1977, chapter 5). Every number of a ray follows from its stratum, so that figures repeat on any number
 //! of cores.
 
-use super::figures::{Figures, Zones, by_beams};
+use super::figures::{Figures, Zones, by_summed_beams};
 use crate::math::Polytope;
-use crate::scene::Scope;
-use crate::trace::beam::GrownBeams;
+use crate::trace::beam::SummedBeams;
 use crate::trace::tail::Tail;
 use crate::trace::{Stopped, Watch};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use rayon::prelude::*;
 
 /// The strata of the first estimate, which says how many are needed.
@@ -115,7 +114,7 @@ impl Estimate {
     }
 }
 
-/// Sums up exact beams to the figures under a scope, and adds an estimate of the light that they have left, whose standard
+/// Returns the figures of beams that were summed up, and adds an estimate of the light that they have left, whose standard
 /// error is at most `standard_error` in each zone, a part of the silhouette's light. It is larger where two million rays do
 /// not suffice for that.
 ///
@@ -123,14 +122,13 @@ impl Estimate {
 /// [`Stopped`] when `watch` asks to stop.
 pub fn by_beams_and_rays(
     polytope: &Polytope,
-    grown: &GrownBeams,
-    scope: &Scope,
+    summed: &SummedBeams,
     standard_error: f64,
     watch: Watch,
 ) -> Result<Figures, Stopped> {
-    let mut figures = by_beams(&grown.beams, scope);
-    let Some(tail) = Tail::new(polytope, grown) else { return Ok(figures) };
-    let sampler = Sampler { tail: &tail, scope, zenith: grown.beams.zenith };
+    let mut figures = by_summed_beams(summed);
+    let Some(tail) = Tail::new(polytope, summed) else { return Ok(figures) };
+    let sampler = Sampler { tail: &tail, bands: summed.scope.bands.len() };
     let mut strata = FIRST;
     let mut all = sampler.estimate(strata, 0);
     loop {
@@ -169,8 +167,8 @@ impl Figures {
 
 struct Sampler<'a> {
     tail: &'a Tail<'a>,
-    scope: &'a Scope,
-    zenith: DVec3,
+    /// The number of the scope's bands.
+    bands: usize,
 }
 
 /// Sums over strata of the means of their two rays, and of the products of half their differences.
@@ -183,7 +181,7 @@ struct Sums {
 impl Sampler<'_> {
     /// Estimates by two rays in each of so many strata; `before` strata were sampled by other rays.
     fn estimate(&self, strata: u64, before: u64) -> Estimate {
-        let bands = self.scope.bands.len();
+        let bands = self.bands;
         let pieces: Vec<Sums> = (0..strata.div_ceil(PIECE))
             .into_par_iter()
             .map(|piece| self.piece(piece * PIECE..((piece + 1) * PIECE).min(strata), (strata, before)))
@@ -213,7 +211,7 @@ impl Sampler<'_> {
     }
 
     fn piece(&self, range: std::ops::Range<u64>, (strata, before): (u64, u64)) -> Sums {
-        let bands = self.scope.bands.len();
+        let bands = self.bands;
         let mut sums = Sums::new(bands);
         let mut pair = [vec![0.0; 2 * bands + 2], vec![0.0; 2 * bands + 2]];
         for stratum in range {
@@ -228,18 +226,16 @@ impl Sampler<'_> {
     /// Leaves in `values` what the ray of a number says: light by bands, area by bands, light that is absorbed, light that is not
     /// followed.
     fn ray(&self, (stratum, strata): (u64, u64), number: u64, values: &mut [f64]) {
-        let bands = self.scope.bands.len();
+        let bands = self.bands;
         values.fill(0.0);
         let [place, x, y, luck] = [0, 1, 2, 3].map(|k| unit(mixed(4 * number + k)));
         let place = (stratum as f64 + place) / strata as f64;
-        let ray = self.tail.follow(place, DVec2::new(x, y), luck, |direction, share| {
-            values[self.scope.band(direction, self.zenith)] += share;
-        });
+        let ray = self.tail.follow(place, DVec2::new(x, y), luck, |exit| values[exit.band] += exit.share);
         values[2 * bands] = ray.absorbed;
         values[2 * bands + 1] = ray.unresolved;
         values.iter_mut().for_each(|value| *value *= ray.light);
-        if let Some(exit) = ray.strongest {
-            values[bands + self.scope.band(exit, self.zenith)] = ray.area;
+        if let Some(band) = ray.strongest {
+            values[bands + band] = ray.area;
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::estimated::Estimate;
 use crate::scene::Scope;
-use crate::trace::beam::Beams;
+use crate::trace::beam::{BeamSums, Beams, SummedBeams};
 
 /// A number for each band of a scope, in the scope's order.
 pub type Zones = Vec<f64>;
@@ -87,37 +87,29 @@ impl Figures {
     }
 }
 
-/// Sums up exact beams to the figures under a scope.
+/// Returns the figures of exact beams under a scope.
 pub fn by_beams(beams: &Beams, scope: &Scope) -> Figures {
-    let share = f64::from(beams.symmetry.order()) / beams.silhouette_area;
-    let bands = scope.bands.len();
-    let (mut surface, mut transmitted, mut strongest) =
-        (vec![0.0; bands], vec![0.0; bands], vec![0.0; bands]);
-    let mut absorbed = 0.0;
-    for beam in beams.iter() {
-        absorbed += beam.absorbed * share;
-        if beam.weight > 0.0 {
-            let zones = if beam.is_surface() { &mut surface } else { &mut transmitted };
-            zones[scope.band(beam.exit, beams.zenith)] += beam.weight * beam.area * share;
+    Figures::of_sums(BeamSums::of(beams, scope), beams.silhouette_area)
+}
+
+/// Returns the figures of beams that were summed up. They are those of [`by_beams`], with the same digits.
+pub fn by_summed_beams(summed: &SummedBeams) -> Figures {
+    Figures::of_sums(summed.sums.clone(), summed.open.silhouette_area)
+}
+
+impl Figures {
+    fn of_sums(sums: BeamSums, silhouette_area: f64) -> Self {
+        Self {
+            silhouette_area,
+            surface: sums.surface,
+            transmitted: sums.transmitted,
+            strongest_exit_area: sums.strongest_exit_area,
+            strongest_exit_undecided: sums.undecided,
+            absorbed: sums.absorbed,
+            unresolved: sums.unresolved,
+            beams: sums.beams,
+            standard_error: 0.0,
+            estimate: None,
         }
-    }
-    let cells = beams.strongest_exits();
-    for cell in cells.iter().filter(|cell| !cell.undecided) {
-        if let Some(exit) = cell.strongest {
-            let band = scope.band(beams.get(exit).exit, beams.zenith);
-            strongest[band] += beams.get(cell.outline).area * share;
-        }
-    }
-    Figures {
-        silhouette_area: beams.silhouette_area,
-        surface,
-        transmitted,
-        strongest_exit_area: strongest,
-        strongest_exit_undecided: beams.undecided(&cells),
-        absorbed,
-        unresolved: beams.unresolved(),
-        beams: beams.len(),
-        standard_error: 0.0,
-        estimate: None,
     }
 }

@@ -8,7 +8,7 @@ mod measured;
 mod sampled;
 
 pub use estimated::{Estimate, by_beams_and_rays};
-pub use figures::{Figures, Zones, by_beams};
+pub use figures::{Figures, Zones, by_beams, by_summed_beams};
 pub use measured::{Bounds, LATTICE, Measured, STANDARD_ERROR, UNRESOLVED, Zone, measured};
 #[cfg(feature = "gpu")]
 pub use sampled::by_gpu;

@@ -65,6 +65,7 @@ impl Fresnel {
 ///
 /// `cos_i` is in 0..=1; rounding beyond is clamped. `eta` is the incident index / the transmitted index, > 0. Exactly at the
 /// critical angle, and at grazing incidence, all light is reflected.
+#[inline]
 pub fn fresnel(cos_i: f64, eta: f64) -> Fresnel {
     let cos_i = cos_i.clamp(0.0, 1.0);
     let cos_t = cos_transmitted(cos_i, eta);

@@ -44,15 +44,7 @@ impl BeamCache {
         options: &BeamOptions,
         watch: Watch,
     ) -> Result<Arc<Beams>, Stopped> {
-        let is_same = |kept: &Kept| {
-            (kept.medium, kept.view, kept.options) == (medium, *view, *options)
-                && Arc::ptr_eq(&kept.body, body)
-        };
-        let used = self.round;
-        if let Some(place) = self.kept.iter().position(is_same) {
-            let kept = Kept { used, ..self.kept.remove(place) };
-            let beams = Arc::clone(&kept.beams);
-            self.kept.push(kept);
+        if let Some(beams) = self.kept(body, medium, view, options) {
             return Ok(beams);
         }
         // Old sets make room before the new one takes its memory.
@@ -60,8 +52,28 @@ impl BeamCache {
         let beams = Arc::new(beam::trace(polytope, medium, view, options, watch)?);
         self.shrink(MOST_KEPT - 1, MOST_BEAMS.saturating_sub(beams.len()));
         let (body, view, options) = (Arc::clone(body), *view, *options);
+        let used = self.round;
         self.kept.push(Kept { body, medium, view, options, beams: Arc::clone(&beams), used });
         Ok(beams)
+    }
+
+    /// Returns the beams of a body if they are kept.
+    pub fn kept(
+        &mut self,
+        body: &Arc<Body>,
+        medium: Medium,
+        view: &View,
+        options: &BeamOptions,
+    ) -> Option<Arc<Beams>> {
+        let is_same = |kept: &Kept| {
+            (kept.medium, kept.view, kept.options) == (medium, *view, *options)
+                && Arc::ptr_eq(&kept.body, body)
+        };
+        let place = self.kept.iter().position(is_same)?;
+        let kept = Kept { used: self.round, ..self.kept.remove(place) };
+        let beams = Arc::clone(&kept.beams);
+        self.kept.push(kept);
+        Some(beams)
     }
 
     /// Drops the sets whose last use is longest ago, until there are at most so many sets with at most so many beams.

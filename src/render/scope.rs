@@ -1,14 +1,15 @@
 //! Pictures and figures in a scope.
 
 use super::card::Backend;
-use super::job::{FiguresProduct, Job, Reading, ScopeProduct};
+use super::job::{FiguresProduct, Job, Quality, Reading, ScopeProduct};
 use super::plan::Unfit;
 use super::renderer::{EachPart, Halt, Output, Partial, RenderError, Renderer};
 use crate::math::{Polytope, SolidRef};
 use crate::measure::{self, Figures, measured};
 use crate::picture::{Layer, Rows, by_rays, paint};
-use crate::scene::{Body, Scope};
-use crate::trace::{ScopeShot, Watch, beam};
+use crate::scene::{Body, Medium, Scope};
+use crate::trace::beam::{self, SumOptions};
+use crate::trace::{ScopeShot, Watch};
 use glam::DVec2;
 use std::sync::Arc;
 
@@ -84,13 +85,19 @@ impl Renderer {
         let solid = job.stone().map_err(RenderError::from)?;
         let (view, manner) = (&job.view, (job.quality.rays, lattice));
         let measured = measured::<Halt<E>>(scope, medium.index, backend.name(), |scope| match backend {
-            Backend::Beams => match job.quality.standard_error {
-                Some(standard_error) => Ok(job.estimated(product, scope, standard_error, watch)?),
-                None => {
-                    let beams = self.beams.of(job.convex()?, *medium, view, &job.quality.beams, watch)?;
-                    Ok(measure::by_beams(&beams, scope))
+            Backend::Beams => {
+                let (body, polytope) = job.convex()?;
+                let Quality { standard_error, beams: options, .. } = &job.quality;
+                // Pictures may have made the beams.
+                let made = match standard_error {
+                    None => self.beams.kept(body, *medium, view, options),
+                    Some(_) => None,
+                };
+                match made {
+                    Some(beams) => Ok(measure::by_beams(&beams, scope)),
+                    None => Ok(job.summed(polytope, *medium, scope, watch)?),
                 }
-            },
+            }
             Backend::Rays => Ok(measure::by_rays(solid, *medium, view, scope, manner, watch)?),
             #[cfg(feature = "gpu")]
             Backend::Card(gpu) => measure::by_gpu::<Halt<E>>(gpu, solid, *medium, view, scope, manner, watch),
@@ -105,19 +112,24 @@ impl Job {
         self.scene.instances.first().map(|stone| stone.body.solid()).ok_or(Unfit::NoStone)
     }
 
-    /// Measures figures by beams, and by rays what these leave, each as far as the other makes it worth its time.
-    fn estimated(
+    /// Measures figures by beams that are not kept. With a standard error, rays measure what the beams leave, each as far as
+    /// the other makes it worth its time.
+    fn summed(
         &self,
-        product: &FiguresProduct,
+        polytope: &Polytope,
+        medium: Medium,
         scope: &Scope,
-        standard_error: f64,
         watch: Watch,
     ) -> Result<Figures, RenderError> {
-        let (_, polytope) = self.convex()?;
-        let half = |part: f64| move |done: f64| watch((part + done) / 2.0);
-        let to = Some(standard_error);
-        let grown = beam::grow(polytope, product.medium, &self.view, &self.quality.beams, to, &half(0.0))?;
-        Ok(measure::by_beams_and_rays(polytope, &grown, scope, standard_error, &half(1.0))?)
+        let Quality { standard_error, beams, .. } = self.quality;
+        let parts = if standard_error.is_some() { 2.0 } else { 1.0 };
+        let share = |part: f64| move |done: f64| watch((part + done) / parts);
+        let of = SumOptions { scope, standard_error };
+        let summed = beam::sum_up(polytope, medium, &self.view, &beams, of, &share(0.0))?;
+        match standard_error {
+            Some(error) => Ok(measure::by_beams_and_rays(polytope, &summed, error, &share(1.0))?),
+            None => Ok(measure::by_summed_beams(&summed)),
+        }
     }
 
     /// Returns the body that exact beams trace, with its polytope.

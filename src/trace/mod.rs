@@ -1,8 +1,9 @@
 //! Floor 3: the tracers, which follow light through stones. Exact beams and point rays share nothing but Fresnel's
-//! equations.
+//! equations and guesses of the next facet, of which each makes sure in its own way.
 
 pub mod beam;
 pub mod environment;
+mod facet_guess;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod lanes;

@@ -2,7 +2,8 @@
 //!
 //! A convex stone never takes back a ray that has left it, so a ray needs no branching: at every facet a part leaves and the
 //! rest goes on. Rays through solids that are not convex are in `tree`. Rays know nothing of outlines or symmetry and follow
-//! polarisation as fields in space, so that where rays and beams agree it is not by a shared mistake.
+//! polarisation as two fields, where beams follow a coherency matrix, so that where rays and beams agree it is not by a
+//! shared mistake.
 
 mod camera;
 mod dispersed_ray;
@@ -20,6 +21,7 @@ use self::dispersed_ray::{Arrival, DispersedRay};
 use self::facets::{FacetSearch, Planes, SmoothFacets, SolidFacets, TriangleFacets, Wavy};
 pub use self::instance_tracer::InstanceTracer;
 pub(in crate::trace) use self::light::PathLight;
+use self::light::SplitLight;
 use self::path::{ExitLight, SurfaceEvent};
 pub use self::path::{Leaving, Path, Step};
 pub use self::scene_tracer::{ByRays, First, SceneTracer, WaitingRay};
@@ -93,9 +95,7 @@ impl StoneTracer {
     /// Prepares a stone for tracing.
     pub fn new<'a>(solid: impl Into<SolidRef<'a>>, medium: Medium, options: RayOptions) -> Self {
         let shape = match solid.into() {
-            SolidRef::Convex(polytope) => {
-                SolidFacets::Planes(Arc::new(Planes::new(polytope.planes().collect())))
-            }
+            SolidRef::Convex(polytope) => SolidFacets::Planes(Arc::new(Planes::new(polytope))),
             SolidRef::Triangles(mesh) => SolidFacets::Triangles(TriangleFacets::new(mesh)),
             SolidRef::Smooth(smooth) if smooth.field().is_convex() => {
                 SolidFacets::Smooth(SmoothFacets(*smooth.field()))
@@ -213,11 +213,10 @@ impl StoneTracer {
         let cos_i = -direction.dot(normal);
         let cos_t = cos_transmitted(cos_i, eta)?;
         let inward = refract(direction, normal, eta, (cos_i, cos_t));
-        let (light, glare) = inbound.light.split(direction, inward, normal, eta, true);
+        let SplitLight { reflected: glare, passed: light } = inbound.light.split(direction, normal, eta);
         let of_eta = -self.medium.spread * eta * eta;
         let swept = refracted_change(direction, normal, eta, (cos_i, cos_t), (sweep, of_normal, of_eta));
         let back = reflect(direction, normal, cos_i);
-        let outer = F::BRANCHES.then(|| inbound.light.outer((direction, back), normal, eta, true, glare));
         meets(SurfaceEvent {
             facet: facet as u32,
             point,
@@ -229,8 +228,8 @@ impl StoneTracer {
                 direction: back,
                 sweep: reflected_change(direction, normal, (sweep, of_normal)),
                 shift,
-                weight: glare * left,
-                light: outer,
+                weight: glare.weight() * left,
+                light: F::BRANCHES.then_some(glare),
             }),
             onward: light.weight() * left,
         });
@@ -249,6 +248,8 @@ impl StoneTracer {
         let Inbound { mut ray, mut light, mut left, mut path, .. } = inside;
         let mut rest = Loss { bounces: inside.bounce, ..Loss::default() };
         let mut remaining = light.weight() * left;
+        // Without any change of direction there will be none at the next facet either.
+        let is_swept = self.medium.spread != 0.0 || ray.is_swept();
         while remaining > least_weight && rest.bounces < self.options.most_bounces {
             let DispersedRay { origin, direction, sweep, .. } = ray;
             let Some((facet, distance)) = facets.next(origin, direction) else { break };
@@ -263,17 +264,18 @@ impl StoneTracer {
             let reflected = reflect(direction, -normal, cos_i);
             let Medium { index, spread, .. } = self.medium;
             let cos_t = cos_transmitted(cos_i, index);
-            let (onward, weight) = match (cos_t, light) {
-                (None, PathLight::Unpolarised(_)) => (light, 0.0),
-                _ => light.split(direction, reflected, normal, index, false),
-            };
+            let SplitLight { reflected: onward, passed } = light.split(direction, normal, index);
             let leaving = cos_t.map(|cos_t| {
                 let cosines = (cos_i, cos_t);
-                let outward = refract(direction, -normal, index, cosines);
-                let sweep = refracted_change(direction, -normal, index, cosines, (sweep, -of_normal, spread));
-                let outer =
-                    F::BRANCHES.then(|| light.outer((direction, outward), normal, index, false, weight));
-                ExitLight { direction: outward, sweep, shift, weight: weight * left, light: outer }
+                let change =
+                    || refracted_change(direction, -normal, index, cosines, (sweep, -of_normal, spread));
+                ExitLight {
+                    direction: refract(direction, -normal, index, cosines),
+                    sweep: if is_swept { change() } else { DVec3::ZERO },
+                    shift,
+                    weight: passed.weight() * left,
+                    light: F::BRANCHES.then_some(passed),
+                }
             });
             rest.bounces += 1;
             remaining = onward.weight() * left;
@@ -287,7 +289,10 @@ impl StoneTracer {
                 leaving,
                 onward: remaining,
             });
-            let sweep = reflected_change(direction, normal, (sweep, of_normal));
+            let sweep = match is_swept {
+                true => reflected_change(direction, normal, (sweep, of_normal)),
+                false => DVec3::ZERO,
+            };
             ray = DispersedRay { origin: point, direction: reflected, sweep, shift };
             light = onward;
         }

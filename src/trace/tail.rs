@@ -5,9 +5,10 @@
 //! goes. The polygons stand in the order of the tree, in which neighbours have most of their way in common: samples from
 //! successive pieces of that order differ little, and so does their mean from the true one.
 
-use super::beam::{Beams, Flight, Front, GrownBeams};
+use super::beam::{Beams, Flight, Front, SummedBeams};
 use super::ray::{PathLight, RayOptions, StoneTracer};
 use crate::math::{Polytope, point_in_polygon};
+use crate::scene::Scope;
 use glam::{DVec2, DVec3};
 
 /// The share of a ray's light below which the ray goes on by chance alone, by Russian roulette.
@@ -30,6 +31,7 @@ const LEAST: f64 = 1e-15;
 /// The light that exact beams have left, ready to be sampled.
 pub struct Tail<'a> {
     beams: &'a Beams,
+    scope: &'a Scope,
     tracer: StoneTracer,
     sources: Vec<TailSource<'a>>,
     /// The part of the silhouette's light that was left.
@@ -48,8 +50,19 @@ struct TailSource<'a> {
     /// Its part of the silhouette's light, and of the area that is undecided.
     light: f64,
     undecided: f64,
-    /// Weight of the strongest exit so far, and its direction.
-    strongest: (f64, Option<DVec3>),
+    /// Weight of the strongest exit so far, and its band.
+    strongest: (f64, Option<usize>),
+}
+
+/// Light of a ray that leaves the stone.
+#[derive(Debug, Clone, Copy)]
+pub struct TailExit {
+    /// Unit direction in which it leaves.
+    pub direction: DVec3,
+    /// The band of the scope that it comes from.
+    pub band: usize,
+    /// Its share of the ray's light.
+    pub share: f64,
 }
 
 /// What one ray says of the light that was left.
@@ -64,32 +77,31 @@ pub struct TailRay {
     pub absorbed: f64,
     /// The share of the ray's light that was not followed to its end.
     pub unresolved: f64,
-    /// The direction of the strongest exit seen through the ray's point; `None` where light that was not followed may
-    /// outshine it, or none has left.
-    pub strongest: Option<DVec3>,
+    /// The band of the strongest exit seen through the ray's point; `None` where light that was not followed may outshine it,
+    /// or none has left.
+    pub strongest: Option<usize>,
 }
 
 impl<'a> Tail<'a> {
     /// Prepares what beams in this stone have left; `None` where nothing is left.
-    pub fn new(polytope: &Polytope, grown: &'a GrownBeams) -> Option<Self> {
-        let beams = &grown.beams;
+    pub fn new(polytope: &Polytope, summed: &'a SummedBeams) -> Option<Self> {
+        let beams = &summed.open;
         let share = f64::from(beams.symmetry.order()) / beams.silhouette_area;
-        let best = beams.strongest_so_far();
         let source = |front: &'a Front| {
-            let (beam, best) = (beams.get(front.node), &best[front.node as usize]);
+            let (beam, best) = (beams.get(front.node), &summed.standings[front.node as usize].strongest);
             TailSource {
                 front,
                 until: 0.0,
                 density: 0.0,
                 light: front.energy * share,
                 undecided: if best.is_decided { 0.0 } else { beam.area * share },
-                strongest: (best.weight, best.exit.map(|id| beams.get(id).exit)),
+                strongest: (best.weight, best.exit.map(|band| band as usize)),
             }
         };
         let mut sources: Vec<TailSource<'a>> =
-            grown.open.iter().map(source).filter(|s| s.light > LEAST_LIGHT).collect();
+            summed.fronts.iter().map(source).filter(|s| s.light > LEAST_LIGHT).collect();
         // Neighbours in the tree have most of their way in common.
-        sources.sort_unstable_by_key(|source| source.front.node);
+        sources.sort_by_key(|source| source.front.node);
         let sum = |part: fn(&TailSource) -> f64| sources.iter().map(part).sum::<f64>();
         let (light, undecided) = (sum(|s| s.light), sum(|s| s.undecided));
         if light <= LEAST {
@@ -105,7 +117,7 @@ impl<'a> Tail<'a> {
         }
         let options = RayOptions { polarised: beams.polarised, ..RayOptions::default() };
         let tracer = StoneTracer::new(polytope, beams.medium, options);
-        Some(Self { beams, tracer, sources, light, undecided })
+        Some(Self { beams, scope: &summed.scope, tracer, sources, light, undecided })
     }
 
     /// Returns the part of the silhouette's light that was left.
@@ -123,12 +135,12 @@ impl<'a> Tail<'a> {
         [self.light / BY_LIGHT, self.undecided / (1.0 - BY_LIGHT)]
     }
 
-    /// Follows one ray, and calls `leave` for each exit with its direction and its share of the ray's light.
+    /// Follows one ray, and calls `leave` for each exit.
     ///
     /// `place` says among all beams where the ray starts, `spot` where in the outline of its beam, and `luck` how long it is
     /// followed; all are from 0 to below 1. Where they are spread evenly, the mean of the light of all rays is the light that
     /// was left.
-    pub fn follow(&self, place: f64, spot: DVec2, luck: f64, mut leave: impl FnMut(DVec3, f64)) -> TailRay {
+    pub fn follow(&self, place: f64, spot: DVec2, luck: f64, mut leave: impl FnMut(TailExit)) -> TailRay {
         let k = self.sources.partition_point(|source| source.until <= place).min(self.sources.len() - 1);
         let source = &self.sources[k];
         let front = source.front;
@@ -152,9 +164,10 @@ impl<'a> Tail<'a> {
             }
             before = met.onward;
             if let Some(leaving) = met.leaving {
-                leave(leaving.direction, left * scale);
+                let band = self.scope.band(leaving.direction, self.beams.zenith);
+                leave(TailExit { direction: leaving.direction, band, share: left * scale });
                 if left * beam.onward > strongest {
-                    (strongest, exit) = (left * beam.onward, Some(leaving.direction));
+                    (strongest, exit) = (left * beam.onward, Some(band));
                 }
             }
         });
@@ -175,7 +188,7 @@ impl<'a> Tail<'a> {
             return PathLight::Unpolarised(flight.light.weight() * scale);
         }
         let fields = flight.light.fields().map(|parts| parts.map(|part| part * scale.sqrt()));
-        PathLight::of_fields(fields, [flight.s, flight.ray.direction.cross(flight.s)])
+        PathLight::of_fields(fields, flight.s)
     }
 }
 
@@ -184,14 +197,20 @@ mod tests {
     use super::*;
     use crate::cut::TOLKOWSKY;
     use crate::math::{Plane, contains};
-    use crate::scene::{Medium, View};
-    use crate::trace::beam::{BeamOptions, grow, trace};
+    use crate::scene::{ASET_CONE, Backing, Medium, View};
+    use crate::trace::beam::{BeamOptions, SumOptions, sum_up, trace};
     use crate::trace::unwatched;
 
     fn brilliant() -> Polytope {
         let facets = TOLKOWSKY.facets().unwrap();
         let planes: Vec<Plane> = facets.into_iter().map(|(_, plane)| plane).collect();
         Polytope::from_planes(&planes).unwrap()
+    }
+
+    fn summed(polytope: &Polytope, medium: Medium, view: &View, options: &BeamOptions) -> SummedBeams {
+        let scope = &Scope::aset(ASET_CONE, Backing::Black);
+        sum_up(polytope, medium, view, options, SumOptions { scope, standard_error: None }, &unwatched)
+            .unwrap()
     }
 
     /// Returns the exits of a point that lie on the way of light through these beams, each as direction and weight, and the
@@ -212,9 +231,10 @@ mod tests {
             (Medium { absorption: [0.1, 0.4], ..Medium::clear(2.0) }, true),
         ] {
             let options = |unresolved| BeamOptions { unresolved, polarised, ..BeamOptions::default() };
-            let grown = grow(&polytope, medium, &view, &options(0.2), None, &unwatched).unwrap();
+            let coarse = trace(&polytope, medium, &view, &options(0.2), &unwatched).unwrap();
+            let summed = summed(&polytope, medium, &view, &options(0.2));
             let finer = trace(&polytope, medium, &view, &options(0.02), &unwatched).unwrap();
-            let tail = Tail::new(&polytope, &grown).unwrap();
+            let tail = Tail::new(&polytope, &summed).unwrap();
             let (mut compared, mut start) = (0, 0.0);
             for (number, source) in tail.sources.iter().enumerate() {
                 let place = f64::midpoint(start, source.until);
@@ -223,13 +243,13 @@ mod tests {
                     continue;
                 }
                 let spot = DVec2::new(0.37, 0.61);
-                let beam = grown.beams.get(source.front.node);
+                let beam = summed.open.get(source.front.node);
                 let point = point_in_polygon(beam.outline, beam.area, spot);
-                let (before, last) = way(&grown.beams, point);
-                assert_eq!(last, source.front.node);
+                let (before, last) = way(&coarse, point);
+                assert_eq!(coarse.get(last).outline, beam.outline);
                 let mut exits = vec![];
                 // Without luck the ray is followed to the end; what is less likely than certain counts for more.
-                let ray = tail.follow(place, spot, 0.0, |direction, share| exits.push((direction, share)));
+                let ray = tail.follow(place, spot, 0.0, |exit| exits.push((exit.direction, exit.share)));
                 let (beyond, _) = way(&finer, point);
                 let mut left = medium.transmittance(beam.path.at(point)) / beam.transmittance;
                 for ((direction, share), (exit, weight)) in exits.iter().zip(&beyond[before.len()..]) {
@@ -256,10 +276,10 @@ mod tests {
         let polytope = brilliant();
         let view = View { tilt: 0.2, ..View::default() };
         let options = BeamOptions { unresolved: 0.1, ..BeamOptions::default() };
-        let grown = grow(&polytope, Medium::clear(2.42), &view, &options, None, &unwatched).unwrap();
-        let tail = Tail::new(&polytope, &grown).unwrap();
-        assert!((tail.light() - grown.beams.unresolved()).abs() < 1e-9);
-        assert!((tail.undecided() - grown.beams.undecided(&grown.beams.strongest_exits())).abs() < 1e-9);
+        let summed = summed(&polytope, Medium::clear(2.42), &view, &options);
+        let tail = Tail::new(&polytope, &summed).unwrap();
+        assert!((tail.light() - summed.sums.unresolved).abs() < 1e-9);
+        assert!((tail.undecided() - summed.sums.undecided).abs() < 1e-9);
         let rays = 20_000;
         let (mut light, mut area, mut shares) = (0.0, 0.0, 0.0);
         for k in 0..rays {
@@ -267,7 +287,7 @@ mod tests {
             let fraction = |step: f64| (f64::from(k) * step).fract();
             let mut left = 0.0;
             let spot = DVec2::new(fraction(0.754_877_666), fraction(0.569_840_291));
-            let ray = tail.follow(place, spot, fraction(0.618_033_989), |_, share| left += share);
+            let ray = tail.follow(place, spot, fraction(0.618_033_989), |exit| left += exit.share);
             light += ray.light / f64::from(rays);
             area += ray.area / f64::from(rays);
             shares += ray.light * (left + ray.absorbed + ray.unresolved) / f64::from(rays);

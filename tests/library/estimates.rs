@@ -2,9 +2,9 @@
 
 use crate::common::*;
 use brillianteer::math::Polytope;
-use brillianteer::measure::{Figures, by_beams, by_beams_and_rays};
+use brillianteer::measure::{Figures, by_beams, by_beams_and_rays, by_summed_beams};
 use brillianteer::scene::{ASET_CONE, Backing, Band, Medium, Scope, View, Viewpoint};
-use brillianteer::trace::beam::{self, BeamOptions};
+use brillianteer::trace::beam::{self, BeamOptions, SumOptions, SummedBeams};
 use brillianteer::trace::unwatched;
 
 /// One stone, of its own proportions and material, at its own tilt.
@@ -45,9 +45,13 @@ fn aset() -> Scope {
 /// Returns figures by beams that leave at most `unresolved`, whose rest is estimated to a standard error.
 fn estimated(case: &Case, unresolved: f64, standard_error: f64) -> Figures {
     let options = BeamOptions { unresolved, polarised: case.polarised, ..BeamOptions::default() };
-    let to = Some(standard_error);
-    let grown = beam::grow(&case.polytope, case.medium, &case.view, &options, to, &unwatched).unwrap();
-    by_beams_and_rays(&case.polytope, &grown, &aset(), standard_error, &unwatched).unwrap()
+    let summed = summed(case, &options, &aset(), Some(standard_error));
+    by_beams_and_rays(&case.polytope, &summed, standard_error, &unwatched).unwrap()
+}
+
+fn summed(case: &Case, options: &BeamOptions, scope: &Scope, standard_error: Option<f64>) -> SummedBeams {
+    let of = SumOptions { scope, standard_error };
+    beam::sum_up(&case.polytope, case.medium, &case.view, options, of, &unwatched).unwrap()
 }
 
 /// Compares estimates with figures that are ten times as sure, and says how they differ: the sum of squared errors, in
@@ -116,19 +120,33 @@ fn an_estimate_does_not_depend_on_the_number_of_cores() {
 fn an_estimate_that_is_split_at_the_horizon_joins_to_the_same_zone() {
     let case = case(1);
     let options = BeamOptions { unresolved: 0.1, ..BeamOptions::default() };
-    let grown = beam::grow(&case.polytope, case.medium, &case.view, &options, None, &unwatched).unwrap();
     let band = |name: &str, from, colour| Band { name: name.into(), from, colour };
     let bands =
         vec![band("below", -90.0, [0; 3]), band("red", -20.0, [255, 0, 0]), band("blue", 60.0, [0, 0, 255])];
     let wide = Scope { name: "wide".into(), bands };
     let measured = brillianteer::measure::measured(&wide, 2.42, "beam", |scope| {
-        by_beams_and_rays(&case.polytope, &grown, scope, 1.0, &unwatched)
+        by_beams_and_rays(&case.polytope, &summed(&case, &options, scope, None), 1.0, &unwatched)
     });
     let joined = measured.unwrap().figures;
-    let plain = by_beams_and_rays(&case.polytope, &grown, &wide, 1.0, &unwatched).unwrap();
+    let whole = summed(&case, &options, &wide, None);
+    let plain = by_beams_and_rays(&case.polytope, &whole, 1.0, &unwatched).unwrap();
     let [a, b] = [&joined, &plain].map(|figures| figures.estimate.clone().unwrap());
     assert_eq!(a.rays, b.rays);
     assert!(largest_difference(&a.transmitted, &b.transmitted) < 1e-12);
     assert!(largest_difference(&a.standard_errors(), &b.standard_errors()) < 1e-12);
-    assert!(largest_difference(&by_beams(&grown.beams, &wide).surface, &joined.surface) < 1e-12);
+    assert!(largest_difference(&whole.sums.surface, &joined.surface) < 1e-12);
+}
+
+#[test]
+fn figures_without_a_tree_have_the_digits_of_those_with_one() {
+    for number in 0..6 {
+        let case = case(number);
+        // So many beams that most are dropped on the way.
+        let options = BeamOptions { unresolved: 1.5e-2, polarised: case.polarised, ..BeamOptions::default() };
+        let (polytope, medium, view) = (&case.polytope, case.medium, &case.view);
+        let tree = beam::trace(polytope, medium, view, &options, &unwatched).unwrap();
+        let summed = summed(&case, &options, &aset(), None);
+        assert!(number > 0 || summed.open.len() < tree.len() / 3, "{} of {}", summed.open.len(), tree.len());
+        assert_eq!(by_summed_beams(&summed), by_beams(&tree, &aset()), "stone {number}");
+    }
 }

@@ -43,6 +43,18 @@ impl<T: Copy> Blocks<T> {
             }
         }
     }
+
+    /// Drops all items but those at these places, which ascend.
+    pub fn keep(&mut self, places: &[u32]) {
+        for (to, &from) in (0..).zip(places) {
+            self[to] = self[from];
+        }
+        self.blocks.truncate(places.len().div_ceil(BLOCK));
+        let before_last = self.blocks.len().saturating_sub(1) * BLOCK;
+        if let Some(last) = self.blocks.last_mut() {
+            last.truncate(places.len() - before_last);
+        }
+    }
 }
 
 impl<T> Index<u32> for Blocks<T> {

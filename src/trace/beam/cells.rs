@@ -1,6 +1,6 @@
 //! Cells: a subdivision of the image, without overlaps, read off the tree of nested beams.
 
-use super::tree::{Beams, ROOT};
+use super::tree::{Beam, Beams, ROOT};
 
 /// One cell of the map of strongest exits: the whole outline of one beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,13 +15,26 @@ pub struct Cell {
 }
 
 /// The strongest of the exits on the way of a beam, from where it enters to its end.
-#[derive(Clone, Copy)]
-pub(in crate::trace) struct StrongestExit {
+#[derive(Debug, Clone, Copy)]
+pub(in crate::trace) struct StrongestExit<E> {
     pub weight: f64,
-    /// The id of the beam that ends at this exit; `None` where no light has left the stone yet.
-    pub exit: Option<u32>,
+    /// What is known of the exit; `None` where no light has left the stone yet.
+    pub exit: Option<E>,
     /// Whether no light that is still inside can outshine it.
     pub is_decided: bool,
+}
+
+impl<E: Copy> StrongestExit<E> {
+    /// Returns the strongest exit on the way of a beam, given that of its parent and what is to be known of its own exit.
+    pub fn of(beam: &Beam, before: Option<&Self>, exit: Option<E>) -> Self {
+        let mut best = match before {
+            None => Self { weight: 0.0, exit: None, is_decided: false },
+            Some(before) if beam.weight > before.weight => Self { weight: beam.weight, exit, ..*before },
+            Some(before) => *before,
+        };
+        best.is_decided |= beam.onward <= best.weight;
+        best
+    }
 }
 
 impl Beams {
@@ -42,18 +55,12 @@ impl Beams {
             .collect()
     }
 
-    /// Returns, for each beam, the strongest exit on its way.
-    pub(in crate::trace) fn strongest_so_far(&self) -> Vec<StrongestExit> {
-        let mut best = vec![StrongestExit { weight: 0.0, exit: None, is_decided: false }; self.len()];
-        for (id, beam) in self.iter().enumerate() {
-            if let Some(parent) = beam.parent {
-                best[id] = best[parent as usize];
-                if beam.weight > best[id].weight {
-                    best[id].weight = beam.weight;
-                    best[id].exit = Some(id as u32);
-                }
-            }
-            best[id].is_decided |= beam.onward <= best[id].weight;
+    /// Returns, for each beam, the strongest exit on its way, by the id of the beam that ends at it.
+    fn strongest_so_far(&self) -> Vec<StrongestExit<u32>> {
+        let mut best: Vec<StrongestExit<u32>> = Vec::with_capacity(self.len());
+        for beam in self.iter() {
+            let before = beam.parent.map(|parent| &best[parent as usize]);
+            best.push(StrongestExit::of(&beam, before, Some(beam.id)));
         }
         best
     }

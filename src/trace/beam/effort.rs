@@ -1,10 +1,10 @@
 //! How far it pays to follow beams where rays estimate what they leave.
 
 /// The time that a ray takes in a stone until too little of it is left, in the times that a beam takes.
-const BEAMS_A_RAY: f64 = 7.0;
+const BEAMS_A_RAY: f64 = 9.0;
 
 /// The standard deviation, as a share of the light that is left, of what a ray says about one zone, within one stratum.
-const SPREAD: f64 = 0.35;
+const SPREAD: f64 = 0.45;
 
 /// The fewest beams from which the next step is foreseen.
 const FEWEST: usize = 400;

@@ -9,10 +9,11 @@ use super::coherency::Coherency;
 use super::effort::BeamEffort;
 use super::follow::{Flight, Follower, Front, SLIVER, attenuated, s_axis};
 use super::split::{Facets, Ray};
+use super::sums::{BeamAdder, BeamSums, Standing};
 use super::tree::{BeamExit, BeamLoss, BeamNode, Beams, ROOT, TreeSize};
 use crate::math::{Affine, Basis, Plane, Polytope, Symmetry, area, clip};
 use crate::optics::{fresnel, reflect, refract};
-use crate::scene::{Medium, View};
+use crate::scene::{Medium, Scope, View};
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -55,6 +56,10 @@ const PIECES_A_THREAD: usize = 8;
 /// overshoot.
 const STEPS: std::ops::RangeInclusive<f64> = 0.25..=0.8;
 
+/// Where beams are summed up, those that were split are dropped as soon as there are more of them than this, and than half
+/// as many as wait to be split.
+const SPLIT_KEPT: usize = 1 << 14;
+
 /// The part of the light that is left in the end, for the progress of work whose end another rule decides.
 const FORESEEN: f64 = 1e-2;
 
@@ -75,35 +80,66 @@ pub fn trace(
     options: &BeamOptions,
     watch: Watch,
 ) -> Result<Beams, Stopped> {
-    Ok(grow(polytope, medium, view, options, None, watch)?.beams)
+    let facets = Facets::new(polytope);
+    let mut tracer = Tracer::new(polytope, &facets, medium, view, options);
+    tracer.run(options, None, watch)?;
+    for front in &tracer.fronts {
+        tracer.beams.nodes[front.node].open = true;
+    }
+    Ok(tracer.beams)
 }
 
-/// Beams, and the light that they have left unresolved.
-pub struct GrownBeams {
-    /// All beams that were followed, as a tree.
-    pub beams: Beams,
-    /// The light that goes on from beams too weak to be followed.
-    pub(in crate::trace) open: Vec<Front>,
+/// How beams are summed up.
+#[derive(Debug, Clone, Copy)]
+pub struct SumOptions<'a> {
+    /// The scope by whose bands the light is summed up.
+    pub scope: &'a Scope,
+    /// The standard error to which rays are to estimate what the beams leave; `None` where nothing is estimated. With it,
+    /// beams are followed until those rays take less time than more beams would.
+    pub standard_error: Option<f64>,
 }
 
-/// Follows light as [`trace`] does and keeps what is left. With a standard error, tracing goes on until rays that estimate
-/// what is left to that error take less time than more beams would.
+/// Beams that were summed up. Only those are kept that were not split further.
+pub struct SummedBeams {
+    /// What all beams sum up to.
+    pub sums: BeamSums,
+    /// The scope whose bands they were summed up by.
+    pub scope: Scope,
+    /// The beams that were too weak to be followed, in the order of the tree.
+    pub open: Beams,
+    /// How the light goes on from each of them.
+    pub(in crate::trace) fronts: Vec<Front>,
+    /// How each of them stands.
+    pub(in crate::trace) standings: Vec<Standing>,
+}
+
+/// Follows light as [`trace`] does and sums it up, but keeps no beam that was split.
 ///
 /// # Errors
 /// [`Stopped`] when `watch` asks to stop.
-pub fn grow(
+pub fn sum_up(
     polytope: &Polytope,
     medium: Medium,
     view: &View,
     options: &BeamOptions,
-    standard_error: Option<f64>,
+    of: SumOptions,
     watch: Watch,
-) -> Result<GrownBeams, Stopped> {
+) -> Result<SummedBeams, Stopped> {
     let facets = Facets::new(polytope);
     let mut tracer = Tracer::new(polytope, &facets, medium, view, options);
-    tracer.enter();
-    tracer.run(options, standard_error.map(BeamEffort::to), watch)?;
-    Ok(GrownBeams { beams: tracer.beams, open: tracer.fronts })
+    let mut adder = BeamAdder::new(&tracer.beams, of.scope);
+    adder.take_in(&tracer.beams);
+    tracer.adder = Some(&mut adder);
+    tracer.run(options, of.standard_error.map(BeamEffort::to), watch)?;
+    tracer.drop_split(&mut []);
+    let Tracer { fronts, beams: open, .. } = tracer;
+    Ok(SummedBeams {
+        sums: adder.finish(&open),
+        scope: of.scope.clone(),
+        open,
+        fronts,
+        standings: adder.into_standings(),
+    })
 }
 
 struct Tracer<'a> {
@@ -111,6 +147,10 @@ struct Tracer<'a> {
     facets: &'a Facets<'a>,
     beams: Beams,
     fronts: Vec<Front>,
+    /// The number of beams that were made, whether they are still kept or not.
+    made: usize,
+    /// Adds the beams up, where they need not be kept.
+    adder: Option<&'a mut BeamAdder>,
     /// Each follows one piece of work at a time.
     followers: Vec<Follower<'a>>,
 }
@@ -139,7 +179,10 @@ impl<'a> Tracer<'a> {
             exits: vec![],
             losses: Blocks::default(),
         };
-        Self { polytope, facets, beams, fronts: vec![], followers: vec![] }
+        let mut tracer =
+            Self { polytope, facets, beams, fronts: vec![], made: 0, adder: None, followers: vec![] };
+        tracer.enter();
+        tracer
     }
 
     /// Starts a beam on every facet that the eye sees in one domain of the symmetry.
@@ -162,6 +205,7 @@ impl<'a> Tracer<'a> {
                 self.enter_facet(i as u32, cos_i, &outline, area);
             }
         }
+        self.made = self.beams.len();
     }
 
     fn enter_facet(&mut self, facet: u32, cos_i: f64, outline: &[DVec2], area: f64) {
@@ -217,8 +261,8 @@ impl<'a> Tracer<'a> {
                 return Err(Stopped);
             }
             let movable = self.fronts.iter().any(|f| f.bounces < MOST_BOUNCES && f.energy > 0.0);
-            let is_enough = effort.as_mut().is_none_or(|e| e.suffices(self.beams.len(), left / whole));
-            if left <= goal && is_enough || !movable || self.beams.len() > options.most_beams {
+            let is_enough = effort.as_mut().is_none_or(|e| e.suffices(self.made, left / whole));
+            if left <= goal && is_enough || !movable || self.made > options.most_beams {
                 break;
             }
             level = match left <= goal {
@@ -226,9 +270,6 @@ impl<'a> Tracer<'a> {
                 false => next_level(level, left, &mut before, goal),
             };
             self.follow_above(level, options.most_beams, &|| watch(done))?;
-        }
-        for front in &self.fronts {
-            self.beams.nodes[front.node].open = true;
         }
         Ok(())
     }
@@ -243,12 +284,16 @@ impl<'a> Tracer<'a> {
         let strong = |energy: f64, bounces: u32| energy >= level && bounces < MOST_BOUNCES;
         let go: Vec<Front> = self.fronts.extract_if(.., |f| strong(f.energy, f.bounces)).collect();
         let mut go = go.into_iter();
-        while !go.as_slice().is_empty() && self.beams.len() <= most_beams {
+        while !go.as_slice().is_empty() && self.made <= most_beams {
             if watch().is_break() {
                 return Err(Stopped);
             }
             let batch: Vec<Front> = go.by_ref().take(AT_ONCE * PIECE).collect();
             self.follow(&batch, strong);
+            let waiting = self.fronts.len() + go.len();
+            if self.beams.len() > waiting + waiting / 2 + SPLIT_KEPT {
+                self.drop_split(go.as_mut_slice());
+            }
         }
         self.fronts.extend(go);
         Ok(())
@@ -279,6 +324,23 @@ impl<'a> Tracer<'a> {
             self.beams.dropped += growth.dropped;
             self.fronts.append(&mut growth.left);
         }
+        self.made += self.beams.len() - base.nodes as usize;
+        if let Some(adder) = &mut self.adder {
+            adder.take_in(&self.beams);
+        }
+    }
+
+    /// Drops all beams but those of the fronts, to which `others` belong, and numbers these anew. It does so only where the
+    /// beams are added up.
+    fn drop_split(&mut self, others: &mut [Front]) {
+        let Some(adder) = &mut self.adder else { return };
+        let mut fronts: Vec<&mut Front> = self.fronts.iter_mut().chain(others).collect();
+        // Both parts are in order, which this sort makes use of.
+        fronts.sort_by_key(|front| front.node);
+        let ids: Vec<u32> = fronts.iter().map(|front| front.node).collect();
+        adder.keep(&ids, &self.beams);
+        self.beams.keep(&ids);
+        (0..).zip(fronts).for_each(|(id, front)| front.node = id);
     }
 }
 

@@ -12,13 +12,14 @@ mod coherency;
 mod effort;
 mod follow;
 mod grow;
-mod guess;
 mod split;
+mod sums;
 mod sweep;
 mod tree;
 mod whole;
 
 pub use cells::Cell;
 pub(in crate::trace) use follow::{Flight, Front};
-pub use grow::{BeamOptions, GrownBeams, grow, trace};
+pub use grow::{BeamOptions, SumOptions, SummedBeams, sum_up, trace};
+pub use sums::BeamSums;
 pub use tree::{Beam, Beams};

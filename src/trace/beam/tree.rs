@@ -209,6 +209,29 @@ impl Beams {
         old.nodes - base.nodes
     }
 
+    /// Drops all beams but these, which have not been followed, and numbers them anew. Their ids ascend. They have no parent
+    /// and no exit any more.
+    pub(super) fn keep(&mut self, ids: &[u32]) {
+        self.nodes.keep(ids);
+        if !self.losses.is_empty() {
+            self.losses.keep(ids);
+        }
+        self.exits.clear();
+        // Two beams that are not followed never share an outline, so that outlines can move down one after the other.
+        let first = |id: u32| self.nodes[id].corners.0;
+        let mut by_corners: Vec<(u32, u32)> = (0..ids.len() as u32).map(|id| (first(id), id)).collect();
+        by_corners.sort_unstable();
+        let mut end = 0;
+        for (start, id) in by_corners {
+            let node = &mut self.nodes[id];
+            let (start, count) = (start as usize, node.corners.1);
+            self.corners.copy_within(start..start + count as usize, end as usize);
+            *node = BeamNode { parent: ROOT, corners: (end, count), exit: NO_EXIT, open: true, ..*node };
+            end += count;
+        }
+        self.corners.truncate(end as usize);
+    }
+
     pub(super) fn size(&self) -> TreeSize {
         let [nodes, corners, exits] =
             [self.nodes.len(), self.corners.len(), self.exits.len()].map(|n| n as u32);

@@ -32,8 +32,16 @@ impl DispersedRay {
     pub fn arrival<F: FacetSearch>(&self, facets: &F, facet: usize, distance: f64) -> Arrival {
         let point = self.origin + self.direction * distance;
         let normal = facets.normal(facet, point);
+        if !self.is_swept() {
+            return Arrival { point, normal, shift: DVec3::ZERO, of_normal: DVec3::ZERO };
+        }
         let shift = along_surface(self.shift + self.sweep * distance, self.direction, normal);
         Arrival { point, normal, shift, of_normal: facets.turned(point, shift) }
+    }
+
+    /// Whether the ray changes at all over the spread of wavelengths.
+    pub fn is_swept(&self) -> bool {
+        self.sweep != DVec3::ZERO || self.shift != DVec3::ZERO
     }
 }
 

@@ -4,8 +4,10 @@
 //! runs into, inside only what it runs out of; so it cannot meet the facet again from which it starts.
 
 use super::search::Search;
-use crate::math::{ImplicitSurface, Plane, SolidRef, TriangleMesh};
+use crate::math::{ImplicitSurface, Plane, Polytope, SolidRef, TriangleMesh};
+use crate::trace::facet_guess::FacetGuess;
 use glam::DVec3;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// A solid's facets, as the tracer searches them.
@@ -52,7 +54,12 @@ pub(super) struct Wavy(pub ImplicitSurface);
 #[derive(Debug)]
 pub(super) struct Planes {
     planes: Vec<Plane>,
+    guess: FacetGuess,
     search: Search,
+    /// The planes of the facets around each facet, one facet after the other.
+    neighbours: Vec<Plane>,
+    /// For each facet, where its neighbours are.
+    of: Vec<Range<usize>>,
 }
 
 /// The triangles of a solid that need not be convex.
@@ -100,8 +107,28 @@ impl SolidFacets {
 }
 
 impl Planes {
-    pub fn new(planes: Vec<Plane>) -> Self {
-        Self { search: Search::new(&planes), planes }
+    pub fn new(polytope: &Polytope) -> Self {
+        let planes: Vec<Plane> = polytope.planes().collect();
+        let (mut neighbours, mut of) = (vec![], vec![]);
+        for facet in polytope.facets() {
+            let first = neighbours.len();
+            neighbours.extend(facet.neighbours.iter().map(|&k| planes[k as usize]));
+            of.push(first..neighbours.len());
+        }
+        let (guess, search) = (FacetGuess::new(polytope.planes()), Search::new(&planes));
+        Self { planes, guess, search, neighbours, of }
+    }
+
+    /// Returns the distance after which a ray from inside leaves by this facet; `None` where it leaves by another one: where
+    /// it meets the plane of the facet beyond that of a neighbour.
+    #[inline]
+    fn leaves_by(&self, facet: usize, point: DVec3, direction: DVec3) -> Option<f64> {
+        let plane = &self.planes[facet];
+        let speed = plane.normal.dot(direction);
+        let distance = -plane.distance(point) / speed;
+        let end = point + direction * distance;
+        let mut around = self.neighbours[self.of[facet].clone()].iter();
+        (speed > 0.0 && around.all(|plane| plane.distance(end) <= 0.0)).then_some(distance)
     }
 }
 
@@ -122,6 +149,10 @@ impl FacetSearch for Planes {
 
     #[inline]
     fn next(&self, point: DVec3, direction: DVec3) -> Option<(usize, f64)> {
+        let guess = self.guess.ahead_of(point, direction) as usize;
+        if let Some(distance) = self.leaves_by(guess, point, direction) {
+            return Some((guess, distance));
+        }
         let facet = self.search.next(point, direction);
         let plane = &self.planes[facet];
         Some((facet, -plane.distance(point) / plane.normal.dot(direction)))

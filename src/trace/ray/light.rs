@@ -1,6 +1,6 @@
 //! The light of a ray, and how a surface splits it.
 
-use crate::optics::{Fresnel, fresnel, reflectance};
+use crate::optics::{fresnel, reflectance};
 use glam::DVec3;
 use num_complex::Complex64;
 
@@ -8,43 +8,23 @@ use num_complex::Complex64;
 #[derive(Clone, Copy)]
 pub(in crate::trace) enum PathLight {
     Unpolarised(f64),
-    Fields([ElectricField; 2]),
+    Fields(ElectricFields),
 }
 
-/// A complex electric field in space, perpendicular to its ray.
+/// Two complex electric fields, each by its parts along two axes: s, and p = s × the ray's direction.
 #[derive(Clone, Copy)]
-pub(in crate::trace) struct ElectricField {
-    re: DVec3,
-    im: DVec3,
+pub(in crate::trace) struct ElectricFields {
+    /// A unit vector perpendicular to the ray.
+    s: DVec3,
+    parts: [[Complex64; 2]; 2],
+    /// The mean power of both.
+    weight: f64,
 }
 
-impl ElectricField {
-    fn along(&self, axis: DVec3) -> Complex64 {
-        Complex64::new(self.re.dot(axis), self.im.dot(axis))
-    }
-
-    fn of(axes: [(Complex64, DVec3); 2]) -> Self {
-        let [(a, x), (b, y)] = axes;
-        Self { re: x * a.re + y * b.re, im: x * a.im + y * b.im }
-    }
-
-    fn power(&self) -> f64 {
-        self.re.length_squared() + self.im.length_squared()
-    }
-
-    /// Returns the field that goes on along `onward` from a surface of these amplitudes.
-    fn onward(&self, (to_s, to_p): Amplitudes, s: DVec3, (ray, onward): (DVec3, DVec3)) -> Self {
-        let (p, p_onward) = (s.cross(ray), s.cross(onward));
-        Self::of([(to_s * self.along(s), s), (to_p * self.along(p), p_onward)])
-    }
-}
-
-/// The complex amplitudes of s and p.
-type Amplitudes = (Complex64, Complex64);
-
-/// Returns the amplitudes of light that passes a surface.
-fn passing(surface: &Fresnel) -> Amplitudes {
-    (surface.transmission_s().into(), surface.transmission_p().into())
+/// The two parts into which a surface splits light. The axis s of both is that of the surface.
+pub(in crate::trace) struct SplitLight {
+    pub reflected: PathLight,
+    pub passed: PathLight,
 }
 
 impl PathLight {
@@ -53,63 +33,40 @@ impl PathLight {
         if !is_polarised {
             return Self::Unpolarised(weight);
         }
-        let (a, b) = direction.any_orthonormal_pair();
-        Self::Fields([a, b].map(|axis| ElectricField { re: axis * weight.sqrt(), im: DVec3::ZERO }))
+        let (one, none) = (Complex64::from(weight.sqrt()), Complex64::ZERO);
+        let (s, parts) = (direction.any_orthonormal_vector(), [[one, none], [none, one]]);
+        Self::Fields(ElectricFields { s, parts, weight })
     }
 
-    /// Returns light of two fields, each given by its parts along two axes.
-    pub fn of_fields(fields: [[Complex64; 2]; 2], [x, y]: [DVec3; 2]) -> Self {
-        Self::Fields(fields.map(|[a, b]| ElectricField::of([(a, x), (b, y)])))
+    /// Returns light of two fields, each given by its parts along s and along the ray's direction × s.
+    pub fn of_fields(fields: [[Complex64; 2]; 2], s: DVec3) -> Self {
+        let parts = fields.map(|[s, p]| [s, -p]);
+        let [of_s, of_p] = powers(&parts);
+        Self::Fields(ElectricFields { s, parts, weight: of_s + of_p })
     }
 
     #[inline]
     pub fn weight(&self) -> f64 {
         match self {
             Self::Unpolarised(weight) => *weight,
-            Self::Fields([a, b]) => (a.power() + b.power()) / 2.0,
+            Self::Fields(fields) => fields.weight,
         }
     }
 
-    /// Splits light at a surface: returns the light that goes on inside along `onward`, and the weight that is left on the
-    /// outer side. Light that enters goes on through the surface; light inside is reflected.
-    pub fn split(&self, ray: DVec3, onward: DVec3, normal: DVec3, eta: f64, enters: bool) -> (Self, f64) {
+    /// Splits light at a surface. It is always inlined, so that what passes is computed only where it is used.
+    #[inline(always)]
+    pub fn split(&self, ray: DVec3, normal: DVec3, eta: f64) -> SplitLight {
         let cos_i = ray.dot(normal).abs();
-        let fields = match self {
+        match self {
             Self::Unpolarised(weight) => {
                 let reflected = reflectance(cos_i, eta).unwrap_or(1.0);
-                let inside = if enters { 1.0 - reflected } else { reflected };
-                return (Self::Unpolarised(weight * inside), weight * (1.0 - inside));
+                SplitLight {
+                    reflected: Self::Unpolarised(weight * reflected),
+                    passed: Self::Unpolarised(weight * (1.0 - reflected)),
+                }
             }
-            Self::Fields(fields) => fields,
-        };
-        let surface = fresnel(cos_i, eta);
-        let to = if enters { passing(&surface) } else { (surface.r_s, surface.r_p) };
-        let s = across(ray, normal);
-        let p = s.cross(ray);
-        let inside = fields.map(|f| f.onward(to, s, (ray, onward)));
-        let lost = |f: &ElectricField| {
-            let part = |r: Complex64, e: Complex64| {
-                if surface.is_total() { 0.0 } else { (1.0 - r.norm_sqr()) * e.norm_sqr() }
-            };
-            part(to.0, f.along(s)) + part(to.1, f.along(p))
-        };
-        (Self::Fields(inside), (lost(&fields[0]) + lost(&fields[1])) / 2.0)
-    }
-
-    /// Returns the light that [`split`](Self::split) leaves on the outer side, of this weight, going along `outward`.
-    pub fn outer(
-        &self,
-        (ray, outward): (DVec3, DVec3),
-        normal: DVec3,
-        eta: f64,
-        enters: bool,
-        weight: f64,
-    ) -> Self {
-        let Self::Fields(fields) = self else { return Self::Unpolarised(weight) };
-        let surface = fresnel(ray.dot(normal).abs(), eta);
-        let to = if enters { (surface.r_s, surface.r_p) } else { passing(&surface) };
-        let s = across(ray, normal);
-        Self::Fields(fields.map(|f| f.onward(to, s, (ray, outward))))
+            Self::Fields(fields) => fields.turned(ray, normal).split(cos_i, eta),
+        }
     }
 }
 
@@ -117,9 +74,45 @@ impl PathLight {
 /// product there is mostly rounding.
 const SQUARE_ON: f64 = 1e-9;
 
-/// Returns a unit vector perpendicular to the ray and to the normal; to the ray alone where the two are one line.
-fn across(ray: DVec3, normal: DVec3) -> DVec3 {
-    let s = ray.cross(normal);
-    let length = s.length();
-    if length > SQUARE_ON { s / length } else { ray.any_orthonormal_vector() }
+impl ElectricFields {
+    /// Returns the same fields with s perpendicular to a facet's normal, too.
+    #[inline(always)]
+    fn turned(&self, ray: DVec3, normal: DVec3) -> Self {
+        let across = ray.cross(normal);
+        let length = across.length();
+        if length <= SQUARE_ON {
+            return *self;
+        }
+        let s = across / length;
+        let (cos, sin) = (self.s.dot(s), self.s.cross(ray).dot(s));
+        let parts = self.parts.map(|[a, b]| [a * cos + b * sin, b * cos - a * sin]);
+        Self { s, parts, ..*self }
+    }
+
+    /// Splits fields at a surface to which s belongs.
+    #[inline(always)]
+    fn split(&self, cos_i: f64, eta: f64) -> SplitLight {
+        let surface = fresnel(cos_i, eta);
+        let [of_s, of_p] = powers(&self.parts);
+        let (r_s, r_p) = (surface.reflectance_s(), surface.reflectance_p());
+        let (t_s, t_p) = (surface.transmission_s(), surface.transmission_p());
+        SplitLight {
+            reflected: PathLight::Fields(Self {
+                parts: self.parts.map(|[a, b]| [surface.r_s * a, surface.r_p * b]),
+                weight: r_s * of_s + r_p * of_p,
+                ..*self
+            }),
+            passed: PathLight::Fields(Self {
+                parts: self.parts.map(|[a, b]| [a * t_s, b * t_p]),
+                weight: (1.0 - r_s) * of_s + (1.0 - r_p) * of_p,
+                ..*self
+            }),
+        }
+    }
+}
+
+/// Returns the mean power of two fields along s and along p.
+#[inline]
+fn powers([a, b]: &[[Complex64; 2]; 2]) -> [f64; 2] {
+    [0, 1].map(|axis| (a[axis].norm_sqr() + b[axis].norm_sqr()) / 2.0)
 }

@@ -16,7 +16,7 @@ const LEAST_GAP: f32 = 1e-30;
 
 /// Planes, coordinate by coordinate, filled up to whole rows with the zero normal, toward which no ray runs.
 #[derive(Debug, Clone)]
-pub(super) struct FacetGuess {
+pub(in crate::trace) struct FacetGuess {
     normal: [Vec<f32>; 3],
     offset: Vec<f32>,
     /// The plane's number, in the bits of `tag_bits`.
