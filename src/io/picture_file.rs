@@ -88,7 +88,8 @@ impl Finish<'_> {
     /// # Errors
     /// Those of reading the light, and [`Stopped`](crate::trace::Stopped) when `watch` stops the work.
     pub fn pixels(&self, light: &mut StoredLight, watch: Watch) -> Result<Vec<u8>, WriteError> {
-        let mut out = vec![];
+        let [width, height] = light.size();
+        let mut out = Vec::with_capacity(4 * width as usize * height as usize);
         self.rows(light, watch, &mut |rgba| {
             out.extend_from_slice(rgba);
             Ok(())
