@@ -7,7 +7,7 @@ use crate::picture::{Bloom, Overlay, Tone};
 use crate::render::Wanted;
 use clap::Args;
 
-/// The largest side of a picture under light, in pixels. The whole picture is held in memory.
+/// The largest side of a picture under light, in pixels.
 pub const MOST_PIXELS: u32 = 8192;
 
 /// Stones, light and picture.

@@ -5,11 +5,11 @@ use super::console::{report, say};
 use super::options::unfit;
 use super::picture_options::{FinishOptions, PictureOptions};
 use super::specimen::note_colour;
-use crate::io::Failure;
 use crate::io::background::BackgroundRef;
 use crate::io::export::Event;
 use crate::io::lighting::Lighting;
-use crate::picture::{Bloom, Develop, Linear, Overlay, Tone, developed, lay};
+use crate::io::{Failure, Finish, StoredLight};
+use crate::picture::{Bloom, Develop, Overlay, Tone};
 use crate::render::{
     Card, HungPicture, Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings,
     mixture_note,
@@ -52,9 +52,9 @@ pub struct PictureSetup<'a> {
     tracer: String,
 }
 
-/// A picture, and a description of how it was made.
+/// The light of a picture, and a description of how it was made.
 pub struct RenderedPicture {
-    pub picture: Linear,
+    pub light: StoredLight,
     pub description: String,
 }
 
@@ -198,23 +198,18 @@ impl<'a> PictureSetup<'a> {
 
     /// Takes a picture. Where the card fails, the processor traces this picture and, if the card is lost, all later ones.
     pub fn take(&self, job: &Job, watch: Watch) -> Result<RenderedPicture, Failure> {
+        let mut light = StoredLight::new(job.film.size)?;
         let rendered = self.renderer.borrow_mut().run(job, watch, &mut |part| match part {
             Partial::Note(text) => report(Event::Note(text)),
+            Partial::LightRow { y, pixels } => Ok(light.push(y, pixels)?),
             _ => Ok(()),
         })?;
-        self.described(rendered)
+        Ok(RenderedPicture { light, description: self.described(rendered)? })
     }
 
-    /// Develops a picture to RGBA in eight bits and draws the chosen overlays over it. It consumes the linear picture, which
-    /// saves memory.
-    pub fn developed(&self, job: &Job, picture: Linear, watch: Watch) -> Result<Vec<u8>, Failure> {
-        let mut rgba = developed(picture, &self.develop);
-        if let Some(lit_scene) = job.lit() {
-            for &overlay in &self.finish.overlay {
-                lay(overlay, &lit_scene, &mut rgba, watch)?;
-            }
-        }
-        Ok(rgba)
+    /// Returns how a picture is developed, with the chosen overlays.
+    pub fn finish<'j>(&'j self, job: &'j Job) -> Finish<'j> {
+        Finish { develop: self.develop, overlays: &self.finish.overlay, lit_scene: job.lit() }
     }
 
     /// Returns lines that say what the colours of the overlays mean.

@@ -7,7 +7,7 @@ use super::picture_options::{FinishOptions, PictureOptions};
 use super::picturing::PictureSetup;
 use super::progress::WorkProgress;
 use super::specimen::stem;
-use crate::io::{Failure, STANDARD, is_standard, write_linear_exr, write_rgba_png};
+use crate::io::{Failure, STANDARD, is_standard, write_linear_exr};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -90,7 +90,7 @@ impl Render {
             }
             return print(&studio.probe(&job, at));
         }
-        let taken = {
+        let mut taken = {
             let progress = WorkProgress::new(&studio.assembly.name);
             studio.take(&job, &progress.watch())?
         };
@@ -100,12 +100,10 @@ impl Render {
             if let Some(without) = studio.undeveloped() {
                 say(&format!("note: {}: {without}", path.display()));
             }
-            write_linear_exr(&path, &taken.picture, &description)?;
+            write_linear_exr(&path, &mut taken.light, &description)?;
         } else {
-            let size = (taken.picture.width, taken.picture.height);
             let progress = WorkProgress::new(&format!("{}: overlays", studio.assembly.name));
-            let rgba = studio.developed(&job, taken.picture, &progress.watch())?;
-            write_rgba_png(&path, &rgba, size, &description)?;
+            studio.finish(&job).write_png(&path, &mut taken.light, &description, &progress.watch())?;
             studio.legend().iter().for_each(|line| say(&format!("note: {line}")));
         }
         written(&path)

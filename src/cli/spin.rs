@@ -90,8 +90,8 @@ impl Spin {
             for (number, view) in frames.iter().enumerate() {
                 let done = |part: f64| bar.watch()((number as f64 + part) / frames.len() as f64);
                 let job = studio.job(&stones, view, pixel);
-                let taken = studio.take(&job, &done)?;
-                let rgba = studio.developed(&job, taken.picture, &done)?;
+                let mut taken = studio.take(&job, &done)?;
+                let rgba = studio.finish(&job).pixels(&mut taken.light, &done)?;
                 let still = folder.join(format!("{:04}.png", number + 1));
                 write_rgba_png(&still, &rgba, (width, height), &taken.description)?;
                 animation.push(&rgba)?;

@@ -3,6 +3,7 @@
 use super::standard::is_standard;
 use crate::trace::Stopped;
 use std::collections::BTreeSet;
+use std::convert::Infallible;
 use std::fs::OpenOptions;
 use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -29,6 +30,12 @@ impl WriteError {
     /// Makes the error of a file system that refuses to write `path`.
     pub fn io(path: &Path, source: impl Into<io::Error>) -> Self {
         Self::Io { path: path.into(), source: source.into() }
+    }
+}
+
+impl From<Infallible> for WriteError {
+    fn from(never: Infallible) -> Self {
+        match never {}
     }
 }
 

@@ -22,9 +22,6 @@ use pictures::Pictures;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-/// The largest side of an EXR, in pixels: its dozen channels are held in memory.
-pub const MOST_EXR_PIXELS: u32 = 8192;
-
 /// The least side of a picture with a caption, in pixels.
 pub const LEAST_CAPTIONED: u32 = 192;
 
@@ -74,7 +71,7 @@ pub struct Outputs {
     pub stem: String,
     /// The pictures, each with the name that it bears in the files' names.
     pub pictures: Vec<(String, Picture)>,
-    /// Pixels along each side, from 1 to [`MOST_PIXELS`](super::MOST_PIXELS); for EXR to [`MOST_EXR_PIXELS`].
+    /// Pixels along each side, from 1 to [`MOST_PIXELS`](super::MOST_PIXELS).
     pub size: u32,
     /// The file formats.
     pub formats: Vec<OutputFormat>,
@@ -90,14 +87,8 @@ impl Outputs {
     /// Refuses outputs that cannot be written beside each other.
     ///
     /// # Errors
-    /// [`Failure::Usage`] where two outputs would have one name, where the size is too large for an EXR or too small for a
-    /// caption.
+    /// [`Failure::Usage`] where two outputs would have one name, or where the size is too small for a caption.
     pub fn check(&self) -> Result<(), Failure> {
-        if self.wants(OutputFormat::Exr) && self.size > MOST_EXR_PIXELS {
-            let size = self.size;
-            let message = format!("{size} pixels along each side: an EXR may have {MOST_EXR_PIXELS}");
-            return Err(Failure::Usage(message));
-        }
         if self.caption && self.size < LEAST_CAPTIONED {
             let size = self.size;
             return Err(Failure::Usage(format!(

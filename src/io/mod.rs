@@ -36,6 +36,7 @@ pub mod refraction;
 pub mod scene_file;
 pub mod scope_file;
 mod standard;
+mod stored_light;
 mod text;
 mod toml_format;
 mod toml_text;
@@ -51,7 +52,8 @@ pub use file_error::{Fault, FileError, NameOrFileError};
 pub use mesh::{write_glb, write_obj, write_ply, write_stl};
 #[cfg(feature = "exr")]
 pub use picture_file::write_linear_exr;
-pub use picture_file::write_rgba_png;
+pub use picture_file::{Finish, write_rgba_png};
 pub use png::{MOST_PIXELS, PngFile, write_png};
 pub use standard::{STANDARD, is_standard};
+pub use stored_light::StoredLight;
 pub(crate) use text::nearest;

@@ -37,9 +37,19 @@ impl PngFile {
     /// # Errors
     /// When the file system refuses.
     pub fn begin(path: &Path, size: (u32, u32), description: &str) -> Result<Self, WriteError> {
+        Self::of_colour(path, size, png::ColorType::Rgb, description)
+    }
+
+    /// Begins a picture of eight-bit colours of this kind.
+    pub(super) fn of_colour(
+        path: &Path,
+        size: (u32, u32),
+        colour: png::ColorType,
+        description: &str,
+    ) -> Result<Self, WriteError> {
         let failed = |e: png::EncodingError| WriteError::io(path, e);
         let file = SharedFile(Rc::new(RefCell::new(WholeFile::begin(path)?)));
-        let encoder = encoder(file.clone(), size, png::ColorType::Rgb, description).map_err(failed)?;
+        let encoder = encoder(file.clone(), size, colour, description).map_err(failed)?;
         let writer = encoder.write_header().map_err(failed)?;
         let stream = writer.into_stream_writer().map_err(failed)?;
         Ok(Self { path: path.to_path_buf(), stream, file })

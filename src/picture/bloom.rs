@@ -7,14 +7,17 @@
 //! Light that is spread is taken away from its own pixel, so that the picture's total light stays the same except for
 //! what spreads beyond the border.
 
+mod glare;
 mod grid;
 mod star;
 
-use super::Linear;
-use super::linear::luminance;
-use glam::Vec4;
+pub(super) use glare::Glare;
+
+use super::linear::LightRows;
+use glare::{BrightPass, halved};
 use grid::LightGrid;
 use rayon::prelude::*;
+use star::{TINT, star};
 
 /// The settings by which bright light is spread.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,119 +53,98 @@ const STREAK_WIDTH: f64 = 0.0007;
 /// The standard deviation over which a sparkle's surroundings are averaged, as a part of the picture's width.
 const SPARKLE: f64 = 0.008;
 
-/// How far below the threshold spreading begins, as a part of the threshold.
-const KNEE: f32 = 0.5;
-
 /// The least standard deviation, in cells, that the finest detail may have on a halved grid to be shown well.
 const COARSEST: f64 = 1.3;
+
+/// The most cells of the grid on which glare is made, at some 32 bytes each. Only pictures higher than wide come to so many
+/// before they are halved as often as their detail allows.
+const MOST_CELLS: u64 = 14 << 20;
 
 impl Bloom {
     /// The most streaks that a star may have.
     pub const MOST_STREAKS: u32 = 32;
 
-    /// Spreads the brightest light of a picture, in place. Cover stays as it is. A setting out of its range counts as
-    /// the nearer end of the range, NaN as 0.
-    pub fn apply(&self, picture: &mut Linear) {
+    /// Returns the glare of a picture, whose pixels count as `exposed` says; `None` where nothing is bright enough. A
+    /// setting out of its range counts as the nearer end of the range, NaN as 0.
+    ///
+    /// The light is read from top to bottom, once, some rows at a time.
+    ///
+    /// # Errors
+    /// The errors of reading the light.
+    pub(super) fn glare<L: LightRows>(
+        &self,
+        light: &mut L,
+        exposed: impl Fn(&[f32; 4]) -> [f32; 4] + Sync,
+    ) -> Result<Option<Glare>, L::Error> {
         let strength = within(self.strength, 1.0) as f32;
         let threshold = within(self.threshold, f64::from(f32::MAX)) as f32;
-        if strength == 0.0 || picture.width == 0 || picture.pixels.is_empty() {
-            return;
+        let size = light.size();
+        if strength == 0.0 || size.contains(&0) {
+            return Ok(None);
         }
-        let taken = |pixel: &[f32; 4]| bright(pixel, threshold) * strength;
-        let (source, halvings) = self.source(picture, taken);
-        if source.is_dark() {
-            return;
+        let bright = BrightPass { strength, threshold };
+        let halvings = halvings(size);
+        let source = bright.source(light, exposed, halvings)?;
+        if source.iter().all(LightGrid::is_dark) {
+            return Ok(None);
         }
-        let mut glare = self.spread(&source, f64::from(picture.width) / f64::from(1_u32 << halvings));
-        let spread = |pixel: &mut [f32; 4], own: Vec4, light: Vec4| {
-            let sum = Vec4::from_array(*pixel) - own + light;
-            *pixel = [sum.x, sum.y, sum.z, pixel[3]];
-        };
-        if halvings == 0 {
-            let cells = source.cells.par_iter().zip(&glare.cells);
-            picture
-                .pixels
-                .par_iter_mut()
-                .zip(cells)
-                .for_each(|(pixel, (&own, &light))| spread(pixel, own, light));
-            return;
-        }
-        drop(source);
-        for level in (1..halvings).rev() {
-            let (width, height) = (halved(picture.width, level), halved(picture.height, level));
-            glare = glare.doubled(width as usize, height as usize);
-        }
-        // The last doubling would be as large as the picture, so each of its rows is made only when it is added.
-        picture.pixels.par_chunks_mut(picture.width as usize).enumerate().for_each(|(y, row)| {
-            let light = glare.doubled_row(y);
-            row.iter_mut().enumerate().for_each(|(x, pixel)| spread(pixel, taken(pixel), light(x)));
-        });
+        let spread = self.spread(source, f64::from(size[0]) / f64::from(1_u32 << halvings));
+        Ok(Some(Glare { bright, size, halvings, spread }))
     }
 
-    /// Returns the light to be spread, on a grid halved as often as the finest detail of glare allows, and the number of
-    /// halvings.
-    fn source(&self, picture: &Linear, taken: impl Fn(&[f32; 4]) -> Vec4 + Sync) -> (LightGrid, u32) {
-        let finest = STREAK_WIDTH * f64::from(picture.width);
-        let halvings = (finest / COARSEST).log2().clamp(0.0, 16.0) as u32;
-        let (width, height) = (picture.width as usize, picture.height as usize);
-        let at = |x: usize, y: usize| picture.pixels.get(y * width + x).map_or(Vec4::ZERO, &taken);
-        if halvings == 0 {
-            return (LightGrid::filled(width, height, at), 0);
-        }
-        let mut grid = LightGrid::halved_from(width, height, at);
-        (1..halvings).for_each(|_| grid = grid.halved());
-        (grid, halvings)
-    }
-
-    /// Returns the glow and the streaks of a grid's light, where the whole picture is `width` cells wide.
-    fn spread(&self, source: &LightGrid, width: f64) -> LightGrid {
+    /// Returns the glow and the streaks of a grid's light in each colour, where the whole picture is `width` cells wide.
+    fn spread(&self, source: [LightGrid; 3], width: f64) -> [LightGrid; 3] {
         let streaks = self.streaks.min(Self::MOST_STREAKS);
         let radius = within(self.radius, 0.5) * width;
         let glow = GLOW.map(|(part, weight)| (radius * part, weight));
         if streaks == 0 {
-            return source.glow(&glow);
+            return source.map(|colour| colour.glow(&glow));
         }
-        // Light as bright as its surroundings is not a sparkle: streaks from a wide patch would be curtains with hard
-        // edges.
-        let around = source.glow(&[(SPARKLE * width, 1.0)]);
-        let mut sparkle = source.clone();
-        sparkle.cells.par_iter_mut().zip(&around.cells).for_each(|(cell, around)| {
-            let (own, around) = (cell.truncate().element_sum(), around.truncate().element_sum());
-            *cell *= if own > around { IN_STREAKS * (1.0 - around / own) } else { 0.0 };
-        });
-        let mut rest = source.clone();
-        rest.add(&sparkle, -1.0);
-        let mut sum = rest.glow(&glow);
-        let fine = sparkle.gaussian(STREAK_WIDTH * width);
-        sum.add(&star::star(&fine, streaks, within(self.streak_length, 1.0) * width), 1.0);
-        sum
+        let sparkling = sparkling(&source, SPARKLE * width);
+        let length = within(self.streak_length, 1.0) * width;
+        let [red, green, blue] = source;
+        // The colours are spread one after the other, so that less memory is held.
+        [(red, TINT[0]), (green, TINT[1]), (blue, TINT[2])].map(|(mut rest, tint)| {
+            let sparkle = rest.times(&sparkling);
+            rest.add(&sparkle, -1.0);
+            let fine = sparkle.gaussian(STREAK_WIDTH * width);
+            drop(sparkle);
+            let star = star(fine, streaks, length * tint);
+            let mut sum = rest.glow(&glow);
+            sum.add(&star, 1.0);
+            sum
+        })
     }
 }
 
-/// Returns the part of a pixel's light above the threshold, with a soft knee: a parabola that joins both straight lines.
-fn bright(&[r, g, b, _]: &[f32; 4], threshold: f32) -> Vec4 {
-    let y = luminance([r, g, b]);
-    let knee = threshold * KNEE;
-    let excess = if y >= threshold + knee {
-        y - threshold
-    } else if y > threshold - knee {
-        (y - threshold + knee).powi(2) / (4.0 * knee)
-    } else {
-        return Vec4::ZERO;
-    };
-    // The comparison also rejects the NaN that a luminance of zero, infinity or NaN gives.
-    let part = excess / y;
-    if part > 0.0 { Vec4::new(r, g, b, 0.0) * part } else { Vec4::ZERO }
+/// Returns how often the light of a picture is halved for glare: as often as the finest detail allows, or more where there
+/// would be too many cells.
+fn halvings(size: [u32; 2]) -> u32 {
+    let finest = STREAK_WIDTH * f64::from(size[0]);
+    let fine_enough = (finest / COARSEST).log2().clamp(0.0, 16.0) as u32;
+    let cells = |times| size.map(|side| u64::from(halved(side, times))).into_iter().product::<u64>();
+    (fine_enough..).find(|&times| cells(times) <= MOST_CELLS).unwrap_or(fine_enough)
+}
+
+/// Returns the part of each cell's light that goes into the streaks; its surroundings are averaged over this standard
+/// deviation, in cells.
+///
+/// Light as bright as its surroundings is not a sparkle: streaks from a wide patch would be curtains with hard edges.
+fn sparkling(source: &[LightGrid; 3], sigma: f64) -> LightGrid {
+    let [red, green, blue] = source;
+    let mut around = red.glow(&[(sigma, 1.0)]);
+    [green, blue].into_iter().for_each(|colour| around.add(&colour.glow(&[(sigma, 1.0)]), 1.0));
+    let colours = red.cells.par_iter().zip(&green.cells).zip(&blue.cells);
+    around.cells.par_iter_mut().zip(colours).for_each(|(cell, ((red, green), blue))| {
+        let own = red + green + blue;
+        *cell = if own > *cell { IN_STREAKS * (1.0 - *cell / own) } else { 0.0 };
+    });
+    around
 }
 
 /// Returns a setting clamped to 0 to `most`; NaN becomes 0.
 fn within(value: f64, most: f64) -> f64 {
     value.max(0.0).min(most)
-}
-
-/// Returns the length of a side after `times` halvings, each rounded up.
-fn halved(side: u32, times: u32) -> u32 {
-    (0..times).fold(side, |side, _| side.div_ceil(2))
 }
 
 #[cfg(test)]

@@ -1,9 +1,11 @@
 //! Develops a picture in linear light into one that screens can show.
 
+use super::linear::LightRows;
 use super::tone::reachable;
 use super::{Background, Bloom, Linear, Tone, background};
 use crate::optics::SrgbEncoder;
 use rayon::prelude::*;
+use std::convert::Infallible;
 
 /// The settings by which a picture is developed, in the order of the steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,45 +40,75 @@ const BRIGHTEST: f32 = 1e12;
 /// The most stops of exposure either way; beyond them there is nothing but black or white.
 const MOST_STOPS: f64 = 40.0;
 
+/// The number of pixels that are developed at once.
+const AT_ONCE: u32 = 1 << 20;
+
 /// Develops a picture to eight-bit sRGB: red, green, blue and cover, not premultiplied, row by row. Numbers out of their
 /// range count as the nearer end of it, and light that is NaN as dark.
 ///
 /// Without a background, glare beside the stones has light but no cover, which eight-bit pictures cannot hold. There,
 /// the cover is raised to the brightest encoded channel, so that over black the picture looks as it would have.
-pub fn develop(picture: &Linear, manner: &Develop) -> Vec<u8> {
-    developed(picture.clone(), manner)
-}
-
-/// Develops a picture as [`develop`] does, but consumes it and so needs half the memory.
-pub fn developed(picture: Linear, manner: &Develop) -> Vec<u8> {
-    let exposed = exposed(picture, manner);
-    let encoder = SrgbEncoder::new();
-    let row_length = exposed.width.max(1) as usize;
-    let mut out = vec![0; exposed.pixels.len() * 4];
-    let rows = out.par_chunks_mut(4 * row_length).zip(exposed.pixels.par_chunks(row_length)).enumerate();
-    rows.for_each(|(y, (codes, pixels))| {
-        let behind = manner.background.row(y as u32, exposed.height);
-        for (code, &pixel) in codes.chunks_exact_mut(4).zip(pixels) {
-            code.copy_from_slice(&encoded(shown(pixel, manner), behind, &encoder));
-        }
+pub fn develop(mut picture: &Linear, manner: &Develop) -> Vec<u8> {
+    let mut out = Vec::with_capacity(4 * picture.width as usize * picture.height as usize);
+    let done = develop_rows(&mut picture, manner, |_, rgba| {
+        out.append(rgba);
+        Ok::<_, Infallible>(())
     });
-    out
-}
-
-/// Returns the picture with exposure and glare applied.
-pub(super) fn exposed(picture: Linear, manner: &Develop) -> Linear {
-    let gain = manner.exposure.clamp(-MOST_STOPS, MOST_STOPS).exp2() as f32;
-    let sane = |v: f32, least: f32, most: f32| if v.is_nan() { 0.0 } else { v.clamp(least, most) };
-    let mut out = picture.whole();
-    out.pixels.par_iter_mut().for_each(|pixel| {
-        let [r, g, b, cover] = *pixel;
-        let [r, g, b] = [r, g, b].map(|c| sane(c * gain, -BRIGHTEST, BRIGHTEST));
-        *pixel = [r, g, b, sane(cover, 0.0, 1.0)];
-    });
-    if let Some(bloom) = &manner.bloom {
-        bloom.apply(&mut out);
+    match done {
+        Ok(()) => out,
+        Err(never) => match never {},
     }
-    out
+}
+
+/// Develops a picture as [`develop`] does, some rows at a time, and calls `each` with them from top to bottom: with the
+/// number of the first one, and their pixels.
+///
+/// # Errors
+/// The errors of `each`, and those of reading the light.
+pub fn develop_rows<L: LightRows, E: From<L::Error>>(
+    light: &mut L,
+    manner: &Develop,
+    mut each: impl FnMut(u32, &mut Vec<u8>) -> Result<(), E>,
+) -> Result<(), E> {
+    let [width, height] = light.size();
+    if width == 0 {
+        return Ok(());
+    }
+    let gain = manner.gain();
+    let glare = manner.bloom.map_or(Ok(None), |bloom| bloom.glare(light, |pixel| exposed(pixel, gain)))?;
+    let encoder = SrgbEncoder::new();
+    let step = (AT_ONCE / width).max(1);
+    for first in (0..height).step_by(step as usize) {
+        let pixels = light.rows(first..(first + step).min(height))?;
+        let mut out = vec![0; 4 * pixels.len()];
+        let rows = out.par_chunks_mut(4 * width as usize).zip(pixels.par_chunks(width as usize));
+        rows.zip(first..height).for_each(|((codes, pixels), y)| {
+            let mut row: Vec<_> = pixels.iter().map(|pixel| exposed(pixel, gain)).collect();
+            if let Some(glare) = &glare {
+                glare.add(y as usize, &mut row);
+            }
+            let behind = manner.background.row(y, height);
+            for (code, &pixel) in codes.as_chunks_mut().0.iter_mut().zip(&row) {
+                *code = encoded(shown(pixel, manner), behind, &encoder);
+            }
+        });
+        each(first, &mut out)?;
+    }
+    Ok(())
+}
+
+impl Develop {
+    /// Returns the factor by which light is exposed.
+    pub(super) fn gain(&self) -> f32 {
+        self.exposure.clamp(-MOST_STOPS, MOST_STOPS).exp2() as f32
+    }
+}
+
+/// Returns a pixel with its light exposed and its numbers within their ranges.
+pub(super) fn exposed(&[r, g, b, cover]: &[f32; 4], gain: f32) -> [f32; 4] {
+    let sane = |v: f32, least: f32, most: f32| if v.is_nan() { 0.0 } else { v.clamp(least, most) };
+    let [r, g, b] = [r, g, b].map(|c| sane(c * gain, -BRIGHTEST, BRIGHTEST));
+    [r, g, b, sane(cover, 0.0, 1.0)]
 }
 
 /// Returns a pixel as a screen can show it, by the tone curve.

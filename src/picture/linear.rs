@@ -1,5 +1,9 @@
 //! A picture in linear light, before it is developed.
 
+use std::borrow::Cow;
+use std::convert::Infallible;
+use std::ops::Range;
+
 /// The share of each linear sRGB primary in luminance (ITU-R BT.709-6, §3: the second row of its matrix from RGB to
 /// XYZ).
 pub const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
@@ -29,6 +33,40 @@ impl Linear {
     pub(super) fn whole(mut self) -> Self {
         self.pixels.resize(self.width as usize * self.height as usize, [0.0; 4]);
         self
+    }
+}
+
+/// The linear light of a picture as [`Linear`] holds it, read some rows at a time, so that it need not be in memory.
+pub trait LightRows {
+    /// Why rows cannot be read.
+    type Error;
+
+    /// Returns the number of pixels across and down.
+    fn size(&self) -> [u32; 2];
+
+    /// Returns the pixels of some rows, row by row.
+    ///
+    /// # Errors
+    /// When the light cannot be read.
+    fn rows(&mut self, rows: Range<u32>) -> Result<Cow<'_, [[f32; 4]]>, Self::Error>;
+}
+
+impl LightRows for &Linear {
+    type Error = Infallible;
+
+    fn size(&self) -> [u32; 2] {
+        [self.width, self.height]
+    }
+
+    fn rows(&mut self, rows: Range<u32>) -> Result<Cow<'_, [[f32; 4]]>, Infallible> {
+        let [start, end] = [rows.start, rows.end].map(|y| y as usize * self.width as usize);
+        let known = &self.pixels[start.min(self.pixels.len())..end.min(self.pixels.len())];
+        if known.len() == end - start {
+            return Ok(Cow::Borrowed(known));
+        }
+        let mut whole = known.to_vec();
+        whole.resize(end - start, [0.0; 4]);
+        Ok(Cow::Owned(whole))
     }
 }
 

@@ -151,44 +151,61 @@ impl Fate {
     }
 }
 
+/// An overlay of a lit scene, ready to be drawn.
+pub struct OverlayDrawing<'a> {
+    overlay: Overlay,
+    size: [u32; 2],
+    sight: SceneProbe<'a>,
+    /// The lines of a wireframe.
+    wires: Option<Wires>,
+}
+
+impl<'a> OverlayDrawing<'a> {
+    /// Prepares an overlay of a scene, on the pixels of its film.
+    pub fn new(overlay: Overlay, lit_scene: &LitScene<'a>) -> Self {
+        let sight = SceneProbe::new(lit_scene);
+        let wires = (overlay == Overlay::Wireframe).then(|| Wires::new(lit_scene, &sight));
+        Self { overlay, size: lit_scene.film.size, sight, wires }
+    }
+
+    /// Draws the overlay over the rows of a picture from row `first` on, some at a time, so that `watch` can stop it. Rows
+    /// beyond the height of the film stay as they are. See [`lay`].
+    ///
+    /// # Errors
+    /// [`Stopped`] when `watch` stops the work; the rows are then drawn over in part.
+    pub fn lay(&self, first: u32, rgba: &mut [u8], watch: Watch) -> Result<(), Stopped> {
+        let [width, height] = self.size;
+        let rows = rgba.chunks_exact_mut(4 * (width as usize).max(1));
+        let mut rows: Vec<_> = (first..height).zip(rows).collect();
+        for piece in rows.chunks_mut(PIECE) {
+            if watch(f64::from(piece[0].0) / f64::from(height)).is_break() {
+                return Err(Stopped);
+            }
+            piece.par_iter_mut().for_each(|(y, row)| self.lay_row(*y, row));
+        }
+        Ok(())
+    }
+
+    fn lay_row(&self, y: u32, row: &mut [u8]) {
+        if let Some(wires) = &self.wires {
+            return wires.draw(&self.sight, y as usize, row);
+        }
+        for (x, pixel) in row.as_chunks_mut().0.iter_mut().enumerate() {
+            let glance = self.sight.through(x as f64 + 0.5, f64::from(y) + 0.5);
+            if let Some((colour, share)) = glance.and_then(|g| self.overlay.colour(&self.sight, &g)) {
+                lay_over(pixel, colour, share);
+            }
+        }
+    }
+}
+
 /// Draws an overlay over a picture of a lit scene: eight-bit sRGB and cover, not premultiplied, row by row from the top,
 /// as [`develop`](super::develop()) makes it. Rows beyond the height of the scene's film stay as they are.
 ///
 /// # Errors
 /// [`Stopped`] when `watch` stops the work; the picture is then drawn over in part.
 pub fn lay(overlay: Overlay, lit_scene: &LitScene, rgba: &mut [u8], watch: Watch) -> Result<(), Stopped> {
-    let sight = SceneProbe::new(lit_scene);
-    if overlay == Overlay::Wireframe {
-        let wires = Wires::new(lit_scene, &sight);
-        return each_row(lit_scene.film.size, rgba, watch, |y, row| wires.draw(&sight, y, row));
-    }
-    each_row(lit_scene.film.size, rgba, watch, |y, row| {
-        for (x, pixel) in row.as_chunks_mut().0.iter_mut().enumerate() {
-            let glance = sight.through(x as f64 + 0.5, y as f64 + 0.5);
-            if let Some((colour, share)) = glance.and_then(|g| overlay.colour(&sight, &g)) {
-                lay_over(pixel, colour, share);
-            }
-        }
-    })
-}
-
-/// Calls `work` with every row of a picture, some rows at a time, so that `watch` can stop it.
-fn each_row(
-    [width, height]: [u32; 2],
-    rgba: &mut [u8],
-    watch: Watch,
-    work: impl Fn(usize, &mut [u8]) + Sync,
-) -> Result<(), Stopped> {
-    let across = 4 * (width as usize).max(1);
-    let rows = rgba.chunks_exact_mut(across).take(height as usize);
-    let mut rows: Vec<_> = rows.enumerate().collect();
-    for (k, piece) in rows.chunks_mut(PIECE).enumerate() {
-        if watch((k * PIECE) as f64 / f64::from(height)).is_break() {
-            return Err(Stopped);
-        }
-        piece.par_iter_mut().for_each(|(y, row)| work(*y, row));
-    }
-    Ok(())
+    OverlayDrawing::new(overlay, lit_scene).lay(0, rgba, watch)
 }
 
 /// Lays a share of a colour over a pixel that is not premultiplied.

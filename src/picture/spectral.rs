@@ -22,13 +22,29 @@ pub struct Remainder {
 /// The errors of `prepare` and of the tracer that it builds, and [`Stopped`] when `watch` stops the work.
 pub fn expose<E: From<Stopped>, X: ProgressiveImage<E>>(
     lit_scene: &LitScene,
-    (strata, sampling): (&[Stratum], Sampling),
+    sampled: (&[Stratum], Sampling),
     most_rows: u32,
     prepare: impl Fn(Range<u32>) -> Result<X, E>,
     watch: Watch,
 ) -> Result<(Linear, Remainder), E> {
+    collected(lit_scene, |each| expose_rows(lit_scene, sampled, most_rows, prepare, watch, each))
+}
+
+/// Takes a picture as [`expose`] does, and calls `each` with every row as soon as it is finished, from top to bottom: with
+/// its number and its pixels as in [`Linear`]. It never holds more than `most_rows` rows.
+///
+/// # Errors
+/// The errors of [`expose`] and of `each`.
+pub fn expose_rows<E: From<Stopped>, X: ProgressiveImage<E>>(
+    lit_scene: &LitScene,
+    (strata, sampling): (&[Stratum], Sampling),
+    most_rows: u32,
+    prepare: impl Fn(Range<u32>) -> Result<X, E>,
+    watch: Watch,
+    each: EachRow<E>,
+) -> Result<Remainder, E> {
     let [width, height] = lit_scene.film.size;
-    let mut sum = Sum::of(width, height);
+    let mut sum = Sum::of(width, each);
     for first in (0..height).step_by(most_rows as usize) {
         let rows = first..(first + most_rows).min(height);
         let mut exposure = prepare(rows.clone())?;
@@ -40,9 +56,9 @@ pub fn expose<E: From<Stopped>, X: ProgressiveImage<E>>(
             };
             exposure.add_pass(&sampling.pass(lit_scene.scene, strata, number), &done)?;
         }
-        exposure.each_pixel(&mut |lit| sum.add(lit))?;
+        sum.add(&exposure)?;
     }
-    Ok(sum.finish(width, height))
+    Ok(sum.remainder())
 }
 
 /// Returns what an exposure of a whole picture has seen so far.
@@ -53,37 +69,78 @@ pub fn seen<E: From<Stopped>, X: ProgressiveImage<E>>(
     lit_scene: &LitScene,
     exposure: &X,
 ) -> Result<(Linear, Remainder), E> {
-    let [width, height] = lit_scene.film.size;
-    let mut sum = Sum::of(width, height);
-    exposure.each_pixel(&mut |lit| sum.add(lit))?;
-    Ok(sum.finish(width, height))
+    collected(lit_scene, |each| {
+        let mut sum = Sum::of(lit_scene.film.size[0], each);
+        sum.add(exposure)?;
+        Ok(sum.remainder())
+    })
 }
 
-/// The pixels added so far, with sums over them.
-struct Sum {
-    pixels: Vec<[f32; 4]>,
+/// A callback that receives the rows of a picture; its error ends the work.
+pub type EachRow<'a, E> = &'a mut dyn FnMut(u32, &[[f32; 4]]) -> Result<(), E>;
+
+/// Returns the picture of the rows that `work` hands out, with what it returns.
+fn collected<E, T>(
+    lit_scene: &LitScene,
+    work: impl FnOnce(EachRow<E>) -> Result<T, E>,
+) -> Result<(Linear, T), E> {
+    let [width, height] = lit_scene.film.size;
+    let mut pixels = Vec::with_capacity(width as usize * height as usize);
+    let rest = work(&mut |_, row| {
+        pixels.extend_from_slice(row);
+        Ok(())
+    })?;
+    Ok((Linear { width, height, pixels }, rest))
+}
+
+/// Hands out the rows of the pixels that are added, and sums up the light that they do not show.
+struct Sum<'a, E> {
+    width: usize,
+    /// The pixels of the row that is not whole yet, and its number.
+    row: Vec<[f32; 4]>,
+    y: u32,
+    each: EachRow<'a, E>,
     rest: Remainder,
     cover: f64,
 }
 
-impl Sum {
-    fn of(width: u32, height: u32) -> Self {
-        let pixels = Vec::with_capacity(width as usize * height as usize);
-        Self { pixels, rest: Remainder::default(), cover: 0.0 }
+impl<'a, E: From<Stopped>> Sum<'a, E> {
+    fn of(width: u32, each: EachRow<'a, E>) -> Self {
+        let (width, row) = (width as usize, Vec::with_capacity(width as usize));
+        Self { width, row, y: 0, each, rest: Remainder::default(), cover: 0.0 }
     }
 
-    fn add(&mut self, lit: &RadiancePixel) {
+    /// Adds the pixels of an exposure, which begin with a row.
+    fn add<X: ProgressiveImage<E>>(&mut self, exposure: &X) -> Result<(), E> {
+        // The tracer cannot be stopped between two pixels, so the first error waits until it has gone through all.
+        let mut done = Ok(());
+        exposure.each_pixel(&mut |lit| {
+            if done.is_ok() {
+                done = self.add_pixel(lit);
+            }
+        })?;
+        done
+    }
+
+    fn add_pixel(&mut self, lit: &RadiancePixel) -> Result<(), E> {
         self.rest.unresolved += lit.unresolved;
         self.rest.absorbed += lit.absorbed;
         self.cover += lit.cover;
         let [red, green, blue] = lit.colour.as_vec3().to_array();
-        self.pixels.push([red, green, blue, lit.cover as f32]);
+        self.row.push([red, green, blue, lit.cover as f32]);
+        if self.row.len() < self.width {
+            return Ok(());
+        }
+        (self.each)(self.y, &self.row)?;
+        self.y += 1;
+        self.row.clear();
+        Ok(())
     }
 
-    fn finish(self, width: u32, height: u32) -> (Linear, Remainder) {
+    /// Returns the light that the pixels do not show, as means over what they cover.
+    fn remainder(self) -> Remainder {
         let share = if self.cover > 0.0 { 1.0 / self.cover } else { 0.0 };
         let Remainder { unresolved, absorbed } = self.rest;
-        let rest = Remainder { unresolved: unresolved * share, absorbed: absorbed * share };
-        (Linear { width, height, pixels: self.pixels }, rest)
+        Remainder { unresolved: unresolved * share, absorbed: absorbed * share }
     }
 }

@@ -64,7 +64,7 @@ pub struct LightProduct {
 /// The steps in which a picture under light is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Steps {
-    /// Some rows after the other, so that little memory is held.
+    /// Some rows after the other, each handed out when it is finished, so that little memory is held.
     Strips,
     /// As a whole, shown after the first, the second, the fourth pass and so on.
     Passes {

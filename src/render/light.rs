@@ -5,7 +5,7 @@ use super::job::{Job, LightProduct, Steps};
 use super::plan::Unfit;
 use super::renderer::{EachPart, Halt, Output, Partial, RenderError};
 use crate::optics::Stratum;
-use crate::picture::spectral::{Remainder, expose, seen};
+use crate::picture::spectral::{EachRow, Remainder, expose_rows, seen};
 use crate::picture::{ByBeams, Linear};
 use crate::trace::Watch;
 #[cfg(feature = "gpu")]
@@ -37,7 +37,7 @@ impl LightProduct {
         let (lit_scene, strata) = (job.lit_scene(&self.surroundings), self.strata());
         let exposure = Exposure { job, lit_scene, strata, sampling, watch };
         let (picture, rest) = match self.steps {
-            Steps::Strips => exposure.in_strips(backend)?,
+            Steps::Strips => return Ok(Output::LightRows(exposure.in_strips(backend, each)?)),
             Steps::Glance { .. } if backend.is_beams() => {
                 let (picture, rest) = exposure.at_a_glance()?;
                 each(Partial::Picture { picture: &picture, rest, backend }).map_err(Halt::Each)?;
@@ -51,23 +51,30 @@ impl LightProduct {
 }
 
 impl Exposure<'_> {
-    /// Takes the picture some rows after the other.
-    fn in_strips(&self, backend: &Backend) -> Result<(Linear, Remainder), RenderError> {
+    /// Takes the picture some rows after the other, and hands out its rows.
+    fn in_strips<E: From<RenderError>>(
+        &self,
+        backend: &Backend,
+        each: EachPart<E>,
+    ) -> Result<Remainder, Halt<E>> {
         let (lit_scene, width) = (&self.lit_scene, self.lit_scene.film.size[0]);
         let sampled = (&*self.strata, self.sampling);
+        let hand_out: EachRow<Halt<E>> =
+            &mut |y, pixels| each(Partial::LightRow { y, pixels }).map_err(Halt::Each);
         match backend {
             Backend::Beams => {
-                expose(lit_scene, sampled, ByBeams::most_rows(width), |rows| self.beams(rows), self.watch)
+                let prepare = |rows| Ok(self.beams(rows)?);
+                expose_rows(lit_scene, sampled, ByBeams::most_rows(width), prepare, self.watch, hand_out)
             }
             Backend::Rays => {
                 let prepare = |rows| Ok(ByRays::new(*lit_scene, rows));
-                expose(lit_scene, sampled, ByRays::MOST_ROWS, prepare, self.watch)
+                expose_rows(lit_scene, sampled, ByRays::MOST_ROWS, prepare, self.watch, hand_out)
             }
             #[cfg(feature = "gpu")]
             Backend::Card(gpu) => {
                 let environment = GpuEnvironment::new(gpu, &lit_scene.environment)?;
                 let prepare = |rows| Ok(ByCard::new(gpu, lit_scene, &environment, rows, self.strata.len())?);
-                expose(lit_scene, sampled, ByCard::most_rows(width), prepare, self.watch)
+                expose_rows(lit_scene, sampled, ByCard::most_rows(width), prepare, self.watch, hand_out)
             }
         }
     }

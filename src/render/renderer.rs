@@ -47,6 +47,13 @@ pub enum Partial<'a> {
         /// The first of the channels that hold the scope's bands.
         first_channel: usize,
     },
+    /// A finished row of a picture under light that is made in [`Steps::Strips`]; rows come from top to bottom.
+    LightRow {
+        /// The number of the row.
+        y: u32,
+        /// The linear light of its pixels, as in [`Linear`].
+        pixels: &'a [[f32; 4]],
+    },
     /// A picture under light as it is so far.
     Picture {
         /// The linear light of all pixels.
@@ -63,6 +70,8 @@ pub enum Partial<'a> {
 pub enum Output {
     /// A picture under light, and the light that it does not show.
     Light(Linear, Remainder),
+    /// The light that a picture does not show whose rows were handed out.
+    LightRows(Remainder),
     /// A picture in a scope, whose rows were handed out; holds the beams where exact beams traced it.
     Scope(Option<Arc<Beams>>),
     /// A refraction map, and how much of the light it carries.
@@ -260,6 +269,17 @@ impl Rendered {
     pub fn light(self) -> Result<(Linear, Remainder), RenderError> {
         match self.output {
             Output::Light(picture, rest) => Ok((picture, rest)),
+            _ => Err(RenderError::OtherProduct),
+        }
+    }
+
+    /// Returns the light that a picture under light does not show, whose rows were handed out.
+    ///
+    /// # Errors
+    /// [`RenderError::OtherProduct`] of another product.
+    pub fn remainder(self) -> Result<Remainder, RenderError> {
+        match self.output {
+            Output::LightRows(rest) => Ok(rest),
             _ => Err(RenderError::OtherProduct),
         }
     }

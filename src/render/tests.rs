@@ -63,8 +63,17 @@ fn done(job: &Job) -> Rendered {
     Renderer::default().run(job, &unwatched, &mut |_| Ok::<_, RenderError>(())).unwrap()
 }
 
+/// Returns a picture under light, whether it is made in strips or as a whole.
 fn lit(job: &Job) -> Linear {
-    done(job).light().unwrap().0
+    let ([width, height], mut pixels) = (job.film.size, vec![]);
+    let rendered = Renderer::default().run(job, &unwatched, &mut |part| {
+        if let Partial::LightRow { y, pixels: row } = part {
+            assert_eq!(pixels.len(), (y * width) as usize, "rows come in order, and whole");
+            pixels.extend_from_slice(row);
+        }
+        Ok::<_, RenderError>(())
+    });
+    rendered.unwrap().light().map_or(Linear { width, height, pixels }, |(picture, _)| picture)
 }
 
 /// A stone of each kind, one of them turned and smaller.

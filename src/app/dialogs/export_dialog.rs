@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 /// The side of a thumbnail, points.
 const THUMBNAIL: f32 = 88.0;
 
-/// The range of sizes that are offered, pixels: renders and EXRs are held in memory.
+/// The range of sizes that are offered, pixels.
 const SIZES: std::ops::RangeInclusive<u32> = 16..=8192;
 
 /// Draws the dialog.

@@ -1,6 +1,6 @@
 //! Traces renders: a body or its copies under a light, in front of a background.
 
-use super::develop::{developed, manner, overlaid};
+use super::develop::{developed, manner};
 use super::effort::{Effort, RAYS_COARSER, Refinement};
 use super::jobs::coarser;
 use super::motion::Moment;
@@ -8,13 +8,13 @@ use super::order::{Shot, Slot, Smoothing, TakenPicture};
 use super::take::ShotTracer;
 use super::undeveloped::TracedLight;
 use crate::app::shows::Shows;
-use crate::io::Failure;
 use crate::io::background::BackgroundRef;
-use crate::picture::developed as developed_from;
-use crate::picture::spectral::Remainder;
-use crate::render::{Job, Partial, Quality, RenderError, Rendered, Steps};
+use crate::io::{Failure, Finish, StoredLight, WriteError};
+use crate::render::{Job, Partial, Quality, RenderError, Steps};
 use crate::scene::Panorama;
 use crate::trace::Watch;
+use egui::ColorImage;
+use std::path::Path;
 use std::sync::Arc;
 
 impl ShotTracer {
@@ -42,7 +42,7 @@ impl ShotTracer {
                     notes.push(why.to_owned());
                     return Ok(());
                 }
-                Partial::Begun { .. } | Partial::Rows { .. } => return Ok(()),
+                Partial::Begun { .. } | Partial::Rows { .. } | Partial::LightRow { .. } => return Ok(()),
             };
             let laid = moving.zip(job.lit()).map(|(newest, lit_scene)| {
                 Moment::of(shot, job.film).lay(trails, (slot, picture), &lit_scene, newest).clone()
@@ -88,13 +88,14 @@ impl ShotTracer {
     pub fn export(&mut self, shot: &Shot, watch: Watch) -> Result<ExportedRender, Failure> {
         let behind = self.picture_behind(shot.behind.as_ref())?;
         let job = shot.light_job(behind, shot.bands, Steps::Strips, Quality::of_pictures(true));
-        let rendered: Rendered = self.renderer.run(&job, watch, &mut |_| Ok::<_, Failure>(()))?;
+        let mut light = StoredLight::new(job.film.size)?;
+        let rendered = self.renderer.run(&job, watch, &mut |part| match part {
+            Partial::LightRow { y, pixels } => light.push(y, pixels).map_err(Failure::from),
+            _ => Ok(()),
+        })?;
         let tracer = rendered.backend.kind();
-        let (picture, Remainder { unresolved, .. }) = rendered.light()?;
-        let size = [picture.width, picture.height];
-        let mut rgba = developed_from(picture, &manner(shot, true));
-        overlaid(shot, &mut rgba, size, watch)?;
-        Ok(ExportedRender { rgba, size, tracer, unresolved })
+        let unresolved = rendered.remainder()?.unresolved;
+        Ok(ExportedRender { light, tracer, unresolved })
     }
 
     /// Returns the picture behind a render, which is read or drawn only when it changes.
@@ -112,14 +113,48 @@ impl ShotTracer {
     }
 }
 
-/// A render as it is exported.
+/// A render that was traced to be exported.
 pub struct ExportedRender {
-    /// The pixels, in sRGB of eight bits, with an alpha that the colours are not multiplied by.
-    pub rgba: Vec<u8>,
-    /// The number of pixels across and down.
-    pub size: [u32; 2],
+    light: StoredLight,
     /// The name of the tracer.
     pub tracer: &'static str,
     /// The share of the light that was not followed to its end.
     pub unresolved: f64,
+}
+
+impl ExportedRender {
+    /// Writes the render of a shot as PNG, developed and with its overlay.
+    ///
+    /// # Errors
+    /// A [`Failure`].
+    pub fn write(
+        &mut self,
+        shot: &Shot,
+        path: &Path,
+        description: &str,
+        watch: Watch,
+    ) -> Result<(), Failure> {
+        self.finished(shot, |finish, light| finish.write_png(path, light, description, watch))
+    }
+
+    /// Returns the render of a shot, developed and with its overlay, as an image.
+    ///
+    /// # Errors
+    /// A [`Failure`].
+    pub fn image(&mut self, shot: &Shot, watch: Watch) -> Result<ColorImage, Failure> {
+        let size = shot.film.size.map(|side| side as usize);
+        let rgba = self.finished(shot, |finish, light| finish.pixels(light, watch))?;
+        Ok(ColorImage::from_rgba_unmultiplied(size, &rgba))
+    }
+
+    fn finished<T>(
+        &mut self,
+        shot: &Shot,
+        work: impl FnOnce(&Finish, &mut StoredLight) -> Result<T, WriteError>,
+    ) -> Result<T, Failure> {
+        let job = shot.overlay_job(shot.film);
+        let overlays = shot.overlay.as_slice();
+        let finish = Finish { develop: manner(shot, true), overlays, lit_scene: job.lit() };
+        Ok(work(&finish, &mut self.light)?)
+    }
 }

@@ -98,7 +98,7 @@ impl ShotTracer {
                     }
                 }
                 Partial::Note(why) => notes.push(why.to_owned()),
-                Partial::Picture { .. } => {}
+                Partial::Picture { .. } | Partial::LightRow { .. } => {}
             }
             Ok::<_, Failure>(())
         })?;
@@ -145,7 +145,7 @@ mod tests {
     use crate::app::studio::jobs::BEHIND;
     use crate::app::studio::order::{Paper, Smoothing, Which};
     use crate::io::lighting::Lighting;
-    use crate::picture::{Background, Bloom, Develop, developed};
+    use crate::picture::{Background, Bloom, Develop, develop};
     use crate::render::{Quality, Steps};
     use crate::scene::{Glare, Pose, Projection, View};
     use crate::trace::gpu::Gpu;
@@ -199,14 +199,17 @@ mod tests {
     #[test]
     fn an_exported_render_is_developed_as_on_the_command_line() {
         let shot = Shot { exposure: -2.0, ..shot(Shows::Render, Some(8.0)) };
-        let exported = ShotTracer::default().export(&shot, &unwatched).unwrap();
-        let job = shot.light_job(None, shot.bands, Steps::Strips, Quality::of_pictures(true));
+        let mut exported = ShotTracer::default().export(&shot, &unwatched).unwrap();
+        let exported = exported.image(&shot, &unwatched).unwrap();
+        let steps = Steps::Passes { first: 0, hidden: 0 };
+        let job = shot.light_job(None, shot.bands, steps, Quality::of_pictures(true));
         let rendered = Renderer::default().run(&job, &unwatched, &mut |_| Ok::<_, RenderError>(())).unwrap();
         let background = Background::Transparent;
         let manner =
             Develop { exposure: -2.0, bloom: Some(Bloom::default()), background, ..Develop::default() };
-        assert_eq!(exported.rgba, developed(rendered.light().unwrap().0, &manner));
-        assert!(exported.rgba.chunks(4).any(|pixel| (1..255).contains(&pixel[3])), "edges are soft");
+        let rgba = develop(&rendered.light().unwrap().0, &manner);
+        assert_eq!(exported, ColorImage::from_rgba_unmultiplied(exported.size, &rgba));
+        assert!(rgba.chunks(4).any(|pixel| (1..255).contains(&pixel[3])), "edges are soft");
     }
 
     /// Takes a picture; without `refinement` a rough one.

@@ -2,7 +2,7 @@
 
 use crate::app::model::task::{CopyOriginal, CopyRequest};
 use crate::app::shows::Shows;
-use crate::app::studio::{ExportedRender, FINE, ShotTracer, Which};
+use crate::app::studio::{FINE, ShotTracer, Which};
 use crate::io::Failure;
 use crate::io::rasterize;
 use crate::picture::profile;
@@ -26,8 +26,7 @@ pub fn make(request: &CopyRequest, is_stopped: &(dyn Fn() -> bool + Sync)) -> Re
     };
     // A copied render is as clear as an exported one.
     if shot.shows == Shows::Render {
-        let ExportedRender { rgba, size, .. } = ShotTracer::default().export(shot, &watch)?;
-        return Ok(ColorImage::from_rgba_unmultiplied(size.map(|n| n as usize), &rgba));
+        return ShotTracer::default().export(shot, &watch)?.image(shot, &watch);
     }
     let mut last = None;
     let slot = (0, Which::Present);
@@ -64,9 +63,10 @@ mod tests {
         let film = model.fit(Shows::Render, &view).film([24; 2]);
         let shot = Shot { film, bands: 3, ..orders.render(view) };
         assert!(ShotTracer::default().is_slow_render(&shot));
-        let exported = ShotTracer::default().export(&shot, &unwatched).unwrap();
+        let mut exported = ShotTracer::default().export(&shot, &unwatched).unwrap();
+        let exported = exported.image(&shot, &unwatched).unwrap();
         let request = CopyRequest { original: CopyOriginal::Shot(Box::new(shot)), side: 24 };
         let copied = make(&request, &|| false).unwrap();
-        assert!(copied == ColorImage::from_rgba_unmultiplied([24; 2], &exported.rgba));
+        assert!(copied == exported);
     }
 }

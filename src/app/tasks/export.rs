@@ -6,10 +6,10 @@ use crate::app::model::export::ExportPlan;
 use crate::app::model::exporting::ExportEvent;
 use crate::app::shows::Shows;
 use crate::app::studio::{Effort, ExportedRender, SPAN, ShotTracer, Which, survey};
+use crate::io::Failure;
 use crate::io::background::BackgroundRef;
 use crate::io::export::{Event, Export, OutputFormat, Outputs};
 use crate::io::refraction::{self, Coding, Page, takes, write_page};
-use crate::io::{Failure, write_rgba_png};
 use crate::render::{Renderer, mixture_note};
 use crate::trace::Watch;
 use egui::ColorImage;
@@ -121,14 +121,15 @@ impl ExportPlan {
 
     fn render(&self, path: &Path, watch: Watch) -> Result<(), Failure> {
         let shot = self.shot(Shows::Render, self.selection.size);
-        let ExportedRender { rgba, size, tracer, unresolved } = ShotTracer::default().export(&shot, watch)?;
+        let mut render = ShotTracer::default().export(&shot, watch)?;
+        let ExportedRender { tracer, unresolved, .. } = render;
         let description = format!(
             "{}: render; light {}{}; {tracer}, unresolved {unresolved:.2e}",
             self.shot.title,
             self.shot.light.light.name,
             mixture_note(self.shot.strength)
         );
-        Ok(write_rgba_png(path, &rgba, size.into(), &description)?)
+        render.write(&shot, path, &description, watch)
     }
 }
 

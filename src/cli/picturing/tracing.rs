@@ -1,6 +1,6 @@
 //! Describes how a picture was made.
 
-use super::{PictureSetup, RenderedPicture};
+use super::PictureSetup;
 use crate::cli::console::say;
 use crate::io::Failure;
 use crate::render::{Rendered, mixture_note};
@@ -9,10 +9,10 @@ use crate::render::{Rendered, mixture_note};
 const MUCH_UNRESOLVED: f64 = 0.02;
 
 impl PictureSetup<'_> {
-    /// Returns a picture with its description, and warns where much of its light is missing.
-    pub(super) fn described(&self, rendered: Rendered) -> Result<RenderedPicture, Failure> {
+    /// Returns a picture's description, and warns where much of its light is missing.
+    pub(super) fn described(&self, rendered: Rendered) -> Result<String, Failure> {
         let (tracer, samples) = (rendered.backend.description(), rendered.samples);
-        let (picture, rest) = rendered.light()?;
+        let rest = rendered.remainder()?;
         if rest.unresolved > MUCH_UNRESOLVED {
             let percent = 100.0 * rest.unresolved;
             say(&format!(
@@ -25,7 +25,7 @@ impl PictureSetup<'_> {
         let samples = if samples == 1 { "1 sample".to_owned() } else { format!("{samples} samples") };
         let jitter = if self.finish.no_jitter { ", without jitter" } else { "" };
         let polarised = if self.options.unpolarised { "unpolarised" } else { "polarised" };
-        let description = format!(
+        Ok(format!(
             "{}; light {light}; {} wavelengths in {samples}{jitter}, {polarised}; {tracer}, unresolved {:.2e}, absorbed \
              {:.3}{}",
             self.assembly.name,
@@ -33,7 +33,6 @@ impl PictureSetup<'_> {
             rest.unresolved,
             rest.absorbed,
             mixture_note(self.strength)
-        );
-        Ok(RenderedPicture { picture, description })
+        ))
     }
 }

@@ -206,7 +206,6 @@ fn what_cannot_be_written_is_refused_before_anything_is() {
     let twice = outputs(folder.path(), &["profile", "aset", "aset"], &[OutputFormat::Svg]);
     let cases = [
         (beams, twice, true, "'mine-aset-strongest'"),
-        (beams, Outputs { size: 9000, ..plain.clone() }, true, "8192"),
         (Viewing { tracer: Wanted::Beams, ..rays }, plain.clone(), true, "parallel"),
         (
             rays,

@@ -20,7 +20,7 @@ fn light(k: u32) -> [f32; 3] {
 fn exr_file(folder: &TempDir, width: u32, height: u32) -> Vec<u8> {
     let path = folder.path().join("made.exr");
     let pixels = (0..width * height).map(light).map(|[r, g, b]| [r, g, b, 1.0]).collect();
-    write_linear_exr(&path, &Linear { width, height, pixels }, "sky").unwrap();
+    write_linear_exr(&path, &mut &Linear { width, height, pixels }, "sky").unwrap();
     std::fs::read(path).unwrap()
 }
 
@@ -102,7 +102,7 @@ fn odd_light_and_odd_shapes_are_told() {
     let mut picture = Linear::new(4, 4);
     picture.pixels[0] = [f32::NAN, 1.0, 1.0, 1.0];
     picture.pixels[1] = [1.0, f32::INFINITY, -1.0, 1.0];
-    write_linear_exr(&path, &picture, "").unwrap();
+    write_linear_exr(&path, &mut &picture, "").unwrap();
     let reading = read(&path).unwrap();
     assert_eq!(reading.panorama.pixels[..2], [[0.0, 1.0, 1.0], [1.0, 0.0, 0.0]]);
     assert_eq!(reading.warnings.len(), 2, "{:?}", reading.warnings);

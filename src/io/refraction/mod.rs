@@ -12,11 +12,10 @@ pub use page::{MOST_MEGABYTES, Page, takes, write_page};
 pub use tiles::code_of;
 
 use super::atomic::{WriteError, write};
-use super::exr::write_channels;
+use super::exr::ExrImage;
 use super::png_bytes::png;
 use crate::optics::SrgbEncoder;
 use crate::picture::{Linear, MapBand, RefractionMap, SourcePlace};
-use ::exr::prelude::{AnyChannel, FlatSamples};
 use ::png::{BitDepth, ColorType, EncodingError};
 use serde::Serialize;
 use std::io;
@@ -166,17 +165,21 @@ fn write_float(path: &Path, map: &RefractionMap, description: &str) -> Result<()
     if size.0 * size.1 == 0 || map.bands.is_empty() || !map.bands.iter().all(is_whole) {
         return Err(WriteError::io(path, io::Error::other("the map lacks pixels")));
     }
-    type Part = (&'static str, fn(&SourcePlace) -> f32);
-    let parts: [Part; 3] = [("u", |p| p.u), ("v", |p| p.v), ("weight", |p| p.weight)];
-    let channels = map.bands.iter().enumerate().flat_map(|(k, band)| {
-        parts.map(|(name, part)| {
-            let values = band.places.iter().map(part).collect();
-            AnyChannel::new(channel(map.bands.len(), k, name).as_str(), FlatSamples::F32(values))
-        })
-    });
+    const PARTS: [&str; 3] = ["u", "v", "weight"];
+    let bands = map.bands.len();
+    let channels: Vec<String> =
+        (0..bands).flat_map(|band| PARTS.map(|part| channel(bands, band, part))).collect();
     let about: Vec<About> = map.bands.iter().map(About::of).collect();
     let about = serde_json::to_string(&about).map_err(|e| WriteError::io(path, e))?;
-    write_channels(path, size, channels.collect(), (description, Some((ABOUT, &about))))
+    let more = Some((ABOUT, about.as_str()));
+    ExrImage { size, channels: &channels, description, more, chromaticities: None }.write(path, |file| {
+        (0..size.1).try_for_each(|y| {
+            file.push(|channel, x| {
+                let SourcePlace { u, v, weight } = map.bands[channel / PARTS.len()].places[y * size.0 + x];
+                [u, v, weight][channel % PARTS.len()]
+            })
+        })
+    })
 }
 
 /// Returns the name of a band's channel in OpenEXR.

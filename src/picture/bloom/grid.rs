@@ -1,18 +1,18 @@
-//! Light on a grid of cells, and its blurring by Gaussians: narrow ones are summed up tap by tap, wide ones on halved
-//! grids (P. J. Burt, "Fast Filter Transforms for Image Processing", CGIP 16, 1981).
+//! Light of one colour on a grid of cells, and its blurring by Gaussians: narrow ones are summed up tap by tap, wide ones
+//! on halved grids (P. J. Burt, "Fast Filter Transforms for Image Processing", CGIP 16, 1981).
 //!
 //! All weights are positive, so that no sum cancels however bright a point is, and they add up to 1. There is no light
 //! beyond the border.
 
-use glam::Vec4;
 use rayon::prelude::*;
+use std::ops::Range;
 
-/// A grid with the mean light of each cell; the fourth component is unused.
+/// A grid with the mean light of each cell, in one colour.
 #[derive(Debug, Clone)]
 pub(super) struct LightGrid {
     pub width: usize,
     pub height: usize,
-    pub cells: Vec<Vec4>,
+    pub cells: Vec<f32>,
 }
 
 /// The greatest standard deviation, in cells, that is summed up tap by tap.
@@ -28,86 +28,82 @@ const SOFTENED: f64 = 1.5;
 /// interpolation, scaled to a sum of 1.
 const SHARED: [f32; 4] = [0.125, 0.375, 0.375, 0.125];
 
-impl LightGrid {
-    /// Builds a grid from a function of column and row.
-    pub fn filled(width: usize, height: usize, at: impl Fn(usize, usize) -> Vec4 + Sync) -> Self {
-        let mut cells = vec![Vec4::ZERO; width * height];
-        let rows = cells.par_chunks_mut(width.max(1)).enumerate();
-        rows.for_each(|(y, row)| row.iter_mut().enumerate().for_each(|(x, cell)| *cell = at(x, y)));
-        Self { width, height, cells }
-    }
+/// The number of columns that are transposed as one piece of work: as many cells as processors load at once.
+const TURNED: usize = 16;
 
+impl LightGrid {
     /// Builds a grid without light.
     pub fn dark(width: usize, height: usize) -> Self {
-        Self { width, height, cells: vec![Vec4::ZERO; width * height] }
+        Self { width, height, cells: vec![0.0; width * height] }
     }
 
-    /// Builds a grid of half the given size, where `at` gives the light of the finer one. Each fine cell's light is
-    /// shared between the two nearest coarse cells of each axis, so that its centre of mass stays in place.
-    pub fn halved_from(width: usize, height: usize, at: impl Fn(usize, usize) -> Vec4 + Sync) -> Self {
-        let part = |x, y| if x < width && y < height { at(x, y) } else { Vec4::ZERO };
-        let four = |cell: usize, count: usize| {
-            let own = 2 * cell;
-            [own.saturating_sub(1), own, own + 1, (own + 2).min(2 * count - 1)]
-        };
-        let (across, down) = (width.div_ceil(2), height.div_ceil(2));
-        Self::filled(across, down, |x, y| {
-            let columns = four(x, across);
-            let line =
-                |y: usize| columns.iter().zip(SHARED).map(|(&x, share)| part(x, y) * share).sum::<Vec4>();
-            four(y, down).into_iter().zip(SHARED).map(|(y, share)| line(y) * share).sum()
-        })
+    /// Returns the cells of a row.
+    pub fn row(&self, y: usize) -> &[f32] {
+        &self.cells[y * self.width..(y + 1) * self.width]
     }
 
     /// Returns the grid with cells twice as wide.
     pub fn halved(&self) -> Self {
-        Self::halved_from(self.width, self.height, |x, y| self.cells[y * self.width + x])
+        self.halved_rows(0, self.height, 0..self.height.div_ceil(2))
     }
 
-    /// Returns the grid with cells half as wide, interpolated linearly between the cells' middles.
-    pub fn doubled(&self, width: usize, height: usize) -> Self {
-        let mut out = Self::dark(width, height);
-        self.add_doubled(&mut out);
+    /// Returns some rows of a grid with cells twice as wide, where this grid holds the rows from `first` on of one that is
+    /// `height` cells high. [`finer_rows`] says which of them it must hold.
+    ///
+    /// Each fine cell's light is shared between the two nearest coarse cells of each axis, so that its centre of mass
+    /// stays in place.
+    pub fn halved_rows(&self, first: usize, height: usize, rows: Range<usize>) -> Self {
+        let (across, down) = (self.width.div_ceil(2), height.div_ceil(2));
+        let mut out = Self::dark(across, rows.len());
+        out.cells.par_chunks_mut(across.max(1)).zip(rows).for_each_init(
+            || vec![0.0; 2 * across + 2],
+            |padded, (cells, y)| {
+                let own = 2 * y;
+                let four = [own.saturating_sub(1), own, own + 1, (own + 2).min(2 * down - 1)];
+                for (y, share) in four.into_iter().zip(SHARED).filter(|&(y, _)| y < height) {
+                    add_halved(self.row(y - first), padded, share, cells);
+                }
+            },
+        );
         out
     }
 
     fn add_doubled(&self, sum: &mut Self) {
-        sum.cells.par_chunks_mut(sum.width.max(1)).enumerate().for_each(|(y, row)| {
-            let doubled = self.doubled_row(y);
-            row.iter_mut().enumerate().for_each(|(x, cell)| *cell += doubled(x));
+        let width = sum.width;
+        sum.cells.par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
+            let [own, beside] = coarser_rows(y, self.height).map(|y| self.row(y));
+            let doubled = doubled_row(own, beside, width);
+            row.iter_mut().zip(doubled).for_each(|(cell, light)| *cell += light);
         });
-    }
-
-    /// Returns the cells of row `y` of the doubled grid, as a function of the column.
-    pub fn doubled_row(&self, y: usize) -> impl Fn(usize) -> Vec4 + '_ {
-        let near = |fine: usize, count: usize| {
-            let own = (fine / 2).min(count - 1);
-            let other = if fine.is_multiple_of(2) { own.saturating_sub(1) } else { (own + 1).min(count - 1) };
-            (own, other)
-        };
-        let (y, above) = near(y, self.height);
-        let own = &self.cells[y * self.width..(y + 1) * self.width];
-        let above = &self.cells[above * self.width..(above + 1) * self.width];
-        let line = |x: usize| own[x] * 0.75 + above[x] * 0.25;
-        move |x| {
-            let (x, beside) = near(x, self.width);
-            line(x) * 0.75 + line(beside) * 0.25
-        }
     }
 
     /// Returns the grid with rows and columns exchanged.
     pub fn transposed(&self) -> Self {
-        Self::filled(self.height, self.width, |x, y| self.cells[x * self.width + y])
+        let mut out = Self::dark(self.height, self.width);
+        let bands = out.cells.par_chunks_mut((TURNED * self.height).max(1)).enumerate();
+        bands.for_each(|(band, rows)| {
+            for y in 0..self.height {
+                let columns = self.row(y).iter().skip(TURNED * band).take(TURNED);
+                columns.enumerate().for_each(|(k, &light)| rows[k * self.height + y] = light);
+            }
+        });
+        out
     }
 
     /// Returns whether the grid holds no light at all.
     pub fn is_dark(&self) -> bool {
-        self.cells.par_iter().all(|&cell| cell == Vec4::ZERO)
+        self.cells.par_iter().all(|&cell| cell == 0.0)
     }
 
     /// Adds `share` times another grid of the same size.
     pub fn add(&mut self, other: &Self, share: f32) {
         self.cells.par_iter_mut().zip(&other.cells).for_each(|(cell, &light)| *cell += light * share);
+    }
+
+    /// Returns the product of two grids of the same size, cell by cell.
+    pub fn times(&self, other: &Self) -> Self {
+        let cells = self.cells.par_iter().zip(&other.cells).map(|(a, b)| a * b).collect();
+        Self { cells, ..*self }
     }
 
     /// Returns the weighted sum of Gaussian blurs, given as pairs of standard deviation in cells and share.
@@ -144,9 +140,9 @@ impl LightGrid {
     fn across(&self, taps: &[f32]) -> Self {
         let reach = taps.len() / 2;
         let width = self.width.max(1);
-        let mut cells = vec![Vec4::ZERO; self.cells.len()];
+        let mut cells = vec![0.0; self.cells.len()];
         cells.par_chunks_mut(width).zip(self.cells.par_chunks(width)).for_each_init(
-            || vec![Vec4::ZERO; width + 2 * reach],
+            || vec![0.0; width + 2 * reach],
             |padded, (row, source)| {
                 padded[reach..reach + width].copy_from_slice(source);
                 for (k, &tap) in taps.iter().enumerate() {
@@ -164,11 +160,51 @@ impl LightGrid {
                 let Some(from) = (y + k).checked_sub(reach).filter(|&from| from < self.height) else {
                     continue;
                 };
-                let source = &self.cells[from * self.width..(from + 1) * self.width];
+                let source = self.row(from);
                 row.iter_mut().zip(source).for_each(|(cell, &light)| *cell += light * (tap * share));
             }
         });
     }
+}
+
+/// Returns the rows of a grid of `height` rows that [`LightGrid::halved_rows`] needs for `rows` of the halved grid.
+pub(super) fn finer_rows(rows: &Range<usize>, height: usize) -> Range<usize> {
+    (2 * rows.start).saturating_sub(1)..(2 * rows.end + 1).min(height)
+}
+
+/// Adds `share` times a row, with cells twice as wide, to the row `out`. `padded` has two cells more than twice as many as
+/// `out`.
+fn add_halved(row: &[f32], padded: &mut [f32], share: f32, out: &mut [f32]) {
+    let (Some(&first), Some(&last)) = (row.first(), row.last()) else { return };
+    let width = row.len();
+    padded[0] = first;
+    padded[1..=width].copy_from_slice(row);
+    // The light of the last cell of a pair stays with it; a cell without its pair has darkness beside it.
+    padded[width + 1] = if width.is_multiple_of(2) { last } else { 0.0 };
+    for (cell, four) in out.iter_mut().zip(padded.windows(4).step_by(2)) {
+        let light: f32 = four.iter().zip(SHARED).map(|(light, share)| light * share).sum();
+        *cell += light * share;
+    }
+}
+
+/// Returns the two rows of a grid of `height` rows from which row `y` of the grid with cells half as wide is
+/// interpolated: the one that it lies in, and the one beside it.
+pub(super) fn coarser_rows(y: usize, height: usize) -> [usize; 2] {
+    let own = y / 2;
+    [own, if y.is_multiple_of(2) { own.saturating_sub(1) } else { (own + 1).min(height - 1) }]
+}
+
+/// Returns a row of `width` cells half as wide, interpolated linearly between the middles of the cells of two rows.
+pub(super) fn doubled_row(own: &[f32], beside: &[f32], width: usize) -> Vec<f32> {
+    let line: Vec<f32> = own.iter().zip(beside).map(|(own, beside)| own * 0.75 + beside * 0.25).collect();
+    let last = line.len().saturating_sub(1);
+    let mut out = vec![0.0; 2 * line.len()];
+    for (x, pair) in out.as_chunks_mut().0.iter_mut().enumerate() {
+        let [before, after] = [line[x.saturating_sub(1)], line[(x + 1).min(last)]];
+        *pair = [before, after].map(|beside| line[x] * 0.75 + beside * 0.25);
+    }
+    out.truncate(width);
+    out
 }
 
 /// Returns the weights of a Gaussian at whole cells: an odd number of them, which add up to 1.

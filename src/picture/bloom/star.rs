@@ -8,19 +8,18 @@
 //! Graphics Interface 1986). This softens a streak once instead of at every step.
 
 use super::grid::LightGrid;
-use glam::Vec4;
 use std::f64::consts::TAU;
 
 /// The relative length of a streak in red, green and blue: diffraction is proportional to the wavelength, here 610, 550
 /// and 465 nm.
-const TINT: [f64; 3] = [1.11, 1.0, 0.845];
+pub(super) const TINT: [f64; 3] = [1.11, 1.0, 0.845];
 
 /// The least length, in cells, in which a streak fades to 1/e.
 const SHORTEST: f64 = 1e-3;
 
 /// Light far below this value is rounded away, so that it does not fade into subnormal numbers, which processors handle
 /// slowly.
-const FADED: Vec4 = Vec4::splat(1e-18);
+const FADED: f32 = 1e-18;
 
 /// One streak, in a grid whose rows it crosses.
 struct Streak {
@@ -33,7 +32,7 @@ struct Streak {
 }
 
 /// Returns the light of a grid spread into `rays` streaks of this length in cells; the first points upward.
-pub(super) fn star(source: &LightGrid, rays: u32, length: f64) -> LightGrid {
+pub(super) fn star(source: LightGrid, rays: u32, length: f64) -> LightGrid {
     let angles = (0..rays).map(|k| TAU * f64::from(k) / f64::from(rays));
     let (steep, flat): (Vec<_>, Vec<_>) =
         angles.map(|a| (a.sin(), -a.cos())).partition(|(x, y)| y.abs() >= x.abs());
@@ -41,11 +40,12 @@ pub(super) fn star(source: &LightGrid, rays: u32, length: f64) -> LightGrid {
     let share = 1.0 / rays as f32;
     // Each list is summed in a fixed order: the bytes are the same on any number of threads.
     let (mut upright, lying) = rayon::join(
-        || rows_of(source, &steep, length, share),
-        || (!flat.is_empty()).then(|| rows_of(&source.transposed(), &flat, length, share).transposed()),
+        || rows_of(&source, &steep, length, share),
+        || (!flat.is_empty()).then(|| rows_of(&source.transposed(), &flat, length, share)),
     );
+    drop(source);
     if let Some(lying) = lying {
-        upright.add(&lying, 1.0);
+        upright.add(&lying.transposed(), 1.0);
     }
     upright
 }
@@ -63,15 +63,14 @@ fn rows_of(source: &LightGrid, directions: &[(f64, f64)], length: f64, share: f3
 impl Streak {
     fn add(&self, source: &LightGrid, length: f64, share: f32, sum: &mut LightGrid) {
         let width = source.width;
-        let kept = TINT.map(|tint| (-self.step / (length * tint).max(SHORTEST)).exp() as f32);
-        let kept = Vec4::new(kept[0], kept[1], kept[2], 0.0);
-        let given = (Vec4::ONE - kept) * share;
+        let kept = (-self.step / length.max(SHORTEST)).exp() as f32;
+        let given = (1.0 - kept) * share;
         let reach = (self.slope.abs() * source.height as f64) as usize + 2;
-        let mut running = vec![Vec4::ZERO; width + 2 * reach];
-        let mut padded = vec![Vec4::ZERO; width + 2];
+        let mut running = vec![0.0; width + 2 * reach];
+        let mut padded = vec![0.0; width + 2];
         for step in 0..source.height {
             let y = if self.down { step } else { source.height - 1 - step };
-            padded[1..=width].copy_from_slice(&source.cells[y * width..(y + 1) * width]);
+            padded[1..=width].copy_from_slice(source.row(y));
             let moved = self.slope * step as f64;
             let part = (moved - moved.floor()) as f32;
             // The running cell that lies `part` of a cell to the left of the row's column -1.

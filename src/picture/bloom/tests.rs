@@ -1,6 +1,14 @@
 //! Tests of glare: light is neither made nor lost, nothing turns negative, and the picture's size does not matter.
 
 use super::*;
+use crate::picture::Linear;
+
+/// Adds glare to a picture.
+fn spread(bloom: &Bloom, picture: &mut Linear) {
+    let Ok(glare) = bloom.glare(&mut &*picture, |pixel| *pixel);
+    let rows = picture.pixels.chunks_mut(picture.width as usize).enumerate();
+    rows.for_each(|(y, row)| glare.iter().for_each(|glare| glare.add(y, row)));
+}
 
 fn total(picture: &Linear) -> [f64; 3] {
     let sum = |c: usize| picture.pixels.iter().map(|p| f64::from(p[c])).sum();
@@ -23,7 +31,7 @@ fn spreading_neither_makes_nor_loses_light() {
             picture.pixels[at as usize] = [3.0, 40.0, 0.5 * k as f32, 0.5];
         }
         let before = total(&picture);
-        Bloom { streaks, ..Bloom::default() }.apply(&mut picture);
+        spread(&Bloom { streaks, ..Bloom::default() }, &mut picture);
         for (before, after) in before.into_iter().zip(total(&picture)) {
             assert!((after / before - 1.0).abs() < 0.01, "{size}, {streaks} rays: {before} became {after}");
         }
@@ -35,7 +43,7 @@ fn a_large_picture_conserves_light_too_and_glares_alike() {
     let glare = |size: u32| {
         let bright = 100.0 * (size as f32 / 512.0).powi(2);
         let mut picture = point(size, [bright; 3]);
-        Bloom { streaks: 0, ..Bloom::default() }.apply(&mut picture);
+        spread(&Bloom { streaks: 0, ..Bloom::default() }, &mut picture);
         assert!((total(&picture)[1] / f64::from(bright) - 1.0).abs() < 0.01);
         picture.pixels[((size / 2) * size + size / 2 + size / 20) as usize][1]
     };
@@ -44,13 +52,27 @@ fn a_large_picture_conserves_light_too_and_glares_alike() {
 }
 
 #[test]
+fn light_gathered_some_rows_at_a_time_is_that_of_the_whole_picture() {
+    let mut picture = Linear::new(2051, 1501);
+    for (k, pixel) in picture.pixels.iter_mut().enumerate() {
+        *pixel = [(k % 7) as f32, (k % 11) as f32, (k % 5) as f32, 1.0];
+    }
+    let pass = BrightPass { strength: 0.5, threshold: 1.0 };
+    let gathered = |halvings| pass.source(&mut &picture, |pixel| *pixel, halvings).map(|[red, ..]| red);
+    let (Ok(fine), Ok(coarse)) = (gathered(0), gathered(2));
+    let whole = fine.halved().halved();
+    assert_eq!((coarse.width, coarse.height), (513, 376));
+    assert!(coarse.cells == whole.cells && !coarse.is_dark());
+}
+
+#[test]
 fn light_below_the_threshold_and_cover_stay() {
     let mut picture = point(64, [0.4, 0.4, 0.4]);
     let before = picture.clone();
-    Bloom::default().apply(&mut picture);
+    spread(&Bloom::default(), &mut picture);
     assert_eq!(picture, before);
     let mut picture = point(64, [30.0, 30.0, 30.0]);
-    Bloom::default().apply(&mut picture);
+    spread(&Bloom::default(), &mut picture);
     let covered = |p: &Linear| p.pixels.iter().map(|p| p[3]).collect::<Vec<_>>();
     assert_eq!(covered(&picture), covered(&before));
     assert!(picture.pixels.iter().all(|p| p[0] >= 0.0));
@@ -60,7 +82,7 @@ fn light_below_the_threshold_and_cover_stay() {
 #[test]
 fn the_glow_is_round() {
     let mut picture = point(401, [1000.0; 3]);
-    Bloom { streaks: 0, radius: 0.05, ..Bloom::default() }.apply(&mut picture);
+    spread(&Bloom { streaks: 0, radius: 0.05, ..Bloom::default() }, &mut picture);
     let at = |x: i32, y: i32| picture.pixels[((200 + y) * 401 + 200 + x) as usize][1];
     for (x, y) in [(15, 20), (9, 12), (30, 40), (21, 28)] {
         let across = ((x * x + y * y) as f64).sqrt() as i32;
@@ -77,7 +99,7 @@ fn the_glow_is_round() {
 #[test]
 fn rays_point_where_they_should_and_fade_alike() {
     let mut picture = point(601, [1e4; 3]);
-    Bloom { streak_length: 0.05, ..Bloom::default() }.apply(&mut picture);
+    spread(&Bloom { streak_length: 0.05, ..Bloom::default() }, &mut picture);
     let ring = |angle: f64| {
         let (x, y) = (300.0 + 100.0 * angle.sin(), 300.0 - 100.0 * angle.cos());
         let near = |dx: i32, dy: i32| {
@@ -101,7 +123,7 @@ fn the_same_light_gives_the_same_numbers_on_any_number_of_threads() {
         let mut picture = point(200, [50.0, 70.0, 60.0]);
         picture.pixels[150] = [9.0, 8.0, 7.0, 1.0];
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| Bloom::default().apply(&mut picture));
+        pool.install(|| spread(&Bloom::default(), &mut picture));
         picture
     };
     assert_eq!(on(1), on(3));

@@ -109,8 +109,9 @@ impl RefractionMap {
     /// Returns the same map with its diffuse layer developed like a render, by exposure and tone but without glare. The
     /// background is not developed.
     pub fn developed(mut self, manner: &Develop) -> Self {
-        self.diffuse = exposed(self.diffuse, &Develop { bloom: None, ..*manner });
-        self.diffuse.pixels.iter_mut().for_each(|pixel| *pixel = shown(*pixel, manner));
+        let gain = manner.gain();
+        self.diffuse = self.diffuse.whole();
+        self.diffuse.pixels.iter_mut().for_each(|pixel| *pixel = shown(exposed(pixel, gain), manner));
         self
     }
 }
