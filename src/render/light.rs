@@ -16,6 +16,9 @@ use crate::trace::sampling::{LitScene, ProgressiveImage, Sampling};
 use crate::trace::sampling::{RadiancePixel, SamplePass};
 use std::ops::Range;
 
+/// The share of a ray's light below which what enters a solid that is not convex again goes on by chance.
+const BY_CHANCE: f64 = 0.05;
+
 /// A picture under light that is being traced.
 struct Exposure<'a> {
     job: &'a Job,
@@ -33,7 +36,7 @@ impl LightProduct {
         watch: Watch,
         each: EachPart<E>,
     ) -> Result<Output, Halt<E>> {
-        let sampling = Sampling { count, jitter: self.jitter, strength: self.strength };
+        let sampling = Sampling { count, jitter: self.jitter, strength: self.strength, by_chance: BY_CHANCE };
         let (lit_scene, strata) = (job.lit_scene(&self.surroundings), self.strata());
         let exposure = Exposure { job, lit_scene, strata, sampling, watch };
         let (picture, rest) = match self.steps {

@@ -96,20 +96,32 @@ impl PathLight {
         (Self::Fields(inside), (lost(&fields[0]) + lost(&fields[1])) / 2.0)
     }
 
-    /// Returns the light that [`split`](Self::split) leaves on the outer side, of this weight, going along `outward`.
-    pub fn outer(
-        &self,
-        (ray, outward): (DVec3, DVec3),
-        normal: DVec3,
-        eta: f64,
-        enters: bool,
-        weight: f64,
-    ) -> Self {
-        let Self::Fields(fields) = self else { return Self::Unpolarised(weight) };
-        let surface = fresnel(ray.dot(normal).abs(), eta);
+    /// Returns the light that [`split`](Self::split) leaves on the outer side, going along `outward`.
+    pub fn outer(&self, (ray, outward): (DVec3, DVec3), normal: DVec3, eta: f64, enters: bool) -> Self {
+        let cos_i = ray.dot(normal).abs();
+        let fields = match self {
+            Self::Unpolarised(weight) => {
+                let reflected = reflectance(cos_i, eta).unwrap_or(1.0);
+                let inside = if enters { 1.0 - reflected } else { reflected };
+                return Self::Unpolarised(weight * (1.0 - inside));
+            }
+            Self::Fields(fields) => fields,
+        };
+        let surface = fresnel(cos_i, eta);
         let to = if enters { (surface.r_s, surface.r_p) } else { passing(&surface) };
         let s = across(ray, normal);
         Self::Fields(fields.map(|f| f.onward(to, s, (ray, outward))))
+    }
+
+    /// Returns this light at another weight, which is `factor` times as large.
+    pub fn scaled(&self, factor: f64) -> Self {
+        match self {
+            Self::Unpolarised(weight) => Self::Unpolarised(weight * factor),
+            Self::Fields(fields) => {
+                let root = factor.sqrt();
+                Self::Fields(fields.map(|f| ElectricField { re: f.re * root, im: f.im * root }))
+            }
+        }
     }
 }
 
