@@ -1,7 +1,7 @@
 //! Searches a bounding volume hierarchy: four boxes, or four triangles, are tried side by side.
 //!
-//! What the processor can do is found out when the program runs. The loops over four numbers are compiled for it, so there
-//! are no closures in them. Sums are not fused, so that the answer does not depend on the processor.
+//! What the processor can do is found out when the program runs. Closures would not be compiled for it, so there are none in
+//! what is tried side by side. Sums are not fused, so that the answer does not depend on the processor.
 
 use super::Plane;
 use super::bvh::BvhNode;
@@ -21,6 +21,9 @@ const IS_LEAF: u32 = 1 << 31;
 /// How much larger boxes are taken to be on all sides, as a part of the greatest distance of any triangle from the ray's
 /// origin: twice what rounding does to triangles that are not seen edge on.
 const BOX_SLACK: f64 = 16.0 * f64::EPSILON;
+
+/// The greatest reciprocal of a direction's component, for rays along an axis.
+const MOST_PER: DVec3 = DVec3::splat(1e200);
 
 /// The boxes that wait without taking memory from the heap; few rays need more.
 const FEW_PENDING: usize = 24;
@@ -193,21 +196,22 @@ struct Nearest<'a, K> {
     keep: K,
 }
 
-/// Boxes that wait to be opened, each with the distance at which the ray enters it.
+/// Boxes that wait to be opened: what is in each, and the distance at which the ray enters it.
 struct Pending {
-    few: [(u32, f64); FEW_PENDING],
+    content: [u32; FEW_PENDING],
+    distance: [f64; FEW_PENDING],
     count: usize,
     more: Vec<(u32, f64)>,
 }
 
 impl Pending {
     #[inline(always)]
-    fn push(&mut self, waiting: (u32, f64)) {
+    fn push(&mut self, content: u32, distance: f64) {
         if self.count < FEW_PENDING {
-            self.few[self.count] = waiting;
+            (self.content[self.count], self.distance[self.count]) = (content, distance);
             self.count += 1;
         } else {
-            self.more.push(waiting);
+            self.more.push((content, distance));
         }
     }
 
@@ -219,7 +223,27 @@ impl Pending {
             return Some(last);
         }
         self.count = self.count.checked_sub(1)?;
-        Some(self.few[self.count])
+        Some((self.content[self.count], self.distance[self.count]))
+    }
+
+    /// Adds the boxes that a ray meets, the nearest last.
+    #[inline(always)]
+    fn push_sorted(&mut self, boxes: &FourBoxes, distances: &Four) {
+        let (mut lanes, mut count) = ([0_usize; SIDE], 0);
+        for lane in 0..SIDE {
+            if distances[lane] < f64::INFINITY {
+                let mut place = count;
+                while place > 0 && distances[lanes[place - 1]] < distances[lane] {
+                    lanes[place] = lanes[place - 1];
+                    place -= 1;
+                }
+                lanes[place] = lane;
+                count += 1;
+            }
+        }
+        for &lane in &lanes[..count] {
+            self.push(boxes.content[lane], distances[lane]);
+        }
     }
 }
 
@@ -227,21 +251,21 @@ impl<K: Fn(usize) -> bool> WithSimd for Nearest<'_, K> {
     type Output = Option<Found>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Option<Found> {
+    fn with_simd<S: Simd>(self, simd: S) -> Option<Found> {
         let Self { tree, ray, after, keep } = self;
         let (mut best, mut far) = (None, f64::INFINITY);
-        let mut pending = Pending { few: [(0, 0.0); FEW_PENDING], count: 0, more: Vec::new() };
+        let mut pending =
+            Pending { content: [0; FEW_PENDING], distance: [0.0; FEW_PENDING], count: 0, more: Vec::new() };
         let mut at = 0;
         loop {
             if at & IS_LEAF == 0 {
                 let boxes = &tree.boxes[at as usize];
-                let (into, out) = ray.enters(boxes, after, far);
-                push_sorted(&mut pending, boxes, &into, &out);
+                pending.push_sorted(boxes, &ray.enters(simd, boxes, after, far));
             } else {
                 let leaf = &tree.leaves[(at ^ IS_LEAF) as usize];
-                let met = ray.meets(&leaf.corners);
-                for k in 0..leaf.count as usize {
-                    let (place, distance) = (leaf.first as usize + k, met[k]);
+                let met = ray.meets(simd, &leaf.corners);
+                for (k, &distance) in met.iter().enumerate().take(leaf.count as usize) {
+                    let place = leaf.first as usize + k;
                     let is_first =
                         distance < far || distance == far && best.is_some_and(|first| place < first);
                     if distance > after && is_first && keep(place) {
@@ -261,26 +285,6 @@ impl<K: Fn(usize) -> bool> WithSimd for Nearest<'_, K> {
     }
 }
 
-/// Puts the boxes that a ray enters before it leaves them on the pile, the nearest last.
-#[inline(always)]
-fn push_sorted(pending: &mut Pending, boxes: &FourBoxes, into: &Four, out: &Four) {
-    let (mut entered, mut count) = ([(0, 0.0); SIDE], 0);
-    for k in 0..SIDE {
-        if into[k] <= out[k] {
-            let mut place = count;
-            while place > 0 && entered[place - 1].1 < into[k] {
-                entered[place] = entered[place - 1];
-                place -= 1;
-            }
-            entered[place] = (boxes.content[k], into[k]);
-            count += 1;
-        }
-    }
-    for waiting in &entered[..count] {
-        pending.push(*waiting);
-    }
-}
-
 impl Sheared {
     /// Returns `None` for a direction of no length. `root` is the box around all triangles.
     pub fn new(origin: DVec3, direction: DVec3, root: &BvhNode) -> Option<Self> {
@@ -292,7 +296,8 @@ impl Sheared {
         }
         let along = direction[z];
         let shear = DVec3::new(direction[x] / along, direction[y] / along, 1.0 / along);
-        let per_component = direction.recip();
+        // Finite, so that it makes no NaN of 0.
+        let per_component = direction.recip().clamp(-MOST_PER, MOST_PER);
         let is_up = per_component.cmpge(DVec3::ZERO);
         let far = (root.low - origin).abs().max((root.high - origin).abs()).max_element();
         let slack = DVec3::select(is_up, DVec3::ONE, DVec3::NEG_ONE) * (far * BOX_SLACK);
@@ -311,66 +316,91 @@ impl Sheared {
     /// Returns the distances at which the ray meets triangles, from either side (Woop, Benthin and Wald, appendix A); NaN or
     /// an infinity where it does not.
     #[inline(always)]
-    fn meets(&self, corners: &[[Four; 3]; 3]) -> Four {
-        let [x, y, z] = self.axes;
-        let (mut xs, mut ys, mut zs) = ([[0.0; SIDE]; 3], [[0.0; SIDE]; 3], [[0.0; SIDE]; 3]);
-        for c in 0..3 {
-            for k in 0..SIDE {
-                let along = corners[c][z][k] - self.origin[z];
-                xs[c][k] = corners[c][x][k] - self.origin[x] - self.shear.x * along;
-                ys[c][k] = corners[c][y][k] - self.origin[y] - self.shear.y * along;
-                zs[c][k] = self.shear.z * along;
-            }
-        }
-        let mut distance = [0.0; SIDE];
-        for k in 0..SIDE {
+    fn meets<S: Simd>(&self, simd: S, corners: &[[Four; 3]; 3]) -> Four {
+        let mut distances = [f64::INFINITY; SIDE];
+        for row in (0..SIDE).step_by(S::F64_LANES) {
+            let [x0, y0, z0] = self.turned(simd, &corners[0], row);
+            let [x1, y1, z1] = self.turned(simd, &corners[1], row);
+            let [x2, y2, z2] = self.turned(simd, &corners[2], row);
             // Twice the areas between the ray and each edge. In the other triangle of an edge the area has the opposite
             // sign, to the last bit.
-            let u = xs[2][k] * ys[1][k] - ys[2][k] * xs[1][k];
-            let v = xs[0][k] * ys[2][k] - ys[0][k] * xs[2][k];
-            let w = xs[1][k] * ys[0][k] - ys[1][k] * xs[0][k];
-            let is_beside = (least(least(u, v), w) < 0.0) & (greatest(greatest(u, v), w) > 0.0);
+            let u = simd.sub_f64s(simd.mul_f64s(x2, y1), simd.mul_f64s(y2, x1));
+            let v = simd.sub_f64s(simd.mul_f64s(x0, y2), simd.mul_f64s(y0, x2));
+            let w = simd.sub_f64s(simd.mul_f64s(x1, y0), simd.mul_f64s(y1, x0));
+            let zero = simd.splat_f64s(0.0);
+            let is_beside = simd.and_m64s(
+                simd.less_than_f64s(simd.min_f64s(simd.min_f64s(u, v), w), zero),
+                simd.greater_than_f64s(simd.max_f64s(simd.max_f64s(u, v), w), zero),
+            );
             // A triangle seen edge on has no area: the quotient is then no number, or infinite.
-            let met = (u * zs[0][k] + v * zs[1][k] + w * zs[2][k]) / (u + v + w);
-            distance[k] = if is_beside { f64::INFINITY } else { met };
+            let sum = simd.add_f64s(simd.add_f64s(u, v), w);
+            let uv = simd.add_f64s(simd.mul_f64s(u, z0), simd.mul_f64s(v, z1));
+            let met = simd.div_f64s(simd.add_f64s(uv, simd.mul_f64s(w, z2)), sum);
+            let met = simd.select_f64s(is_beside, simd.splat_f64s(f64::INFINITY), met);
+            store(simd, &mut distances, row, met);
         }
-        distance
+        distances
+    }
+
+    /// Returns one corner of each triangle of a row, turned so that the ray runs along z from the origin.
+    #[inline(always)]
+    fn turned<S: Simd>(&self, simd: S, corner: &[Four; 3], row: usize) -> [S::f64s; 3] {
+        let [x, y, z] = self.axes;
+        let along = simd.sub_f64s(load(simd, &corner[z], row), simd.splat_f64s(self.origin[z]));
+        let right = simd.sub_f64s(load(simd, &corner[x], row), simd.splat_f64s(self.origin[x]));
+        let up = simd.sub_f64s(load(simd, &corner[y], row), simd.splat_f64s(self.origin[y]));
+        [
+            simd.sub_f64s(right, simd.mul_f64s(simd.splat_f64s(self.shear.x), along)),
+            simd.sub_f64s(up, simd.mul_f64s(simd.splat_f64s(self.shear.y), along)),
+            simd.mul_f64s(simd.splat_f64s(self.shear.z), along),
+        ]
     }
 
     /// Returns the distance at which the ray meets one triangle, as [`meets`](Self::meets) does.
     #[cfg(test)]
     pub fn meets_one(&self, triangle: &[DVec3; 3]) -> f64 {
-        self.meets(&triangle.map(|corner| corner.to_array().map(|c| [c; SIDE])))[0]
+        self.meets(pulp::Scalar, &triangle.map(|corner| corner.to_array().map(|c| [c; SIDE])))[0]
     }
 
-    /// Returns the distances at which the ray is first within boxes, and those at which it leaves them or has come as far as
-    /// `before`; it meets the boxes where the former are not greater.
+    /// Returns the distances at which the ray is first within boxes, from `after` on; infinite where it does not meet them
+    /// before it has come as far as `before`.
     #[inline(always)]
-    fn enters(&self, boxes: &FourBoxes, after: f64, before: f64) -> (Four, Four) {
-        let (mut into, mut out) = ([after; SIDE], [before; SIDE]);
-        for axis in 0..3 {
-            let up = usize::from(self.is_up.test(axis));
-            let (near, far) = (&boxes.bounds[1 - up][axis], &boxes.bounds[up][axis]);
-            for k in 0..SIDE {
-                // Where the ray runs along a side of the box, 0 times infinity is NaN, which is passed over.
-                let entry = (near[k] - self.before[axis]) * self.per_component[axis];
-                let exit = (far[k] - self.beyond[axis]) * self.per_component[axis];
-                into[k] = greatest(entry, into[k]);
-                out[k] = least(exit, out[k]);
+    fn enters<S: Simd>(&self, simd: S, boxes: &FourBoxes, after: f64, before: f64) -> Four {
+        let mut distances = [f64::INFINITY; SIDE];
+        for row in (0..SIDE).step_by(S::F64_LANES) {
+            let (mut into, mut out) = (simd.splat_f64s(after), simd.splat_f64s(before));
+            for axis in 0..3 {
+                let up = usize::from(self.is_up.test(axis));
+                let per = simd.splat_f64s(self.per_component[axis]);
+                let near = load(simd, &boxes.bounds[1 - up][axis], row);
+                let far = load(simd, &boxes.bounds[up][axis], row);
+                let entry = simd.mul_f64s(simd.sub_f64s(near, simd.splat_f64s(self.before[axis])), per);
+                let exit = simd.mul_f64s(simd.sub_f64s(far, simd.splat_f64s(self.beyond[axis])), per);
+                into = simd.max_f64s(entry, into);
+                out = simd.min_f64s(exit, out);
             }
+            let is_met = simd.less_than_or_equal_f64s(into, out);
+            let met = simd.select_f64s(is_met, into, simd.splat_f64s(f64::INFINITY));
+            store(simd, &mut distances, row, met);
         }
-        (into, out)
+        distances
     }
 }
 
-/// Returns the lesser of two numbers, or `b` where `a` is NaN; this is one instruction, as `f64::min` is not.
+/// Returns as many numbers from a place on as the processor takes side by side; what is missing is 0.
 #[inline(always)]
-fn least(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
+fn load<S: Simd>(simd: S, numbers: &Four, place: usize) -> S::f64s {
+    match S::as_simd_f64s(&numbers[place..]).0.first() {
+        Some(row) => *row,
+        None => simd.partial_load_f64s(&numbers[place..]),
+    }
 }
 
-/// Returns the greater of two numbers, or `b` where `a` is NaN.
+/// Puts numbers into their places from a place on.
 #[inline(always)]
-fn greatest(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
+fn store<S: Simd>(simd: S, numbers: &mut Four, place: usize, row: S::f64s) {
+    match S::as_mut_simd_f64s(&mut numbers[place..]).0.first_mut() {
+        Some(places) => *places = row,
+        None => simd.partial_store_f64s(&mut numbers[place..], row),
+    }
 }

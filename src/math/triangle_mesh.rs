@@ -237,6 +237,20 @@ mod tests {
     }
 
     #[test]
+    fn light_may_come_back_only_to_facets_beyond_which_the_solid_reaches() {
+        assert!((0..6).all(|facet| !cube().is_overtopped(facet)));
+        for solid in [fixture::heart(), fixture::star(), fixture::clasp(0.5)] {
+            let mesh = TriangleMesh::new(surface(solid)).unwrap();
+            let farthest =
+                |plane: &Plane| mesh.vertices().iter().map(|&v| plane.distance(v)).fold(0.0, f64::max);
+            let overtopped = mesh.planes().iter().map(|plane| farthest(plane) > 1e-3);
+            let found = (0..mesh.planes().len()).map(|facet| mesh.is_overtopped(facet));
+            assert!(found.clone().eq(overtopped));
+            assert!(found.clone().any(|is| is) && found.clone().any(|is| !is));
+        }
+    }
+
+    #[test]
     fn rounding_of_f32_does_not_part_a_facet_and_a_bend_that_can_be_seen_does() {
         let rough = |v: &DVec3| (*v * 1.234_567).as_vec3().as_dvec3();
         let Surface { vertices, triangles, .. } = cube().surface().clone();

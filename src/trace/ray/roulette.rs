@@ -10,7 +10,7 @@ const LEAST_LUCK: f64 = 1e-9;
 
 /// The weight below which light that leaves goes on by chance, as a part of that for light that enters again: to learn
 /// whether it enters again takes less time than to follow it.
-const OF_EXITS: f64 = 0.1;
+const OF_EXITS: f64 = 0.3;
 
 /// How many numbers of each ray are spread evenly over the rays of a pixel; more are drawn at random.
 const EVEN: usize = 4;
@@ -52,14 +52,34 @@ pub(in crate::trace) struct ChainRoulette {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sieve {
     threshold: f64,
-    level: f64,
+    /// The weight of what did not pass since the last weak one that did; `None` where nothing weak passes.
+    level: Option<f64>,
 }
 
-/// The sieves of one passage.
+/// What decides in one passage how far light is followed.
 pub(super) struct PassageRoulette {
     pub chain: ChainRoulette,
+    /// For light that leaves.
     pub exits: Sieve,
+    /// For light that enters again.
     pub inbound: Sieve,
+}
+
+impl PassageRoulette {
+    /// Returns what follows all light that begins like this until no more than `least` of it is left.
+    pub fn without_chance(least: f64, light: &PathLight, left: f64) -> Self {
+        Self {
+            chain: ChainRoulette {
+                threshold: 0.0,
+                least,
+                before: light.weight() * left,
+                left,
+                absorbed: 0.0,
+            },
+            exits: Sieve { threshold: f64::NEG_INFINITY, level: None },
+            inbound: Sieve { threshold: least, level: None },
+        }
+    }
 }
 
 impl Roulette {
@@ -78,8 +98,8 @@ impl Roulette {
         let exits = self.threshold * OF_EXITS;
         PassageRoulette {
             chain: ChainRoulette::new(self.threshold, self.draw(), light, left),
-            exits: Sieve { threshold: exits, level: self.draw() * exits },
-            inbound: Sieve { threshold: self.threshold, level: self.draw() * self.threshold },
+            exits: Sieve { threshold: exits, level: Some(self.draw() * exits) },
+            inbound: Sieve { threshold: self.threshold, level: Some(self.draw() * self.threshold) },
         }
     }
 
@@ -124,7 +144,8 @@ impl ChainRoulette {
 
     /// Returns the loss of a chain that has ended after so many bounces: nothing is unresolved where chance has ended it.
     pub fn loss(&self, bounces: u32) -> Loss {
-        let unresolved = if self.before > self.least { self.before * self.factor() } else { 0.0 };
+        let is_caught = self.threshold > 0.0 && self.before <= self.least;
+        let unresolved = if is_caught { 0.0 } else { self.before * self.factor() };
         Loss { absorbed: self.absorbed, unresolved, bounces }
     }
 }
@@ -133,12 +154,13 @@ impl Sieve {
     /// Returns the weight with which light of this weight goes on; `None` where it does not.
     #[inline]
     pub fn pass(&mut self, weight: f64) -> Option<f64> {
-        if weight >= self.threshold {
+        if weight > self.threshold {
             return Some(weight);
         }
-        self.level += weight;
-        (self.level >= self.threshold).then(|| {
-            self.level -= self.threshold;
+        let level = self.level.as_mut()?;
+        *level += weight;
+        (*level >= self.threshold).then(|| {
+            *level -= self.threshold;
             self.threshold
         })
     }
@@ -161,7 +183,8 @@ mod tests {
         let weights = [0.03, 0.2, 0.07, 0.0, 0.011, 0.1, 0.05];
         let (mut sums, count) = ([0.0; 7], 20_000);
         for k in 0..count {
-            let mut sieve = Sieve { threshold: 0.1, level: 0.1 * (f64::from(k) + 0.5) / f64::from(count) };
+            let mut sieve =
+                Sieve { threshold: 0.1, level: Some(0.1 * (f64::from(k) + 0.5) / f64::from(count)) };
             let passed = weights.map(|weight| sieve.pass(weight));
             assert_eq!((passed[1], passed[3], passed[5]), (Some(0.2), None, Some(0.1)));
             assert!(passed.iter().flatten().all(|&weight| weight >= 0.1));

@@ -9,7 +9,8 @@
 use super::dispersed_ray::DispersedRay;
 use super::facets::FacetSearch;
 use super::light::PathLight;
-use super::roulette::{Roulette, Sieve};
+use super::path::SurfaceEvent;
+use super::roulette::{PassageRoulette, Roulette};
 use super::{Exit, Loss, StoneTracer};
 
 /// The most passages of one ray that are followed; light that waits after so many is unresolved.
@@ -51,34 +52,26 @@ impl StoneTracer {
         let mut waiting: Vec<Inbound> = vec![];
         let mut next = start;
         for number in 0..MOST_PASSAGES {
-            let mut chances = roulette.as_mut().map(|roulette| roulette.passage(&next.light, next.left));
-            let least = chances.as_ref().map_or(self.options.least_weight, |chances| chances.chain.least);
-            let passed = self.passage(facets, next, least, |meeting| {
-                let factor = chances.as_mut().map_or(1.0, |chances| chances.chain.meet(&meeting));
+            let mut chances = match &mut roulette {
+                Some(roulette) => roulette.passage(&next.light, next.left),
+                None => PassageRoulette::without_chance(self.options.least_weight, &next.light, next.left),
+            };
+            let passed = self.passage(facets, next, chances.chain.least, |meeting| {
+                let factor = chances.chain.meet(&meeting);
                 let Some(mut exit) = meeting.exit() else { return };
-                let bare = exit.weight;
-                let sieved =
-                    |weight, sieve: Option<&mut Sieve>| sieve.map_or(Some(weight), |s| s.pass(weight));
-                let Some(weight) = sieved(bare * factor, chances.as_mut().map(|c| &mut c.exits)) else {
-                    return;
-                };
+                let own = exit.weight;
+                let Some(weight) = chances.exits.pass(own * factor) else { return };
                 exit.weight = weight;
                 let met = facets.again(exit.facet as usize, exit.point, exit.direction);
                 let Some(met) = met.filter(|met| !is_taken(&exit, met.1)) else { return leave(exit) };
-                let Some(weight) = sieved(weight, chances.as_mut().map(|c| &mut c.inbound)) else { return };
-                if roulette.is_none() && weight <= self.options.least_weight {
-                    rest.unresolved += weight;
-                } else if let Some((light, shift)) = meeting.onward_outside(self.medium.index) {
-                    let Exit { point: origin, direction, sweep, path, bounce, .. } = exit;
-                    let light = if weight == bare { light } else { light.scaled(weight / bare) };
-                    let ray = DispersedRay { origin, direction, sweep, shift };
-                    waiting.push(Inbound { met, ray, light, left: meeting.left, path, bounce });
-                }
+                let Some(weight) = chances.inbound.pass(weight) else {
+                    rest.unresolved += if roulette.is_none() { weight } else { 0.0 };
+                    return;
+                };
+                waiting.extend(self.inbound(&meeting, &exit, met, weight / own));
             });
             match passed {
-                Some(passed) => {
-                    rest = rest.and(&chances.map_or(passed, |chances| chances.chain.loss(passed.bounces)));
-                }
+                Some(passed) => rest = rest.and(&chances.chain.loss(passed.bounces)),
                 None if number == 0 => return None,
                 None => rest.unresolved += next.weight(),
             }
@@ -90,6 +83,21 @@ impl StoneTracer {
         }
         rest.unresolved += waiting.iter().map(Inbound::weight).sum::<f64>();
         Some(rest)
+    }
+
+    /// Returns light that leaves and enters again, `factor` times as strong.
+    fn inbound(
+        &self,
+        meeting: &SurfaceEvent,
+        exit: &Exit,
+        met: (usize, f64),
+        factor: f64,
+    ) -> Option<Inbound> {
+        let &Exit { point: origin, direction, sweep, path, bounce, .. } = exit;
+        let (light, shift) = meeting.onward_outside(self.medium.index)?;
+        let light = if factor == 1.0 { light } else { light.scaled(factor) };
+        let ray = DispersedRay { origin, direction, sweep, shift };
+        Some(Inbound { met, ray, light, left: meeting.left, path, bounce })
     }
 }
 
