@@ -53,8 +53,8 @@ pub struct Sampling {
     /// from the eye is looked up on a mixture of its own ray and the straight one, which is a choice of looks and not
     /// physics.
     pub strength: f64,
-    /// The share of a ray's light below which light that enters a solid that is not convex again goes on by chance alone,
-    /// counting for more where it does; 0 where all light is followed. A graphics card follows all.
+    /// The share of a ray's light below which, in solids that are not convex, light goes on by chance alone, counting for
+    /// more where it does; 0 where all light is followed. A graphics card follows all.
     pub by_chance: f64,
 }
 

@@ -8,10 +8,6 @@ use super::path::SurfaceEvent;
 /// The least luck of a chain: with less, it would be followed until nothing is left.
 const LEAST_LUCK: f64 = 1e-9;
 
-/// The weight below which light that leaves goes on by chance, as a part of that for light that enters again: to learn
-/// whether it enters again takes less time than to follow it.
-const OF_EXITS: f64 = 0.3;
-
 /// How many numbers of each ray are spread evenly over the rays of a pixel; more are drawn at random.
 const EVEN: usize = 4;
 
@@ -24,7 +20,7 @@ const STEPS: [u64; EVEN] =
 /// The roulette of one ray: below which weight light goes on by chance, and the numbers that decide it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Roulette {
-    /// The share of the eye's light below which light that enters again goes on by chance.
+    /// The share of the eye's light below which light goes on by chance.
     threshold: f64,
     /// What is different in each pixel.
     seed: u64,
@@ -61,8 +57,6 @@ pub(super) struct PassageRoulette {
     pub chain: ChainRoulette,
     /// For light that leaves.
     pub exits: Sieve,
-    /// For light that enters again.
-    pub inbound: Sieve,
 }
 
 impl PassageRoulette {
@@ -77,7 +71,6 @@ impl PassageRoulette {
                 absorbed: 0.0,
             },
             exits: Sieve { threshold: f64::NEG_INFINITY, level: None },
-            inbound: Sieve { threshold: least, level: None },
         }
     }
 }
@@ -95,11 +88,10 @@ impl Roulette {
 
     /// Draws the numbers of a passage that begins with this light, of which absorption has left a share.
     pub(super) fn passage(&mut self, light: &PathLight, left: f64) -> PassageRoulette {
-        let exits = self.threshold * OF_EXITS;
+        let threshold = self.threshold;
         PassageRoulette {
-            chain: ChainRoulette::new(self.threshold, self.draw(), light, left),
-            exits: Sieve { threshold: exits, level: Some(self.draw() * exits) },
-            inbound: Sieve { threshold: self.threshold, level: Some(self.draw() * self.threshold) },
+            chain: ChainRoulette::new(threshold, self.draw(), light, left),
+            exits: Sieve { threshold, level: Some(self.draw() * threshold) },
         }
     }
 

@@ -64,11 +64,11 @@ impl StoneTracer {
                 exit.weight = weight;
                 let met = facets.again(exit.facet as usize, exit.point, exit.direction);
                 let Some(met) = met.filter(|met| !is_taken(&exit, met.1)) else { return leave(exit) };
-                let Some(weight) = chances.inbound.pass(weight) else {
-                    rest.unresolved += if roulette.is_none() { weight } else { 0.0 };
-                    return;
-                };
-                waiting.extend(self.inbound(&meeting, &exit, met, weight / own));
+                if roulette.is_some() || weight > self.options.least_weight {
+                    waiting.extend(self.inbound(&meeting, &exit, met, weight / own));
+                } else {
+                    rest.unresolved += weight;
+                }
             });
             match passed {
                 Some(passed) => rest = rest.and(&chances.chain.loss(passed.bounces)),
