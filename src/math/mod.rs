@@ -5,6 +5,7 @@ mod ball;
 mod basis;
 mod bvh;
 mod bvh_build;
+mod bvh_search;
 mod calipers;
 mod decay;
 mod edge;

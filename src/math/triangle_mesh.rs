@@ -4,6 +4,11 @@ use super::extent::reach;
 use super::regions::{neighbours, planes_of, regions};
 use super::{Ball, Bvh, Edge, Plane, Polytope, Pose, Surface, triangulate};
 use glam::DVec3;
+use rayon::prelude::*;
+
+/// How far a solid may reach beyond the plane of a facet and still count as lying behind it, as a share of its radius: what
+/// rounding to f32 does to corners, and less than a pixel of any picture.
+const BEYOND: f64 = 1e-6;
 
 /// A closed solid of triangles, which need not be convex. Neighbouring triangles in one plane form one facet.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,6 +16,8 @@ pub struct TriangleMesh {
     surface: Surface,
     facets: Vec<u32>,
     planes: Vec<Plane>,
+    /// Whether the solid reaches beyond the plane of each facet.
+    is_overtopped: Vec<bool>,
     bvh: Bvh,
     /// A ball around all corners.
     pub(super) ball: Ball,
@@ -92,7 +99,9 @@ impl TriangleMesh {
     fn of_parts(surface: Surface, facets: Vec<u32>, planes: Vec<Plane>) -> Self {
         let bvh = Bvh::new(&surface.vertices, &surface.triangles);
         let (ball, reach) = (Ball::around(&surface.vertices), reach(&surface.vertices));
-        Self { surface, facets, planes, bvh, ball, reach }
+        let is_beyond = |plane: &Plane| bvh.reaches_beyond(plane, BEYOND * ball.radius);
+        let is_overtopped = planes.par_iter().map(is_beyond).collect();
+        Self { surface, facets, planes, is_overtopped, bvh, ball, reach }
     }
 
     /// Returns the triangles.
@@ -113,6 +122,12 @@ impl TriangleMesh {
     /// Returns the plane of each facet; its normal points outward.
     pub fn planes(&self) -> &[Plane] {
         &self.planes
+    }
+
+    /// Whether light that leaves the solid by a facet may meet the solid again: it never does where the whole solid lies
+    /// behind the facet's plane.
+    pub fn is_overtopped(&self, facet: usize) -> bool {
+        self.is_overtopped[facet]
     }
 
     /// Returns the boxes around the triangles.
@@ -218,6 +233,20 @@ mod tests {
                 let area: f64 = solid.triangles_of(facet).iter().map(area).sum();
                 assert!((rim - 8.0).abs() < 1e-12 && (area - 4.0).abs() < 1e-12);
             }
+        }
+    }
+
+    #[test]
+    fn light_may_come_back_only_to_facets_beyond_which_the_solid_reaches() {
+        assert!((0..6).all(|facet| !cube().is_overtopped(facet)));
+        for solid in [fixture::heart(), fixture::star(), fixture::clasp(0.5)] {
+            let mesh = TriangleMesh::new(surface(solid)).unwrap();
+            let farthest =
+                |plane: &Plane| mesh.vertices().iter().map(|&v| plane.distance(v)).fold(0.0, f64::max);
+            let overtopped = mesh.planes().iter().map(|plane| farthest(plane) > 1e-3);
+            let found = (0..mesh.planes().len()).map(|facet| mesh.is_overtopped(facet));
+            assert!(found.clone().eq(overtopped));
+            assert!(found.clone().any(|is| is) && found.clone().any(|is| !is));
         }
     }
 

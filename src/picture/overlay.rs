@@ -9,7 +9,7 @@ mod wireframe;
 use self::scale::viridis;
 use self::wireframe::Wires;
 use super::NameError;
-use crate::trace::ray::{ProbeRay, SceneProbe};
+use crate::trace::ray::{Exit, MeetingRay, ProbeRay, SceneProbe};
 use crate::trace::sampling::LitScene;
 use crate::trace::{Stopped, Watch};
 use rayon::prelude::*;
@@ -134,18 +134,13 @@ impl Fate {
     fn of(sight: &SceneProbe, glance: &ProbeRay) -> Option<Self> {
         let &ProbeRay { origin, direction, stone, facet, distance } = glance;
         let mut first = None;
-        let rest = sight.tracers[stone].follow_from(
-            (facet as usize, distance),
-            origin,
-            (direction, glam::DVec3::ZERO),
-            1.0,
-            |_, _| false,
-            |exit| {
-                if exit.bounce > 0 {
-                    first.get_or_insert(exit.bounce - 1);
-                }
-            },
-        )?;
+        let ray = MeetingRay::from_eye((facet as usize, distance), origin, direction);
+        let leave = |exit: Exit| {
+            if exit.bounce > 0 {
+                first.get_or_insert(exit.bounce - 1);
+            }
+        };
+        let rest = sight.tracers[stone].follow_from(&ray, |_, _| false, leave)?;
         let total = first.unwrap_or(rest.bounces);
         Some(Self { bounces: rest.bounces, unresolved: rest.unresolved, total })
     }

@@ -16,6 +16,13 @@ use crate::trace::sampling::{LitScene, ProgressiveImage, Sampling};
 use crate::trace::sampling::{RadiancePixel, SamplePass};
 use std::ops::Range;
 
+/// The share of a ray's light below which it goes on by chance in solids that are not convex, in a picture of one pass: so
+/// little that its noise is hardly seen.
+const CHANCE_OF_ONE_PASS: f64 = 0.025;
+
+/// The greatest such share, in pictures of many passes, over which the noise of each is averaged.
+const MOST_CHANCE: f64 = 0.1;
+
 /// A picture under light that is being traced.
 struct Exposure<'a> {
     job: &'a Job,
@@ -33,7 +40,8 @@ impl LightProduct {
         watch: Watch,
         each: EachPart<E>,
     ) -> Result<Output, Halt<E>> {
-        let sampling = Sampling { count, jitter: self.jitter, strength: self.strength };
+        let by_chance = (CHANCE_OF_ONE_PASS * f64::from(count).sqrt()).min(MOST_CHANCE);
+        let sampling = Sampling { count, jitter: self.jitter, strength: self.strength, by_chance };
         let (lit_scene, strata) = (job.lit_scene(&self.surroundings), self.strata());
         let exposure = Exposure { job, lit_scene, strata, sampling, watch };
         let (picture, rest) = match self.steps {

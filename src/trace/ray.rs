@@ -11,6 +11,7 @@ mod facets;
 mod instance_tracer;
 mod light;
 mod path;
+mod roulette;
 mod scene_tracer;
 mod search;
 mod sight;
@@ -24,6 +25,8 @@ pub(in crate::trace) use self::light::PathLight;
 use self::light::SplitLight;
 use self::path::{ExitLight, SurfaceEvent};
 pub use self::path::{Leaving, Path, Step};
+pub(in crate::trace) use self::roulette::ChainRoulette;
+pub use self::roulette::Roulette;
 pub use self::scene_tracer::{ByRays, First, SceneTracer, WaitingRay};
 pub use self::sight::{ProbeRay, SceneProbe, facet_at};
 use self::tree::Inbound;
@@ -83,6 +86,30 @@ pub struct Loss {
     pub bounces: u32,
 }
 
+/// A ray that is known to [`meet`](StoneTracer::meet) a stone.
+#[derive(Debug, Clone, Copy)]
+pub struct MeetingRay {
+    /// The facet that it meets, and the distance from its origin.
+    pub met: (usize, f64),
+    /// The point where it begins.
+    pub origin: DVec3,
+    /// The direction in which it travels, of length 1.
+    pub direction: DVec3,
+    /// The change of that direction over the medium's spread of indices.
+    pub sweep: DVec3,
+    /// The share of the light from that direction that reaches the eye.
+    pub weight: f64,
+    /// By what chance weak light goes on in a solid that is not convex; without it, all of it does.
+    pub roulette: Option<Roulette>,
+}
+
+impl MeetingRay {
+    /// Returns a ray from the eye.
+    pub fn from_eye(met: (usize, f64), origin: DVec3, direction: DVec3) -> Self {
+        Self { met, origin, direction, sweep: DVec3::ZERO, weight: 1.0, roulette: None }
+    }
+}
+
 /// Follows single rays through one stone.
 #[derive(Debug, Clone)]
 pub struct StoneTracer {
@@ -129,29 +156,25 @@ impl StoneTracer {
     /// misses the stone.
     pub fn follow(&self, origin: DVec3, direction: DVec3, leave: impl FnMut(Exit)) -> Option<Loss> {
         let met = self.meet(origin, direction)?;
-        self.follow_from(met, origin, (direction, DVec3::ZERO), 1.0, |_, _| false, leave)
+        self.follow_from(&MeetingRay::from_eye(met, origin, direction), |_, _| false, leave)
     }
 
-    /// Follows a ray of any weight that is known to [`meet`](Self::meet) the stone and may have left another one; `sweep` is
-    /// the change of its direction over the spread of wavelengths. `None` where it runs along the facet.
+    /// Follows a ray that may have left another stone. `None` where it runs along the facet.
     ///
     /// Light that would enter this stone again after some distance leaves it for good where `is_taken` says that it meets
     /// something else before.
     pub fn follow_from(
         &self,
-        met: (usize, f64),
-        origin: DVec3,
-        (direction, sweep): (DVec3, DVec3),
-        weight: f64,
+        ray: &MeetingRay,
         is_taken: impl Fn(&Exit, f64) -> bool,
         leave: impl FnMut(Exit),
     ) -> Option<Loss> {
-        let start = self.start(met, origin, (direction, sweep), weight);
+        let start = self.start(ray);
         match &self.shape {
             SolidFacets::Planes(planes) => self.chain(&**planes, start, leave),
             SolidFacets::Smooth(smooth) => self.chain(smooth, start, leave),
-            SolidFacets::Triangles(triangles) => self.branch(triangles, start, is_taken, leave),
-            SolidFacets::Wavy(wavy) => self.branch(wavy, start, is_taken, leave),
+            SolidFacets::Triangles(triangles) => self.branch(triangles, start, ray.roulette, is_taken, leave),
+            SolidFacets::Wavy(wavy) => self.branch(wavy, start, ray.roulette, is_taken, leave),
         }
     }
 
@@ -178,32 +201,28 @@ impl StoneTracer {
 
     /// Follows light through a solid that never takes back what has left it.
     fn chain<F: FacetSearch>(&self, facets: &F, start: Inbound, mut leave: impl FnMut(Exit)) -> Option<Loss> {
-        self.passage(facets, start, |meeting| {
+        self.passage(facets, start, self.options.least_weight, |meeting| {
             if let Some(exit) = meeting.exit() {
                 leave(exit);
             }
         })
     }
 
-    /// Returns the light of a ray from the eye that is about to enter.
-    fn start(
-        &self,
-        met: (usize, f64),
-        origin: DVec3,
-        (direction, sweep): (DVec3, DVec3),
-        weight: f64,
-    ) -> Inbound {
+    /// Returns the light of a ray that is about to enter; it is not polarised.
+    fn start(&self, meeting: &MeetingRay) -> Inbound {
+        let &MeetingRay { met, origin, direction, sweep, weight, .. } = meeting;
         let light = PathLight::of_eye(direction, weight, self.options.polarised);
         let ray = DispersedRay { origin, direction, sweep, shift: DVec3::ZERO };
         Inbound { met, ray, light, left: 1.0, path: 0.0, bounce: 0 }
     }
 
-    /// Follows light through the stone, from the facet where it enters until too little is left, and calls `meets` for each
-    /// facet: the one loop behind everything that is reported of rays.
+    /// Follows light through the stone, from the facet where it enters until no more than `least_weight` is left, and calls
+    /// `meets` for each facet: the one loop behind everything that is reported of rays.
     fn passage<F: FacetSearch>(
         &self,
         facets: &F,
         inbound: Inbound,
+        least_weight: f64,
         mut meets: impl FnMut(SurfaceEvent),
     ) -> Option<Loss> {
         let Inbound { met: (facet, distance), ray, left, path, bounce, .. } = inbound;
@@ -220,21 +239,22 @@ impl StoneTracer {
         meets(SurfaceEvent {
             facet: facet as u32,
             point,
+            normal,
             path,
             left,
             bounce,
             arriving: direction,
+            light: &inbound.light,
             leaving: Some(ExitLight {
                 direction: back,
                 sweep: reflected_change(direction, normal, (sweep, of_normal)),
                 shift,
                 weight: glare.weight() * left,
-                light: F::BRANCHES.then_some(glare),
             }),
             onward: light.weight() * left,
         });
         let ray = DispersedRay { origin: point, direction: inward, sweep: swept, shift };
-        Some(self.bounce(facets, Inbound { ray, light, ..inbound }, self.options.least_weight, meets))
+        Some(self.bounce(facets, Inbound { ray, light, ..inbound }, least_weight, meets))
     }
 
     /// Follows light inside the stone; its ray begins at the point where it has entered.
@@ -274,7 +294,6 @@ impl StoneTracer {
                     sweep: if is_swept { change() } else { DVec3::ZERO },
                     shift,
                     weight: passed.weight() * left,
-                    light: F::BRANCHES.then_some(passed),
                 }
             });
             rest.bounces += 1;
@@ -282,10 +301,12 @@ impl StoneTracer {
             meets(SurfaceEvent {
                 facet: facet as u32,
                 point,
+                normal,
                 path,
                 left,
                 bounce: rest.bounces,
                 arriving: direction,
+                light: &light,
                 leaving,
                 onward: remaining,
             });

@@ -4,7 +4,7 @@ use super::environment::Environment;
 use super::{Stopped, Watch};
 use crate::optics::Stratum;
 use crate::scene::{Film, Instance, Medium, Scene, View};
-use crate::trace::ray::RayOptions;
+use crate::trace::ray::{RayOptions, Roulette};
 use glam::{DVec2, DVec3};
 
 /// Stones in one world, the environment around them, and the camera.
@@ -35,6 +35,10 @@ pub struct SamplePass {
     pub responses: Vec<[DVec3; 4]>,
     /// The share of refraction's turning of light that is followed, 0 to 1; see [`Sampling::strength`].
     pub strength: f64,
+    /// The number of the pass.
+    pub number: u32,
+    /// The weight below which light goes on by chance; see [`Sampling::by_chance`].
+    pub by_chance: f64,
 }
 
 /// How the sample passes of a picture are taken.
@@ -49,6 +53,9 @@ pub struct Sampling {
     /// from the eye is looked up on a mixture of its own ray and the straight one, which is a choice of looks and not
     /// physics.
     pub strength: f64,
+    /// The share of a ray's light below which, in solids that are not convex, light goes on by chance alone, counting for
+    /// more where it does; 0 where all light is followed. A graphics card follows all.
+    pub by_chance: f64,
 }
 
 /// The most rays of one pixel that may wait to meet another stone.
@@ -87,9 +94,9 @@ pub trait ProgressiveImage<E: From<Stopped>> {
 const STEPS: DVec3 = DVec3::new(0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3);
 
 impl Sampling {
-    /// Returns a sampling of `count` passes, each at other wavelengths, at full strength.
+    /// Returns a sampling of `count` passes, each at other wavelengths, at full strength, all light followed.
     pub fn of(count: u32) -> Self {
-        Self { count, jitter: true, strength: 1.0 }
+        Self { count, jitter: true, strength: 1.0, by_chance: 0.0 }
     }
 
     /// Returns the sample pass of a number, from 0. Passes of many numbers fill pixels and strata evenly; the first goes
@@ -107,6 +114,8 @@ impl Sampling {
             media: scene.instances.iter().map(|p| strata.iter().map(|s| medium(p, s)).collect()).collect(),
             responses: strata.iter().map(|s| s.response).collect(),
             strength: self.strength,
+            number,
+            by_chance: self.by_chance,
         }
     }
 }
@@ -115,6 +124,12 @@ impl SamplePass {
     /// Returns the sample pass of a number, as [`Sampling::pass`] does with wavelengths that change and at full strength.
     pub fn new(scene: &Scene, strata: &[Stratum], number: u32) -> Self {
         Sampling::of(1).pass(scene, strata, number)
+    }
+
+    /// Returns the roulette of a ray through a pixel, in one band; `None` where all light is followed.
+    pub fn roulette(&self, pixel: [u32; 2], band: usize) -> Option<Roulette> {
+        let number = u64::from(self.number) * self.responses.len() as u64 + band as u64;
+        (self.by_chance > 0.0).then(|| Roulette::new(self.by_chance, pixel, number))
     }
 
     /// Returns the direction for which a ray that leaves in `direction`, at the traced wavelength, stands: that of the

@@ -6,16 +6,13 @@
 //! successive pieces of that order differ little, and so does their mean from the true one.
 
 use super::beam::{Beams, Flight, Front, SummedBeams};
-use super::ray::{PathLight, RayOptions, StoneTracer};
+use super::ray::{ChainRoulette, PathLight, RayOptions, StoneTracer};
 use crate::math::{Polytope, point_in_polygon};
 use crate::scene::Scope;
 use glam::{DVec2, DVec3};
 
 /// The share of a ray's light below which the ray goes on by chance alone, by Russian roulette.
 const ROULETTE: f64 = 0.15;
-
-/// The least luck of a ray: with less, it would be followed until nothing is left.
-const LEAST_LUCK: f64 = 1e-9;
 
 /// The share of the rays that are spread over the light. The others are spread over the area whose strongest exit is
 /// undecided, of which little light may be left.
@@ -151,32 +148,22 @@ impl<'a> Tail<'a> {
         let light = self.light_of(&front.flight, beam.onward);
         let ray = (front.flight.ray.start(point), front.flight.ray.direction);
         let (mut strongest, mut exit) = source.strongest;
-        let mut before = light.weight() * self.beams.medium.transmittance(path);
-        let mut absorbed = 0.0;
-        let absorbs = !self.beams.medium.is_clear();
-        let least = luck.max(LEAST_LUCK) * ROULETTE;
-        let end = self.tracer.follow_inside(ray, (light, path), least, |met| {
-            // The ray comes here with a chance of before / ROULETTE, so all that happens here counts for more.
-            let scale = (ROULETTE / before).max(1.0);
-            let left = met.leaving.as_ref().map_or(0.0, |leaving| leaving.weight);
-            if absorbs {
-                absorbed += (before - left - met.onward) * scale;
-            }
-            before = met.onward;
-            if let Some(leaving) = met.leaving {
-                let band = self.scope.band(leaving.direction, self.beams.zenith);
-                leave(TailExit { direction: leaving.direction, band, share: left * scale });
-                if left * beam.onward > strongest {
-                    (strongest, exit) = (left * beam.onward, Some(band));
-                }
+        let mut chances = ChainRoulette::new(ROULETTE, luck, &light, self.beams.medium.transmittance(path));
+        let end = self.tracer.follow_inside(ray, (light, path), chances.least, |met| {
+            let factor = chances.meet(&met);
+            let Some(leaving) = met.leaving else { return };
+            let band = self.scope.band(leaving.direction, self.beams.zenith);
+            leave(TailExit { direction: leaving.direction, band, share: leaving.weight * factor });
+            if leaving.weight * beam.onward > strongest {
+                (strongest, exit) = (leaving.weight * beam.onward, Some(band));
             }
         });
-        let is_caught = before > least;
+        let loss = chances.loss(end.bounces);
         TailRay {
             light: source.light / source.density,
             area: source.undecided / source.density,
-            absorbed,
-            unresolved: if is_caught { before * (ROULETTE / before).max(1.0) } else { 0.0 },
+            absorbed: loss.absorbed,
+            unresolved: loss.unresolved,
             strongest: exit.filter(|_| end.unresolved * beam.onward <= strongest),
         }
     }

@@ -4,9 +4,9 @@ use super::aset;
 use brillianteer::math::SolidRef;
 use brillianteer::scene::{Film, Medium, Projection, Scope, Side, View};
 use brillianteer::trace::gpu::{Gpu, GpuError, ScopePixel};
-use brillianteer::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
+use brillianteer::trace::ray::{Camera, Exit, MeetingRay, RayOptions, StoneTracer};
 use brillianteer::trace::{ScopeShot, Stopped, unwatched};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 pub const SIZE: u32 = 96;
 
@@ -41,9 +41,8 @@ fn by_ray(
     let (origin, direction) = camera.ray(at);
     let met = tracer.meet(origin, direction);
     let is_taken = |_: &Exit, _| !comes_back;
-    let way = (direction, DVec3::ZERO);
     let follow = |met| {
-        tracer.follow_from(met, origin, way, 1.0, is_taken, |exit| {
+        tracer.follow_from(&MeetingRay::from_eye(met, origin, direction), is_taken, |exit| {
             let band = scope.band(exit.direction, view.zenith());
             seen[if exit.surface { 8 } else { 0 } + band] += exit.weight;
         })

@@ -8,7 +8,7 @@ use brillianteer::picture::by_rays;
 use brillianteer::scene::{
     ASET_CONE, Backing, Body, Film, Glare, Instance, Medium, Projection, Scene, Scope, Specimen, View,
 };
-use brillianteer::trace::ray::{Camera, Exit, InstanceTracer, RayOptions, StoneTracer};
+use brillianteer::trace::ray::{Camera, Exit, InstanceTracer, MeetingRay, RayOptions, StoneTracer};
 use brillianteer::trace::{ScopeShot, unwatched};
 use glam::{DQuat, DVec2, DVec3};
 use std::sync::Arc;
@@ -265,8 +265,8 @@ fn turning_and_scaling_a_body_changes_nothing() {
         let exits = |tracer: &InstanceTracer, (origin, direction): (DVec3, DVec3)| {
             let mut exits = vec![];
             let met = tracer.meet(origin, direction)?;
-            let way = (direction, DVec3::ZERO);
-            tracer.follow_from(met, origin, way, 1.0, |_, _| false, |exit| exits.push(exit));
+            let ray = MeetingRay::from_eye(met, origin, direction);
+            tracer.follow_from(&ray, |_, _| false, |exit| exits.push(exit));
             Some((met.1, exits))
         };
         let (mut all, mut off) = (0, 0);

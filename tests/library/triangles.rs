@@ -47,11 +47,20 @@ fn taken<T>(stones: Vec<Instance>, light: &Light, work: impl FnOnce(&LitScene) -
 }
 
 fn by_rays_of(stones: Vec<Instance>, light: &Light) -> (Linear, Remainder) {
+    sampled(stones, light, Sampling::of(1))
+}
+
+fn sampled(stones: Vec<Instance>, light: &Light, sampling: Sampling) -> (Linear, Remainder) {
     taken(stones, light, |lit_scene| {
         let strata = strata(2, &light.spectrum, true);
         let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
-        expose(lit_scene, (&strata, Sampling::of(1)), SIZE, prepare, &unwatched).unwrap()
+        expose(lit_scene, (&strata, sampling), SIZE, prepare, &unwatched).unwrap()
     })
+}
+
+/// A sampling of one pass in which weak light goes on by chance.
+fn by_chance() -> Sampling {
+    Sampling { by_chance: 0.1, ..Sampling::of(1) }
 }
 
 /// Counts the pixels that differ by more than rounding, and those that show anything.
@@ -121,6 +130,47 @@ fn a_white_furnace_is_white_around_solids_that_are_not_convex() {
             assert!((mean - 1.0).abs().max_element() < most, "{name}, {index}: {mean}, {rest:?}");
         }
     }
+}
+
+#[test]
+fn a_white_furnace_is_white_in_the_mean_where_weak_light_goes_on_by_chance() {
+    let white = Light { head: 0.0, ..light("white").unwrap() };
+    for (name, solid) in [("heart", heart()), ("star", star()), ("clasp", clasp(0.4))] {
+        let stone = Instance::new(mesh(solid), material("diamond").unwrap().clone());
+        let (picture, rest) = sampled(vec![stone], &white, by_chance());
+        let seen: Vec<f64> = picture.pixels.iter().filter(|p| p[3] > 0.0).map(|p| p[1].into()).collect();
+        let count = seen.len() as f64;
+        let mean = seen.iter().sum::<f64>() / count;
+        let variance = seen.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (count - 1.0);
+        let error = (variance / count).sqrt();
+        // Only what is left after the most bounces is unresolved; the error is small enough to notice a percent.
+        assert!(rest.unresolved < 1e-3 && error < 0.003, "{name}: {rest:?}, {error}");
+        assert!((mean - 1.0).abs() < 4.0 * error + rest.unresolved, "{name}: {mean} ± {error}");
+    }
+}
+
+#[test]
+fn chance_is_the_same_on_any_number_of_cores_and_another_in_each_pass() {
+    let stone = || vec![Instance::new(mesh(star()), material("diamond").unwrap().clone())];
+    let light = light("studio").unwrap();
+    let on = |cores: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(cores).build().unwrap();
+        pool.install(|| sampled(stone(), &light, by_chance()))
+    };
+    let (one, two) = (on(1), on(2));
+    assert_eq!((&one.0.pixels, one.1), (&two.0.pixels, two.1));
+    assert_ne!(one.0.pixels, by_rays_of(stone(), &light).0.pixels);
+    let numbers = [0, 1].map(|pass| {
+        [0, 1].map(|band| {
+            taken(stone(), &light, |lit_scene| {
+                by_chance()
+                    .pass(lit_scene.scene, &strata(2, &light.spectrum, true), pass)
+                    .roulette([3, 5], band)
+            })
+        })
+    });
+    let [[a, b], [c, d]] = numbers;
+    assert!(a.is_some() && a != b && a != c && b != c && c != d);
 }
 
 #[test]

@@ -13,19 +13,20 @@ fn by_force(
     let ray = Sheared::new(origin, direction, &root)?;
     let met = (0..triangles.len() as u32)
         .filter(|&k| keep(k))
-        .filter_map(|k| ray.meets(&triangles[k as usize].map(|v| vertices[v as usize])));
-    met.filter(|&d| d > after).min_by(f64::total_cmp)
+        .map(|k| ray.meets_one(&triangles[k as usize].map(|v| vertices[v as usize])));
+    met.filter(|&d| d > after && d.is_finite()).min_by(f64::total_cmp)
 }
 
 fn check(bvh: &Bvh, count: usize) {
     let mut seen: Vec<u32> = bvh.order().to_vec();
     seen.sort_unstable();
     assert!(seen.into_iter().eq(0..count as u32));
-    let nodes = bvh.nodes();
+    let (nodes, corners) = (bvh.nodes(), bvh.wide.corners());
+    assert_eq!(corners.len(), count);
     for (k, node) in nodes.iter().enumerate() {
         if node.count > 0 {
             let first = node.start as usize;
-            for corner in bvh.corners[first..first + node.count as usize].iter().flatten() {
+            for corner in corners[first..first + node.count as usize].iter().flatten() {
                 assert!(node.low.cmple(*corner).all() && node.high.cmpge(*corner).all());
             }
             continue;

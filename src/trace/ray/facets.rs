@@ -12,9 +12,6 @@ use std::sync::Arc;
 
 /// A solid's facets, as the tracer searches them.
 pub(super) trait FacetSearch {
-    /// Whether light that has left may meet the solid again.
-    const BRANCHES: bool;
-
     /// Returns the unit outward normal at a point of a facet.
     fn normal(&self, facet: usize, point: DVec3) -> DVec3;
 
@@ -27,6 +24,11 @@ pub(super) trait FacetSearch {
     /// Returns the facet and the distance, not below 0, at which a ray from a point outside or on the surface enters; `None`
     /// where it misses.
     fn entry(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)>;
+
+    /// Returns the facet and the distance at which light that leaves by a facet, at this point of it, enters again.
+    fn again(&self, _facet: usize, point: DVec3, direction: DVec3) -> Option<(usize, f64)> {
+        self.entry(point, direction)
+    }
 
     /// Returns the facet and the distance at which a ray from a point inside or on the surface leaves; `None` where rounding
     /// has let the ray slip out.
@@ -96,12 +98,14 @@ impl SolidFacets {
         }
     }
 
-    /// Returns the distance after which light that leaves enters again.
-    pub fn again(&self, (origin, direction): (DVec3, DVec3)) -> Option<f64> {
+    /// Returns the distance after which light that leaves by a facet, at this point of it, enters again.
+    pub fn again(&self, facet: usize, point: DVec3, direction: DVec3) -> Option<f64> {
         match self {
             Self::Planes(_) | Self::Smooth(_) => None,
-            Self::Triangles(triangles) => triangles.entry(origin, direction).map(|(_, distance)| distance),
-            Self::Wavy(Wavy(field)) => field.entry(origin, direction),
+            Self::Triangles(triangles) => {
+                triangles.again(facet, point, direction).map(|(_, distance)| distance)
+            }
+            Self::Wavy(Wavy(field)) => field.entry(point, direction),
         }
     }
 }
@@ -133,8 +137,6 @@ impl Planes {
 }
 
 impl FacetSearch for Planes {
-    const BRANCHES: bool = false;
-
     #[inline]
     fn normal(&self, facet: usize, _: DVec3) -> DVec3 {
         self.planes[facet].normal
@@ -194,8 +196,6 @@ impl Wavy {
 }
 
 impl FacetSearch for TriangleFacets {
-    const BRANCHES: bool = true;
-
     fn normal(&self, facet: usize, _: DVec3) -> DVec3 {
         self.mesh.planes()[facet].normal
     }
@@ -204,17 +204,19 @@ impl FacetSearch for TriangleFacets {
         self.first(origin, direction, |speed| speed < 0.0)
     }
 
+    fn again(&self, facet: usize, point: DVec3, direction: DVec3) -> Option<(usize, f64)> {
+        self.mesh.is_overtopped(facet).then(|| self.entry(point, direction)).flatten()
+    }
+
     fn next(&self, point: DVec3, direction: DVec3) -> Option<(usize, f64)> {
         self.first(point, direction, |speed| speed > 0.0)
     }
 }
 
-/// Implements `FacetSearch` for a smooth surface; whether it `branches` is known when it is made.
+/// Implements `FacetSearch` for a smooth surface.
 macro_rules! smooth {
-    ($kind:ident, $branches:literal) => {
+    ($kind:ident) => {
         impl FacetSearch for $kind {
-            const BRANCHES: bool = $branches;
-
             #[inline]
             fn normal(&self, _: usize, point: DVec3) -> DVec3 {
                 self.0.normal(point)
@@ -237,5 +239,5 @@ macro_rules! smooth {
     };
 }
 
-smooth!(SmoothFacets, false);
-smooth!(Wavy, true);
+smooth!(SmoothFacets);
+smooth!(Wavy);

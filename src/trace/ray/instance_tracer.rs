@@ -1,7 +1,7 @@
 //! Follows rays through one stone in its place: they are carried into the frame of its body, and what they find is carried
 //! back.
 
-use super::{Exit, Loss, RayOptions, StoneTracer};
+use super::{Exit, Loss, MeetingRay, RayOptions, StoneTracer};
 use crate::math::{Ball, Pose};
 use crate::scene::{Instance, Medium};
 use glam::DVec3;
@@ -68,19 +68,16 @@ impl InstanceTracer {
     /// Follows a ray through the stone as [`StoneTracer::follow_from`] does; all is in the world.
     pub fn follow_from(
         &self,
-        (facet, distance): (usize, f64),
-        origin: DVec3,
-        (direction, sweep): (DVec3, DVec3),
-        weight: f64,
+        ray: &MeetingRay,
         is_taken: impl Fn(&Exit, f64) -> bool,
         mut leave: impl FnMut(Exit),
     ) -> Option<Loss> {
-        let met = (facet, distance / self.unit());
-        let (origin, direction) = self.arriving((origin, direction));
-        let sweep = self.pose.map_or(sweep, |pose| pose.turn.inverse() * sweep);
+        let (facet, distance) = ray.met;
+        let (origin, direction) = self.arriving((ray.origin, ray.direction));
+        let sweep = self.pose.map_or(ray.sweep, |pose| pose.turn.inverse() * ray.sweep);
+        let ray = MeetingRay { met: (facet, distance / self.unit()), origin, direction, sweep, ..*ray };
         let is_taken = |exit: &Exit, distance: f64| is_taken(&self.outward(*exit), distance * self.unit());
-        let leave = |exit| leave(self.outward(exit));
-        self.tracer.follow_from(met, origin, (direction, sweep), weight, is_taken, leave)
+        self.tracer.follow_from(&ray, is_taken, |exit| leave(self.outward(exit)))
     }
 
     /// Returns the length in the world of the unit of the body's frame.

@@ -68,6 +68,18 @@ impl PathLight {
             Self::Fields(fields) => fields.turned(ray, normal).split(cos_i, eta),
         }
     }
+
+    /// Returns this light at another weight, which is `factor` times as large.
+    pub fn scaled(&self, factor: f64) -> Self {
+        match self {
+            Self::Unpolarised(weight) => Self::Unpolarised(weight * factor),
+            Self::Fields(fields) => {
+                let root = factor.sqrt();
+                let parts = fields.parts.map(|field| field.map(|part| part * root));
+                Self::Fields(ElectricFields { parts, weight: fields.weight * factor, ..*fields })
+            }
+        }
+    }
 }
 
 /// The sine of the angle between a ray and a facet's normal below which the ray counts as square to the facet: the cross

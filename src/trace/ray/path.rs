@@ -2,7 +2,7 @@
 
 use super::facets::SolidFacets;
 use super::light::PathLight;
-use super::{Exit, Loss, StoneTracer};
+use super::{Exit, Loss, MeetingRay, StoneTracer};
 use crate::optics::critical_angle;
 use glam::DVec3;
 
@@ -54,15 +54,19 @@ pub struct Path {
 }
 
 /// A facet that the tracer's loop comes to, and what becomes of the light there.
-pub(in crate::trace) struct SurfaceEvent {
+pub(in crate::trace) struct SurfaceEvent<'a> {
     pub facet: u32,
     pub point: DVec3,
+    /// The facet's unit outward normal at the point.
+    pub normal: DVec3,
     pub path: f64,
     /// The share that has not been absorbed.
     pub left: f64,
     pub bounce: u32,
     /// The unit direction in which the light arrives.
     pub arriving: DVec3,
+    /// The light that arrives, without absorption.
+    pub light: &'a PathLight,
     /// The light that leaves; `None` where reflection is total.
     pub leaving: Option<ExitLight>,
     /// The weight that goes on inside.
@@ -76,15 +80,16 @@ pub(in crate::trace) struct ExitLight {
     /// The displacement of the point over the spread of wavelengths.
     pub shift: DVec3,
     pub weight: f64,
-    /// The light without absorption; given for solids that it may enter again.
-    pub light: Option<PathLight>,
 }
 
-impl SurfaceEvent {
-    /// Returns the light that leaves, without absorption, and its displacement over the spread of wavelengths.
-    pub fn onward_outside(&self) -> Option<(PathLight, DVec3)> {
+impl SurfaceEvent<'_> {
+    /// Returns the light that leaves a stone of this index, without absorption, and its displacement over the spread of
+    /// wavelengths.
+    pub fn onward_outside(&self, index: f64) -> Option<(PathLight, DVec3)> {
         let leaving = self.leaving.as_ref()?;
-        Some((leaving.light?, leaving.shift))
+        let enters = self.arriving.dot(self.normal) < 0.0;
+        let split = self.light.split(self.arriving, self.normal, if enters { 1.0 / index } else { index });
+        Some((if enters { split.reflected } else { split.passed }, leaving.shift))
     }
 
     #[inline]
@@ -102,13 +107,14 @@ impl StoneTracer {
     pub fn path(&self, origin: DVec3, direction: DVec3) -> Option<Path> {
         let met = self.meet(origin, direction)?;
         let mut steps = vec![];
-        let start = self.start(met, origin, (direction, DVec3::ZERO), 1.0);
+        let start = self.start(&MeetingRay::from_eye(met, origin, direction));
+        let least = self.options.least_weight;
         let tell = |meeting: SurfaceEvent| steps.push(self.step(&meeting));
         let rest = match &self.shape {
-            SolidFacets::Planes(planes) => self.passage(&**planes, start, tell)?,
-            SolidFacets::Triangles(triangles) => self.passage(triangles, start, tell)?,
-            SolidFacets::Smooth(smooth) => self.passage(smooth, start, tell)?,
-            SolidFacets::Wavy(wavy) => self.passage(wavy, start, tell)?,
+            SolidFacets::Planes(planes) => self.passage(&**planes, start, least, tell)?,
+            SolidFacets::Triangles(triangles) => self.passage(triangles, start, least, tell)?,
+            SolidFacets::Smooth(smooth) => self.passage(smooth, start, least, tell)?,
+            SolidFacets::Wavy(wavy) => self.passage(wavy, start, least, tell)?,
         };
         Some(Path { origin, direction, steps, rest })
     }
@@ -128,7 +134,7 @@ impl StoneTracer {
             leaving: leaving.as_ref().map(|l| Leaving {
                 share: l.weight,
                 direction: l.direction,
-                again: self.shape.again((point, l.direction)),
+                again: self.shape.again(facet as usize, point, l.direction),
             }),
             onward,
         }

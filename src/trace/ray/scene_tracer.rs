@@ -1,7 +1,7 @@
 //! Traces pictures under light by point rays: several stones, and light that goes from one to the next.
 
 use super::sight::{Met, nearest};
-use super::{Camera, Exit, InstanceTracer, Loss};
+use super::{Camera, Exit, InstanceTracer, Loss, MeetingRay, Roulette};
 use crate::scene::Medium;
 use crate::trace::packet::PacketTracer;
 use crate::trace::sampling::{LitScene, MOST_WAITING, ProgressiveImage, RadiancePixel, SamplePass};
@@ -31,6 +31,8 @@ pub struct WaitingRay {
     pub sweep: DVec3,
     /// The share of the light from that direction that reaches the eye.
     pub weight: f64,
+    /// By what chance weak light goes on in solids that are not convex; without it, all of it does.
+    pub roulette: Option<Roulette>,
     left: Option<usize>,
     /// The number of bounces inside stones on its way so far.
     bounces: u32,
@@ -39,7 +41,7 @@ pub struct WaitingRay {
 impl WaitingRay {
     /// Returns a ray from the eye.
     pub fn from_eye((origin, direction): (DVec3, DVec3)) -> Self {
-        Self { origin, direction, sweep: DVec3::ZERO, weight: 1.0, left: None, bounces: 0 }
+        Self { origin, direction, sweep: DVec3::ZERO, weight: 1.0, roulette: None, left: None, bounces: 0 }
     }
 }
 
@@ -95,11 +97,13 @@ impl SceneTracer {
         waiting: &mut Vec<WaitingRay>,
         mut leave: impl FnMut(&WaitingRay),
     ) -> Loss {
-        let (mut unseen, before) = (0.0, ray.bounces);
+        let (mut unseen, mut number, before) = (0.0, 0, ray.bounces);
         let exits = |exit: Exit| {
             let Exit { point: origin, direction, sweep, weight, .. } = exit;
             let bounces = before + exit.bounce;
-            let ray = WaitingRay { origin, direction, sweep, weight, left: Some(stone), bounces };
+            number += 1;
+            let roulette = ray.roulette.map(|roulette| roulette.beyond(number));
+            let ray = WaitingRay { origin, direction, sweep, weight, roulette, left: Some(stone), bounces };
             if !self.meets_any(&ray) {
                 leave(&ray);
             } else if waiting.len() < MOST_WAITING && weight > self.least_weight {
@@ -108,9 +112,10 @@ impl SceneTracer {
                 unseen += weight;
             }
         };
-        let (tracer, way) = (&self.tracers[stone], (ray.direction, ray.sweep));
+        let &WaitingRay { origin, direction, sweep, weight, roulette, .. } = ray;
+        let meeting = MeetingRay { met, origin, direction, sweep, weight, roulette };
         let is_taken = |exit: &Exit, distance: f64| self.meets_before(exit, stone, distance);
-        let rest = tracer.follow_from(met, ray.origin, way, ray.weight, is_taken, exits).unwrap_or_default();
+        let rest = self.tracers[stone].follow_from(&meeting, is_taken, exits).unwrap_or_default();
         Loss { unresolved: rest.unresolved + unseen, bounces: before + rest.bounces, ..rest }
     }
 
@@ -173,15 +178,16 @@ impl<'a> ByRays<'a> {
     }
 
     /// Returns what one ray of a pixel sees, over all wavelengths.
-    fn see(&self, bands: &[SceneTracer], pass: &SamplePass, at: DVec2) -> RadiancePixel {
-        let straight = self.camera.ray(at);
-        let start = WaitingRay::from_eye(straight);
+    fn see(&self, bands: &[SceneTracer], pass: &SamplePass, pixel: [u32; 2]) -> RadiancePixel {
+        let straight = self.eye_ray(pass, pixel);
+        let mut start = WaitingRay::from_eye(straight);
         // The ray meets the first stone at the same point in all wavelengths.
         let first = self.tracer.first(&start);
         let is_seen = first.is_some() || self.lit_scene.environment.backdrop;
         let mut lit = RadiancePixel { cover: f64::from(u8::from(is_seen)), ..RadiancePixel::default() };
-        for (tracer, response) in bands.iter().zip(&pass.responses) {
+        for (band, (tracer, response)) in bands.iter().zip(&pass.responses).enumerate() {
             let mut light = DVec4::ZERO;
+            start.roulette = pass.roulette(pixel, band);
             match &first {
                 Some(first) => {
                     let rest =
@@ -206,20 +212,24 @@ impl<'a> ByRays<'a> {
         self.lit_scene.environment.radiance(from, direction, sweep) * ray.weight
     }
 
+    /// Returns the ray of a pixel, given by column and row.
+    fn eye_ray(&self, pass: &SamplePass, [x, y]: [u32; 2]) -> (DVec3, DVec3) {
+        let at = DVec2::new(f64::from(x), f64::from(y)) + pass.shift;
+        self.camera.ray(self.lit_scene.film.image_from_pixels(at))
+    }
+
     /// Adds what one ray of each pixel sees to the sums of some pixels, which stand row by row from the number `first` on.
     fn add(&self, bands: &[SceneTracer], pass: &SamplePass, first: usize, sums: &mut [RadiancePixel]) {
         let across = self.lit_scene.film.size[0] as usize;
-        let at = |k: usize| {
-            let (x, y) = ((k % across) as u32, self.rows.start + (k / across) as u32);
-            self.lit_scene.film.image_from_pixels(DVec2::new(f64::from(x), f64::from(y)) + pass.shift)
-        };
+        let pixel = |k: usize| [(k % across) as u32, self.rows.start + (k / across) as u32];
         if let Some(packets) = &self.packets {
-            let rays: Vec<_> = (first..first + sums.len()).map(|k| self.camera.ray(at(k))).collect();
+            let numbers = first..first + sums.len();
+            let rays: Vec<_> = numbers.map(|k| self.eye_ray(pass, pixel(k))).collect();
             packets.see(pass, &rays, sums);
             return;
         }
         for (k, sum) in (first..).zip(sums) {
-            let lit = self.see(bands, pass, at(k));
+            let lit = self.see(bands, pass, pixel(k));
             sum.colour += lit.colour;
             sum.cover += lit.cover;
             sum.unresolved += lit.unresolved;

@@ -1,12 +1,16 @@
 //! A ray's way through a solid that is not convex: light that leaves may enter again.
 //!
 //! Every passage, from entry until too little is left, is the chain of bounces that a convex stone has; light that leaves on
-//! it and meets the solid again waits to be followed like the first, the strongest first, its polarisation kept. What is not
-//! followed is unresolved, so that all shares still add up to 1.
+//! it and meets the solid again waits to be followed like the first, the strongest first, its polarisation kept. Without
+//! roulette, what is weaker than the least weight is not followed and is unresolved, so that all shares still add up to 1.
+//! With roulette, weak light is followed by chance: the shares add up to 1 in the mean, and nothing is unresolved but what the
+//! limits on bounces and passages cut off.
 
 use super::dispersed_ray::DispersedRay;
 use super::facets::FacetSearch;
 use super::light::PathLight;
+use super::path::SurfaceEvent;
+use super::roulette::{PassageRoulette, Roulette};
 use super::{Exit, Loss, StoneTracer};
 
 /// The most passages of one ray that are followed; light that waits after so many is unresolved.
@@ -40,6 +44,7 @@ impl StoneTracer {
         &self,
         facets: &F,
         start: Inbound,
+        mut roulette: Option<Roulette>,
         is_taken: impl Fn(&Exit, f64) -> bool,
         mut leave: impl FnMut(Exit),
     ) -> Option<Loss> {
@@ -47,35 +52,26 @@ impl StoneTracer {
         let mut waiting: Vec<Inbound> = vec![];
         let mut next = start;
         for number in 0..MOST_PASSAGES {
-            let mut again = |inbound: Inbound| {
-                if inbound.weight() > self.options.least_weight {
-                    waiting.push(inbound);
-                } else {
-                    rest.unresolved += inbound.weight();
-                }
+            let mut chances = match &mut roulette {
+                Some(roulette) => roulette.passage(&next.light, next.left),
+                None => PassageRoulette::without_chance(self.options.least_weight, &next.light, next.left),
             };
-            let passed = self.passage(facets, next, |meeting| {
-                let Some(exit) = meeting.exit() else { return };
-                let met = facets.entry(exit.point, exit.direction);
-                match (met.filter(|met| !is_taken(&exit, met.1)), meeting.onward_outside()) {
-                    (Some(met), Some((light, shift))) => again(Inbound {
-                        met,
-                        ray: DispersedRay {
-                            origin: exit.point,
-                            direction: exit.direction,
-                            sweep: exit.sweep,
-                            shift,
-                        },
-                        light,
-                        left: meeting.left,
-                        path: exit.path,
-                        bounce: exit.bounce,
-                    }),
-                    _ => leave(exit),
+            let passed = self.passage(facets, next, chances.chain.least, |meeting| {
+                let factor = chances.chain.meet(&meeting);
+                let Some(mut exit) = meeting.exit() else { return };
+                let own = exit.weight;
+                let Some(weight) = chances.exits.pass(own * factor) else { return };
+                exit.weight = weight;
+                let met = facets.again(exit.facet as usize, exit.point, exit.direction);
+                let Some(met) = met.filter(|met| !is_taken(&exit, met.1)) else { return leave(exit) };
+                if roulette.is_some() || weight > self.options.least_weight {
+                    waiting.extend(self.inbound(&meeting, &exit, met, weight / own));
+                } else {
+                    rest.unresolved += weight;
                 }
             });
             match passed {
-                Some(passed) => rest = rest.and(&passed),
+                Some(passed) => rest = rest.and(&chances.chain.loss(passed.bounces)),
                 None if number == 0 => return None,
                 None => rest.unresolved += next.weight(),
             }
@@ -87,6 +83,21 @@ impl StoneTracer {
         }
         rest.unresolved += waiting.iter().map(Inbound::weight).sum::<f64>();
         Some(rest)
+    }
+
+    /// Returns light that leaves and enters again, `factor` times as strong.
+    fn inbound(
+        &self,
+        meeting: &SurfaceEvent,
+        exit: &Exit,
+        met: (usize, f64),
+        factor: f64,
+    ) -> Option<Inbound> {
+        let &Exit { point: origin, direction, sweep, path, bounce, .. } = exit;
+        let (light, shift) = meeting.onward_outside(self.medium.index)?;
+        let light = if factor == 1.0 { light } else { light.scaled(factor) };
+        let ray = DispersedRay { origin, direction, sweep, shift };
+        Some(Inbound { met, ray, light, left: meeting.left, path, bounce })
     }
 }
 

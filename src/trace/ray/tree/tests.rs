@@ -3,7 +3,7 @@ use crate::math::fixture::{Triangles, clasp, heart, star};
 use crate::math::{Plane, Polytope, Pose, Surface, TriangleMesh};
 use crate::optics::fresnel;
 use crate::scene::{Medium, Projection, View};
-use crate::trace::ray::{Camera, Exit, Loss, RayOptions, StoneTracer};
+use crate::trace::ray::{Camera, Exit, Loss, MeetingRay, RayOptions, Roulette, StoneTracer};
 use glam::{DQuat, DVec2, DVec3};
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -175,5 +175,98 @@ fn through_corners_edges_and_along_facets_no_light_is_lost() {
         }
         let mean = beside.iter().sum::<f64>() / beside.len() as f64;
         assert!(beside.len() > 50 && mean < 1e-3, "{medium:?}: {mean} unresolved of {}", beside.len());
+    }
+}
+
+/// The zones that exits are counted in: by the octant of their direction. The last is what is absorbed.
+const ZONES: usize = 9;
+
+/// Returns the shares of a ray's light that go to each zone, and the share that is unresolved.
+fn zones(
+    tracer: &StoneTracer,
+    (origin, direction): (DVec3, DVec3),
+    roulette: Option<Roulette>,
+) -> Option<([f64; ZONES], f64)> {
+    let mut sums = [0.0; ZONES];
+    let met = tracer.meet(origin, direction)?;
+    let ray = MeetingRay { roulette, ..MeetingRay::from_eye(met, origin, direction) };
+    let leave = |exit: Exit| {
+        let signs = exit.direction.cmpge(DVec3::ZERO);
+        sums[signs.bitmask() as usize] += exit.weight;
+    };
+    let rest = tracer.follow_from(&ray, |_, _| false, leave)?;
+    sums[ZONES - 1] = rest.absorbed;
+    Some((sums, rest.unresolved))
+}
+
+/// How far the means of many roulettes are from what all light gives, in standard errors: zone by zone, and their sum.
+struct Departure {
+    zones: [f64; ZONES],
+    sum: f64,
+    unresolved: f64,
+}
+
+/// Follows rays through a solid many times by chance, with every weight that goes on multiplied by `spoil`.
+fn departure(solid: Triangles, medium: Medium, is_polarised: bool, spoil: f64) -> Departure {
+    const TIMES: u32 = 300;
+    let options = RayOptions { polarised: is_polarised, most_bounces: 2000, least_weight: 1e-7 };
+    let tracer = StoneTracer::new(&mesh(solid), medium, options);
+    let (mut off, mut squares, mut unresolved) = ([0.0; ZONES + 1], [0.0; ZONES + 1], 0.0);
+    for number in 0..40_u32 {
+        let turn = 2.4 * f64::from(number);
+        let direction = DVec3::new(0.4 * turn.sin(), 0.3 * turn.cos(), -1.0);
+        let direction = direction / direction.length();
+        let aim = DVec3::new((0.7 * turn).cos(), (1.1 * turn).sin(), 0.0) * (0.02 * f64::from(number));
+        let Some((all, open)) = zones(&tracer, (aim - direction * 8.0, direction), None) else { continue };
+        assert!(open < 2e-3, "{open} of the light is not followed");
+        let mut values = vec![];
+        for time in 0..TIMES {
+            let roulette = Some(Roulette::new(0.1, [number, time], 0));
+            let (own, left) = zones(&tracer, (aim - direction * 8.0, direction), roulette).unwrap();
+            unresolved += left;
+            values.push(own);
+        }
+        let mean_of = |pick: &dyn Fn(&[f64; ZONES]) -> f64| {
+            let n = f64::from(TIMES);
+            let mean = values.iter().map(pick).sum::<f64>() / n;
+            let variance = values.iter().map(|v| (pick(v) - mean).powi(2)).sum::<f64>() / (n - 1.0);
+            (mean * spoil, variance / n)
+        };
+        for zone in 0..=ZONES {
+            let pick = |v: &[f64; ZONES]| if zone < ZONES { v[zone] } else { v.iter().sum() };
+            let (mean, square) = mean_of(&pick);
+            off[zone] += mean - pick(&all);
+            squares[zone] += square;
+        }
+    }
+    // A zone that no light reaches departs by nothing.
+    let each = |zone: usize| off[zone] / squares[zone].sqrt().max(1e-12);
+    Departure { zones: std::array::from_fn(each), sum: each(ZONES), unresolved }
+}
+
+#[test]
+fn roulette_changes_no_mean() {
+    let grey = Medium { absorption: [0.1, 0.3], ..Medium::clear(2.4175) };
+    for (name, solid) in [("star", star()), ("heart", heart()), ("clasp", clasp(0.5))] {
+        for (medium, polarised) in [(Medium::clear(2.4175), true), (grey, true), (Medium::clear(1.54), false)]
+        {
+            let chi_squared = |d: &Departure| d.zones.iter().map(|z| z * z).sum::<f64>();
+            let right = departure(solid.clone(), medium, polarised, 1.0);
+            assert_eq!(right.unresolved, 0.0, "{name}, {medium:?}");
+            // 9 zones: one case in a thousand is beyond 28. The sum of all is 1 in the mean.
+            assert!(
+                chi_squared(&right) < 28.0 && right.sum.abs() < 4.0,
+                "{name}, {medium:?}: {:?}, {}",
+                right.zones,
+                right.sum
+            );
+            let wrong = departure(solid.clone(), medium, polarised, 1.01);
+            assert!(
+                chi_squared(&wrong) > 28.0 && wrong.sum > 4.0,
+                "{name}, {medium:?}: {:?}, {}",
+                wrong.zones,
+                wrong.sum
+            );
+        }
     }
 }

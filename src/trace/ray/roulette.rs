@@ -1,0 +1,218 @@
+//! Russian roulette: weak light goes on by chance alone and counts for more where it does, so that the mean over all chances
+//! is exact.
+
+use super::Loss;
+use super::light::PathLight;
+use super::path::SurfaceEvent;
+
+/// The least luck of a chain: with less, it would be followed until nothing is left.
+const LEAST_LUCK: f64 = 1e-9;
+
+/// How many numbers of each ray are spread evenly over the rays of a pixel; more are drawn at random.
+const EVEN: usize = 4;
+
+/// For each of these numbers, the step from one ray of the pixel to the next, in units of 2^-64: multiples of the golden
+/// ratio of the fourth kind, the powers of 1 / 1.1673..., so that any successive rays fill the hypercube evenly (M. Roberts,
+/// R4, 2018).
+const STEPS: [u64; EVEN] =
+    [0xdb4f_0b91_75ae_2165, 0xbbe0_5633_03a4_615f, 0xa0f2_ec75_a1fe_1575, 0x89e1_8285_7d9e_d688];
+
+/// The roulette of one ray: below which weight light goes on by chance, and the numbers that decide it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Roulette {
+    /// The share of the eye's light below which light goes on by chance.
+    threshold: f64,
+    /// What is different in each pixel.
+    seed: u64,
+    /// The number of the ray in its pixel.
+    number: u64,
+    drawn: usize,
+}
+
+/// The roulette of one chain of bounces. Light below the threshold is followed only as far as one number says, and what is
+/// met on the way counts for more.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::trace) struct ChainRoulette {
+    threshold: f64,
+    /// The weight at which the chain ends.
+    pub least: f64,
+    /// The weight on the way to the next facet.
+    before: f64,
+    /// The share of it that had not been absorbed at the last facet.
+    left: f64,
+    absorbed: f64,
+}
+
+/// Lets weights above a threshold through, and of weaker ones as many as together weigh the same; all of these then weigh
+/// as much as the threshold. Weights that follow one another are drawn by turns, so that their sum hardly changes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sieve {
+    threshold: f64,
+    /// The weight of what did not pass since the last weak one that did; `None` where nothing weak passes.
+    level: Option<f64>,
+}
+
+/// What decides in one passage how far light is followed.
+pub(super) struct PassageRoulette {
+    pub chain: ChainRoulette,
+    /// For light that leaves.
+    pub exits: Sieve,
+}
+
+impl PassageRoulette {
+    /// Returns what follows all light that begins like this until no more than `least` of it is left.
+    pub fn without_chance(least: f64, light: &PathLight, left: f64) -> Self {
+        Self {
+            chain: ChainRoulette {
+                threshold: 0.0,
+                least,
+                before: light.weight() * left,
+                left,
+                absorbed: 0.0,
+            },
+            exits: Sieve { threshold: f64::NEG_INFINITY, level: None },
+        }
+    }
+}
+
+impl Roulette {
+    /// Returns the roulette of a ray: `number` counts the rays of its pixel, which is given by column and row.
+    pub fn new(threshold: f64, [x, y]: [u32; 2], number: u64) -> Self {
+        Self { threshold, seed: mixed(u64::from(x) << 32 | u64::from(y)), number, drawn: 0 }
+    }
+
+    /// Returns the roulette of the light that leaves one stone by its exit of this number and meets another stone.
+    pub fn beyond(&self, exit: u64) -> Self {
+        Self { seed: mixed(self.seed ^ mixed(exit)), drawn: EVEN, ..*self }
+    }
+
+    /// Draws the numbers of a passage that begins with this light, of which absorption has left a share.
+    pub(super) fn passage(&mut self, light: &PathLight, left: f64) -> PassageRoulette {
+        let threshold = self.threshold;
+        PassageRoulette {
+            chain: ChainRoulette::new(threshold, self.draw(), light, left),
+            exits: Sieve { threshold, level: Some(self.draw() * threshold) },
+        }
+    }
+
+    /// Returns the next number, from 0 to below 1.
+    fn draw(&mut self) -> f64 {
+        let k = self.drawn;
+        self.drawn += 1;
+        let own = mixed(self.seed.wrapping_add(k as u64));
+        let bits = match STEPS.get(k) {
+            Some(step) => own.wrapping_add(step.wrapping_mul(self.number)),
+            None => mixed(own ^ mixed(self.number)),
+        };
+        (bits >> 11) as f64 * (-53_f64).exp2()
+    }
+}
+
+impl ChainRoulette {
+    /// Returns the roulette of a chain that begins with this light, of which absorption has left a share, with luck from 0 to
+    /// below 1.
+    pub fn new(threshold: f64, luck: f64, light: &PathLight, left: f64) -> Self {
+        let before = light.weight() * left;
+        let threshold = threshold.min(before);
+        Self { threshold, least: luck.max(LEAST_LUCK) * threshold, before, left, absorbed: 0.0 }
+    }
+
+    /// Takes note of a facet, and returns the factor by which what leaves there counts for more.
+    #[inline]
+    pub fn meet(&mut self, met: &SurfaceEvent) -> f64 {
+        // The chain comes here with a chance of before / threshold.
+        let factor = self.factor();
+        if met.left < self.left {
+            self.absorbed += met.light.weight() * (self.left - met.left) * factor;
+            self.left = met.left;
+        }
+        self.before = met.onward;
+        factor
+    }
+
+    fn factor(&self) -> f64 {
+        (self.threshold / self.before).max(1.0)
+    }
+
+    /// Returns the loss of a chain that has ended after so many bounces: nothing is unresolved where chance has ended it.
+    pub fn loss(&self, bounces: u32) -> Loss {
+        let is_caught = self.threshold > 0.0 && self.before <= self.least;
+        let unresolved = if is_caught { 0.0 } else { self.before * self.factor() };
+        Loss { absorbed: self.absorbed, unresolved, bounces }
+    }
+}
+
+impl Sieve {
+    /// Returns the weight with which light of this weight goes on; `None` where it does not.
+    #[inline]
+    pub fn pass(&mut self, weight: f64) -> Option<f64> {
+        if weight > self.threshold {
+            return Some(weight);
+        }
+        let level = self.level.as_mut()?;
+        *level += weight;
+        (*level >= self.threshold).then(|| {
+            *level -= self.threshold;
+            self.threshold
+        })
+    }
+}
+
+/// Mixes the bits of a number well (S. Vigna's splitmix64).
+fn mixed(number: u64) -> u64 {
+    let z = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sieve_lets_each_weight_through_as_often_as_it_says() {
+        let weights = [0.03, 0.2, 0.07, 0.0, 0.011, 0.1, 0.05];
+        let (mut sums, count) = ([0.0; 7], 20_000);
+        for k in 0..count {
+            let mut sieve =
+                Sieve { threshold: 0.1, level: Some(0.1 * (f64::from(k) + 0.5) / f64::from(count)) };
+            let passed = weights.map(|weight| sieve.pass(weight));
+            assert_eq!((passed[1], passed[3], passed[5]), (Some(0.2), None, Some(0.1)));
+            assert!(passed.iter().flatten().all(|&weight| weight >= 0.1));
+            // What passes weighs as much as what was put in, but for less than one threshold.
+            let off = passed.iter().flatten().sum::<f64>() - weights.iter().sum::<f64>();
+            assert!(off.abs() < 0.1 + 1e-12, "{off}");
+            sums.iter_mut()
+                .zip(passed)
+                .for_each(|(sum, weight)| *sum += weight.unwrap_or(0.0) / f64::from(count));
+        }
+        for (sum, weight) in sums.iter().zip(weights) {
+            assert!((sum - weight).abs() < 1e-5, "{sum} for {weight}");
+        }
+    }
+
+    #[test]
+    fn the_numbers_of_a_pixels_rays_are_spread_evenly_and_differ_from_pixel_to_pixel() {
+        let rays = 256;
+        for k in 0..6 {
+            let numbers = |x: u32| {
+                let of_ray = |number: u64| {
+                    let mut roulette = Roulette::new(0.1, [x, 7], number);
+                    (0..=k).map(|_| roulette.draw()).last().unwrap_or(1.0)
+                };
+                (0..rays).map(of_ray).collect::<Vec<f64>>()
+            };
+            let own = numbers(3);
+            assert!(own.iter().all(|number| (0.0..1.0).contains(number)));
+            // The largest gap between numbers that are spread evenly is a few times the mean; at random, it is larger.
+            let gap = |mut numbers: Vec<f64>| {
+                numbers.sort_by(f64::total_cmp);
+                numbers.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max) * rays as f64
+            };
+            assert_eq!(gap(own.clone()) < 3.0, k < EVEN, "{k}: {}", gap(own.clone()));
+            let mean = own.iter().zip(numbers(4)).map(|(a, b)| (a - b).abs()).sum::<f64>() / rays as f64;
+            assert!(mean > 0.1, "{k}: {mean}");
+        }
+    }
+}
