@@ -214,9 +214,13 @@ fn how_long_glass_takes() {
                 work();
                 start.elapsed().as_secs_f64() * 1e3
             };
-            let rays = ms(&|| drop(shoot.by_rays()));
+            let [single, packets] = [ms(&|| drop(shoot.by_rays())), ms(&|| drop(shoot.by_packets()))];
             let card = ms(&|| drop(shoot.by_card(&gpu)));
-            writeln!(std::io::stderr(), "| {name} | {wavelengths} | {rays:.0} | {card:.0} |").unwrap();
+            writeln!(
+                std::io::stderr(),
+                "| {name} | {wavelengths} | {single:.0} | {packets:.0} | {card:.0} |"
+            )
+            .unwrap();
         }
     }
 }
