@@ -32,7 +32,7 @@ const FEW_PENDING: usize = 24;
 static ARCH: LazyLock<Arch> = LazyLock::new(Arch::new);
 
 /// A tree of boxes in fours, around triangles in fours.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct WideTree {
     boxes: Vec<FourBoxes>,
     leaves: Vec<FourTriangles>,
@@ -81,7 +81,9 @@ impl WideTree {
             let (left, right) = (spans[k + 1], spans[k + nodes[k].start as usize]);
             spans[k] = (left.0, left.1 + right.1);
         }
-        let mut tree = Self::default();
+        // A box that is not there holds the first leaf, which is empty.
+        let nothing = FourTriangles { corners: [[[0.0; SIDE]; 3]; 3], first: 0, count: 0 };
+        let mut tree = Self { boxes: vec![], leaves: vec![nothing] };
         if !nodes.is_empty() {
             Gathering { nodes, spans: &spans, corners, tree: &mut tree }.fill(vec![0]);
         }
@@ -151,7 +153,7 @@ impl Gathering<'_> {
         let place = self.tree.boxes.len();
         let mut boxes = FourBoxes {
             bounds: [[[f64::INFINITY; SIDE]; 3], [[f64::NEG_INFINITY; SIDE]; 3]],
-            content: [0; SIDE],
+            content: [IS_LEAF; SIDE],
         };
         self.tree.boxes.push(boxes.clone());
         for (k, node) in held.into_iter().enumerate() {
@@ -286,7 +288,7 @@ impl<K: Fn(usize) -> bool> WithSimd for Nearest<'_, K> {
 }
 
 impl Sheared {
-    /// Returns `None` for a direction of no length. `root` is the box around all triangles.
+    /// Returns `None` for a direction of no length and where a number is not finite. `root` is the box around all triangles.
     pub fn new(origin: DVec3, direction: DVec3, root: &BvhNode) -> Option<Self> {
         let size = direction.abs();
         let z = if size.z >= size.x && size.z >= size.y { 2 } else { usize::from(size.y >= size.x) };
@@ -302,7 +304,7 @@ impl Sheared {
         let far = (root.low - origin).abs().max((root.high - origin).abs()).max_element();
         let slack = DVec3::select(is_up, DVec3::ONE, DVec3::NEG_ONE) * (far * BOX_SLACK);
         let (before, beyond) = (origin + slack, origin - slack);
-        shear.is_finite().then_some(Self {
+        (shear.is_finite() && origin.is_finite()).then_some(Self {
             origin,
             axes: [x, y, z],
             shear,

@@ -11,7 +11,7 @@ mod glare;
 mod grid;
 mod star;
 
-pub(super) use glare::Glare;
+pub(super) use glare::GatheredGlare;
 
 use super::linear::LightRows;
 use glare::{BrightPass, halved};
@@ -75,7 +75,7 @@ impl Bloom {
         &self,
         light: &mut L,
         exposed: impl Fn(&[f32; 4]) -> [f32; 4] + Sync,
-    ) -> Result<Option<Glare>, L::Error> {
+    ) -> Result<Option<GatheredGlare>, L::Error> {
         let strength = within(self.strength, 1.0) as f32;
         let threshold = within(self.threshold, f64::from(f32::MAX)) as f32;
         let size = light.size();
@@ -89,7 +89,7 @@ impl Bloom {
             return Ok(None);
         }
         let spread = self.spread(source, f64::from(size[0]) / f64::from(1_u32 << halvings));
-        Ok(Some(Glare { bright, size, halvings, spread }))
+        Ok(Some(GatheredGlare { bright, size, halvings, spread }))
     }
 
     /// Returns the glow and the streaks of a grid's light in each colour, where the whole picture is `width` cells wide.

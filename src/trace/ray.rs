@@ -10,6 +10,7 @@ mod dispersed_ray;
 mod facets;
 mod instance_tracer;
 mod light;
+mod loss;
 mod path;
 mod roulette;
 mod scene_tracer;
@@ -23,6 +24,7 @@ use self::facets::{FacetSearch, Planes, SmoothFacets, SolidFacets, TriangleFacet
 pub use self::instance_tracer::InstanceTracer;
 pub(in crate::trace) use self::light::PathLight;
 use self::light::SplitLight;
+pub use self::loss::Loss;
 use self::path::{ExitLight, SurfaceEvent};
 pub use self::path::{Leaving, Path, Step};
 pub(in crate::trace) use self::roulette::ChainRoulette;
@@ -73,17 +75,6 @@ pub struct Exit {
     pub bounce: u32,
     /// Whether this is the glare of the outer surface: light that was never inside.
     pub surface: bool,
-}
-
-/// The part of a ray's light that did not leave the stone.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Loss {
-    /// Share of the light that was absorbed.
-    pub absorbed: f64,
-    /// Share of the light that was not followed to its end.
-    pub unresolved: f64,
-    /// Number of bounces inside the stone, on the longest way where there are several.
-    pub bounces: u32,
 }
 
 /// A ray that is known to [`meet`](StoneTracer::meet) a stone.

@@ -150,7 +150,7 @@ impl<'a> Tail<'a> {
         let (mut strongest, mut exit) = source.strongest;
         let mut chances = ChainRoulette::new(ROULETTE, luck, &light, self.beams.medium.transmittance(path));
         let end = self.tracer.follow_inside(ray, (light, path), chances.least, |met| {
-            let factor = chances.meet(&met);
+            let factor = chances.meet(met.light, met.left, met.onward);
             let Some(leaving) = met.leaving else { return };
             let band = self.scope.band(leaving.direction, self.beams.zenith);
             leave(TailExit { direction: leaving.direction, band, share: leaving.weight * factor });

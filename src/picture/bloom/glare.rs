@@ -23,7 +23,7 @@ pub(super) struct BrightPass {
 }
 
 /// The glare of a picture, ready to be added to its rows.
-pub(in crate::picture) struct Glare {
+pub(in crate::picture) struct GatheredGlare {
     pub(super) bright: BrightPass,
     /// The number of pixels across and down.
     pub(super) size: [u32; 2],
@@ -99,7 +99,7 @@ impl BrightPass {
     }
 }
 
-impl Glare {
+impl GatheredGlare {
     /// Adds the glare to row `y` of the picture, and takes away the light of its pixels that is spread. Cover stays as it is.
     pub fn add(&self, y: usize, row: &mut [[f32; 4]]) {
         let light = self.spread.each_ref().map(|colour| self.row(colour, 0, y));

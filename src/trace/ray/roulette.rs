@@ -1,9 +1,8 @@
 //! Russian roulette: weak light goes on by chance alone and counts for more where it does, so that the mean over all chances
 //! is exact.
 
-use super::Loss;
 use super::light::PathLight;
-use super::path::SurfaceEvent;
+use super::loss::Loss;
 
 /// The least luck of a chain: with less, it would be followed until nothing is left.
 const LEAST_LUCK: f64 = 1e-9;
@@ -11,11 +10,12 @@ const LEAST_LUCK: f64 = 1e-9;
 /// How many numbers of each ray are spread evenly over the rays of a pixel; more are drawn at random.
 const EVEN: usize = 4;
 
-/// For each of these numbers, the step from one ray of the pixel to the next, in units of 2^-64: multiples of the golden
-/// ratio of the fourth kind, the powers of 1 / 1.1673..., so that any successive rays fill the hypercube evenly (M. Roberts,
-/// R4, 2018).
+/// For each of these numbers, the step from one ray of the pixel to the next, in units of 2^-64: (√5 - 1)/2, √2 - 1, √3 - 1 and
+/// (√13 - 3)/2. Multiples of one irrational number fill the unit evenly, of several the cube (R. D. Richtmyer, *The evaluation
+/// of definite integrals, and a quasi-Monte-Carlo method based on the properties of algebraic numbers*, 1951); the continued
+/// fractions of these begin with no large number, so that gaps stay small for any number of rays.
 const STEPS: [u64; EVEN] =
-    [0xdb4f_0b91_75ae_2165, 0xbbe0_5633_03a4_615f, 0xa0f2_ec75_a1fe_1575, 0x89e1_8285_7d9e_d688];
+    [0x9e37_79b9_7f4a_7c15, 0x6a09_e667_f3bc_c908, 0xbb67_ae85_84ca_a73b, 0x4d82_b446_159f_3610];
 
 /// The roulette of one ray: below which weight light goes on by chance, and the numbers that decide it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,16 +117,17 @@ impl ChainRoulette {
         Self { threshold, least: luck.max(LEAST_LUCK) * threshold, before, left, absorbed: 0.0 }
     }
 
-    /// Takes note of a facet, and returns the factor by which what leaves there counts for more.
+    /// Takes note of a facet, and returns the factor by which what leaves there counts for more. `light` arrives there, of
+    /// which absorption has left the share `left`, and the weight `onward` goes on.
     #[inline]
-    pub fn meet(&mut self, met: &SurfaceEvent) -> f64 {
+    pub fn meet(&mut self, light: &PathLight, left: f64, onward: f64) -> f64 {
         // The chain comes here with a chance of before / threshold.
         let factor = self.factor();
-        if met.left < self.left {
-            self.absorbed += met.light.weight() * (self.left - met.left) * factor;
-            self.left = met.left;
+        if left < self.left {
+            self.absorbed += light.weight() * (self.left - left) * factor;
+            self.left = left;
         }
-        self.before = met.onward;
+        self.before = onward;
         factor
     }
 

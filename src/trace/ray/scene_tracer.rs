@@ -142,12 +142,12 @@ impl SceneTracer {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct First(Met);
 
-/// Rows of a picture under light, traced by the processor in f64.
+/// Rows of a picture under light, traced by the processor.
 pub struct ByRays<'a> {
     lit_scene: LitScene<'a>,
     camera: Camera,
     tracer: SceneTracer,
-    /// Packets in single precision, which are quicker, where all stones are convex.
+    /// Packets in single precision, which are quicker, where no body has triangles.
     packets: Option<PacketTracer<'a>>,
     rows: Range<u32>,
     passes: u32,
@@ -158,7 +158,7 @@ impl<'a> ByRays<'a> {
     /// The most rows to trace at once: the sums of their passes are held in memory.
     pub const MOST_ROWS: u32 = 256;
 
-    /// Prepares some rows of a picture: by packets of rays in single precision where all stones are convex, else in double
+    /// Prepares some rows of a picture: in double precision where a body has triangles, else by packets of rays in single
     /// precision.
     pub fn new(lit_scene: LitScene<'a>, rows: Range<u32>) -> Self {
         Self { packets: PacketTracer::new(lit_scene), ..Self::in_f64(lit_scene, rows) }

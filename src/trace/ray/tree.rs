@@ -57,7 +57,7 @@ impl StoneTracer {
                 None => PassageRoulette::without_chance(self.options.least_weight, &next.light, next.left),
             };
             let passed = self.passage(facets, next, chances.chain.least, |meeting| {
-                let factor = chances.chain.meet(&meeting);
+                let factor = chances.chain.meet(meeting.light, meeting.left, meeting.onward);
                 let Some(mut exit) = meeting.exit() else { return };
                 let own = exit.weight;
                 let Some(weight) = chances.exits.pass(own * factor) else { return };
@@ -104,17 +104,6 @@ impl StoneTracer {
 fn strongest(waiting: &[Inbound]) -> Option<usize> {
     let weights = waiting.iter().map(Inbound::weight).enumerate();
     weights.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
-}
-
-impl Loss {
-    /// Adds up the losses of two passages; `bounces` is the greater of the two.
-    pub(super) fn and(&self, other: &Self) -> Self {
-        Self {
-            absorbed: self.absorbed + other.absorbed,
-            unresolved: self.unresolved + other.unresolved,
-            bounces: self.bounces.max(other.bounces),
-        }
-    }
 }
 
 #[cfg(test)]

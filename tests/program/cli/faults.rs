@@ -174,7 +174,7 @@ fn a_command_line_at_fault_ends_with_code_2() {
     assert!(stderr.contains("a number is expected"), "{stderr}");
     let out_of_range = "--index 0.9, --index nan, --wavelength 0, --tilt 91, --eye-tilt nan, --azimuth inf, --head 90, \
         --unresolved 0, --unresolved nan, --perspective 1, --perspective 5 --tracer beam";
-    let impossible = "export cube.toml --format exr --size 9000, export cube.toml --views aset,aset, cuts none, scopes none, lights none";
+    let impossible = "export cube.toml --format exr --size 16385, export cube.toml --views aset,aset, cuts none, scopes none, lights none";
     let ranged = out_of_range.split(", ").map(|options| format!("measure cube.toml {options}"));
     let lines = ill_formed.split(", ").chain(impossible.split(", ")).map(String::from).chain(ranged);
     let wrong: Vec<_> = lines.map(|line| (desk.run(&line).0, line)).filter(|(code, _)| *code != 2).collect();
