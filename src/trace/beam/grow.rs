@@ -89,7 +89,7 @@ pub fn trace(
     Ok(tracer.beams)
 }
 
-/// How beams are summed up.
+/// What figures are made of beams that are not kept, and how exactly.
 #[derive(Debug, Clone, Copy)]
 pub struct SumOptions<'a> {
     /// The scope by whose bands the light is summed up.
@@ -109,7 +109,7 @@ pub struct SummedBeams {
     pub open: Beams,
     /// How the light goes on from each of them.
     pub(in crate::trace) fronts: Vec<Front>,
-    /// How each of them stands.
+    /// What is known so far of the strongest exit of each open beam.
     pub(in crate::trace) standings: Vec<Standing>,
 }
 

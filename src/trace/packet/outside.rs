@@ -20,7 +20,7 @@ pub(super) enum PacketSolid {
     Glass(PacketShape),
 }
 
-/// A body in its place.
+/// A body of a scene, with the pose that carries it into the world.
 #[derive(Clone)]
 pub(super) struct PacketInstance {
     solid: PacketSolid,

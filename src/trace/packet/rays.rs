@@ -51,7 +51,7 @@ pub(super) struct EnteringRay {
     pub medium: PacketMedium,
 }
 
-/// A ray inside a body.
+/// A ray inside a body, in the frame of the body, where it has just entered.
 #[derive(Clone, Copy)]
 pub(super) struct InnerRay {
     pub origin: Vec3,
@@ -88,7 +88,7 @@ pub(super) struct InnerRays<S: Simd> {
     pub absorption: [Lanes<S>; 2],
     /// The share of the light that absorption has left.
     pub left: Lanes<S>,
-    /// Length of the way inside.
+    /// Length of the way inside the body so far, in the unit of its frame.
     pub path: Lanes<S>,
     /// The light that was absorbed.
     pub absorbed: Lanes<S>,

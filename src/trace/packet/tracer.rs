@@ -17,6 +17,10 @@ pub(in crate::trace) struct PacketTracer<'a> {
     arch: Arch,
 }
 
+/// The most bodies that light passes through one after the other, as often as it enters the same one again. Light that would
+/// enter one more is unresolved.
+const MOST_PASSAGES: usize = 1000;
+
 /// A ray from the eye: a point and the unit direction in which it runs.
 type EyeRay = (DVec3, DVec3);
 
@@ -35,7 +39,7 @@ struct Pixels<'a> {
 #[derive(Clone, Copy)]
 struct FirstMeeting {
     body: usize,
-    /// In the world.
+    /// The distance to it, in the world's unit.
     distance: f32,
     met: SingleMeeting,
 }
@@ -61,12 +65,19 @@ impl<'a> PacketTracer<'a> {
             media: pass.media.iter().map(|m| m.iter().map(PacketMedium::new).collect()).collect(),
         };
         let mut queues = self.seen_first(&mut pixels);
-        while queues.iter().any(|queue| !queue.is_empty()) {
+        for _ in 0..MOST_PASSAGES {
+            if queues.iter().all(Vec::is_empty) {
+                break;
+            }
             let mut next = vec![vec![]; self.instances.len()];
             for (body, queue) in queues.iter().enumerate().filter(|(_, queue)| !queue.is_empty()) {
                 self.pass_through(body, queue, &mut pixels, &mut next);
             }
             queues = next;
+        }
+        for entering in queues.iter().flatten() {
+            pixels.lit[entering.ray.tag as usize / bands].unresolved +=
+                f64::from(entering.ray.light.weight());
         }
         pixels.add_to(sums);
     }

@@ -55,7 +55,7 @@ pub(super) struct Sieve {
 /// What decides in one passage how far light is followed.
 pub(super) struct PassageRoulette {
     pub chain: ChainRoulette,
-    /// For light that leaves.
+    /// Decides which of the light that leaves goes on.
     pub exits: Sieve,
 }
 
