@@ -96,7 +96,15 @@ fn packets_go_through_glass_shapes() {
     };
     let pill = |edge| ImplicitForm::Pill { size: DVec3::new(1.6, 0.8, 0.6), edge };
     let prism = ImplicitForm::Prism { size: DVec3::new(1.6, 0.9, 0.8), edge: 0.08 };
-    for form in [pill(0.2), prism] {
+    // Light that leaves between two of its waves enters again.
+    let plate = ImplicitForm::Plate {
+        size: DVec3::new(1.6, 1.2, 0.3),
+        edge: 0.05,
+        amplitude: 0.05,
+        wavelength: 0.8,
+        phase: 0.0,
+    };
+    for form in [pill(0.2), prism, plate] {
         let found = differ(&shoot(form), &shoot(form));
         assert!(found < 0.005, "{form:?}: {found}");
     }

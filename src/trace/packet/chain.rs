@@ -3,7 +3,7 @@
 use super::entering::enter;
 use super::lanes::{Lanes, MOST_LANES, Vectors};
 use super::optics::{LEAST_COS, Meeting, PacketLight, Reflection, s_axis};
-use super::rays::{EnteringRay, InnerRay, InnerRays, OuterRay, PacketLoss};
+use super::rays::{EnteringRay, InnerRay, InnerRays, PacketLoss, SingleRay, Travelled};
 use super::{Met, PacketSurface};
 use crate::trace::ray::RayOptions;
 use pulp::{Simd, WithSimd};
@@ -18,7 +18,7 @@ pub(super) struct Passage<'a, P> {
     pub rays: &'a [EnteringRay],
     pub options: RayOptions,
     /// Takes the light that leaves.
-    pub leaving: &'a mut Vec<OuterRay>,
+    pub leaving: &'a mut Vec<SingleRay>,
     /// Takes what does not leave.
     pub losses: &'a mut Vec<PacketLoss>,
 }
@@ -62,12 +62,13 @@ impl<P: PacketSurface> WithSimd for Passage<'_, P> {
 impl<P: PacketSurface> Passage<'_, P> {
     /// Returns the occupant that a ray becomes; `None` where it has too little light to be followed.
     #[inline(always)]
-    fn admitted(&mut self, ray: &InnerRay) -> Occupant {
-        let weight = ray.light.ss + ray.light.pp;
-        if weight > self.options.least_weight as f32 && self.options.most_bounces > 0 {
-            return Some((ray.tag, 0));
+    fn admitted(&mut self, InnerRay { ray, .. }: &InnerRay) -> Occupant {
+        let &SingleRay { light, travelled: Travelled { bounces, .. }, tag, .. } = ray;
+        let weight = light.weight();
+        if weight > self.options.least_weight as f32 && bounces < self.options.most_bounces {
+            return Some((tag, bounces));
         }
-        self.losses.push(PacketLoss { absorbed: 0.0, unresolved: weight, tag: ray.tag });
+        self.losses.push(PacketLoss { absorbed: 0.0, unresolved: weight, tag });
         None
     }
 
@@ -112,16 +113,18 @@ impl<P: PacketSurface> Passage<'_, P> {
         let swept = meeting.refracted_change(rays.index, rays.spread, surface.cos_t);
         let swept = if P::IS_CURVED { tamed(swept) } else { swept };
         for (lane, occupant) in occupants[..S::F32_LANES].iter().enumerate() {
-            if let Some((tag, _)) = *occupant
+            if let Some((tag, bounces)) = *occupant
                 && weight.lane(lane) > 0.0
             {
-                self.leaving.push(OuterRay {
+                let (left, path) = (rays.left.lane(lane), rays.path.lane(lane));
+                self.leaving.push(SingleRay {
                     origin: point.lane(lane),
                     direction: outward.lane(lane),
                     sweep: swept.lane(lane),
                     shift: rays.shift.lane(lane),
                     s: rays.s.lane(lane),
-                    light: passed.lane(lane).times(rays.left.lane(lane)),
+                    light: passed.lane(lane).times(left),
+                    travelled: Travelled { left, path, bounces: bounces + 1 },
                     tag,
                 });
             }

@@ -5,7 +5,7 @@ use super::chain::Passage;
 use super::fields::PacketShape;
 use super::lanes::Vectors;
 use super::planes::PacketPlanes;
-use super::rays::{EnteringRay, OuterRay, PacketLoss, SingleMeeting};
+use super::rays::{EnteringRay, PacketLoss, SingleMeeting, SingleRay};
 use crate::math::{Ball, Pose, SolidRef};
 use crate::scene::Instance;
 use crate::trace::ray::RayOptions;
@@ -69,7 +69,7 @@ impl PacketInstance {
     }
 
     /// Whether a ray of the world may meet the body; `has_left` says that it has just left it.
-    pub fn may_meet(&self, ray: &OuterRay, has_left: bool) -> bool {
+    pub fn may_meet(&self, ray: &SingleRay, has_left: bool) -> bool {
         (!has_left || self.branches) && self.ball.is_met(ray.origin.as_dvec3(), ray.direction.as_dvec3())
     }
 
@@ -79,10 +79,10 @@ impl PacketInstance {
     }
 
     /// Carries a ray of the world into the frame of the body.
-    pub fn arriving(&self, ray: &OuterRay) -> OuterRay {
+    pub fn arriving(&self, ray: &SingleRay) -> SingleRay {
         let SinglePose { at, turn, scale } = self.pose;
         let back = turn.inverse();
-        OuterRay {
+        SingleRay {
             origin: back * (ray.origin - at) / scale,
             direction: back * ray.direction,
             sweep: back * ray.sweep,
@@ -93,9 +93,9 @@ impl PacketInstance {
     }
 
     /// Carries a ray of the body's frame into the world.
-    pub fn departing(&self, ray: &OuterRay) -> OuterRay {
+    pub fn departing(&self, ray: &SingleRay) -> SingleRay {
         let SinglePose { at, turn, scale } = self.pose;
-        OuterRay {
+        SingleRay {
             origin: turn * ray.origin * scale + at,
             direction: turn * ray.direction,
             sweep: turn * ray.sweep,
@@ -106,7 +106,7 @@ impl PacketInstance {
     }
 
     /// Returns where rays of the body's frame enter the body.
-    pub fn entries(&self, arch: Arch, rays: &[OuterRay]) -> Vec<SingleMeeting> {
+    pub fn entries(&self, arch: Arch, rays: &[SingleRay]) -> Vec<SingleMeeting> {
         match &self.solid {
             PacketSolid::Planes(planes) => arch.dispatch(Entries { surface: &**planes, rays }),
             PacketSolid::Glass(shape) => arch.dispatch(Entries { surface: shape, rays }),
@@ -119,7 +119,7 @@ impl PacketInstance {
         arch: Arch,
         rays: &[EnteringRay],
         options: RayOptions,
-    ) -> (Vec<OuterRay>, Vec<PacketLoss>) {
+    ) -> (Vec<SingleRay>, Vec<PacketLoss>) {
         let (mut outer, mut lost) = (vec![], vec![]);
         let (leaving, losses) = (&mut outer, &mut lost);
         match &self.solid {
@@ -137,7 +137,7 @@ impl PacketInstance {
 /// A search for the points where rays enter a body.
 struct Entries<'a, P> {
     surface: &'a P,
-    rays: &'a [OuterRay],
+    rays: &'a [SingleRay],
 }
 
 impl<P: PacketSurface> WithSimd for Entries<'_, P> {

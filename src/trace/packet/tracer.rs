@@ -2,7 +2,7 @@
 
 use super::optics::PacketLight;
 use super::outside::PacketInstance;
-use super::rays::{EnteringRay, OuterRay, PacketMedium, SingleMeeting};
+use super::rays::{EnteringRay, PacketMedium, SingleMeeting, SingleRay, Travelled};
 use super::sky::{LookUp, PacketSky, SkyRay};
 use crate::trace::sampling::{LitScene, RadiancePixel, SamplePass};
 use glam::{DVec3, DVec4, Vec3};
@@ -86,7 +86,7 @@ impl<'a> PacketTracer<'a> {
     fn seen_first(&self, pixels: &mut Pixels) -> Vec<Vec<EnteringRay>> {
         let mut queues = vec![vec![]; self.instances.len()];
         let bands = pixels.pass.responses.len();
-        let rays: Vec<OuterRay> = (0..).zip(pixels.eye_rays).map(|(tag, ray)| eye_ray(*ray, tag)).collect();
+        let rays: Vec<SingleRay> = (0..).zip(pixels.eye_rays).map(|(tag, ray)| eye_ray(*ray, tag)).collect();
         for ((pixel, first), ray) in self.first(&rays, None).into_iter().enumerate().zip(&rays) {
             let backdrop = self.lit_scene.environment.backdrop;
             if first.is_some() || backdrop {
@@ -100,7 +100,7 @@ impl<'a> PacketTracer<'a> {
                     let tags = (pixel * bands) as u32..;
                     queues[body].extend(
                         pixels.media[body].iter().zip(tags).map(|(&medium, tag)| EnteringRay {
-                            ray: OuterRay { tag, ..ray },
+                            ray: SingleRay { tag, ..ray },
                             met,
                             medium,
                         }),
@@ -118,11 +118,11 @@ impl<'a> PacketTracer<'a> {
     }
 
     /// Returns the bodies that rays of the world meet first; `left` is the body that they have just left.
-    fn first(&self, rays: &[OuterRay], left: Option<usize>) -> Vec<Option<FirstMeeting>> {
+    fn first(&self, rays: &[SingleRay], left: Option<usize>) -> Vec<Option<FirstMeeting>> {
         let mut first: Vec<Option<FirstMeeting>> = vec![None; rays.len()];
         for (body, instance) in self.instances.iter().enumerate() {
             let near = rays.iter().enumerate().filter(|(_, ray)| instance.may_meet(ray, left == Some(body)));
-            let (places, own): (Vec<usize>, Vec<OuterRay>) =
+            let (places, own): (Vec<usize>, Vec<SingleRay>) =
                 near.map(|(place, ray)| (place, instance.arriving(ray))).unzip();
             for (place, met) in places.into_iter().zip(instance.entries(self.arch, &own)) {
                 let distance = met.distance * instance.unit();
@@ -156,11 +156,14 @@ impl<'a> PacketTracer<'a> {
             let (tag, weight) = (ray.tag as usize, ray.light.weight());
             match first {
                 None => skyward.extend(self.looked_up(ray, pixels)),
-                Some(FirstMeeting { body, met, .. })
+                Some(FirstMeeting { body: then, met, .. })
                     if f64::from(weight) > self.lit_scene.options.least_weight =>
                 {
-                    let (ray, medium) = (self.instances[body].arriving(ray), pixels.media[body][tag % bands]);
-                    next[body].push(EnteringRay { ray, met, medium });
+                    let mut ray = self.instances[then].arriving(ray);
+                    if then != body {
+                        ray.travelled = Travelled::NONE;
+                    }
+                    next[then].push(EnteringRay { ray, met, medium: pixels.media[then][tag % bands] });
                 }
                 Some(_) => pixels.lit[tag / bands].unresolved += f64::from(weight),
             }
@@ -170,7 +173,7 @@ impl<'a> PacketTracer<'a> {
 
     /// Returns for what light that has left all bodies is looked up; `None` where it comes from the photograph behind them,
     /// which is added at once.
-    fn looked_up(&self, ray: &OuterRay, pixels: &mut Pixels) -> Option<SkyRay> {
+    fn looked_up(&self, ray: &SingleRay, pixels: &mut Pixels) -> Option<SkyRay> {
         let (tag, weight) = (ray.tag as usize, ray.light.weight());
         let straight = pixels.eye_rays[tag / pixels.pass.responses.len()];
         let own = (ray.origin.as_dvec3(), ray.direction.as_dvec3(), ray.sweep.as_dvec3());
@@ -183,15 +186,16 @@ impl<'a> PacketTracer<'a> {
     }
 }
 
-fn eye_ray((origin, direction): EyeRay, tag: u32) -> OuterRay {
+fn eye_ray((origin, direction): EyeRay, tag: u32) -> SingleRay {
     let direction = direction.as_vec3();
-    OuterRay {
+    SingleRay {
         origin: origin.as_vec3(),
         direction,
         sweep: Vec3::ZERO,
         shift: Vec3::ZERO,
         s: direction.any_orthonormal_vector(),
         light: PacketLight::<f32>::unpolarised(1.0),
+        travelled: Travelled::NONE,
         tag,
     }
 }
