@@ -67,7 +67,7 @@ impl Bloom {
     /// Returns the glare of a picture, whose pixels count as `exposed` says; `None` where nothing is bright enough. A
     /// setting out of its range counts as the nearer end of the range, NaN as 0.
     ///
-    /// The light is read from top to bottom, once, some rows at a time.
+    /// The light is read from top to bottom, some rows at a time; rows where two pieces touch are read twice.
     ///
     /// # Errors
     /// The errors of reading the light.

@@ -4,8 +4,8 @@ use crate::common::shoot::*;
 use crate::common::*;
 use brillianteer::math::{ImplicitForm, ImplicitSurface, Plane, Polytope, Pose, SmoothSolid};
 use brillianteer::optics::{Material, material};
-use brillianteer::scene::{Body, Instance, Light, Projection, light};
-use glam::{DQuat, DVec3};
+use brillianteer::scene::{Body, Instance, Light, Projection, View, light};
+use glam::{DQuat, DVec2, DVec3};
 
 /// Returns the largest difference of a block's mean between packets and single rays, as a fraction of the brightest block.
 fn differ(shoot: &Shoot, twin: &Shoot) -> f64 {
@@ -83,6 +83,23 @@ fn packets_go_from_stone_to_stone() {
     let mut alone = two_stones(1.6);
     alone.setting.instances.pop();
     assert!(differ(&two_stones(1.6), &alone) > 0.1);
+}
+
+#[test]
+fn a_stone_looks_the_same_wherever_it_stands() {
+    // Under light from infinitely far away and by parallel rays. Single precision does not suffice for the farthest.
+    let standing = |at: f64| {
+        let mut shoot = Shoot::new(&modern(), "quartz", light("dome").unwrap());
+        let pose = Pose { at: DVec3::new(at, 0.0, 0.0), turn: DQuat::IDENTITY, scale: 1.0 };
+        shoot.setting.instances[0] = shoot.setting.instances[0].clone().moved(&pose);
+        (shoot.view, shoot.centre, shoot.samples) = (View::default(), DVec2::new(at, 0.0), 8);
+        shoot.by_packets().0
+    };
+    let near = standing(0.0);
+    for at in [9.0, 900.0, 1e5] {
+        let found = apart(&near, &standing(at));
+        assert!(found < 0.005, "{at}: {found}");
+    }
 }
 
 #[test]

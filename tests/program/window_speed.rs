@@ -13,6 +13,7 @@ use std::fs::File;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{BufRead, BufReader};
 use std::os::unix::fs::FileExt;
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use x11rb::connection::Connection;
@@ -58,6 +59,23 @@ struct Places {
     figure: Rect,
 }
 
+/// Returns the position of the render of a design that comes with the program.
+fn render_of(design: &str) -> Rect {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cuts/{design}.toml"));
+    let setup = Setup { file: Some(file), ..Setup::default() };
+    let mut harness = Harness::builder()
+        .with_size(egui::Vec2::from(SIZE))
+        .build_eframe(|context| Editor::new(context, setup).unwrap());
+    let is_open = |harness: &Harness<Editor>| harness.query_by_role_and_label(Role::Image, "Render picture").is_some();
+    let begun = Instant::now();
+    while !is_open(&harness) {
+        assert!(begun.elapsed() < PATIENCE, "{design} does not open");
+        harness.run_steps(1);
+    }
+    harness.run_steps(8);
+    harness.get_by_role_and_label(Role::Image, "Render picture").rect()
+}
+
 impl Places {
     /// Finds the positions from the editor itself, in a window of the same size that is not shown.
     fn find() -> Self {
@@ -91,7 +109,8 @@ struct Stage {
 }
 
 impl Stage {
-    fn open() -> Self {
+    /// Starts the program on a screen of its own, with the design that it opens by itself or another.
+    fn open(design: Option<&str>) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let mut server = Command::new("Xvfb")
             .args([
@@ -115,6 +134,7 @@ impl Stage {
         BufReader::new(server.stdout.take().unwrap()).read_line(&mut number).unwrap();
         let display = format!(":{}", number.trim());
         let program = Command::new(env!("CARGO_BIN_EXE_brillianteer"))
+            .args(design.map(|name| ["edit", name]).into_iter().flatten())
             .env("DISPLAY", &display)
             .env("XDG_DATA_HOME", folder.path())
             .env("XDG_RUNTIME_DIR", folder.path())
@@ -309,7 +329,7 @@ impl Judge {
 #[ignore = "takes minutes and two idle cores"]
 fn the_window_follows_the_hand() {
     let places = Places::find();
-    let stage = Stage::open();
+    let stage = Stage::open(None);
     stage.rest();
     let cores = std::thread::available_parallelism().unwrap().get() as f64;
     let (begun, before) = (Instant::now(), used(&stage));
@@ -379,5 +399,24 @@ fn the_window_follows_the_hand() {
         println!("NOT JUDGED: the machine is not idle");
     } else {
         assert!(judge.0.is_empty(), "{}", judge.0.join("; "));
+    }
+}
+
+#[test]
+#[ignore = "takes minutes and two idle cores"]
+fn the_window_shows_glass_while_it_is_turned() {
+    for design in ["pill", "prism", "cube", "plate", "fisheye"] {
+        let place = render_of(design);
+        let stage = Stage::open(Some(design));
+        stage.rest();
+        let hold = place.center() + egui::vec2(40.0, 30.0);
+        stage.hand_at(hold);
+        std::thread::sleep(Duration::from_millis(200));
+        stage.press(hold);
+        let path = |step: u32| swing(hold, egui::vec2(1.5, 1.0), step);
+        let rate = stage.changes(path, &[place], DRAG)[0];
+        stage.release(path(23));
+        let [across, down] = [place.width(), place.height()];
+        println!("{design}: {rate:.1} renders of {across:.0} x {down:.0} points a second while it is turned");
     }
 }

@@ -3,7 +3,7 @@
 use super::PacketSurface;
 use super::chain::along_surface;
 use super::lanes::{Lanes, Vectors};
-use super::optics::{Meeting, PacketLight, Reflection, s_axis};
+use super::optics::{Incidence, PacketLight, Reflection, s_axis};
 use super::rays::{EnteringRay, InnerRay, SingleRay};
 use glam::Vec3;
 use pulp::Simd;
@@ -117,16 +117,16 @@ impl<S: Simd> Arrivals<S> {
             glare = PacketLight::<Lanes<S>>::unpolarised(glare.weight());
             inside = PacketLight::<Lanes<S>>::unpolarised(inside.weight());
         }
-        let meeting = Meeting { direction, normal, cos_i, of_direction: sweep, of_normal };
+        let incidence = Incidence { direction, normal, cos_i, of_direction: sweep, of_normal };
         Split {
             point,
             shift,
             s,
-            back: meeting.reflected(),
-            swept_back: meeting.reflected_change(),
+            back: incidence.reflected(),
+            swept_back: incidence.reflected_change(),
             glare,
-            inward: meeting.refracted(eta, reflection.cos_t),
-            swept: meeting.refracted_change(eta, -(self.spread * eta * eta), reflection.cos_t),
+            inward: incidence.refracted(eta, reflection.cos_t),
+            swept: incidence.refracted_change(eta, -(self.spread * eta * eta), reflection.cos_t),
             inside,
         }
     }

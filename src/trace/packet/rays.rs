@@ -47,7 +47,7 @@ pub(super) struct SingleRay {
 
 /// Where a ray meets a body, in the frame of the body.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct SingleMeeting {
+pub(super) struct SingleHit {
     /// Infinite where the ray misses.
     pub distance: f32,
     /// The unit outward normal; anything where the ray misses.
@@ -58,7 +58,7 @@ pub(super) struct SingleMeeting {
 #[derive(Clone, Copy)]
 pub(super) struct EnteringRay {
     pub ray: SingleRay,
-    pub met: SingleMeeting,
+    pub met: SingleHit,
     /// The body's medium.
     pub medium: PacketMedium,
 }
@@ -212,8 +212,8 @@ impl<S: Simd> InnerRays<S> {
         self.sweep.set_lane(lane, ray.sweep);
         self.shift.set_lane(lane, ray.shift);
         self.s.set_lane(lane, ray.s);
-        // Light is followed only where some of it is left.
-        self.light.set_lane(lane, &ray.light.times(1.0 / left));
+        // Light of which absorption has left next to nothing is not followed unless the least weight is 0.
+        self.light.set_lane(lane, &ray.light.times(1.0 / left.max(f32::MIN_POSITIVE)));
         self.index.set_lane(lane, medium.index);
         self.spread.set_lane(lane, medium.spread);
         self.absorption[0].set_lane(lane, medium.absorption[0]);
