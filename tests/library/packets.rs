@@ -108,7 +108,7 @@ fn packets_go_through_glass_shapes() {
         let body = Body::Glass(SmoothSolid::new(ImplicitSurface::new(form).unwrap()));
         let mut shoot = Shoot::of(body, "quartz", light("dome").unwrap());
         // On longer ways between curved walls, rounding in single precision grows to other ways.
-        (shoot.samples, shoot.wavelengths, shoot.options.most_bounces) = (8, 3, 6);
+        (shoot.samples, shoot.wavelengths, shoot.options.most_bounces) = (24, 3, 6);
         shoot
     };
     let pill = |edge| ImplicitForm::Pill { size: DVec3::new(1.6, 0.8, 0.6), edge };

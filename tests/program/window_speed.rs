@@ -66,7 +66,8 @@ fn render_of(design: &str) -> Rect {
     let mut harness = Harness::builder()
         .with_size(egui::Vec2::from(SIZE))
         .build_eframe(|context| Editor::new(context, setup).unwrap());
-    let is_open = |harness: &Harness<Editor>| harness.query_by_role_and_label(Role::Image, "Render picture").is_some();
+    let is_open =
+        |harness: &Harness<Editor>| harness.query_by_role_and_label(Role::Image, "Render picture").is_some();
     let begun = Instant::now();
     while !is_open(&harness) {
         assert!(begun.elapsed() < PATIENCE, "{design} does not open");
@@ -207,15 +208,19 @@ impl Stage {
         hash.finish()
     }
 
+    /// Returns what the program last reported of itself.
+    fn state(&self) -> serde_json::Value {
+        let text = std::fs::read(self.folder.path().join("state.json")).unwrap_or_default();
+        serde_json::from_slice(&text).unwrap_or_default()
+    }
+
     /// Waits until the program has reported for a while that every picture and figure is final.
     fn rest(&self) {
         let (begun, mut since) = (Instant::now(), Instant::now());
         while since.elapsed() < Duration::from_secs(1) {
             assert!(begun.elapsed() < PATIENCE, "the window does not come to rest");
             std::thread::sleep(Duration::from_millis(50));
-            let text = std::fs::read(self.folder.path().join("state.json")).unwrap_or_default();
-            let state: serde_json::Value = serde_json::from_slice(&text).unwrap_or_default();
-            if state["at_rest"] != true {
+            if self.state()["at_rest"] != true {
                 since = Instant::now();
             }
         }
@@ -415,8 +420,12 @@ fn the_window_shows_glass_while_it_is_turned() {
         stage.press(hold);
         let path = |step: u32| swing(hold, egui::vec2(1.5, 1.0), step);
         let rate = stage.changes(path, &[place], DRAG)[0];
+        let blocks = stage.state()["coarsest"].as_f64().unwrap_or(f64::NAN);
         stage.release(path(23));
         let [across, down] = [place.width(), place.height()];
-        println!("{design}: {rate:.1} renders of {across:.0} x {down:.0} points a second while it is turned");
+        println!(
+            "{design}: {rate:.1} renders of {across:.0} x {down:.0} points a second while it is turned, at the end in \
+             blocks of {blocks:.1} pixels"
+        );
     }
 }

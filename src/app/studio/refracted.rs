@@ -2,7 +2,7 @@
 //! glass.
 
 use super::develop::map_taken;
-use super::effort::{Effort, FINE_RENDER, RAYS_COARSER};
+use super::effort::{Effort, FINE_RENDER};
 use super::jobs::{MapDetail, coarser};
 use super::order::{Shot, Slot, TakenPicture};
 use super::take::ShotTracer;
@@ -27,7 +27,7 @@ impl ShotTracer {
         watch: Watch,
     ) -> Result<TakenPicture, Failure> {
         let (detail, factor) = match effort.refinement {
-            None => (ROUGH, effort.coarser * RAYS_COARSER),
+            None => (ROUGH, effort.grain_of_rays.coarser),
             Some(refinement) if refinement.samples == 1 => (FAIR, 1.0),
             Some(_) => (FINE, 1.0),
         };
@@ -46,7 +46,7 @@ impl ShotTracer {
         effort: &Effort,
         watch: Watch,
     ) -> Result<TakenPicture, Failure> {
-        let factor = if effort.is_refined() { 1.0 } else { effort.coarser * RAYS_COARSER };
+        let factor = if effort.is_refined() { 1.0 } else { effort.grain_of_rays.coarser };
         let Some(behind) = self.picture_behind(Some(&shot.pane_background()))? else {
             return Err(Failure::Input("the pane has no background".into()));
         };
