@@ -1,5 +1,9 @@
 //! How well pictures are traced: roughly while the hand moves, then better and better.
 
+/// How many times larger pixels are for single rays in double precision while the hand moves, beyond those of packets:
+/// pictures in a scope, refraction maps and panes of glass should not take the time of the render beside them.
+const SINGLE_RAYS_COARSER: f64 = 2.0;
+
 /// How well a picture is traced, and with it how much it costs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
@@ -64,6 +68,11 @@ impl Effort {
     /// Makes the effort of a rough picture.
     pub const fn rough(unresolved: f64, grain: Grain) -> Self {
         Self { unresolved, grain, grain_of_rays: grain, refinement: None }
+    }
+
+    /// Returns how many times larger than the film's pixels those of a picture are that single rays on the processor trace.
+    pub fn coarser_by_single_rays(&self) -> f64 {
+        self.grain_of_rays.coarser * if self.is_refined() { 1.0 } else { SINGLE_RAYS_COARSER }
     }
 
     /// Returns the effort of a picture that rays on the processor trace.

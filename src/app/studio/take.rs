@@ -80,8 +80,8 @@ impl ShotTracer {
         let palette = Palette::of(&scope);
         let mut job = shot.scope_job(scope, effort, if effort.is_refined() { 3 } else { 1 });
         let is_slow = self.renderer.plan(&job).map_err(RenderError::from)?.backend.is_slow();
-        let grain = if is_slow { effort.grain_of_rays } else { effort.grain };
-        job.film = coarser(&shot.film, grain.coarser);
+        let times = if is_slow { effort.coarser_by_single_rays() } else { effort.grain.coarser };
+        job.film = coarser(&shot.film, times);
         let size = job.film.size;
         let (mut pixels, mut unresolved) =
             (Vec::with_capacity(3 * size[0] as usize * size[1] as usize), None);
