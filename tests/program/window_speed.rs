@@ -9,11 +9,12 @@ use brillianteer::app::{Editor, Setup};
 use egui::{Pos2, Rect, Role, pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use std::ffi::OsStr;
 use std::fs::File;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{BufRead, BufReader};
 use std::os::unix::fs::FileExt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use x11rb::connection::Connection;
@@ -59,10 +60,9 @@ struct Places {
     figure: Rect,
 }
 
-/// Returns the position of the render of a design that comes with the program.
-fn render_of(design: &str) -> Rect {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cuts/{design}.toml"));
-    let setup = Setup { file: Some(file), ..Setup::default() };
+/// Returns the position of the render of a design.
+fn render_of(design: &Path) -> Rect {
+    let setup = Setup { file: Some(design.to_owned()), ..Setup::default() };
     let mut harness = Harness::builder()
         .with_size(egui::Vec2::from(SIZE))
         .build_eframe(|context| Editor::new(context, setup).unwrap());
@@ -70,7 +70,7 @@ fn render_of(design: &str) -> Rect {
         |harness: &Harness<Editor>| harness.query_by_role_and_label(Role::Image, "Render picture").is_some();
     let begun = Instant::now();
     while !is_open(&harness) {
-        assert!(begun.elapsed() < PATIENCE, "{design} does not open");
+        assert!(begun.elapsed() < PATIENCE, "{} does not open", design.display());
         harness.run_steps(1);
     }
     harness.run_steps(8);
@@ -111,7 +111,7 @@ struct Stage {
 
 impl Stage {
     /// Starts the program on a screen of its own, with the design that it opens by itself or another.
-    fn open(design: Option<&str>) -> Self {
+    fn open(design: Option<&Path>) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let mut server = Command::new("Xvfb")
             .args([
@@ -135,7 +135,7 @@ impl Stage {
         BufReader::new(server.stdout.take().unwrap()).read_line(&mut number).unwrap();
         let display = format!(":{}", number.trim());
         let program = Command::new(env!("CARGO_BIN_EXE_brillianteer"))
-            .args(design.map(|name| ["edit", name]).into_iter().flatten())
+            .args(design.map(|path| [OsStr::new("edit"), path.as_os_str()]).into_iter().flatten())
             .env("DISPLAY", &display)
             .env("XDG_DATA_HOME", folder.path())
             .env("XDG_RUNTIME_DIR", folder.path())
@@ -407,12 +407,21 @@ fn the_window_follows_the_hand() {
     }
 }
 
+/// The designs that are turned: files that the environment names, as it does the paths of programs, or else all glass shapes.
+fn turned() -> Vec<PathBuf> {
+    let glass = |name| Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cuts/{name}.toml"));
+    match std::env::var_os("BRILLIANTEER_TURNED") {
+        Some(files) => std::env::split_paths(&files).collect(),
+        None => ["pill", "prism", "cube", "plate", "fisheye"].map(glass).to_vec(),
+    }
+}
+
 #[test]
 #[ignore = "takes minutes and two idle cores"]
-fn the_window_shows_glass_while_it_is_turned() {
-    for design in ["pill", "prism", "cube", "plate", "fisheye"] {
-        let place = render_of(design);
-        let stage = Stage::open(Some(design));
+fn the_window_shows_designs_while_they_are_turned() {
+    for design in turned() {
+        let place = render_of(&design);
+        let stage = Stage::open(Some(&design));
         stage.rest();
         let hold = place.center() + egui::vec2(40.0, 30.0);
         stage.hand_at(hold);
@@ -424,8 +433,9 @@ fn the_window_shows_glass_while_it_is_turned() {
         stage.release(path(23));
         let [across, down] = [place.width(), place.height()];
         println!(
-            "{design}: {rate:.1} renders of {across:.0} x {down:.0} points a second while it is turned, at the end in \
-             blocks of {blocks:.1} pixels"
+            "{}: {rate:.1} renders of {across:.0} x {down:.0} points a second while it is turned, at the end in \
+             blocks of {blocks:.1} pixels",
+            design.display()
         );
     }
 }
