@@ -7,13 +7,16 @@ use std::time::Duration;
 ///
 /// Rays keep pixels no larger than 2 as long as they can, and take fewer bands instead: in a picture of glass that moves,
 /// blocks are seen sooner than colours that are a little off. The last steps are for meshes and many stones.
-const STEPS: [Effort; 7] = [
+const STEPS: [Effort; 10] = [
     step(5e-3, (1.0, 12), (1.5, 6)),
     step(1e-2, (1.0, 10), (2.0, 6)),
     step(2e-2, (1.34, 8), (2.0, 4)),
     step(3e-2, (1.67, 6), (2.0, 3)),
-    step(5e-2, (2.0, 5), (3.0, 3)),
+    step(5e-2, (2.0, 5), (2.5, 3)),
+    step(8e-2, (3.0, 4), (3.2, 3)),
+    step(8e-2, (3.0, 4), (4.0, 3)),
     step(8e-2, (3.0, 4), (5.0, 3)),
+    step(8e-2, (3.0, 4), (6.5, 3)),
     step(8e-2, (3.0, 4), (9.0, 3)),
 ];
 
@@ -61,11 +64,11 @@ mod tests {
     #[test]
     fn slow_pictures_become_coarser_and_quick_ones_finer() {
         let mut pace = Pace::default();
-        (0..9).for_each(|_| pace.learn(2 * GOAL));
-        assert_eq!(pace.effort(), STEPS[6]);
+        (0..12).for_each(|_| pace.learn(2 * GOAL));
+        assert_eq!(pace.effort(), STEPS[9]);
         pace.learn(GOAL / 2);
-        assert_eq!(pace.effort(), STEPS[6]);
-        (0..9).for_each(|_| pace.learn(GOAL / 4));
+        assert_eq!(pace.effort(), STEPS[9]);
+        (0..12).for_each(|_| pace.learn(GOAL / 4));
         assert_eq!(pace.effort(), STEPS[0]);
     }
 }
