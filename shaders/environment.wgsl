@@ -70,37 +70,101 @@ fn share_inside(from_middle: vec3f, sweep: vec3f, chord_squared: f32) -> f32 {
     return max(min(nearest + half, 0.5) - max(nearest - half, -0.5), 0.0);
 }
 
-// Returns the colour of the backplate behind the stones where a ray meets it; a is 0 where the ray does not.
-fn photo_at(ray: Ray) -> vec4f {
-    let speed = -dot(ray.direction, frame.toward.xyz);
-    let height = dot(ray.origin, frame.toward.xyz) + environment.photo.x;
-    if speed <= ALONG || height <= 0.0 || environment.photo.y <= 0.0 {
-        return vec4f(0.0);
-    }
-    let p = ray.origin + ray.direction * (height / speed);
+// The most look-ups along a stretch of the backplate.
+const MOST_TAPS: f32 = 8.0;
+
+// Interpolates one level of the backplate at a place in its pixels.
+fn photo_level(at: vec2f, level: i32) -> vec3f {
+    let base = floor(at);
+    let part = at - base;
+    let last = vec2i(textureDimensions(photo, level)) - 1;
+    let low = clamp(vec2i(base), vec2i(0), last);
+    let high = clamp(vec2i(base) + 1, vec2i(0), last);
+    let above = mix(textureLoad(photo, low, level), textureLoad(photo, vec2i(high.x, low.y), level), part.x);
+    let below = mix(textureLoad(photo, vec2i(low.x, high.y), level), textureLoad(photo, high, level), part.x);
+    return mix(above, below, part.y).xyz;
+}
+
+// How fast a ray runs toward the backplate's plane, at a part of its sweep from its middle.
+fn photo_speed(ray: Ray, part: f32) -> f32 {
+    return -dot(ray.direction + ray.sweep * part, frame.toward.xyz);
+}
+
+// Returns the place in the backplate's pixels, from the middle of the first, that a ray meets at a part of its sweep. Its
+// height above the plane is given.
+fn photo_place(ray: Ray, height: f32, part: f32) -> vec2f {
+    let p = ray.origin + (ray.direction + ray.sweep * part) * (height / max(photo_speed(ray, part), ALONG));
     let size = vec2f(textureDimensions(photo));
     let on = vec2f(dot(p, frame.right.xyz), -dot(p, frame.up.xyz)) / environment.photo.y + 0.5;
     // `on` is measured in the picture's width along both axes.
-    let at = vec2f(on.x, (on.y - 0.5) * size.x / size.y + 0.5) * size - 0.5;
-    if any(at < vec2f(-0.5)) || any(at > size - 0.5) {
+    return vec2f(on.x, (on.y - 0.5) * size.x / size.y + 0.5) * size - 0.5;
+}
+
+// Returns the part, 0 to 1, of a sweep that has passed where its straight track has run through a part of its length.
+fn photo_passed(along: f32, speeds: vec2f) -> f32 {
+    let near = along * speeds.x;
+    return near / (near + (1.0 - along) * speeds.y);
+}
+
+// Returns the light of the backplate behind the stones that a ray sees; a is the part of the ray's sweep that meets it. The
+// twin of `Backplate::at` and of `Mipmap::along`.
+fn photo_at(ray: Ray) -> vec4f {
+    let height = dot(ray.origin, frame.toward.xyz) + environment.photo.x;
+    let low = photo_speed(ray, -0.5);
+    let high = photo_speed(ray, 0.5);
+    if max(low, high) <= ALONG || height <= 0.0 || environment.photo.y <= 0.0 {
         return vec4f(0.0);
     }
-    let base = floor(at);
-    let part = at - base;
-    let last = vec2i(size) - 1;
-    let low = clamp(vec2i(base), vec2i(0), last);
-    let high = clamp(vec2i(base) + 1, vec2i(0), last);
-    let above = mix(textureLoad(photo, low, 0), textureLoad(photo, vec2i(high.x, low.y), 0), part.x);
-    let below = mix(textureLoad(photo, vec2i(low.x, high.y), 0), textureLoad(photo, high, 0), part.x);
-    return vec4f(mix(above, below, part.y).xyz, 1.0);
+    let first = -0.5 + select((ALONG - low) / (high - low), 0.0, low > ALONG);
+    let last = 0.5 - select((ALONG - high) / (low - high), 0.0, high > ALONG);
+    let start = photo_place(ray, height, first);
+    let way = photo_place(ray, height, last) - start;
+    let end = vec2f(textureDimensions(photo)) - 0.5;
+    var enters = 0.0;
+    var leaves = 1.0;
+    for (var axis = 0; axis < 2; axis++) {
+        if way[axis] == 0.0 {
+            if start[axis] < -0.5 || start[axis] > end[axis] {
+                return vec4f(0.0);
+            }
+        } else {
+            let a = (-0.5 - start[axis]) / way[axis];
+            let b = (end[axis] - start[axis]) / way[axis];
+            enters = max(enters, min(a, b));
+            leaves = min(leaves, max(a, b));
+        }
+    }
+    if !(enters <= leaves) {
+        return vec4f(0.0);
+    }
+    let speeds = vec2f(photo_speed(ray, first), photo_speed(ray, last));
+    let begin = mix(first, last, photo_passed(enters, speeds));
+    let finish = mix(first, last, photo_passed(leaves, speeds));
+    let length = length(way) * (leaves - enters);
+    let level = clamp(ceil(log2(max(length, 1e-6) / MOST_TAPS)), 0.0, f32(textureNumLevels(photo)) - 1.0);
+    let taps = clamp(ceil(length / exp2(level)), 1.0, MOST_TAPS);
+    let scale = vec2f(textureDimensions(photo, i32(level))) / vec2f(textureDimensions(photo));
+    var sum = vec3f(0.0);
+    for (var k = 0.0; k < taps; k += 1.0) {
+        let at = photo_place(ray, height, mix(begin, finish, (k + 0.5) / taps));
+        sum += photo_level((at + 0.5) * scale - 0.5, i32(level));
+    }
+    let share = select(1.0, finish - begin, length > 0.0);
+    return vec4f(sum * (share / taps), share);
 }
 
 // Returns the light that arrives along a ray from outside the stones.
 fn radiance(ray: Ray) -> vec4f {
-    let seen = photo_at(ray);
-    if seen.w > 0.0 {
-        return vec4f(0.0, seen.xyz);
+    let photographed = photo_at(ray);
+    let seen = vec4f(0.0, photographed.xyz);
+    if photographed.w >= 1.0 {
+        return seen;
     }
+    return seen + beyond(ray) * (1.0 - photographed.w);
+}
+
+// Returns the light that arrives along a ray from the light alone.
+fn beyond(ray: Ray) -> vec4f {
     let swept = length(ray.sweep);
     let d = vec3f(
         dot(environment.right.xyz, ray.direction),

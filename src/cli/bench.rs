@@ -218,7 +218,7 @@ fn under_light(specimen: &LoadedSpecimen, has_card: bool) -> Result<Task, Failur
         jitter: true,
         steps: Steps::Passes { first: 0, hidden: 0 },
     };
-    let strata = product.strata();
+    let strata = product.strata(1);
     let (scene, product) = (Arc::new(Scene::alone(specimen)), Product::Light(product));
     let pass = SamplePass::new(&scene, &strata, 0);
     let tests: f64 = pass.media[0].iter().map(|&medium| plane_tests(polytope, &film, medium, bounces)).sum();

@@ -65,7 +65,7 @@ pub struct PictureOptions {
 /// How a picture is traced and finished, which maps have no use for.
 #[derive(Debug, Clone, Args)]
 pub struct FinishOptions {
-    /// Take the middle of each band of wavelengths in every sample, instead of another wavelength each time
+    /// Let every sample stand for whole bands of wavelengths, instead of for another share of each
     #[arg(long)]
     pub no_jitter: bool,
     /// Mix each refracted ray with the straight ray: 1 is physics, 0 the straight ray alone. Below 1 the picture is traced

@@ -14,7 +14,7 @@ use crate::render::{
     Card, HungPicture, Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings,
     mixture_note,
 };
-use crate::scene::{Film, Panorama, Scene, View};
+use crate::scene::{Film, Mipmap, Scene, View};
 use crate::trace::Watch;
 use crate::trace::ray::{self, Camera};
 use glam::DVec2;
@@ -41,7 +41,7 @@ pub struct PictureSetup<'a> {
     lighting: Arc<Lighting>,
     pub background: BackgroundRef,
     /// The pattern or photograph behind the stones.
-    pub photo: Option<Arc<Panorama>>,
+    pub photo: Option<Arc<Mipmap>>,
     /// The distance of the pattern or photograph behind the origin, in girdle radii.
     pub distance: f64,
     /// The strength of refraction, 0 to 1.
@@ -105,7 +105,7 @@ impl<'a> PictureSetup<'a> {
         }
         let reading = background.picture()?;
         reading.iter().flat_map(|r| &r.warnings).for_each(|w| say(&format!("warning: {w}")));
-        let photo = reading.map(|reading| Arc::new(reading.panorama));
+        let photo = reading.map(|reading| Arc::new(Mipmap::new(reading.panorama)));
         let mut studio = Self {
             options,
             finish,
@@ -157,7 +157,7 @@ impl<'a> PictureSetup<'a> {
 
     /// Returns what is around the stones of a picture with pixels of the side `pixel`.
     pub fn surroundings(&self, pixel: f64) -> Surroundings {
-        let hung = |picture: &Arc<Panorama>| HungPicture {
+        let hung = |picture: &Arc<Mipmap>| HungPicture {
             picture: Arc::clone(picture),
             span: self.background.span(),
             distance: self.distance,

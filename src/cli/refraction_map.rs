@@ -207,7 +207,7 @@ impl RefractionMaps {
             let [width, height] = map.size;
             write_rgba_png(
                 &path,
-                &develop(&refract(map, photo, DVec2::ZERO), &manner),
+                &develop(&refract(map, photo.picture(), DVec2::ZERO), &manner),
                 (width, height),
                 description,
             )?;

@@ -28,5 +28,5 @@ pub use observer::{D65_WHITE, OBSERVER_NM, SRGB_FROM_XYZ, adaptation, matching, 
 pub use snell::{
     brewster_angle, cos_transmitted, critical_angle, reflect, reflected_change, refract, refracted_change,
 };
-pub use strata::{SAMPLED_NM, Stratum, basis, strata};
+pub use strata::{SAMPLED_NM, Strata, Stratum, basis, strata};
 pub use weight::MG_PER_CARAT;

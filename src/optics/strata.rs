@@ -46,6 +46,66 @@ impl Stratum {
     }
 }
 
+/// The strata of a picture, each divided into shares that its sample passes take in turn: with every pass a picture sees
+/// other wavelengths, and after as many passes as there are shares it has seen all of them once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Strata {
+    whole: Vec<Stratum>,
+    /// Stratum by stratum, from short wavelengths to long.
+    shares: Vec<Stratum>,
+    /// The share that each pass takes.
+    turns: Vec<u32>,
+}
+
+/// The most shares of all strata together: with more, shares are so narrow that no eye tells them apart.
+const MOST_SHARES: u32 = 1024;
+
+/// The number of shares, evenly spread, that are white together to 1 %.
+const ENOUGH_SHARES: u64 = 32;
+
+impl Strata {
+    /// Divides the visible range as [`strata()`] does, and each of the `count` strata into `shares` parts of equal share,
+    /// but all into no more than 1024 together. With one share every pass stands for whole strata.
+    pub fn new(count: u32, shares: u32, key: &Illuminant, adapted: bool) -> Self {
+        let shares = shares.clamp(1, (MOST_SHARES / count.max(1)).max(1));
+        let whole = strata(count, key, adapted);
+        let all = if shares == 1 { whole.clone() } else { strata(count * shares, key, adapted) };
+        let mut turns: Vec<u32> = (0..shares).collect();
+        // The places of J. G. van der Corput's sequence (1935), in which any first few are evenly spread.
+        turns.sort_by_key(|k| k.reverse_bits());
+        let mut places = vec![0; shares as usize];
+        (0..).zip(&turns).for_each(|(place, &turn)| places[turn as usize] = place);
+        Self { whole, shares: all, turns: places }
+    }
+
+    /// Returns the whole strata, from short wavelengths to long.
+    pub fn whole(&self) -> &[Stratum] {
+        &self.whole
+    }
+
+    /// Returns the shares, one of each stratum, that the sample pass of a number takes. Their responses are multiplied by the
+    /// number of shares, so that the mean over passes is that of whole strata.
+    pub fn of_pass(&self, number: u32) -> impl Iterator<Item = Stratum> {
+        let per = self.turns.len();
+        let share = self.turns[number as usize % per] as usize;
+        let times = per as f64;
+        self.shares.chunks(per).map(move |shares| {
+            let own = shares[share];
+            Stratum { response: own.response.map(|colour| colour * times), ..own }
+        })
+    }
+
+    /// Whether white light has no tint to be seen after this many passes.
+    pub fn is_white_after(&self, passes: u32) -> bool {
+        self.turns.len() == 1 || self.whole.len() as u64 * u64::from(passes) >= ENOUGH_SHARES
+    }
+
+    /// Returns the response of all strata together.
+    pub fn response(&self) -> [DVec3; 4] {
+        [0, 1, 2, 3].map(|channel| self.whole.iter().map(|stratum| stratum.response[channel]).sum())
+    }
+}
+
 /// Returns the spectra of linear sRGB's red, green and blue at a wavelength in nm.
 ///
 /// All lie within 0..=1 (the least is 0.0026, the greatest 0.989), and their sum is 1. Light with the spectrum D65 times
@@ -167,6 +227,47 @@ mod tests {
             assert!(strata.windows(2).all(|pair| pair[0].to_nm == pair[1].from_nm));
         }
         assert!(strata(0, &Illuminant::E, true).is_empty());
+    }
+
+    #[test]
+    fn the_shares_of_all_passes_are_the_strata() {
+        for (count, shares) in [(1, 5), (3, 1), (3, 32), (8, 100), (64, 64)] {
+            let strata = Strata::new(count, shares, &Illuminant::A, true);
+            let passes = shares.min(MOST_SHARES / count);
+            let mut taken: Vec<Vec<Stratum>> = vec![vec![]; count as usize];
+            for number in 0..passes {
+                strata.of_pass(number).zip(&mut taken).for_each(|(share, taken)| taken.push(share));
+            }
+            assert_eq!(strata.of_pass(passes).collect::<Vec<_>>(), strata.of_pass(0).collect::<Vec<_>>());
+            for (whole, mut taken) in strata.whole().iter().zip(taken) {
+                taken.sort_by(|a, b| a.from_nm.total_cmp(&b.from_nm));
+                assert!((taken[0].from_nm - whole.from_nm).abs() < 1e-9);
+                assert!(taken.windows(2).all(|pair| pair[0].to_nm == pair[1].from_nm));
+                for channel in 0..4 {
+                    let sum: DVec3 = taken.iter().map(|share| share.response[channel]).sum();
+                    assert_near(sum / f64::from(passes), whole.response[channel], 1e-9);
+                }
+            }
+            assert_near(strata.response()[0], DVec3::ONE, 1e-9);
+        }
+    }
+
+    #[test]
+    fn the_first_few_passes_are_nearly_white() {
+        let off = |count, shares, passes| {
+            let strata = Strata::new(count, shares, &Illuminant::D65, true);
+            let light = (0..passes).flat_map(|number| strata.of_pass(number).collect::<Vec<_>>());
+            let white = light.map(|share| share.response[0]).sum::<DVec3>() / f64::from(passes);
+            (strata.is_white_after(passes), (white - DVec3::ONE).abs().max_element())
+        };
+        for (count, shares) in [(3, 64), (3, 4), (8, 64), (16, 64), (16, 4), (32, 8), (64, 16)] {
+            for passes in [1, 2, 4, 8, 16, 32].into_iter().filter(|passes| *passes <= shares) {
+                let (is_white, off) = off(count, shares, passes);
+                assert!(!is_white || off < 0.01, "{count} strata, {passes} of {shares} passes: {off}");
+            }
+        }
+        assert!(off(3, 64, 1).1 > 0.3, "single shares are coloured");
+        assert!(off(3, 1, 1).0, "whole strata are white together");
     }
 
     #[test]

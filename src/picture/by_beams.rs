@@ -7,7 +7,7 @@ use crate::math::{Basis, Polytope, centroid, span};
 use crate::optics::Stratum;
 use crate::scene::{Instance, Medium, View};
 use crate::trace::beam::{self, Beam, Beams};
-use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass};
+use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass, colour};
 use crate::trace::{Stopped, Watch};
 use glam::{DAffine2, DMat2, DVec2, DVec3, DVec4};
 use rayon::prelude::*;
@@ -121,7 +121,8 @@ impl<'a> ByBeams<'a> {
             Band::new(s, own, self.instance.material.index(middle), whole.spread)
         };
         let bands: Vec<Band> = strata.iter().map(band).collect();
-        self.see_beside(strata.iter().map(|s| &s.response));
+        let whole = [0, 1, 2, 3].map(|channel| strata.iter().map(|s| s.response[channel]).sum());
+        self.see_beside(&whole);
         let found = self.patches_of(&beams, true, |beam, sweep, copy| {
             let path = beam.path.at(centroid(beam.outline));
             bands
@@ -129,7 +130,7 @@ impl<'a> ByBeams<'a> {
                 .map(|band| {
                     let toward = (beam.exit + sweep * band.off, sweep * band.part);
                     let light = self.arriving(&beams, beam, toward, copy) * band.left(path);
-                    band.response.iter().zip(light.to_array()).map(|(&c, l)| c * l).sum::<DVec3>()
+                    colour(&band.response, light)
                 })
                 .sum()
         });
@@ -145,13 +146,12 @@ impl<'a> ByBeams<'a> {
         Ok(())
     }
 
-    /// Adds the light that parallel rays see beside the stone, where the environment is the backdrop.
-    fn see_beside<'r>(&mut self, responses: impl Iterator<Item = &'r [DVec3; 4]>) {
+    /// Adds the light that parallel rays see beside the stone, where the environment is the backdrop; `whole` is the response
+    /// of all strata.
+    fn see_beside(&mut self, whole: &[DVec3; 4]) {
         if self.lit_scene.environment.backdrop {
             let light = self.lit_scene.environment.radiance(DVec3::ZERO, -self.eye.toward, DVec3::ZERO);
-            let light = light.to_array();
-            let seen = |r: &[DVec3; 4]| r.iter().zip(light).map(|(&c, l)| c * l).sum::<DVec3>();
-            self.beside += responses.map(seen).sum::<DVec3>();
+            self.beside += colour(whole, light);
         }
     }
 
@@ -159,18 +159,17 @@ impl<'a> ByBeams<'a> {
     fn patches(&self, beams: &Beams, look: &SamplePass, band: usize) -> Vec<Patches> {
         let response = &look.responses[band];
         self.patches_of(beams, band == 0, |beam, sweep, copy| {
-            let light = self.arriving(beams, beam, (look.middle(beam.exit, sweep), sweep), copy);
-            response.iter().zip(light.to_array()).map(|(&c, l)| c * l).sum()
+            colour(response, self.arriving(beams, beam, (beam.exit, sweep), copy))
         })
     }
 
-    /// Returns the polygons of all beams, in all copies of the symmetry, in the colour that `colour` gives each. With
+    /// Returns the polygons of all beams, in all copies of the symmetry, in the colour that `coloured` gives each. With
     /// `is_first` they also carry the silhouette's cover.
     fn patches_of(
         &self,
         beams: &Beams,
         is_first: bool,
-        colour: impl Fn(&Beam, DVec3, DMat2) -> DVec3 + Sync,
+        coloured: impl Fn(&Beam, DVec3, DMat2) -> DVec3 + Sync,
     ) -> Vec<Patches> {
         let sweeps = beams.sweeps(self.stone);
         let pose = &self.instance.pose;
@@ -186,7 +185,7 @@ impl<'a> ByBeams<'a> {
             {
                 let cover = f64::from(u8::from(is_first && beam.is_surface()));
                 for (copy, pixels) in &copies {
-                    let colour = colour(&beam, sweeps[beam.id as usize], *copy);
+                    let colour = coloured(&beam, sweeps[beam.id as usize], *copy);
                     out.add(&beam, &beams.medium, pixels, colour.extend(cover));
                 }
             }
@@ -285,10 +284,10 @@ impl Patches {
 impl<E: From<Stopped>> ProgressiveImage<E> for ByBeams<'_> {
     fn add_pass(&mut self, look: &SamplePass, watch: Watch) -> Result<(), E> {
         let bands = look.responses.len();
+        self.see_beside(&look.whole);
         for (band, &medium) in look.media[0].iter().enumerate() {
             let done = |part: f64| watch((band as f64 + part) / bands as f64);
             let beams = beam::trace(self.stone, medium, &self.view, &self.options, &done)?;
-            self.see_beside(std::iter::once(&look.responses[band]));
             let found = self.patches(&beams, look, band);
             self.paint(&found);
             self.unresolved += beams.unresolved() / bands as f64;

@@ -1,7 +1,7 @@
 //! Pictures of stones under light: adds up the sample passes that a picture is made from.
 
 use super::Linear;
-use crate::optics::Stratum;
+use crate::optics::Strata;
 use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, Sampling};
 use crate::trace::{Stopped, Watch};
 use std::ops::Range;
@@ -22,7 +22,7 @@ pub struct Remainder {
 /// The errors of `prepare` and of the tracer that it builds, and [`Stopped`] when `watch` stops the work.
 pub fn expose<E: From<Stopped>, X: ProgressiveImage<E>>(
     lit_scene: &LitScene,
-    sampled: (&[Stratum], Sampling),
+    sampled: (&Strata, Sampling),
     most_rows: u32,
     prepare: impl Fn(Range<u32>) -> Result<X, E>,
     watch: Watch,
@@ -37,7 +37,7 @@ pub fn expose<E: From<Stopped>, X: ProgressiveImage<E>>(
 /// The errors of [`expose`] and of `each`.
 pub fn expose_rows<E: From<Stopped>, X: ProgressiveImage<E>>(
     lit_scene: &LitScene,
-    (strata, sampling): (&[Stratum], Sampling),
+    (strata, sampling): (&Strata, Sampling),
     most_rows: u32,
     prepare: impl Fn(Range<u32>) -> Result<X, E>,
     watch: Watch,

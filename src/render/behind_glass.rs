@@ -2,7 +2,7 @@
 
 use super::job::{Job, MapProduct, PaneProduct};
 use super::renderer::{Output, RenderError};
-use crate::optics::{Illuminant, strata};
+use crate::optics::{Illuminant, Strata};
 use crate::picture::RefractionMap;
 use crate::picture::liquid_glass::{PaneLighting, compare, surroundings, traced};
 use crate::trace::Watch;
@@ -22,7 +22,7 @@ impl PaneProduct {
         let around = PaneLighting {
             map: &EnvironmentMap::new(&surroundings(self.pane.effective().light), None),
             gap: self.gap,
-            strata: &strata(self.wavelengths, &Illuminant::D65, true),
+            strata: &Strata::new(self.wavelengths, passes, &Illuminant::D65, true),
             passes,
         };
         if self.compares {

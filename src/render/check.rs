@@ -220,7 +220,7 @@ impl Surroundings {
         positive("surroundings.backplate.span", hung.span)?;
         not_negative("surroundings.backplate.distance", hung.distance)?;
         check_film(&hung.frame, &FRAME)?;
-        check_picture("surroundings.backplate.picture", &hung.picture)
+        check_picture("surroundings.backplate.picture", hung.picture.picture())
     }
 }
 

@@ -4,7 +4,7 @@
 use super::Wanted;
 use super::surroundings::Surroundings;
 use crate::measure::Bounds;
-use crate::optics::{Stratum, strata};
+use crate::optics::Strata;
 use crate::picture::liquid_glass::GlassPane;
 use crate::picture::{Backdrop, Survey};
 use crate::scene::{Film, Glare, Medium, Panorama, Scene, Scope, View};
@@ -55,7 +55,7 @@ pub struct LightProduct {
     pub adapted: bool,
     /// The share of refraction's turning of light that is followed, 0 to 1; 1 is physics.
     pub strength: f64,
-    /// Whether each pass takes other wavelengths, so that together they cover the whole spectrum.
+    /// Whether each pass takes another share of each band of wavelengths, so that together they show all hues.
     pub jitter: bool,
     /// In which steps the picture is made.
     pub steps: Steps,
@@ -66,7 +66,8 @@ pub struct LightProduct {
 pub enum Steps {
     /// Some rows after the other, each handed out when it is finished, so that little memory is held.
     Strips,
-    /// As a whole, shown after the first, the second, the fourth pass and so on.
+    /// As a whole, shown after the first, the second, the fourth pass and so on, from when these passes together have seen
+    /// enough wavelengths that white is white.
     Passes {
         /// The number of the first pass. Passes of other numbers take other places in the pixels.
         first: u32,
@@ -236,17 +237,22 @@ pub fn mixture_note(strength: f64) -> String {
 }
 
 impl LightProduct {
-    /// Returns the strata of wavelengths that are traced.
-    pub fn strata(&self) -> Vec<Stratum> {
-        strata(self.wavelengths, &self.surroundings.lighting.light.spectrum, self.adapted)
+    /// Returns the strata of wavelengths that are traced in a number of sample passes. At a glance, and without jitter, each
+    /// pass stands for whole strata.
+    pub fn strata(&self, passes: u32) -> Strata {
+        let is_shared = self.jitter && !matches!(self.steps, Steps::Glance { .. });
+        let shares = if is_shared { passes } else { 1 };
+        Strata::new(self.wavelengths, shares, &self.surroundings.lighting.light.spectrum, self.adapted)
     }
 }
 
 impl MapProduct {
     /// Traces what `work` makes of the survey of this map, with this many passes of the diffuse layer.
     pub(super) fn surveyed<T>(&self, passes: u32, work: impl FnOnce(&Survey) -> T) -> T {
-        let bands = |count| strata(count, &self.surroundings.lighting.light.spectrum, self.adapted);
-        let (bands, shades) = (bands(self.bands), bands(self.shades));
+        let strata = |count, shares| {
+            Strata::new(count, shares, &self.surroundings.lighting.light.spectrum, self.adapted)
+        };
+        let (bands, shades) = (strata(self.bands, 1), strata(self.shades, passes));
         work(&Survey { bands: &bands, places: self.places, shades: &shades, passes })
     }
 }

@@ -4,7 +4,7 @@ use super::card::Backend;
 use super::job::{Job, LightProduct, Steps};
 use super::plan::Unfit;
 use super::renderer::{EachPart, Halt, Output, Partial, RenderError};
-use crate::optics::Stratum;
+use crate::optics::Strata;
 use crate::picture::spectral::{EachRow, Remainder, expose_rows, seen};
 use crate::picture::{ByBeams, Linear};
 use crate::trace::Watch;
@@ -27,7 +27,7 @@ const MOST_CHANCE: f64 = 0.1;
 struct Exposure<'a> {
     job: &'a Job,
     lit_scene: LitScene<'a>,
-    strata: Vec<Stratum>,
+    strata: Strata,
     sampling: Sampling,
     watch: Watch<'a>,
 }
@@ -41,8 +41,8 @@ impl LightProduct {
         each: EachPart<E>,
     ) -> Result<Output, Halt<E>> {
         let by_chance = (CHANCE_OF_ONE_PASS * f64::from(count).sqrt()).min(MOST_CHANCE);
-        let sampling = Sampling { count, jitter: self.jitter, strength: self.strength, by_chance };
-        let (lit_scene, strata) = (job.lit_scene(&self.surroundings), self.strata());
+        let sampling = Sampling { count, strength: self.strength, by_chance };
+        let (lit_scene, strata) = (job.lit_scene(&self.surroundings), self.strata(count));
         let exposure = Exposure { job, lit_scene, strata, sampling, watch };
         let (picture, rest) = match self.steps {
             Steps::Strips => return Ok(Output::LightRows(exposure.in_strips(backend, each)?)),
@@ -66,7 +66,7 @@ impl Exposure<'_> {
         each: EachPart<E>,
     ) -> Result<Remainder, Halt<E>> {
         let (lit_scene, width) = (&self.lit_scene, self.lit_scene.film.size[0]);
-        let sampled = (&*self.strata, self.sampling);
+        let sampled = (&self.strata, self.sampling);
         let hand_out: EachRow<Halt<E>> =
             &mut |y, pixels| each(Partial::LightRow { y, pixels }).map_err(Halt::Each);
         match backend {
@@ -81,7 +81,8 @@ impl Exposure<'_> {
             #[cfg(feature = "gpu")]
             Backend::Card(gpu) => {
                 let environment = GpuEnvironment::new(gpu, &lit_scene.environment)?;
-                let prepare = |rows| Ok(ByCard::new(gpu, lit_scene, &environment, rows, self.strata.len())?);
+                let prepare =
+                    |rows| Ok(ByCard::new(gpu, lit_scene, &environment, rows, self.strata.whole().len())?);
                 expose_rows(lit_scene, sampled, ByCard::most_rows(width), prepare, self.watch, hand_out)
             }
         }
@@ -95,7 +96,7 @@ impl Exposure<'_> {
     /// Takes the picture by the beams of one wavelength.
     fn at_a_glance(&self) -> Result<(Linear, Remainder), RenderError> {
         let mut image = self.beams(0..self.lit_scene.film.size[1])?;
-        image.glance(&self.strata, self.watch)?;
+        image.glance(self.strata.whole(), self.watch)?;
         seen(&self.lit_scene, &image)
     }
 
@@ -114,7 +115,7 @@ impl Exposure<'_> {
             #[cfg(feature = "gpu")]
             Backend::Card(gpu) => {
                 let environment = GpuEnvironment::new(gpu, &self.lit_scene.environment)?;
-                let strips = Strips::new(gpu, &self.lit_scene, &environment, self.strata.len())?;
+                let strips = Strips::new(gpu, &self.lit_scene, &environment, self.strata.whole().len())?;
                 self.add_up(strips, (backend, first, hidden), each)
             }
         }
@@ -133,7 +134,8 @@ impl Exposure<'_> {
             let pass = self.sampling.pass(self.lit_scene.scene, &self.strata, first.wrapping_add(number));
             image.add_pass(&pass, &done)?;
             let taken = number + 1;
-            if taken == count || taken > hidden && taken.is_power_of_two() {
+            let is_white = self.strata.is_white_after(taken);
+            if taken == count || taken > hidden && taken.is_power_of_two() && is_white {
                 last = seen(&self.lit_scene, &image)?;
                 let (picture, rest) = (&last.0, last.1);
                 each(Partial::Picture { picture, rest, backend }).map_err(Halt::Each)?;

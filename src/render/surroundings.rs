@@ -1,6 +1,6 @@
 //! What is around the stones of a picture: light, and what hangs behind.
 
-use crate::scene::{Film, Panorama, View};
+use crate::scene::{Film, Mipmap, View};
 use crate::trace::environment::{Backplate, Environment, Lighting};
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
@@ -24,8 +24,8 @@ pub struct Surroundings {
 /// A picture that hangs behind the stones, and fills the film from there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HungPicture {
-    /// The pixels, as linear light.
-    pub picture: Arc<Panorama>,
+    /// The pixels, as linear light, with their coarser levels.
+    pub picture: Arc<Mipmap>,
     /// How many times as wide as the film it is.
     pub span: f64,
     /// The distance behind the origin, in girdle radii.

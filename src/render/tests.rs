@@ -5,8 +5,8 @@ use crate::measure::Bounds;
 use crate::picture::Linear;
 use crate::picture::{Backdrop, liquid_glass::GlassPane};
 use crate::scene::{
-    ASET_CONE, Backing, Film, Glare, Instance, Light, Panorama, PanoramaRef, Projection, Scene, Scope,
-    Specimen, View,
+    ASET_CONE, Backing, Film, Glare, Instance, Light, Mipmap, Panorama, PanoramaRef, Projection, Scene,
+    Scope, Specimen, View,
 };
 use crate::trace::environment::{EnvironmentMap, Lighting};
 use crate::trace::unwatched;
@@ -148,7 +148,12 @@ fn hung() -> Job {
         let map = EnvironmentMap { levels: vec![vec![[0.5; 4]; 4], vec![[0.5; 4]]], side: 2, lamps: vec![] };
         product.surroundings.lighting = Arc::new(Lighting { light, map, warnings: vec![] });
         let picture = grey(3, 2);
-        let hung = HungPicture { picture, span: 1.0, distance: 3.0, frame: Film::square(24, 1.1) };
+        let hung = HungPicture {
+            picture: Arc::new(Mipmap::new((*picture).clone())),
+            span: 1.0,
+            distance: 3.0,
+            frame: Film::square(24, 1.1),
+        };
         product.surroundings.backplate = Some(hung);
     }
     job
@@ -268,7 +273,8 @@ fn jobs_that_were_never_written_are_checked_as_well() {
     let empty = |mut job: Job| {
         if let Product::Light(light) = &mut job.product {
             let hung = light.surroundings.backplate.as_mut().unwrap();
-            hung.picture = Arc::new(Panorama { width: 3, height: 2, pixels: vec![] });
+            let empty = Panorama { width: 3, height: 2, pixels: vec![] };
+            hung.picture = Arc::new(Mipmap::new(empty));
         }
         job
     };
@@ -285,10 +291,18 @@ fn jobs_that_were_never_written_are_checked_as_well() {
 
 #[test]
 fn a_picture_in_strips_is_the_last_of_those_that_grow_clearer() {
-    for scene in [Scene::alone(&specimen("round_brilliant")), several()] {
-        let mut count = 0;
-        let growing = job(scene.clone(), light(Steps::Passes { first: 0, hidden: 0 }));
-        let mut last = None;
+    // Whole strata are shown after each pass, shares of them only when all were seen.
+    for (scene, jitter, shown) in
+        [(Scene::alone(&specimen("round_brilliant")), false, 2), (several(), false, 2), (several(), true, 1)]
+    {
+        let taken = |steps| {
+            let mut job = job(scene.clone(), light(steps));
+            let Product::Light(light) = &mut job.product else { panic!("no picture under light") };
+            light.jitter = jitter;
+            job
+        };
+        let (mut count, mut last) = (0, None);
+        let growing = taken(Steps::Passes { first: 0, hidden: 0 });
         let grown = Renderer::default().run(&growing, &unwatched, &mut |part| {
             if let Partial::Picture { picture, .. } = part {
                 count += 1;
@@ -296,10 +310,10 @@ fn a_picture_in_strips_is_the_last_of_those_that_grow_clearer() {
             }
             Ok::<_, RenderError>(())
         });
-        assert_eq!(count, 2);
+        assert_eq!(count, shown);
         let grown = grown.unwrap().light().unwrap().0;
         assert_eq!(last.as_ref(), Some(&grown));
-        assert_eq!(grown, lit(&job(scene, light(Steps::Strips))));
+        assert_eq!(grown, lit(&taken(Steps::Strips)));
     }
 }
 

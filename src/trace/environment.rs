@@ -9,7 +9,7 @@
 mod drawing;
 
 use crate::math::Basis;
-use crate::scene::{Film, Light, LightError, Panorama, View, toward};
+use crate::scene::{Film, Light, LightError, Mipmap, Panorama, View, toward};
 use drawing::{channels, shine};
 use glam::{DVec2, DVec3, DVec4, IVec2, Vec2Swizzles as _, Vec4Swizzles as _};
 use rayon::prelude::*;
@@ -136,8 +136,8 @@ pub enum LightingError {
 /// A photograph on a plane behind the stones, perpendicular to the axis to the eye.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Backplate<'a> {
-    /// The picture, in linear light.
-    pub picture: &'a Panorama,
+    /// The picture, in linear light, with its coarser levels.
+    pub picture: &'a Mipmap,
     /// Distance of the plane behind the origin, in world units.
     pub distance: f64,
     /// The picture's width on that plane, in world units.
@@ -255,18 +255,24 @@ impl EnvironmentMap {
 }
 
 impl Environment<'_> {
-    /// Returns the light, by channel, of the photograph behind the stones; `None` where a ray does not meet it.
-    pub(in crate::trace) fn photograph(&self, from: DVec3, direction: DVec3) -> Option<DVec4> {
-        let seen = self.backplate?.at(&self.eye, from, direction)?;
-        Some(seen.extend(0.0).wxyz())
+    /// Returns what a ray sees of the photograph behind the stones; `None` where the ray does not meet it at any of the
+    /// wavelengths that it stands for.
+    pub(in crate::trace) fn photograph(&self, from: DVec3, direction: DVec3, sweep: DVec3) -> Option<Seen> {
+        self.backplate?.at(&self.eye, from, (direction, sweep))
     }
 
     /// Returns the radiance, by channel, that arrives along a ray from outside the stones. The ray begins at `from`; `sweep`
     /// is the change of its direction over the wavelengths that it stands for.
     pub fn radiance(&self, from: DVec3, direction: DVec3, sweep: DVec3) -> DVec4 {
-        if let Some(seen) = self.photograph(from, direction) {
-            return seen;
+        match self.photograph(from, direction, sweep) {
+            Some(seen) if seen.share >= 1.0 => seen.light,
+            Some(seen) => seen.light + self.beyond(direction, sweep) * (1.0 - seen.share),
+            None => self.beyond(direction, sweep),
         }
+    }
+
+    /// Returns the radiance, by channel, of the light alone.
+    fn beyond(&self, direction: DVec3, sweep: DVec3) -> DVec4 {
         let own =
             |v: DVec3| DVec3::new(self.basis.right.dot(v), self.basis.up.dot(v), self.basis.toward.dot(v));
         let (d, s, swept) = (own(direction), own(sweep), sweep.length());
@@ -292,22 +298,75 @@ pub fn backplate_point(eye: &Basis, distance: f64, from: DVec3, direction: DVec3
 impl<'a> Backplate<'a> {
     /// Places a picture at this distance behind the origin, wide enough to fill a view's film `span` times over, whatever
     /// its shape.
-    pub fn filling(picture: &'a Panorama, span: f64, distance: f64, view: &View, film: &Film) -> Self {
+    pub fn filling(picture: &'a Mipmap, span: f64, distance: f64, view: &View, film: &Film) -> Self {
         let [across, down] = film.size.map(f64::from);
-        let shape = f64::from(picture.width) / f64::from(picture.height);
+        let shape = f64::from(picture.picture().width) / f64::from(picture.picture().height);
         let width = span * film.pixel * across.max(down * shape) * view.widening(distance);
         Self { picture, distance, width }
     }
 
-    /// Returns the picture's colour where a ray meets it; `None` where it does not.
-    fn at(&self, eye: &Basis, from: DVec3, direction: DVec3) -> Option<DVec3> {
-        let p =
-            backplate_point(eye, self.distance, from, direction)? * DVec2::new(1.0, -1.0) / self.width + 0.5;
-        let size = DVec2::new(f64::from(self.picture.width), f64::from(self.picture.height));
-        let at = DVec2::new(p.x, (p.y - 0.5) * size.x / size.y + 0.5) * size - 0.5;
-        let inside = at.cmpge(DVec2::splat(-0.5)).all() && at.cmple(size - 0.5).all();
-        inside.then(|| self.picture.between(at))
+    /// Returns what a ray sees of the picture; `None` where it does not meet it. The ray is given by its direction and how
+    /// that sweeps.
+    fn at(&self, eye: &Basis, from: DVec3, (direction, sweep): (DVec3, DVec3)) -> Option<Seen> {
+        let height = from.dot(eye.toward) + self.distance;
+        let speed = |part: f64| -(direction + sweep * part).dot(eye.toward);
+        // The part of the sweep that runs toward the plane, from half of it before the ray's direction to half after it.
+        let (low, high) = (speed(-0.5), speed(0.5));
+        if height <= 0.0 || low.max(high) <= ALONG {
+            return None;
+        }
+        let meets = |of: f64, other: f64| if of > ALONG { 0.0 } else { (ALONG - of) / (other - of) };
+        let (first, last) = (meets(low, high) - 0.5, 0.5 - meets(high, low));
+        let picture = self.picture.picture();
+        let size = DVec2::new(f64::from(picture.width), f64::from(picture.height));
+        let place = |part: f64| {
+            let met = eye.project(from + (direction + sweep * part) * (height / speed(part).max(ALONG)));
+            let p = met * DVec2::new(1.0, -1.0) / self.width + 0.5;
+            DVec2::new(p.x, (p.y - 0.5) * size.x / size.y + 0.5) * size - 0.5
+        };
+        let (from, to) = (place(first), place(last));
+        let (enters, leaves) = inside(from, to, size)?;
+        // Along the line, places are projected: parts of its length become parts of the sweep.
+        let of_sweep = |q: f64| {
+            let (near, far) = (q * speed(first), (1.0 - q) * speed(last));
+            first + (last - first) * (near / (near + far))
+        };
+        let (first, last) = (of_sweep(enters), of_sweep(leaves));
+        let length = (to - from).length() * (leaves - enters);
+        let light = self.picture.along(length, |part| place(first + (last - first) * part));
+        let share = if length > 0.0 { last - first } else { 1.0 };
+        Some(Seen { light: light.extend(0.0).wxyz() * share, share })
     }
+}
+
+/// What a ray sees of a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::trace) struct Seen {
+    /// The light by channel, of that part of the ray's wavelengths which meets the picture.
+    pub light: DVec4,
+    /// That part.
+    pub share: f64,
+}
+
+/// Returns the parts, 0 to 1, at which a line enters a picture and leaves it, in pixels from the middle of the first;
+/// `None` where it does not meet the picture.
+fn inside(from: DVec2, to: DVec2, size: DVec2) -> Option<(f64, f64)> {
+    if !from.is_finite() || !to.is_finite() {
+        return None;
+    }
+    let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+    for axis in 0..2 {
+        let (start, way, end) = (from[axis], to[axis] - from[axis], size[axis] - 0.5);
+        if way == 0.0 {
+            if !(-0.5..=end).contains(&start) {
+                return None;
+            }
+            continue;
+        }
+        let (a, b) = ((-0.5 - start) / way, (end - start) / way);
+        (enters, leaves) = (enters.max(a.min(b)), leaves.min(a.max(b)));
+    }
+    (enters <= leaves).then_some((enters, leaves))
 }
 
 /// Returns the share of a sweep of directions, from half of it before the ray's direction to half after it, that lies inside

@@ -2,10 +2,10 @@
 
 use super::environment::Environment;
 use super::{Stopped, Watch};
-use crate::optics::Stratum;
+use crate::optics::{Strata, Stratum};
 use crate::scene::{Film, Instance, Medium, Scene, View};
 use crate::trace::ray::{RayOptions, Roulette};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, DVec4};
 
 /// Stones in one world, the environment around them, and the camera.
 #[derive(Clone, Copy)]
@@ -27,12 +27,14 @@ pub struct LitScene<'a> {
 pub struct SamplePass {
     /// The place of the ray in its pixel, 0 to 1.
     pub shift: DVec2,
-    /// The place of the traced wavelength in its band, 0 to 1.
-    pub part: f64,
     /// The media of the stones, in the units of their bodies: stone by stone, band by band.
     pub media: Vec<Vec<Medium>>,
-    /// For each band, the colour of light of radiance 1 in each of the environment's four channels.
+    /// For each band, the colour of light of radiance 1 in each of the environment's four channels. A band is the share of a
+    /// stratum that the pass stands for.
     pub responses: Vec<[DVec3; 4]>,
+    /// The colour of such light in all strata together: that of light which goes straight to the eye, because there it is the
+    /// same at all wavelengths.
+    pub whole: [DVec3; 4],
     /// The share of refraction's turning of light that is followed, 0 to 1; see [`Sampling::strength`].
     pub strength: f64,
     /// The number of the pass.
@@ -46,9 +48,6 @@ pub struct SamplePass {
 pub struct Sampling {
     /// The number of sample passes, at least 1.
     pub count: u32,
-    /// Whether each sample pass takes other wavelengths, so that together they cover the whole spectrum; else all take the
-    /// middles of their bands.
-    pub jitter: bool,
     /// The share of refraction's turning of light that is followed, 0 to 1; 1 is physics. Below 1, light that goes on away
     /// from the eye is looked up on a mixture of its own ray and the straight one, which is a choice of looks and not
     /// physics.
@@ -75,6 +74,11 @@ pub struct RadiancePixel {
     pub absorbed: f64,
 }
 
+/// Returns the colour of light that is given by channel, where light of radiance 1 has the colours `response`.
+pub fn colour(response: &[DVec3; 4], light: DVec4) -> DVec3 {
+    response.iter().zip(light.to_array()).map(|(&colour, light)| colour * light).sum()
+}
+
 /// Rows of a picture that grow clearer with every sample pass.
 pub trait ProgressiveImage<E: From<Stopped>> {
     /// Adds one sample pass.
@@ -90,30 +94,31 @@ pub trait ProgressiveImage<E: From<Stopped>> {
     fn each_pixel(&self, each: &mut dyn FnMut(&RadiancePixel)) -> Result<(), E>;
 }
 
-/// The steps of M. Roberts' R3 sequence (2018), powers of 1/1.2207...: its points are spread evenly over a cube, however
+/// The steps of M. Roberts' R2 sequence (2018), powers of 1/1.3247...: its points are spread evenly over a square, however
 /// many are taken. It is not random, so that pictures repeat.
-const STEPS: DVec3 = DVec3::new(0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3);
+const STEPS: DVec2 = DVec2::new(0.754_877_666_246_692_8, 0.569_840_290_998_053_2);
+
+/// Returns the place, 0 to 1 along both sides, of a sample pass's rays in their pixels.
+pub fn place_in_pixel(number: u32) -> DVec2 {
+    (STEPS * f64::from(number) + 0.5).fract()
+}
 
 impl Sampling {
-    /// Returns a sampling of `count` passes, each at other wavelengths, at full strength, all light followed.
+    /// Returns a sampling of `count` passes at full strength, all light followed.
     pub fn of(count: u32) -> Self {
-        Self { count, jitter: true, strength: 1.0, by_chance: 0.0 }
+        Self { count, strength: 1.0, by_chance: 0.0 }
     }
 
     /// Returns the sample pass of a number, from 0. Passes of many numbers fill pixels and strata evenly; the first goes
-    /// through the middle of both.
-    pub fn pass(&self, scene: &Scene, strata: &[Stratum], number: u32) -> SamplePass {
-        let mut at = (STEPS * f64::from(number) + 0.5).fract();
-        if !self.jitter {
-            at.z = 0.5;
-        }
-        let band = |s: &Stratum| (s.from_nm, s.at(at.z), s.to_nm);
-        let medium = |stone: &Instance, s: &Stratum| scene.medium(stone, band(s));
+    /// through the middle of pixels.
+    pub fn pass(&self, scene: &Scene, strata: &Strata, number: u32) -> SamplePass {
+        let bands: Vec<Stratum> = strata.of_pass(number).collect();
+        let medium = |stone: &Instance, s: &Stratum| scene.medium(stone, (s.from_nm, s.at(0.5), s.to_nm));
         SamplePass {
-            shift: at.truncate(),
-            part: at.z,
-            media: scene.instances.iter().map(|p| strata.iter().map(|s| medium(p, s)).collect()).collect(),
-            responses: strata.iter().map(|s| s.response).collect(),
+            shift: place_in_pixel(number),
+            media: scene.instances.iter().map(|p| bands.iter().map(|s| medium(p, s)).collect()).collect(),
+            responses: bands.iter().map(|s| s.response).collect(),
+            whole: strata.response(),
             strength: self.strength,
             number,
             by_chance: self.by_chance,
@@ -122,8 +127,8 @@ impl Sampling {
 }
 
 impl SamplePass {
-    /// Returns the sample pass of a number, as [`Sampling::pass`] does with wavelengths that change and at full strength.
-    pub fn new(scene: &Scene, strata: &[Stratum], number: u32) -> Self {
+    /// Returns the sample pass of a number, as [`Sampling::pass`] does at full strength.
+    pub fn new(scene: &Scene, strata: &Strata, number: u32) -> Self {
         Sampling::of(1).pass(scene, strata, number)
     }
 
@@ -131,23 +136,6 @@ impl SamplePass {
     pub fn roulette(&self, pixel: [u32; 2], band: usize) -> Option<Roulette> {
         let number = u64::from(self.number) * self.responses.len() as u64 + band as u64;
         (self.by_chance > 0.0).then(|| Roulette::new(self.by_chance, pixel, number))
-    }
-
-    /// Returns the direction for which a ray that leaves in `direction`, at the traced wavelength, stands: that of the
-    /// middle of its band. `sweep` is the change of direction over the whole band.
-    pub fn middle(&self, direction: DVec3, sweep: DVec3) -> DVec3 {
-        direction + sweep * (0.5 - self.part)
-    }
-
-    /// Returns the point, the direction and the sweep for which light that has left all stones is looked up. `own` are those
-    /// of its ray, and `straight` is the ray from the eye that it goes back to.
-    pub(super) fn looked_up(
-        &self,
-        own: (DVec3, DVec3, DVec3),
-        straight: (DVec3, DVec3),
-    ) -> (DVec3, DVec3, DVec3) {
-        let (from, direction, sweep) = self.mixed(straight, own);
-        (from, self.middle(direction, sweep), sweep)
     }
 
     /// Returns the ray on which light is looked up: its point, unit direction and sweep.

@@ -1,10 +1,10 @@
 //! Takes pictures under light by every tracer.
 
 use brillianteer::math::Polytope;
-use brillianteer::optics::{material, strata};
+use brillianteer::optics::{Strata, material};
 use brillianteer::picture::spectral::{Remainder, expose, seen};
 use brillianteer::picture::{ByBeams, Linear};
-use brillianteer::scene::{Body, Film, Instance, Light, Panorama, Scene, View};
+use brillianteer::scene::{Body, Film, Instance, Light, Mipmap, Panorama, Scene, View};
 use brillianteer::trace::beam;
 use brillianteer::trace::environment::{Backplate, Environment, EnvironmentMap};
 #[cfg(feature = "gpu")]
@@ -62,13 +62,14 @@ impl Shoot {
 
     pub fn with<T>(&self, work: impl FnOnce(&LitScene) -> T) -> T {
         let sky = EnvironmentMap::new(&self.light, None);
+        let photo = self.photo.as_ref().map(|(picture, distance)| (Mipmap::new(picture.clone()), *distance));
         let eye = self.view.basis();
         let environment = Environment {
             map: &sky,
             basis: self.view.light_basis(),
             eye,
             head: self.light.head.to_radians(),
-            backplate: self.photo.as_ref().map(|(picture, distance)| Backplate {
+            backplate: photo.as_ref().map(|(picture, distance)| Backplate {
                 picture,
                 distance: *distance,
                 width: 3.0,
@@ -84,13 +85,18 @@ impl Shoot {
         })
     }
 
+    /// Returns the strata, of which each sample pass sees another share.
+    fn strata(&self) -> Strata {
+        Strata::new(self.wavelengths, self.samples, &self.light.spectrum, true)
+    }
+
     fn sampling(&self) -> Sampling {
         Sampling { strength: self.strength, ..Sampling::of(self.samples) }
     }
 
     /// Traces the picture by single rays in double precision.
     pub fn by_rays(&self) -> (Linear, Remainder) {
-        let strata = strata(self.wavelengths, &self.light.spectrum, true);
+        let strata = self.strata();
         self.with(|lit_scene| {
             let prepare = |rows| Ok::<_, Stopped>(ByRays::in_f64(*lit_scene, rows));
             expose(lit_scene, (&strata, self.sampling()), self.size, prepare, &unwatched).unwrap()
@@ -99,7 +105,7 @@ impl Shoot {
 
     /// Traces the picture by packets of rays in single precision.
     pub fn by_packets(&self) -> (Linear, Remainder) {
-        let strata = strata(self.wavelengths, &self.light.spectrum, true);
+        let strata = self.strata();
         self.with(|lit_scene| {
             let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
             expose(lit_scene, (&strata, self.sampling()), self.size, prepare, &unwatched).unwrap()
@@ -112,7 +118,7 @@ impl Shoot {
 
     /// Traces the picture by exact beams, `rows` rows at a time.
     pub fn by_beams_in(&self, rows: u32) -> (Linear, Remainder) {
-        let strata = strata(self.wavelengths, &self.light.spectrum, true);
+        let strata = self.strata();
         let options = beam::BeamOptions { unresolved: 1e-3, ..beam::BeamOptions::default() };
         self.with(|lit_scene| {
             let prepare = |rows| Ok::<_, Stopped>(ByBeams::of_rows(*lit_scene, options, rows).unwrap());
@@ -122,21 +128,22 @@ impl Shoot {
 
     /// Traces the picture by the exact beams of the middle wavelength alone.
     pub fn glanced(&self) -> (Linear, Remainder) {
-        let strata = strata(self.wavelengths, &self.light.spectrum, true);
+        let strata = self.strata();
         let options = beam::BeamOptions { unresolved: 1e-3, ..beam::BeamOptions::default() };
         self.with(|lit_scene| {
             let mut image = ByBeams::new(*lit_scene, options).unwrap();
-            image.glance(&strata, &unwatched).unwrap();
+            image.glance(strata.whole(), &unwatched).unwrap();
             seen::<Stopped, _>(lit_scene, &image).unwrap()
         })
     }
 
     #[cfg(feature = "gpu")]
     pub fn by_card(&self, gpu: &Gpu) -> (Linear, Remainder) {
-        let strata = strata(self.wavelengths, &self.light.spectrum, true);
+        let strata = self.strata();
         self.with(|lit_scene| {
             let around = GpuEnvironment::new(gpu, &lit_scene.environment).unwrap();
-            let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, lit_scene, &around, rows, strata.len())?);
+            let prepare =
+                |rows| Ok::<_, Failed>(ByCard::new(gpu, lit_scene, &around, rows, strata.whole().len())?);
             // The picture is traced in strips, as large pictures are.
             expose(lit_scene, (&strata, self.sampling()), 40, prepare, &unwatched).unwrap()
         })

@@ -6,7 +6,7 @@ use crate::common::*;
 use brillianteer::math::{Plane, Polytope, SolidRef};
 use brillianteer::render::RenderError;
 use brillianteer::scene::{
-    ASET_CONE, Backing, Film, MOST_LAMPS, Medium, Panorama, Scene, Scope, View, light,
+    ASET_CONE, Backing, Film, MOST_LAMPS, Medium, Mipmap, Panorama, Scene, Scope, View, light,
 };
 use brillianteer::trace::environment::{Backplate, Disc, Environment, EnvironmentMap};
 use brillianteer::trace::gpu::{ByCard, Gpu, GpuEnvironment, GpuError, MOST_WAVELENGTHS};
@@ -52,7 +52,8 @@ fn refuse_environments(gpu: &Gpu, environment: &Environment) {
     let map = EnvironmentMap { lamps: vec![lamp; count], ..environment.map.clone() };
     let error = GpuEnvironment::new(gpu, &Environment { map: &map, ..*environment }).err().unwrap();
     assert_eq!(error, GpuError::TooManyLamps { count, most: MOST_LAMPS });
-    let picture = Panorama { width: WIDE, height: 1, pixels: vec![[0.5; 3]; WIDE as usize] };
+    let wide = Panorama { width: WIDE, height: 1, pixels: vec![[0.5; 3]; WIDE as usize] };
+    let picture = Mipmap::new(wide);
     let backplate = Some(Backplate { picture: &picture, distance: 3.0, width: 2.0 });
     let error = GpuEnvironment::new(gpu, &Environment { backplate, ..*environment }).err().unwrap();
     assert!(matches!(error, GpuError::PictureTooLarge { width: WIDE, height: 1, .. }), "{error}");

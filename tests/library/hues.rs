@@ -1,12 +1,13 @@
-//! Compares the hues along a cut through a rainbow: three wavelengths show three bands, sixteen do not.
+//! Compares the hues along a cut through a rainbow: three wavelengths show three bands, unless each sample pass takes
+//! others.
 
 use brillianteer::cut::{Glass, Sides};
 use brillianteer::io::background::BackgroundRef;
 use brillianteer::math::{Plane, Polytope};
-use brillianteer::optics::{Dispersion, Illuminant, Material, strata};
+use brillianteer::optics::{Dispersion, Illuminant, Material, Strata};
 use brillianteer::picture::LUMINANCE;
 use brillianteer::picture::spectral::expose;
-use brillianteer::scene::{Film, Instance, Light, Panorama, Scene, View};
+use brillianteer::scene::{Film, Instance, Light, Mipmap, Scene, View};
 use brillianteer::trace::environment::{Backplate, Environment, EnvironmentMap};
 use brillianteer::trace::ray::{ByRays, RayOptions};
 use brillianteer::trace::sampling::{LitScene, Sampling};
@@ -29,7 +30,7 @@ const XYZ_FROM_SRGB: DMat3 =
 
 /// Traces the cut: a prism of rainbow soap in the dark, in front of the slit of `render prism --background slit`. The cut
 /// runs across the upper rainbow.
-fn cut(wavelengths: u32, sampling: Sampling) -> Vec<DVec3> {
+fn cut(bands: (u32, u32), sampling: Sampling) -> Vec<DVec3> {
     let prism = Glass::Prism(Sides { length: 100.0, width: 37.9, depth: 29.8, edge: 0.0 });
     let planes: Vec<Plane> = prism.planes().unwrap().into_iter().map(|(_, plane)| plane).collect();
     let mut material = Material::from_index("rainbow soap", 1.272).unwrap();
@@ -37,10 +38,11 @@ fn cut(wavelengths: u32, sampling: Sampling) -> Vec<DVec3> {
     let stone = Instance::new(Polytope::from_planes(&planes).unwrap(), material);
     let setting = Scene { instances: vec![stone], unit_mm: 20.0 };
     let slit = BackgroundRef::read("slit", Path::new("")).unwrap().picture().unwrap().unwrap().panorama;
-    shot(&setting, &slit, wavelengths, sampling)
+    let slit = Mipmap::new(slit);
+    shot(&setting, &slit, bands, sampling)
 }
 
-fn shot(setting: &Scene, slit: &Panorama, wavelengths: u32, sampling: Sampling) -> Vec<DVec3> {
+fn shot(setting: &Scene, slit: &Mipmap, (wavelengths, shares): (u32, u32), sampling: Sampling) -> Vec<DVec3> {
     let dark = Light { dome: vec![], ..Light::white() };
     let (sky, view) = (EnvironmentMap::new(&dark, None), View::default());
     let behind = Backplate { picture: slit, distance: 0.75, width: 4.24 };
@@ -56,7 +58,7 @@ fn shot(setting: &Scene, slit: &Panorama, wavelengths: u32, sampling: Sampling) 
     let film = Film { centre: DVec2::new(0.0, 0.17), ..Film::new([1, PIXELS], 0.40 / f64::from(PIXELS)) };
     let options = RayOptions { polarised: true, most_bounces: 16, least_weight: 1e-4 };
     let lit_scene = LitScene { scene: setting, environment, view: &view, film, options };
-    let strata = strata(wavelengths, &Illuminant::D65, true);
+    let strata = Strata::new(wavelengths, shares, &Illuminant::D65, true);
     let prepare = |rows| Ok::<_, Stopped>(ByRays::new(lit_scene, rows));
     let (picture, _) = expose(&lit_scene, (&strata, sampling), PIXELS, prepare, &unwatched).unwrap();
     picture.pixels.iter().map(|p| DVec3::new(p[0].into(), p[1].into(), p[2].into())).collect()
@@ -106,44 +108,49 @@ fn steps(hues: &[Option<f64>]) -> (f64, usize) {
     (step, dark)
 }
 
+/// Returns how far a cut is from another one: the root of the mean square of their difference, as a part of the other's.
+fn differ(cut: &[DVec3], other: &[DVec3]) -> f64 {
+    let off: f64 = cut.iter().zip(other).map(|(a, b)| (*a - *b).length_squared()).sum();
+    (off / other.iter().map(|c| c.length_squared()).sum::<f64>()).sqrt()
+}
+
 #[test]
-fn three_wavelengths_show_three_hues_and_sixteen_nearly_all() {
-    let still = |count| Sampling { jitter: false, ..Sampling::of(count) };
-    let mut shown = vec![];
-    for (wavelengths, sampling) in [
-        (3, still(16)),
-        (8, still(16)),
-        (16, still(16)),
-        (3, Sampling::of(64)),
-        (16, Sampling::of(64)),
-        (64, Sampling::of(64)),
-    ] {
-        let found = hues(&cut(wavelengths, sampling));
-        let (step, dark) = steps(&found);
+fn three_wavelengths_show_three_hues_and_with_other_ones_in_each_pass_a_whole_rainbow() {
+    let all = cut((64, 32), Sampling::of(32));
+    // Strata, shares of each: 1 without jitter.
+    let shown = [(3, 1), (8, 1), (16, 1), (64, 1), (3, 32), (16, 32)].map(|bands| {
+        let own = cut(bands, Sampling::of(32));
+        let (found, off) = (hues(&own), differ(&own, &all));
+        let ((step, dark), mean) = (steps(&found), own.iter().sum::<DVec3>() / all.iter().sum::<DVec3>());
+        let count = distinct(&found);
         println!(
-            "{wavelengths} wavelengths, jitter {}: {} hues, widest step {step:.1} degrees, {dark} gaps",
-            sampling.jitter,
-            distinct(&found)
+            "{bands:?}: {count} hues, widest step {step:.1} degrees, {dark} gaps, {off:.4} off, mean {mean:.5}"
         );
-        shown.push((distinct(&found), step, dark));
+        (count, step, dark, off, (mean - 1.0).abs().max_element())
+    });
+    let [three, eight, sixteen, sixty_four, three_shared, sixteen_shared] = shown;
+    assert!(three.0 == 3 && three.1 > 60.0, "three bands of even colour: {three:?}");
+    assert!(shown.iter().all(|shown| shown.2 == 0), "no gaps, as bands touch: {shown:?}");
+    assert!(eight.0 > 12 && sixteen.0 > 20 && sixteen.1 < GAP, "nearly a whole rainbow: {shown:?}");
+    assert!(sixty_four.1 < GAP && sixty_four.3 < 0.02, "a smooth one: {sixty_four:?}");
+    for shared in [three_shared, sixteen_shared] {
+        assert!(shared.0 > 20 && shared.1 < GAP && shared.3 < 0.02, "as smooth: {shared:?}");
+        assert!(shared.4 < 2e-3, "the mean is that of the spectrum: {shared:?}");
     }
-    assert_eq!((shown[0].0, shown[0].2), (3, 2), "three lines, apart");
-    assert!(shown[2].0 >= 12 && shown[2].2 < shown[0].2, "nearly a whole rainbow: {:?}", shown[2]);
-    assert!(shown[4].0 >= 12 && shown[4].2 < shown[3].2, "with jitter as well: {:?}", shown[4]);
-    assert!(shown[5].0 >= 12 && shown[5].1 < GAP && shown[5].2 == 0, "a smooth one: {:?}", shown[5]);
 }
 
 #[test]
 fn no_strength_at_all_leaves_the_slit_where_it_is_and_full_strength_is_physics() {
     let at = |strength| {
-        let cut = cut(8, Sampling { strength, ..Sampling::of(4) });
+        let cut = cut((8, 4), Sampling { strength, ..Sampling::of(4) });
         let lit: Vec<usize> = (0..cut.len()).filter(|&k| cut[k].y > 0.2).collect();
         (lit.first().copied(), lit.len())
     };
     // The cut begins above the slit, whose image is moved up less and less.
     let moved = [1.0, 0.5, 0.2].map(at);
     assert!(moved[0].1 > 0 && moved[0].0 < moved[1].0 && moved[1].0 < moved[2].0, "{moved:?}");
-    let (straight, bare) = (cut(8, Sampling { strength: 0.0, ..Sampling::of(4) }), cut(8, Sampling::of(4)));
+    let (straight, bare) =
+        (cut((8, 1), Sampling { strength: 0.0, ..Sampling::of(4) }), cut((8, 4), Sampling::of(4)));
     // Without refraction each pixel shows the slit behind it, in one colour except for what the faces reflect.
     assert!(
         straight.iter().all(|c| (c.max_element() - c.min_element()).abs() < 0.05 * c.max_element() + 1e-6)

@@ -3,9 +3,9 @@
 use crate::common::{self, maps};
 use brillianteer::io::{panorama, refraction as files};
 use brillianteer::math::{Plane, Polytope};
-use brillianteer::optics::{Illuminant, Material, encoded_from_linear, material, strata};
+use brillianteer::optics::{Illuminant, Material, Strata, encoded_from_linear, material};
 use brillianteer::picture::{Backdrop, Carried, Linear, RefractionMap, Survey, refract, spectral};
-use brillianteer::scene::{Film, Instance, Lean, Light, Panorama, Projection, Scene, View};
+use brillianteer::scene::{Film, Instance, Lean, Light, Mipmap, Panorama, Projection, Scene, View};
 use brillianteer::trace::environment::{Backplate, Environment, EnvironmentMap};
 use brillianteer::trace::ray::{self, ByRays};
 use brillianteer::trace::sampling::{LitScene, Sampling};
@@ -95,9 +95,11 @@ impl Shoot {
     fn with_lit_scene<T>(&self, photo: Option<&Panorama>, work: impl FnOnce(&LitScene) -> T) -> T {
         let sky = EnvironmentMap::new(&self.light, None);
         let Backdrop { distance, size, .. } = self.plane();
-        let behind = photo.map(|picture| {
+        let levels = photo.map(|picture| Mipmap::new(picture.clone()));
+        let behind = levels.as_ref().map(|levels| {
+            let picture = levels.picture();
             let shape = f64::from(picture.width) / f64::from(picture.height);
-            Backplate { picture, distance, width: size.x.max(size.y * shape) }
+            Backplate { picture: levels, distance, width: size.x.max(size.y * shape) }
         });
         let environment = Environment {
             map: &sky,
@@ -112,14 +114,14 @@ impl Shoot {
     }
 
     fn map(&self) -> (RefractionMap, Carried) {
-        let bands = strata(self.bands, &Illuminant::D65, true);
+        let bands = Strata::new(self.bands, 1, &Illuminant::D65, true);
         let survey = Survey { bands: &bands, places: self.places, shades: &bands, passes: 1 };
         self.with_lit_scene(None, |s| RefractionMap::trace(s, &self.plane(), &survey, &unwatched)).unwrap()
     }
 
     /// Returns the program's render with a photograph behind: one pass, through the same points at the same wavelengths.
     fn traced(&self, photo: &Panorama) -> Linear {
-        let bands = strata(self.bands, &Illuminant::D65, true);
+        let bands = Strata::new(self.bands, 1, &Illuminant::D65, true);
         let prepare = |lit_scene: &LitScene<'_>| {
             let rows = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
             spectral::expose(lit_scene, (&bands, Sampling::of(1)), self.size[1], rows, &unwatched).unwrap().0
@@ -296,7 +298,7 @@ fn a_background_that_moves_is_seen_moving_and_mirrored_beyond_its_border() {
 fn a_map_is_the_same_every_time_and_can_be_stopped() {
     let shoot = Shoot::of(brilliant(), diamond());
     assert_eq!(shoot.map(), shoot.map());
-    let bands = strata(1, &Illuminant::D65, true);
+    let bands = Strata::new(1, 1, &Illuminant::D65, true);
     let survey = Survey { bands: &bands, places: 1, shades: &bands, passes: 1 };
     let stop = |part: f64| if part > 0.3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
     let stopped = shoot.with_lit_scene(None, |s| RefractionMap::trace(s, &shoot.plane(), &survey, &stop));

@@ -5,7 +5,7 @@ use crate::common::solids::{Triangles, clasp, heart, star};
 use crate::common::*;
 use brillianteer::math::{Pose, SolidRef, Surface, TriangleMesh};
 use brillianteer::measure;
-use brillianteer::optics::{Material, material, strata};
+use brillianteer::optics::{Material, Strata, material};
 use brillianteer::picture::spectral::{Remainder, expose};
 use brillianteer::picture::{ByBeams, Linear, Rows, by_rays};
 use brillianteer::scene::{Body, Film, Glare, Instance, Light, Medium, Scene, View, light};
@@ -52,7 +52,7 @@ fn by_rays_of(stones: Vec<Instance>, light: &Light) -> (Linear, Remainder) {
 
 fn sampled(stones: Vec<Instance>, light: &Light, sampling: Sampling) -> (Linear, Remainder) {
     taken(stones, light, |lit_scene| {
-        let strata = strata(2, &light.spectrum, true);
+        let strata = Strata::new(2, sampling.count, &light.spectrum, true);
         let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
         expose(lit_scene, (&strata, sampling), SIZE, prepare, &unwatched).unwrap()
     })
@@ -164,7 +164,7 @@ fn chance_is_the_same_on_any_number_of_cores_and_another_in_each_pass() {
         [0, 1].map(|band| {
             taken(stone(), &light, |lit_scene| {
                 by_chance()
-                    .pass(lit_scene.scene, &strata(2, &light.spectrum, true), pass)
+                    .pass(lit_scene.scene, &Strata::new(2, 1, &light.spectrum, true), pass)
                     .roulette([3, 5], band)
             })
         })
@@ -235,9 +235,9 @@ mod by_card {
 
     fn by_card_of(gpu: &Gpu, stones: Vec<Instance>, light: &Light) -> (Linear, Remainder) {
         taken(stones, light, |lit_scene| {
-            let strata = strata(2, &light.spectrum, true);
+            let strata = Strata::new(2, 1, &light.spectrum, true);
             let around = GpuEnvironment::new(gpu, &lit_scene.environment).unwrap();
-            let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, lit_scene, &around, rows, strata.len())?);
+            let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, lit_scene, &around, rows, 2)?);
             expose(lit_scene, (&strata, Sampling::of(1)), SIZE, prepare, &unwatched).unwrap()
         })
     }

@@ -11,7 +11,7 @@ use crate::render::{
     FiguresProduct, HungPicture, Job, LightProduct, MapProduct, PaneProduct, Product, Quality, Reading,
     ScopeProduct, Steps, Surroundings, Wanted,
 };
-use crate::scene::{Film, Instance, Panorama, Pose, Scene, Scope, View};
+use crate::scene::{Film, Instance, Mipmap, Panorama, Pose, Scene, Scope, View};
 use crate::trace::beam::BeamOptions;
 use glam::DVec2;
 use std::sync::Arc;
@@ -68,7 +68,7 @@ impl Shot {
         Arc::new(Scene { instances, unit_mm: self.specimen.unit_mm() })
     }
 
-    fn surroundings(&self, behind: Option<Arc<Panorama>>) -> Surroundings {
+    fn surroundings(&self, behind: Option<Arc<Mipmap>>) -> Surroundings {
         let backplate = behind.map(|picture| HungPicture {
             picture,
             span: self.behind.as_ref().map_or(1.0, BackgroundRef::span),
@@ -84,13 +84,7 @@ impl Shot {
     }
 
     /// Returns the job of a render in at most `bands` bands of wavelengths, with the picture that hangs behind.
-    pub fn light_job(
-        &self,
-        behind: Option<Arc<Panorama>>,
-        bands: u32,
-        steps: Steps,
-        quality: Quality,
-    ) -> Job {
+    pub fn light_job(&self, behind: Option<Arc<Mipmap>>, bands: u32, steps: Steps, quality: Quality) -> Job {
         let product = LightProduct {
             surroundings: self.surroundings(behind),
             wavelengths: bands.min(self.bands),

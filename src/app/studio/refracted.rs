@@ -52,7 +52,7 @@ impl ShotTracer {
         // Panes are always traced by the processor, which takes no more passes than its fine renders have.
         let samples = effort.refinement.map_or(1, |r| r.samples.min(FINE_RENDER.samples));
         let size = coarser(&shot.film, effort.coarser_by_single_rays()).size;
-        let job = shot.pane_job(&behind, size, samples > 1, samples);
+        let job = shot.pane_job(behind.picture(), size, samples > 1, samples);
         let rendered = run(&mut self.renderer, &job, watch)?;
         let tracer = rendered.backend.kind();
         Ok(TakenPicture { image: as_screens(&rendered.pane()?.0), unresolved: None, tracer, map: None })

@@ -11,7 +11,7 @@ use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::io::{Failure, Finish, StoredLight, WriteError};
 use crate::render::{Job, Partial, Quality, RenderError, Steps};
-use crate::scene::Panorama;
+use crate::scene::Mipmap;
 use crate::trace::Watch;
 use egui::ColorImage;
 use std::path::Path;
@@ -113,12 +113,12 @@ impl ShotTracer {
     pub(super) fn picture_behind(
         &mut self,
         asked: Option<&BackgroundRef>,
-    ) -> Result<Option<Arc<Panorama>>, Failure> {
+    ) -> Result<Option<Arc<Mipmap>>, Failure> {
         let Some(asked) = asked else { return Ok(None) };
         if let Some((_, picture)) = self.behind.as_ref().filter(|(last, _)| last == asked) {
             return Ok(Some(Arc::clone(picture)));
         }
-        let picture = asked.picture()?.map(|reading| Arc::new(reading.panorama));
+        let picture = asked.picture()?.map(|reading| Arc::new(Mipmap::new(reading.panorama)));
         self.behind = picture.clone().map(|picture| (asked.clone(), picture));
         Ok(picture)
     }

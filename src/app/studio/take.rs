@@ -11,7 +11,7 @@ use crate::io::background::BackgroundRef;
 use crate::io::{Failure, rasterize_within};
 use crate::picture::{DiagramStyle, Palette, diagram};
 use crate::render::{Card, Partial, RenderError, Renderer};
-use crate::scene::Panorama;
+use crate::scene::Mipmap;
 use crate::trace::Watch;
 use egui::ColorImage;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ pub struct ShotTracer {
     /// A message for the user: why the processor does a card's work.
     pub(super) notes: Vec<String>,
     /// The last picture behind a render.
-    pub(super) behind: Option<(BackgroundRef, Arc<Panorama>)>,
+    pub(super) behind: Option<(BackgroundRef, Arc<Mipmap>)>,
     /// The temporal histories of rough renders of what moves.
     pub(super) trails: Trails,
     /// The light of what each view shows, as it was traced.

@@ -13,7 +13,7 @@ use crate::app::shows::Shows;
 use crate::app::studio::{Smoothing, Which, hung};
 use crate::app::tasks::export_scene::SceneOut;
 use crate::render::{Quality, Steps};
-use crate::scene::{Copies, Panorama, Pose};
+use crate::scene::{Copies, Mipmap, Panorama, Pose};
 use egui::{Key, Pos2};
 use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
@@ -247,7 +247,8 @@ fn zooming_shows_the_same_light_nearer_and_another_design_is_seen_as_physics() {
     let mut bench = bench("subtle-pill");
     let seen = |bench: &Bench| {
         let shot = bench.editor().model.session.ordered.shots[0].1.clone();
-        let page = Arc::new(Panorama { width: 2, height: 2, pixels: vec![[1.0; 3]; 4] });
+        let page = Panorama { width: 2, height: 2, pixels: vec![[1.0; 3]; 4] };
+        let page = Arc::new(Mipmap::new(page));
         let job = shot.light_job(Some(page), 1, Steps::Strips, Quality::of_pictures(true));
         let width = job.lit().unwrap().environment.backplate.unwrap().width;
         (width, shot.film.pixel, shot.strength)

@@ -12,9 +12,9 @@ pub use cost::{Cost, Shifts};
 use super::parts::{TOWARD_LIGHT, thickness};
 use super::{GlassPane, laid, pane as approximated, plain};
 use crate::math::{ImplicitForm, ImplicitSurface, ImplicitSurfaceError, Pose};
-use crate::optics::{Dispersion, DispersionError, Illuminant, Material, Stratum, strata};
+use crate::optics::{Dispersion, DispersionError, Illuminant, Material, Strata};
 use crate::picture::{Backdrop, Linear, RefractionMap, Survey, spectral};
-use crate::scene::{Dome, Film, Instance, Lamp, Light, Panorama, Scene, View};
+use crate::scene::{Dome, Film, Instance, Lamp, Light, Mipmap, Panorama, Scene, View};
 use crate::trace::environment::{Backplate, Environment, EnvironmentMap};
 use crate::trace::ray::{ByRays, RayOptions};
 use crate::trace::sampling::{LitScene, Sampling};
@@ -38,7 +38,7 @@ pub struct PaneLighting<'a> {
     /// Distance between pane and background, as a part of the pane's shorter side, above 0.
     pub gap: f64,
     /// The bands of wavelengths that are traced.
-    pub strata: &'a [Stratum],
+    pub strata: &'a Strata,
     /// The number of sample passes of both pictures, at least 1.
     pub passes: u32,
 }
@@ -107,12 +107,13 @@ pub fn compare(
     let scene = PaneScene::new(pane, background)?;
     let half = |done: f64| move |part: f64| watch(done + part / 2.0);
     let plane = Backdrop { distance: scene.distance(around.gap), size: scene.size, both_sides: false };
-    let bands = strata(3, &Illuminant::D65, true);
-    let survey = Survey { bands: &bands, places: 1, shades: &[], passes: 1 };
-    let (map, carried) = scene.with_lit_scene(background, around, |lit_scene| {
+    let strata = |count| Strata::new(count, 1, &Illuminant::D65, true);
+    let survey = Survey { bands: &strata(3), places: 1, shades: &strata(0), passes: 1 };
+    let behind = Mipmap::new(background.clone());
+    let (map, carried) = scene.with_lit_scene(&behind, around, |lit_scene| {
         RefractionMap::trace(lit_scene, &plane, &survey, &half(0.0))
     })?;
-    let traced = scene.traced(background, around, &half(0.5))?;
+    let traced = scene.traced(&behind, around, &half(0.5))?;
     let pane = approximated(pane, background, around.passes);
     let cost = Cost { behind: carried.behind, ..scene.cost(&map, &pane, &traced) };
     Ok(Comparison { pane, traced, cost })
@@ -128,7 +129,8 @@ pub fn traced(
     around: &PaneLighting,
     watch: Watch,
 ) -> Result<Linear, PaneError> {
-    Ok(PaneScene::new(pane, background)?.traced(background, around, watch)?)
+    let scene = PaneScene::new(pane, background)?;
+    Ok(scene.traced(&Mipmap::new(background.clone()), around, watch)?)
 }
 
 /// The pane as a body, in a world whose unit is the pane's shorter side and whose origin is the picture's middle.
@@ -188,7 +190,7 @@ impl<'a> PaneScene<'a> {
 
     fn with_lit_scene<T>(
         &self,
-        background: &Panorama,
+        background: &Mipmap,
         around: &PaneLighting,
         work: impl FnOnce(&LitScene) -> T,
     ) -> T {
@@ -221,12 +223,13 @@ impl<'a> PaneScene<'a> {
         (0..across * down).map(place)
     }
 
-    fn traced(&self, background: &Panorama, around: &PaneLighting, watch: Watch) -> Result<Linear, Stopped> {
+    fn traced(&self, background: &Mipmap, around: &PaneLighting, watch: Watch) -> Result<Linear, Stopped> {
         let sampled = (around.strata, Sampling::of(around.passes.max(1)));
         let (piece, _) = self.with_lit_scene(background, around, |lit_scene| {
             let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
             spectral::expose(lit_scene, sampled, ByRays::MOST_ROWS, prepare, watch)
         })?;
+        let background = background.picture();
         let (mut picture, tint) = (plain(background), self.pane.effective());
         for (k, at, middle) in self.pixels(background.width) {
             let cover = self.pane.cover(middle);

@@ -19,8 +19,8 @@ mod parts;
 pub use compare::{Comparison, Cost, PaneError, PaneLighting, Shifts, compare, surroundings, traced};
 
 use super::{Linear, NameError};
-use crate::scene::{Panorama, Scene};
-use crate::trace::sampling::SamplePass;
+use crate::scene::Panorama;
+use crate::trace::sampling::place_in_pixel;
 use frost::taps;
 use glam::{DVec2, DVec3, DVec4};
 use outline::PaneOutline;
@@ -201,8 +201,7 @@ pub fn pane(pane: &GlassPane, background: &Panorama, passes: u32) -> Linear {
 
 /// Returns where in a pixel the samples of this many passes stand, 0 to 1; the first stands in the middle.
 fn places(passes: u32) -> Vec<DVec2> {
-    let nothing = Scene { instances: Vec::new(), unit_mm: 1.0 };
-    (0..passes.max(1)).map(|number| SamplePass::new(&nothing, &[], number).shift).collect()
+    (0..passes.max(1)).map(place_in_pixel).collect()
 }
 
 /// Returns the background alone.

@@ -10,7 +10,7 @@ mod trace;
 use super::develop::{exposed, shown};
 use super::{Develop, Linear};
 use crate::math::Basis;
-use crate::optics::Stratum;
+use crate::optics::Strata;
 use crate::scene::Panorama;
 use crate::trace::environment::backplate_point;
 use glam::{DMat3, DVec2, DVec3};
@@ -72,13 +72,13 @@ pub struct RefractionMap {
 /// The settings by which a map is traced.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Survey<'a> {
-    /// The map's bands.
-    pub bands: &'a [Stratum],
+    /// The map's bands, which are whole strata.
+    pub bands: &'a Strata,
     /// The number of places of a pixel in each band, at least 1. With more, what is seen twice through a pixel is looked
     /// up twice.
     pub places: u32,
     /// The wavelengths at which the diffuse layer is traced.
-    pub shades: &'a [Stratum],
+    pub shades: &'a Strata,
     /// The number of sample passes of the diffuse layer, at least 1; the first goes through the pixels' middles.
     pub passes: u32,
 }

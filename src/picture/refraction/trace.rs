@@ -5,7 +5,7 @@ use crate::optics::Stratum;
 use crate::picture::{LUMINANCE, Linear};
 use crate::trace::environment::Environment;
 use crate::trace::ray::{Camera, First, SceneTracer, WaitingRay};
-use crate::trace::sampling::{LitScene, SamplePass};
+use crate::trace::sampling::{LitScene, SamplePass, colour};
 use crate::trace::{Stopped, Watch};
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
@@ -69,7 +69,13 @@ impl RefractionMap {
         let places = survey.places.max(1) as usize;
         let mut map = Self {
             size: [width, height],
-            bands: survey.bands.iter().flat_map(|s| std::iter::repeat_n(s, places)).map(band).collect(),
+            bands: survey
+                .bands
+                .whole()
+                .iter()
+                .flat_map(|s| std::iter::repeat_n(s, places))
+                .map(band)
+                .collect(),
             diffuse: Linear { width, height, pixels: Vec::new() },
         };
         let (mut carried, mut hits) = (Carried::default(), 0);
@@ -90,7 +96,7 @@ impl RefractionMap {
             }
         }
         let part = |of: f64, all: f64| if all > 0.0 { of / all } else { 0.0 };
-        let rays = f64::from(hits) * survey.bands.len() as f64;
+        let rays = f64::from(hits) * survey.bands.whole().len() as f64;
         let carried =
             Carried { behind: part(carried.behind, rays), single: part(carried.single, carried.behind) };
         Ok((map, carried))
@@ -192,13 +198,11 @@ impl MapScene<'_> {
         };
         for (tracer, response) in bands.iter().zip(&pass.responses) {
             tracer.follow(&start, &first, |ray| {
-                let way = pass.middle(ray.direction, ray.sweep);
-                if self.plane.place(&self.environment.eye, ray.origin, way).is_some() {
+                if self.plane.place(&self.environment.eye, ray.origin, ray.direction).is_some() {
                     light.behind += response[1..].iter().sum::<DVec3>() * ray.weight;
                 } else {
-                    let arriving = self.environment.radiance(ray.origin, way, ray.sweep) * ray.weight;
-                    let seen = response.iter().zip(arriving.to_array()).map(|(&c, l)| c * l);
-                    light.elsewhere += seen.sum::<DVec3>();
+                    let arriving = self.environment.radiance(ray.origin, ray.direction, ray.sweep);
+                    light.elsewhere += colour(response, arriving * ray.weight);
                 }
             });
         }

@@ -6,7 +6,7 @@ use super::limits::MOST_WAVELENGTHS;
 use super::solids::Solids;
 use super::stage::{GpuCamera, Stage};
 use crate::math::PosedSolid;
-use crate::scene::{self, Instance, MOST_LAMPS};
+use crate::scene::{self, Instance, MOST_LAMPS, Mipmap, Panorama};
 use crate::trace::environment::{Environment, HEAD_EDGE};
 use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass};
 use crate::trace::{Stopped, Watch};
@@ -125,7 +125,7 @@ impl<E: From<Stopped> + From<GpuError>> ProgressiveImage<E> for ByCard<'_> {
                     return Err(Stopped.into());
                 }
                 let turn = [self.dispatches, self.rows.start, band as u32, end as u32];
-                self.stage.look((first, count), (look.shift + self.shift, 0.5 - look.part), turn)?;
+                self.stage.look((first, count), (look.shift + self.shift, 0.0), turn)?;
             }
             self.dispatches += 1;
         }
@@ -177,12 +177,18 @@ impl GpuEnvironment {
         lamps.resize(MOST_LAMPS, Lamp { toward: [0.0; 4], radiance: [0.0; 4] });
         let side = environment.map.side as u32;
         let levels: Vec<&[[f32; 4]]> = environment.map.levels.iter().map(Vec::as_slice).collect();
-        let photo = environment.backplate.map_or((1, 1, vec![[0.0; 4]]), |b| {
-            let texel = |&[r, g, b]: &[f32; 3]| [r, g, b, 0.0];
-            (b.picture.width, b.picture.height, b.picture.pixels.iter().map(texel).collect())
-        });
+        let none = Mipmap::new(Panorama { width: 1, height: 1, pixels: vec![[0.0; 3]] });
+        let photo = environment.backplate.map_or(&none, |backplate| backplate.picture);
+        let texel = |&[r, g, b]: &[f32; 3]| [r, g, b, 0.0];
+        let texels: Vec<Vec<[f32; 4]>> =
+            photo.levels().iter().map(|level| level.pixels.iter().map(texel).collect()).collect();
+        let finest = photo.picture();
         let map = texture(gpu, (side, side), &levels)?;
-        let photo = texture(gpu, (photo.0, photo.1), &[&photo.2])?;
+        let photo = texture(
+            gpu,
+            (finest.width, finest.height),
+            &texels.iter().map(Vec::as_slice).collect::<Vec<_>>(),
+        )?;
         Ok(Self {
             environment: gpu.buffer("environment", bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM),
             lamps: gpu.buffer("lamps", bytemuck::cast_slice(&lamps), wgpu::BufferUsages::UNIFORM),

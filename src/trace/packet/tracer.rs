@@ -4,7 +4,7 @@ use super::environment::{LookUp, LookUpRay, PacketEnvironment};
 use super::optics::PacketLight;
 use super::outside::PacketInstance;
 use super::rays::{EnteringRay, PacketMedium, SingleHit, SingleRay, Travelled};
-use crate::trace::sampling::{LitScene, RadiancePixel, SamplePass};
+use crate::trace::sampling::{LitScene, RadiancePixel, SamplePass, colour};
 use glam::{DVec3, DVec4, Vec3};
 use pulp::Arch;
 
@@ -117,7 +117,7 @@ impl<'a> PacketTracer<'a> {
                 None if backdrop => {
                     let (origin, direction) = pixels.eye_rays[pixel];
                     let seen = self.lit_scene.environment.radiance(origin, direction, DVec3::ZERO);
-                    pixels.light[pixel * bands..][..bands].fill(seen);
+                    pixels.lit[pixel].colour = colour(&pixels.pass.whole, seen);
                 }
                 None => {}
             }
@@ -196,18 +196,25 @@ impl<'a> PacketTracer<'a> {
         });
     }
 
-    /// Returns for what light that has left all bodies is looked up; `None` where it comes from the photograph behind them,
-    /// which is added at once.
+    /// Returns for what light that has left all bodies is looked up; `None` where all of it comes from the photograph behind
+    /// them, whose light is added at once.
     fn looked_up(&self, ray: &SingleRay, pixels: &mut Pixels) -> Option<LookUpRay> {
         let (tag, weight) = (ray.tag as usize, ray.light.weight());
         let straight = pixels.eye_rays[tag / pixels.pass.responses.len()];
         let own = (ray.origin.as_dvec3(), ray.direction.as_dvec3(), ray.sweep.as_dvec3());
-        let (from, direction, sweep) = pixels.pass.looked_up(own, straight);
-        if let Some(seen) = self.lit_scene.environment.photograph(from, direction) {
-            pixels.light[tag] += seen * f64::from(weight);
-            return None;
+        let (from, direction, sweep) = pixels.pass.mixed(straight, own);
+        let mut beside = 1.0;
+        if let Some(seen) = self.lit_scene.environment.photograph(from, direction, sweep) {
+            pixels.light[tag] += seen.light * f64::from(weight);
+            beside -= seen.share as f32;
         }
-        Some(LookUpRay { direction: direction.as_vec3(), sweep: sweep.as_vec3(), weight, tag: ray.tag })
+        let ray = LookUpRay {
+            direction: direction.as_vec3(),
+            sweep: sweep.as_vec3(),
+            weight: weight * beside,
+            tag: ray.tag,
+        };
+        (beside > 0.0).then_some(ray)
     }
 }
 
@@ -231,8 +238,9 @@ impl Pixels<'_> {
         let bands = self.pass.responses.len();
         let share = 1.0 / bands as f64;
         for ((sum, lit), light) in sums.iter_mut().zip(&self.lit).zip(self.light.chunks(bands)) {
+            sum.colour += lit.colour;
             for (response, light) in self.pass.responses.iter().zip(light) {
-                sum.colour += response.iter().zip(light.to_array()).map(|(&c, l)| c * l).sum::<DVec3>();
+                sum.colour += colour(response, *light);
             }
             sum.cover += lit.cover;
             sum.unresolved += lit.unresolved * share;

@@ -4,7 +4,7 @@ use super::sight::{Met, nearest};
 use super::{Camera, Exit, InstanceTracer, Loss, MeetingRay, Roulette};
 use crate::scene::Medium;
 use crate::trace::packet::PacketTracer;
-use crate::trace::sampling::{LitScene, MOST_WAITING, ProgressiveImage, RadiancePixel, SamplePass};
+use crate::trace::sampling::{LitScene, MOST_WAITING, ProgressiveImage, RadiancePixel, SamplePass, colour};
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
@@ -198,20 +198,21 @@ impl<'a> ByRays<'a> {
         let first = bands.first().and_then(|tracer| tracer.first(&start));
         let is_seen = first.is_some() || self.lit_scene.environment.backdrop;
         let mut lit = RadiancePixel { cover: f64::from(u8::from(is_seen)), ..RadiancePixel::default() };
+        let Some(first) = first else {
+            if is_seen {
+                let (from, direction) = straight;
+                let light = self.lit_scene.environment.radiance(from, direction, DVec3::ZERO);
+                lit.colour = colour(&pass.whole, light);
+            }
+            return lit;
+        };
         for (band, (tracer, response)) in bands.iter().zip(&pass.responses).enumerate() {
             let mut light = DVec4::ZERO;
             start.roulette = pass.roulette(pixel, band);
-            match &first {
-                Some(first) => {
-                    let rest =
-                        tracer.follow(&start, first, |ray| light += self.arriving(ray, straight, pass));
-                    lit.unresolved += rest.unresolved;
-                    lit.absorbed += rest.absorbed;
-                }
-                None if is_seen => light = self.arriving(&start, straight, pass),
-                None => {}
-            }
-            lit.colour += response.iter().zip(light.to_array()).map(|(&c, l)| c * l).sum::<DVec3>();
+            let rest = tracer.follow(&start, &first, |ray| light += self.arriving(ray, straight, pass));
+            lit.unresolved += rest.unresolved;
+            lit.absorbed += rest.absorbed;
+            lit.colour += colour(response, light);
         }
         let share = 1.0 / pass.responses.len() as f64;
         let RadiancePixel { unresolved, absorbed, .. } = lit;
@@ -221,7 +222,7 @@ impl<'a> ByRays<'a> {
     /// Returns the environment's light along a ray that has left all stones; `straight` is the ray from the eye that it goes
     /// back to.
     fn arriving(&self, ray: &WaitingRay, straight: (DVec3, DVec3), pass: &SamplePass) -> DVec4 {
-        let (from, direction, sweep) = pass.looked_up((ray.origin, ray.direction, ray.sweep), straight);
+        let (from, direction, sweep) = pass.mixed(straight, (ray.origin, ray.direction, ray.sweep));
         self.lit_scene.environment.radiance(from, direction, sweep) * ray.weight
     }
 

@@ -9,7 +9,7 @@ use std::sync::Mutex;
 
 /// Compares a pane with the traced one in this light.
 fn traced(pane: &GlassPane, background: &Panorama, light: &Light, passes: u32) -> Comparison {
-    let bands = strata(4, &Illuminant::D65, true);
+    let bands = Strata::new(4, 1, &Illuminant::D65, true);
     let around = PaneLighting { map: &EnvironmentMap::new(light, None), gap: 0.02, strata: &bands, passes };
     compare(pane, background, &around, &unwatched).unwrap()
 }
@@ -74,7 +74,7 @@ fn the_cost_tells_glass_from_its_approximation() {
     // Dispersion is 0.003 times 2.0 of 38 pixels, times two thirds for the mean over the pane.
     assert!((0.1..0.2).contains(&fringe[0]), "{fringe:?}");
     let nowhere = GlassPane { corner: DVec2::splat(500.0), ..full() };
-    let bands = strata(2, &Illuminant::D65, true);
+    let bands = Strata::new(2, 1, &Illuminant::D65, true);
     let around = PaneLighting {
         map: &EnvironmentMap::new(&Light::white(), None),
         gap: 0.02,
@@ -91,7 +91,7 @@ fn the_progress_of_a_comparison_runs_once_from_0_to_1() {
         parts.lock().unwrap().push(part);
         ControlFlow::Continue(())
     };
-    let bands = strata(1, &Illuminant::D65, true);
+    let bands = Strata::new(1, 1, &Illuminant::D65, true);
     let map = EnvironmentMap::new(&Light::white(), None);
     let around = PaneLighting { map: &map, gap: 0.02, strata: &bands, passes: 1 };
     compare(&full(), &pattern(false), &around, &watch).unwrap();
