@@ -7,7 +7,8 @@ use crate::io::mesh_options::MeshOptions;
 use crate::io::scene_file::{self, Entry, SceneFile};
 use crate::io::{Failure, is_standard, library};
 use crate::optics::Material;
-use crate::scene::{Instance, Pose, Scene, overlapping};
+use crate::scene::{Instance, Pose, Projection, Scene, Viewpoint, overlapping};
+use crate::trace::ray::Camera;
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -34,6 +35,10 @@ pub struct Assembly {
     pub background_distance_mm: Option<f64>,
     /// The strength of refraction, 0 to 1.
     pub strength: f64,
+    /// The angle of view of the scene's perspective, in degrees, if it has one.
+    pub angle_of_view: Option<f64>,
+    /// The scene's exposure, in stops.
+    pub exposure: f64,
 }
 
 /// The size and place of a stone.
@@ -93,6 +98,8 @@ impl Assembly {
             background: None,
             background_distance_mm: None,
             strength: 1.0,
+            angle_of_view: None,
+            exposure: 0.0,
         })
     }
 
@@ -122,8 +129,33 @@ impl Assembly {
         }
         let places =
             members.iter().map(|m| StonePlace { diameter_mm: m.diameter_mm, at_mm: m.at_mm }).collect();
-        let SceneFile { name, light, background, background_distance_mm, strength, .. } = scene;
-        Ok(Self { path, name, setting, places, light, background, background_distance_mm, strength })
+        Ok(Self {
+            path,
+            name: scene.name,
+            setting,
+            places,
+            light: scene.light,
+            background: scene.background,
+            background_distance_mm: scene.background_distance_mm,
+            strength: scene.strength,
+            angle_of_view: scene.angle_of_view,
+            exposure: scene.exposure,
+        })
+    }
+
+    /// Returns the viewpoint of the scene: in its perspective, unless the viewpoint has one of its own.
+    pub fn seen_from(&self, viewpoint: Viewpoint) -> Viewpoint {
+        let Some(angle) = self.angle_of_view else { return viewpoint };
+        let view = viewpoint.view();
+        let stones = &self.setting.instances;
+        let camera = Camera::reaching(&view, self.setting.reach());
+        match (viewpoint.projection, camera.extent(stones.iter().flat_map(|s| s.solid().vertices()))) {
+            (Projection::Orthographic, Some(extent)) => {
+                let distance = extent.max_element() / (0.5 * angle).to_radians().tan();
+                Viewpoint { projection: Projection::Perspective { distance }, ..viewpoint }
+            }
+            _ => viewpoint,
+        }
     }
 
     /// Returns the weight of all stones together, in carats; `None` if one has no density.

@@ -14,7 +14,7 @@ use crate::render::{
     Card, HungPicture, Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings,
     mixture_note,
 };
-use crate::scene::{Film, Mipmap, Scene, View};
+use crate::scene::{Film, Mipmap, Scene, View, Viewpoint};
 use crate::trace::Watch;
 use crate::trace::ray::{self, Camera};
 use glam::DVec2;
@@ -38,6 +38,8 @@ pub struct PictureSetup<'a> {
     options: &'a PictureOptions,
     finish: &'a FinishOptions,
     pub assembly: Assembly,
+    /// From where the stones are seen, in the scene's perspective.
+    pub viewpoint: Viewpoint,
     lighting: Arc<Lighting>,
     pub background: BackgroundRef,
     /// The pattern or photograph behind the stones.
@@ -71,7 +73,7 @@ impl<'a> PictureSetup<'a> {
     pub fn load(
         (options, finish): (&'a PictureOptions, &'a FinishOptions),
         file: &Path,
-        view: &View,
+        viewpoint: Viewpoint,
     ) -> Result<Self, Failure> {
         let assembly =
             Assembly::load(file, options.material.as_deref(), options.stone, options.mesh.options())?;
@@ -90,7 +92,7 @@ impl<'a> PictureSetup<'a> {
         let strength = within("strength", finish.strength.unwrap_or(assembly.strength), 0.0, 1.0)?;
         let bloom = Bloom { strength: within("bloom", finish.bloom, 0.0, 1.0)?, ..Bloom::default() };
         let mut develop = Develop {
-            exposure: within("exposure", options.exposure, -40.0, 40.0)?,
+            exposure: within("exposure", options.exposure, -40.0, 40.0)? + assembly.exposure,
             tone: options.tone,
             // The stones' glow would stand out around the overlays that are drawn over them.
             bloom: (bloom.strength > 0.0 && finish.overlay.is_empty()).then_some(bloom),
@@ -107,6 +109,7 @@ impl<'a> PictureSetup<'a> {
         reading.iter().flat_map(|r| &r.warnings).for_each(|w| say(&format!("warning: {w}")));
         let photo = reading.map(|reading| Arc::new(Mipmap::new(reading.panorama)));
         let mut studio = Self {
+            viewpoint: assembly.seen_from(viewpoint),
             options,
             finish,
             assembly,
@@ -119,7 +122,7 @@ impl<'a> PictureSetup<'a> {
             renderer: RefCell::new(Renderer::new(Card::Machine)),
             tracer: String::new(),
         };
-        studio.tracer = studio.planned(view)?;
+        studio.tracer = studio.planned(&studio.viewpoint.view())?;
         Ok(studio)
     }
 
@@ -189,7 +192,7 @@ impl<'a> PictureSetup<'a> {
         let stones = &setting.instances;
         let camera = Camera::reaching(view, setting.reach());
         let Some(extent) = camera.extent(stones.iter().flat_map(|s| s.solid().vertices())) else {
-            let message = "the eye of --perspective is not in front of all of it; move it farther off";
+            let message = "the eye of the perspective is not in front of all of it; move it farther off by --perspective";
             return Err(Failure::Input(format!("{}: {message}", self.assembly.path)));
         };
         let size = DVec2::new(f64::from(self.options.size[0]), f64::from(self.options.size[1]));

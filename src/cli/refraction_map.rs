@@ -89,10 +89,10 @@ impl RefractionMaps {
 
     fn make(&self, file: &Path) -> Result<(), Failure> {
         let viewpoint = self.view.viewpoint()?;
-        let view = viewpoint.view();
         // Maps are always traced by rays on the processor, so no card is opened.
         let finish = FinishOptions::default();
-        let mut studio = PictureSetup::load((&self.picture, &finish), file, &view)?;
+        let mut studio = PictureSetup::load((&self.picture, &finish), file, viewpoint)?;
+        let view = studio.viewpoint.view();
         if studio.photo.is_none() {
             if self.picture.background.is_some() {
                 return Err(Failure::Usage(

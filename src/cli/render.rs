@@ -74,10 +74,10 @@ impl Render {
     }
 
     fn render(&self, file: &Path) -> Result<(), Failure> {
-        let viewpoint = self.view.viewpoint()?;
-        let view = viewpoint.view();
+        let asked = self.view.viewpoint()?;
         let studio =
-            PictureSetup::load((&self.picture, &self.finish), file, &view)?.with_what_has_a_distance()?;
+            PictureSetup::load((&self.picture, &self.finish), file, asked)?.with_what_has_a_distance()?;
+        let view = studio.viewpoint.view();
         let setting = Arc::new(studio.assembly.setting.clone());
         let job = studio.job(&setting, &view, studio.pixel(&setting, &view)?);
         if let Some(at) = self.probe {
@@ -94,8 +94,8 @@ impl Render {
             let progress = WorkProgress::new(&studio.assembly.name);
             studio.take(&job, &progress.watch())?
         };
-        let description = format!("{}; {}", taken.description, viewpoint.description());
-        let (path, _) = self.output(file, &viewpoint.suffix());
+        let description = format!("{}; {}", taken.description, studio.viewpoint.description());
+        let (path, _) = self.output(file, &asked.suffix());
         if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr")) {
             if let Some(without) = studio.undeveloped() {
                 say(&format!("note: {}: {without}", path.display()));

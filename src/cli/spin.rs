@@ -61,11 +61,11 @@ impl Spin {
             return Err(Failure::Usage("--out -: several files are written; give a folder".into()));
         }
         let viewpoint = self.view.viewpoint()?;
-        let first = viewpoint.view();
         let delay_ms = self.delay_ms()?;
         self.check_swing()?;
-        let studio = PictureSetup::load((&self.picture, &self.finish), &self.file, &first)?
+        let studio = PictureSetup::load((&self.picture, &self.finish), &self.file, viewpoint)?
             .with_what_has_a_distance()?;
+        let first = studio.viewpoint.view();
         let stones = Arc::new(studio.assembly.setting.clone());
         let frames: Vec<View> = (0..self.frames).map(|k| self.frame(&first, k)).collect();
         // One size of pixel for all frames: the stones fit in every frame and keep their size.

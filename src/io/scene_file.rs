@@ -43,6 +43,10 @@ pub struct SceneFile {
     pub background_distance_mm: Option<f64>,
     /// How much of its turn light takes where it is refracted, 0 (straight on) to 1 (physics).
     pub strength: f64,
+    /// The angle of view of a perspective, across the longer extent of the stones, in degrees; `None` for parallel rays.
+    pub angle_of_view: Option<f64>,
+    /// The exposure, in stops.
+    pub exposure: f64,
     /// The kinds of stones, at least one; with their counts they are at most [`MOST_STONES`] stones.
     pub stones: Vec<Entry>,
 }

@@ -154,10 +154,13 @@ pub struct Workspace {
 }
 
 /// The backplate and the number of bands of wavelengths: as a scene has set them, and as they were before.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OfScene {
     set: (Option<String>, u32),
     before: (Option<String>, u32),
+    /// The distance of the eye before, and which views were in perspective.
+    #[serde(default)]
+    sight: Option<(f64, [bool; 4])>,
 }
 
 /// The numbers of bands of wavelengths that are offered; of only three bands, each shows in the picture.
@@ -228,7 +231,21 @@ impl Workspace {
     pub fn enter_scene(&mut self, behind: Option<String>, wavelengths: Option<u32>) {
         let before = (self.behind.take(), self.wavelengths);
         (self.behind, self.wavelengths) = (behind, wavelengths.unwrap_or(self.wavelengths));
-        self.of_scene = Some(OfScene { set: (self.behind.clone(), self.wavelengths), before });
+        self.of_scene = Some(OfScene { set: (self.behind.clone(), self.wavelengths), before, sight: None });
+    }
+
+    /// Sees renders as a scene is meant to be seen, face up and all of it: in perspective from a distance, in girdle radii, or
+    /// along parallel rays; neither edges nor motion are smoothed.
+    pub fn see_under(&mut self, distance: Option<f64>) {
+        if let Some(of_scene) = &mut self.of_scene {
+            of_scene.sight = Some((self.distance, self.panes.each_ref().map(|pane| pane.is_near)));
+        }
+        self.eye = Eye::default();
+        for pane in self.panes.iter_mut().filter(|pane| pane.shows == Shows::Render) {
+            (pane.own, pane.is_near) = (None, distance.is_some());
+        }
+        self.distance = distance.unwrap_or(self.distance);
+        self.smoothing = Smoothing::None;
     }
 
     /// Shows a render alone.
@@ -243,7 +260,11 @@ impl Workspace {
 
     /// Forgets what goes with one stone: the distance in mm, what its scene has set, and a strength below 1.
     pub fn rest(&mut self) {
-        if let Some(OfScene { set, before }) = self.of_scene.take() {
+        if let Some(OfScene { set, before, sight }) = self.of_scene.take() {
+            if let Some((distance, is_near)) = sight {
+                self.distance = distance;
+                self.panes.iter_mut().zip(is_near).for_each(|(pane, is_near)| pane.is_near = is_near);
+            }
             if self.behind == set.0 {
                 self.behind = before.0;
             }

@@ -5,7 +5,9 @@ use crate::app::studio::hung;
 use crate::io::background::BackgroundRef;
 use crate::io::scene_file::{self, DEFAULT_GAP_MM, Entry, SceneFile};
 use crate::io::{Failure, WriteError, cut_file, write};
-use crate::scene::{Pose, middle};
+use crate::app::studio::Shot;
+use crate::scene::{Pose, Projection, middle};
+use glam::DVec3;
 use std::path::PathBuf;
 
 /// The text of a scene file and of the cut file of its stones.
@@ -36,6 +38,8 @@ impl SceneOut {
             background: shot.behind.clone(),
             background_distance_mm: is_picture.then(|| (hung(shot) + middle.z) * unit_mm),
             strength: shot.strength,
+            angle_of_view: angle_of_view(shot, &poses, middle),
+            exposure: shot.exposure,
             stones: poses
                 .iter()
                 .map(|pose| Entry::placed(&cut, pose.turn, (pose.at - middle) * unit_mm))
@@ -55,4 +59,13 @@ impl SceneOut {
         }
         Ok(())
     }
+}
+
+/// Returns the angle of view of a shot in perspective, in degrees, across the longer extent of the stones seen face up.
+fn angle_of_view(shot: &Shot, poses: &[Pose], middle: DVec3) -> Option<f64> {
+    let Projection::Perspective { distance } = shot.view.projection else { return None };
+    let corners = shot.specimen.solid().vertices();
+    let placed = poses.iter().flat_map(|pose| corners.iter().map(move |&corner| pose.place(corner) - middle));
+    let reach = placed.map(|at| at.truncate().abs().max_element()).fold(0.0, f64::max);
+    Some((2.0 * (reach / distance).atan()).to_degrees().clamp(1.0, 120.0))
 }

@@ -4,6 +4,7 @@ use super::Bench;
 use crate::app::editor::Editor;
 use crate::app::model::action::{Edit, FileAction};
 use crate::app::model::dialog::Dialog;
+use crate::app::model::eye::Eye;
 use crate::app::model::motion::Motion;
 use crate::app::model::plan::export_plan;
 use crate::app::model::preset::Preset;
@@ -166,6 +167,7 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
         bench.harness.state_mut().model.session.motion = Motion::at(seconds);
         bench.harness.state_mut().model.workspace.eye.turn = turn;
         bench.harness.state_mut().model.workspace.behind.get_or_insert("page".to_owned());
+        bench.harness.state_mut().model.workspace.panes[0].is_near = scene == "wavy-plate";
         // One copy lies behind the others, so that the centre of all copies is not that of the first.
         if let [.., last] = &mut bench.harness.state_mut().model.document.work.copies.poses[1..] {
             last.at.z -= 3.0;
@@ -180,6 +182,7 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
         assert_eq!(again.scene.stones.len(), if ["plate", "modern-ideal"].contains(&scene) { 1 } else { 4 });
         assert_eq!((&again.scene.background, again.scene.strength), (&shot.behind, shot.strength));
         assert!(again.design == if is_alone { &plan.upright } else { &shot.specimen }.design);
+        assert_eq!(again.scene.angle_of_view.is_some(), scene == "wavy-plate");
         let unit_mm = shot.specimen.unit_mm();
         // The background is as far from each stone as before.
         let farther = again.scene.background_distance_mm.unwrap() / unit_mm - hung(shot);
@@ -192,6 +195,26 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
             assert!(at.distance(there) < 1e-9 && turn.dot(turned).abs() > 1.0 - 1e-12, "{at} {there}");
         }
     }
+}
+
+#[test]
+fn a_scene_is_seen_in_its_perspective_and_the_next_design_as_before() {
+    let sight = |bench: &Bench| {
+        let Workspace { panes, distance, smoothing, eye, .. } = &bench.editor().model.workspace;
+        (panes[0].is_near, *distance, *smoothing, *eye)
+    };
+    let text = "format = 1\nname = \"Near\"\nangle_of_view = 45\nexposure = 0.5\nstone = [{ cut = \"cube\" }]";
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("near.toml");
+    std::fs::write(&path, text).unwrap();
+    let mut bench = bench(path.to_str().unwrap());
+    let reach = bench.editor().model.reach(Shows::Render);
+    let (is_near, distance, smoothing, eye) = sight(&bench);
+    assert!(is_near && (distance * 22.5_f64.to_radians().tan() / reach - 1.0).abs() < 1e-9, "{distance}");
+    assert_eq!((smoothing, eye), (Smoothing::None, Eye::default()));
+    assert_eq!(bench.editor().model.document.work.exposure, 0.5);
+    bench.harness.state_mut().model.workspace.rest();
+    assert_eq!((sight(&bench).0, sight(&bench).1), (false, Workspace::default().distance));
 }
 
 #[test]

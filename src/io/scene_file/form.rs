@@ -27,6 +27,8 @@ pub(super) struct SceneForm {
     background: Option<String>,
     background_distance_mm: Option<f64>,
     strength: Option<f64>,
+    angle_of_view: Option<f64>,
+    exposure: Option<f64>,
     stone: Vec<Spanned<TomlTable<StoneForm>>>,
 }
 
@@ -87,6 +89,8 @@ const DEGREES: RangeInclusive<f64> = -1e6..=1e6;
 const LEANING: RangeInclusive<f64> = -180.0..=180.0;
 const GAPS_MM: RangeInclusive<f64> = 0.0..=1000.0;
 const DISTANCES_MM: RangeInclusive<f64> = 0.0..=10_000.0;
+const ANGLES_OF_VIEW: RangeInclusive<f64> = 1.0..=120.0;
+const STOPS: RangeInclusive<f64> = -40.0..=40.0;
 const PLACES_MM: RangeInclusive<f64> = -10_000.0..=10_000.0;
 
 impl SceneForm {
@@ -104,6 +108,8 @@ impl SceneForm {
             background: scene.background.as_ref().map(ToString::to_string),
             background_distance_mm: scene.background_distance_mm,
             strength: Some(scene.strength),
+            angle_of_view: scene.angle_of_view,
+            exposure: (scene.exposure != 0.0).then_some(scene.exposure),
             stone: scene.stones.iter().map(stone).collect(),
         }
     }
@@ -134,6 +140,11 @@ impl SceneForm {
             let message = format!("strength: {strength} must be from 0, straight on, to 1, physics");
             return Err(Fault::key("strength", message));
         }
+        if let Some(angle) = self.angle_of_view {
+            within("angle_of_view", "angle_of_view", angle, ANGLES_OF_VIEW, "degrees")?;
+        }
+        let exposure = self.exposure.unwrap_or(0.0);
+        within("exposure", "exposure", exposure, STOPS, "stops")?;
         check_counts(&self.stone)?;
         let alone = self.stone.len() == 1;
         let entry = |(index, stone): (usize, Spanned<TomlTable<StoneForm>>)| {
@@ -144,8 +155,19 @@ impl SceneForm {
             form.check_place(layout, alone).and_then(|()| form.entry(line)).map_err(of_stone)
         };
         let stones = self.stone.into_iter().enumerate().map(entry).collect::<Result<_, _>>()?;
-        let Self { name, background_distance_mm, .. } = self;
-        Ok(SceneFile { name, light, layout, gap_mm, background, background_distance_mm, strength, stones })
+        let Self { name, background_distance_mm, angle_of_view, .. } = self;
+        Ok(SceneFile {
+            name,
+            light,
+            layout,
+            gap_mm,
+            background,
+            background_distance_mm,
+            strength,
+            angle_of_view,
+            exposure,
+            stones,
+        })
     }
 }
 

@@ -51,11 +51,13 @@ fn a_layout_and_places_read_as_written() {
     let behind = with(
         PLACED,
         "[[stone]]",
-        "background = \"Page\"\nbackground_distance_mm = 12\nstrength = 0.5\n[[stone]]",
+        "background = \"Page\"\nbackground_distance_mm = 12\nstrength = 0.5\nangle_of_view = 45\nexposure = -0.5\n\
+            [[stone]]",
     );
     let scene = parse(&behind, "x.toml", None).unwrap();
     assert_eq!(scene.background, Some(BackgroundRef::Pattern(crate::picture::Pattern::Page)));
     assert_eq!((scene.background_distance_mm, scene.strength), (Some(12.0), 0.5));
+    assert_eq!((scene.angle_of_view, scene.exposure), (Some(45.0), -0.5));
     let alone = "format = 1\nname = \"One\"\nstone = [{ cut = \"shallow\" }]";
     assert_eq!(parse(alone, "x.toml", None).unwrap().stones.len(), 1);
 }
@@ -121,6 +123,8 @@ fn what_is_wrong_with_a_scene_is_told_with_line_and_key() {
         ),
         ("strength = 1.5", "x.toml:3: strength: 1.5 must be from 0, straight on, to 1, physics"),
         ("strength = nan", "x.toml:3: strength: NaN must be"),
+        ("angle_of_view = 0.5", "x.toml:3: angle_of_view: 0.5 must be from 1 to 120 degrees"),
+        ("exposure = 50", "x.toml:3: exposure: 50 must be from -40 to 40 stops"),
     ] {
         assert_refused(&with(PLACED, "[[stone]]", &format!("{lines}\n[[stone]]")), message);
     }
@@ -176,7 +180,7 @@ fn what_is_written_reads_back_as_the_same_scene() {
     let own = "material = { name = \"mine\", index = 1.7, density = 3.1 }";
     let [own, pattern, colours] = [
         with(PLACED, "material = { index = 1.5 }", own),
-        behind("background = \"Dots\"\nbackground_distance_mm = 12.5"),
+        behind("background = \"Dots\"\nbackground_distance_mm = 12.5\nangle_of_view = 45\nexposure = 1.5"),
         behind("background = \"#404850-#101215\""),
     ];
     let library = library::SCENES.into_iter().map(|(_, text)| text);

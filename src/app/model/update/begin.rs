@@ -5,6 +5,7 @@ use crate::app::model::Model;
 use crate::app::model::document::Document;
 use crate::app::model::preset::{PRESETS, Preset};
 use crate::app::model::task::Task;
+use crate::app::shows::Shows;
 use crate::app::studio::Which;
 use crate::io::background::BackgroundRef;
 
@@ -56,9 +57,9 @@ pub fn begin_library(model: &mut Model, tasks: &mut Vec<Task>, name: &str) {
 pub fn begin_preset(model: &mut Model, tasks: &mut Vec<Task>, name: &str) {
     let preset = Preset::of_library(name);
     let Some(preset) = model.session.notes.ok_or_report(preset) else { return };
-    begin_scene(model, tasks, preset);
     // The scene is meant to be seen as a render.
     model.workspace.enlarge_render();
+    begin_scene(model, tasks, preset);
     model.session.motion.is_on = PRESETS.iter().any(|known| known.name == name && known.moves);
 }
 
@@ -77,10 +78,13 @@ pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset) {
         model.document.work.light = light.to_string_lossy().into_owned();
     }
     begin(model, tasks, document);
+    let reach = model.reach(Shows::Render);
+    model.document.work.exposure = scene.exposure;
     let Model { workspace, session, .. } = model;
     // The workspace cannot hold plain colours.
     let behind = scene.background.as_ref().filter(|behind| !matches!(behind, BackgroundRef::Plain(_)));
     workspace.enter_scene(behind.map(ToString::to_string), wavelengths);
+    workspace.see_under(scene.angle_of_view.map(|angle| reach / (0.5 * angle).to_radians().tan()));
     (workspace.behind_mm, workspace.strength) = (scene.background_distance_mm, scene.strength);
     session.notes.say(&format!("{}: renders show all copies{layers}; other views show one", scene.name));
 }
