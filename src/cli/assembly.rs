@@ -39,6 +39,8 @@ pub struct Assembly {
     pub angle_of_view: Option<f64>,
     /// The scene's exposure, in stops.
     pub exposure: f64,
+    /// The angle by which the scene turns its light about its axis, in degrees.
+    pub light_turn: f64,
 }
 
 /// The size and place of a stone.
@@ -100,6 +102,7 @@ impl Assembly {
             strength: 1.0,
             angle_of_view: None,
             exposure: 0.0,
+            light_turn: 0.0,
         })
     }
 
@@ -140,6 +143,7 @@ impl Assembly {
             strength: scene.strength,
             angle_of_view: scene.angle_of_view,
             exposure: scene.exposure,
+            light_turn: scene.light_turn,
         })
     }
 

@@ -35,6 +35,7 @@ pub fn unfit(why: &Unfit, file: &str) -> Failure {
         Unfit::Perspective => "--tracer ray, or no --perspective",
         Unfit::NotAlone => "--tracer ray",
         Unfit::Mixture => "--tracer ray, or --strength 1",
+        Unfit::FewBounces => "--tracer ray, or --bounces 64",
         Unfit::Job(_) | Unfit::Eye | Unfit::NoStone | Unfit::NotConvex(_) | Unfit::ManyPaths => {
             return Failure::of_unfit(why, file);
         }

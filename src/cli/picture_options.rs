@@ -4,7 +4,7 @@
 use super::mesh_options::MeshArguments;
 use super::options::{OptionError, number};
 use crate::picture::{Bloom, Overlay, Tone};
-use crate::render::Wanted;
+use crate::render::{USUAL_BOUNCES, Wanted};
 use clap::Args;
 
 /// The largest side of a picture under light, in pixels.
@@ -65,13 +65,17 @@ pub struct PictureOptions {
 /// How a picture is traced and finished, which maps have no use for.
 #[derive(Debug, Clone, Args)]
 pub struct FinishOptions {
-    /// Let every sample stand for whole bands of wavelengths, instead of for another share of each
+    /// Take the middle wavelength of each band alone in every sample, instead of another share of the band each time
     #[arg(long)]
     pub no_jitter: bool,
     /// Mix each refracted ray with the straight ray: 1 is physics, 0 the straight ray alone. Below 1 the picture is traced
     /// by rays [default: the scene's, or 1]
     #[arg(long, allow_negative_numbers = true, value_name = "PART", value_parser = number)]
     pub strength: Option<f64>,
+    /// Follow light through at most N bounces inside a stone, 1 to 64, to see what each adds; what is left is dark. Below 64
+    /// the picture is traced by rays
+    #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = USUAL_BOUNCES, value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub bounces: u32,
     /// What traces the light; beams are for one convex stone without a photograph behind
     #[arg(long, value_enum, default_value_t = Wanted::Quickest)]
     pub tracer: Wanted,
@@ -87,7 +91,14 @@ pub struct FinishOptions {
 impl Default for FinishOptions {
     /// Returns rays on the processor at the scene's strength, without glow and overlays.
     fn default() -> Self {
-        Self { no_jitter: false, strength: None, tracer: Wanted::Rays, bloom: 0.0, overlay: vec![] }
+        Self {
+            no_jitter: false,
+            strength: None,
+            bounces: USUAL_BOUNCES,
+            tracer: Wanted::Rays,
+            bloom: 0.0,
+            overlay: vec![],
+        }
     }
 }
 

@@ -16,7 +16,7 @@ use crate::render::{
 };
 use crate::scene::{Film, Mipmap, Scene, View, Viewpoint};
 use crate::trace::Watch;
-use crate::trace::ray::{self, Camera};
+use crate::trace::ray::{self, Camera, RayOptions};
 use glam::DVec2;
 use std::cell::RefCell;
 use std::path::Path;
@@ -167,7 +167,7 @@ impl<'a> PictureSetup<'a> {
             frame: Film::new(self.options.size, pixel),
         };
         Surroundings {
-            turn: self.options.turn.to_radians(),
+            turn: (self.assembly.light_turn + self.options.turn).to_radians(),
             shows_light: self.background == BackgroundRef::Light,
             backplate: self.photo.as_ref().map(hung),
             ..Surroundings::of(Arc::clone(&self.lighting))
@@ -176,12 +176,9 @@ impl<'a> PictureSetup<'a> {
 
     /// Returns how well pictures are traced.
     pub fn quality(&self) -> Quality {
-        let polarised = !self.options.unpolarised;
-        Quality {
-            tracer: self.finish.tracer,
-            samples: self.options.samples,
-            ..Quality::of_pictures(polarised)
-        }
+        let usual = Quality::of_pictures(!self.options.unpolarised);
+        let rays = RayOptions { most_bounces: self.finish.bounces, ..usual.rays };
+        Quality { tracer: self.finish.tracer, samples: self.options.samples, rays, ..usual }
     }
 
     /// Returns the side of a pixel, in world units, with which the stones fill the picture but for a margin.

@@ -37,6 +37,8 @@ pub struct SceneFile {
     pub layout: Option<Layout>,
     /// The least distance between two stones of a layout, seen from the table, in mm.
     pub gap_mm: f64,
+    /// The angle by which the light is turned about its axis, counter-clockwise seen from the axis's end, in degrees.
+    pub light_turn: f64,
     /// What lies behind the stones.
     pub background: Option<BackgroundRef>,
     /// How far behind the middle of all stones a pattern or photograph lies, in mm, from 0.

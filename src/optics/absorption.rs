@@ -3,6 +3,9 @@
 //! Coefficients are Napierian (base e) and per millimetre of stone: T = exp(-a l) (J. H. Lambert 1760, A. Beer 1852).
 //! Decadic absorbance, as some sources print it, must be divided by 0.4343 first.
 
+use super::dispersion::VISIBLE_NM;
+use super::strata::basis;
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 /// The largest coefficient that is accepted, per mm: metals reach 1e5.
@@ -53,6 +56,9 @@ pub enum AbsorptionError {
     },
 }
 
+/// The least share of light that a spectrum made of a colour leaves.
+const LEAST_LEFT: f64 = 1e-4;
+
 impl TryFrom<Vec<(f64, f64)>> for Absorption {
     type Error = AbsorptionError;
 
@@ -93,6 +99,32 @@ impl Absorption {
     /// Makes the spectrum of a stone that absorbs nothing.
     pub const fn clear() -> Self {
         Self { samples: Vec::new() }
+    }
+
+    /// Makes a smooth spectrum of a stone in which daylight takes on a colour, linear sRGB, after a path in mm.
+    ///
+    /// The light that is left is the mixture of the spectra of red, green and blue ([`basis`]) that looks like the colour.
+    /// Parts of the colour beyond 0 to 1 are cut off, and at every wavelength a ten-thousandth of the light is left.
+    ///
+    /// # Errors
+    /// [`AbsorptionError`] for a path that is not longer than 0, or so short that a coefficient exceeds [`MOST_PER_MM`].
+    pub fn of_colour(colour: DVec3, mm: f64) -> Result<Self, AbsorptionError> {
+        let colour = colour.clamp(DVec3::ZERO, DVec3::ONE);
+        if colour == DVec3::ONE {
+            return Ok(Self::clear());
+        }
+        let (first, last) = (*VISIBLE_NM.start() as u32, *VISIBLE_NM.end() as u32);
+        let sample = |nm: u32| {
+            let left = colour.dot(basis(f64::from(nm))).clamp(LEAST_LEFT, 1.0);
+            (f64::from(nm), -left.ln() / mm)
+        };
+        Self::new((first..=last).step_by(5).map(sample).collect())
+    }
+
+    /// Returns this spectrum with all coefficients times a factor, at most [`MOST_PER_MM`] each; `factor` is at least 0.
+    pub fn scaled(&self, factor: f64) -> Self {
+        let scaled = |&(nm, per_mm): &(f64, f64)| (nm, (per_mm * factor).clamp(0.0, MOST_PER_MM));
+        Self { samples: self.samples.iter().map(scaled).collect() }
     }
 
     /// Whether nothing is absorbed at any wavelength, so that a tracer may leave absorption out.

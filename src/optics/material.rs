@@ -2,7 +2,10 @@
 
 use super::absorption::Absorption;
 use super::dispersion::{Dispersion, DispersionError};
+use super::illuminant::Illuminant;
+use super::strata::{Stratum, strata};
 use super::{gems, glasses};
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::LazyLock;
@@ -32,6 +35,12 @@ pub struct Material {
     pub colour_is_illustrative: bool,
 }
 
+/// The strata by which the colour of a path is found: as many as serve the narrowest bands.
+static DAYLIGHT: LazyLock<Vec<Stratum>> = LazyLock::new(|| strata(64, &Illuminant::D65, true));
+
+/// The shares of linear sRGB's red, green and blue in luminance (IEC 61966-2-1).
+const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
+
 impl Material {
     /// Makes a clear stone with one index for all wavelengths.
     ///
@@ -56,6 +65,32 @@ impl Material {
     /// Returns the index at a wavelength in nm; panics as [`Dispersion::index`] does.
     pub fn index(&self, wavelength_nm: f64) -> f64 {
         self.dispersion.index(wavelength_nm)
+    }
+
+    /// Returns the colour, linear sRGB, of daylight after a path inside in mm; white is (1, 1, 1). Parts may be negative where
+    /// the colour is beyond sRGB.
+    pub fn colour_after(&self, mm: f64) -> DVec3 {
+        let light = |stratum: &Stratum| {
+            let nm = stratum.at(0.5);
+            let left = |absorption: &Absorption| (-absorption.coefficient(nm) * mm).exp();
+            stratum.response[0] * (0.5 * (left(&self.absorption[0]) + left(&self.absorption[1])))
+        };
+        DAYLIGHT.iter().map(light).sum()
+    }
+
+    /// Returns the path inside, in mm, after which half of daylight's luminance is left, at most 1e9; `None` where the material
+    /// is clear.
+    pub fn half_length(&self) -> Option<f64> {
+        let is_dim = |mm: f64| self.colour_after(mm).dot(LUMINANCE) < 0.5;
+        if self.absorption.iter().all(Absorption::is_clear) || !is_dim(1e9) {
+            return None;
+        }
+        let (mut low, mut high) = (-9.0_f64, 9.0_f64);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if is_dim(10.0_f64.powf(middle)) { high = middle } else { low = middle }
+        }
+        Some(10.0_f64.powf(high))
     }
 
     /// Whether the source vouches for the index at this wavelength; `false` where it states no range.

@@ -78,6 +78,16 @@ impl Strata {
         Self { whole, shares: all, turns: places }
     }
 
+    /// Divides the visible range as [`strata()`] does, and lets every pass see the middle wavelength of each stratum alone.
+    pub fn of_middles(count: u32, key: &Illuminant, adapted: bool) -> Self {
+        let whole = strata(count, key, adapted);
+        let middle = |stratum: &Stratum| {
+            let nm = stratum.at(0.5);
+            Stratum { from_nm: nm, to_nm: nm, ..*stratum }
+        };
+        Self { shares: whole.iter().map(middle).collect(), whole, turns: vec![0] }
+    }
+
     /// Returns the whole strata, from short wavelengths to long.
     pub fn whole(&self) -> &[Stratum] {
         &self.whole

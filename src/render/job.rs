@@ -55,7 +55,8 @@ pub struct LightProduct {
     pub adapted: bool,
     /// The share of refraction's turning of light that is followed, 0 to 1; 1 is physics.
     pub strength: f64,
-    /// Whether each pass takes another share of each band of wavelengths, so that together they show all hues.
+    /// Whether each pass takes another share of each band of wavelengths, so that together they show all hues; else all take
+    /// the middle wavelengths alone.
     pub jitter: bool,
     /// In which steps the picture is made.
     pub steps: Steps,
@@ -169,8 +170,11 @@ const UNRESOLVED_LIGHT: f64 = 2e-3;
 /// as the rest of the work.
 const MOST_BEAMS: usize = 100_000;
 
+/// The usual number of bounces inside a stone after which rays end.
+pub const USUAL_BOUNCES: u32 = 64;
+
 /// The usual end of rays: after this many bounces, or where no more than this weight is left.
-const RAYS: RayOptions = RayOptions { polarised: true, most_bounces: 64, least_weight: 5e-4 };
+const RAYS: RayOptions = RayOptions { polarised: true, most_bounces: USUAL_BOUNCES, least_weight: 5e-4 };
 
 impl Quality {
     /// Returns the usual quality of pictures under light.
@@ -237,12 +241,15 @@ pub fn mixture_note(strength: f64) -> String {
 }
 
 impl LightProduct {
-    /// Returns the strata of wavelengths that are traced in a number of sample passes. At a glance, and without jitter, each
-    /// pass stands for whole strata.
+    /// Returns the strata of wavelengths that are traced in a number of sample passes. At a glance each pass stands for whole
+    /// strata, and without jitter for their middle wavelengths.
     pub fn strata(&self, passes: u32) -> Strata {
-        let is_shared = self.jitter && !matches!(self.steps, Steps::Glance { .. });
-        let shares = if is_shared { passes } else { 1 };
-        Strata::new(self.wavelengths, shares, &self.surroundings.lighting.light.spectrum, self.adapted)
+        let spectrum = &self.surroundings.lighting.light.spectrum;
+        let shares = if matches!(self.steps, Steps::Glance { .. }) { 1 } else { passes };
+        match self.jitter {
+            true => Strata::new(self.wavelengths, shares, spectrum, self.adapted),
+            false => Strata::of_middles(self.wavelengths, spectrum, self.adapted),
+        }
     }
 }
 

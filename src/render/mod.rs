@@ -20,7 +20,7 @@ pub use card::{Backend, Card, NoCard};
 pub use check::{JobError, OutOfRange};
 pub use job::{
     FiguresProduct, Job, LightProduct, MapProduct, PaneProduct, Product, Quality, Reading, ScopeProduct,
-    Steps, mixture_note,
+    Steps, USUAL_BOUNCES, mixture_note,
 };
 pub use measure::{MeasureError, MeasureOptions, measure};
 pub use plan::{CardWorth, Demands, Plan, Unfit, Wanted};

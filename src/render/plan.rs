@@ -2,7 +2,7 @@
 
 use super::card::{Backend, Card, NoCard};
 use super::check::JobError;
-use super::job::{Job, LightProduct, Product, Steps};
+use super::job::{Job, LightProduct, Product, Steps, USUAL_BOUNCES};
 use crate::math::{NotConvex, SolidRef};
 use crate::scene::{Projection, View};
 use crate::trace::ray::Camera;
@@ -73,6 +73,9 @@ pub enum Unfit {
     /// Refraction is followed only part of the way.
     #[error("exact beams cannot mix refracted and straight rays: trace by rays, or set the strength to 1")]
     Mixture,
+    /// Light is followed through fewer bounces than usual.
+    #[error("exact beams cannot end after some bounces: trace by rays, or follow 64 bounces")]
+    FewBounces,
     /// Light is followed along many paths at once, as in refraction maps and liquid glass.
     #[error(
         "refraction maps and liquid glass are traced by rays on the processor: choose these, or no tracer"
@@ -122,6 +125,7 @@ impl Demands {
         let fits = is_alone && !has_backplate && job.view.projection == Projection::Orthographic;
         let against_beams = match fits {
             _ if light.strength < 1.0 => Some(Unfit::Mixture),
+            _ if job.quality.rays.most_bounces < USUAL_BOUNCES => Some(Unfit::FewBounces),
             false => Some(Unfit::NotAlone),
             true => None,
         };
@@ -178,7 +182,13 @@ mod tests {
         let fit = Demands { against_beams: None, card: CardWorth::Much };
         let found = [Wanted::Quickest, Wanted::Beams, Wanted::Rays, Wanted::Card].map(|w| tracer(&fit, w));
         assert_eq!(found, [Ok("beam"), Ok("beam"), Ok("ray"), Ok("ray")]);
-        for why in [Unfit::Perspective, Unfit::NotConvex(NotConvex), Unfit::NotAlone, Unfit::Mixture] {
+        for why in [
+            Unfit::Perspective,
+            Unfit::NotConvex(NotConvex),
+            Unfit::NotAlone,
+            Unfit::Mixture,
+            Unfit::FewBounces,
+        ] {
             let unfit = Demands { against_beams: Some(why.clone()), card: CardWorth::Little };
             assert_eq!(tracer(&unfit, Wanted::Quickest), Ok("ray"));
             assert_eq!(tracer(&unfit, Wanted::Beams), Err(why));

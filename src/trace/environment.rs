@@ -257,7 +257,12 @@ impl EnvironmentMap {
 impl Environment<'_> {
     /// Returns what a ray sees of the photograph behind the stones; `None` where the ray does not meet it at any of the
     /// wavelengths that it stands for.
-    pub(in crate::trace) fn photograph(&self, from: DVec3, direction: DVec3, sweep: DVec3) -> Option<Seen> {
+    pub(in crate::trace) fn photograph(
+        &self,
+        from: DVec3,
+        direction: DVec3,
+        sweep: DVec3,
+    ) -> Option<Photographed> {
         self.backplate?.at(&self.eye, from, (direction, sweep))
     }
 
@@ -307,7 +312,7 @@ impl<'a> Backplate<'a> {
 
     /// Returns what a ray sees of the picture; `None` where it does not meet it. The ray is given by its direction and how
     /// that sweeps.
-    fn at(&self, eye: &Basis, from: DVec3, (direction, sweep): (DVec3, DVec3)) -> Option<Seen> {
+    fn at(&self, eye: &Basis, from: DVec3, (direction, sweep): (DVec3, DVec3)) -> Option<Photographed> {
         let height = from.dot(eye.toward) + self.distance;
         let speed = |part: f64| -(direction + sweep * part).dot(eye.toward);
         // The part of the sweep that runs toward the plane, from half of it before the ray's direction to half after it.
@@ -335,13 +340,13 @@ impl<'a> Backplate<'a> {
         let length = (to - from).length() * (leaves - enters);
         let light = self.picture.along(length, |part| place(first + (last - first) * part));
         let share = if length > 0.0 { last - first } else { 1.0 };
-        Some(Seen { light: light.extend(0.0).wxyz() * share, share })
+        Some(Photographed { light: light.extend(0.0).wxyz() * share, share })
     }
 }
 
 /// What a ray sees of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::trace) struct Seen {
+pub(in crate::trace) struct Photographed {
     /// The light by channel, of that part of the ray's wavelengths which meets the picture.
     pub light: DVec4,
     /// That part.

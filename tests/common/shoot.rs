@@ -23,6 +23,8 @@ pub struct Shoot {
     pub view: View,
     pub wavelengths: u32,
     pub samples: u32,
+    /// The number of shares into which each band of wavelengths is divided.
+    pub shares: u32,
     /// How much of the way refraction is followed: 1 is physics.
     pub strength: f64,
     pub backdrop: bool,
@@ -51,6 +53,7 @@ impl Shoot {
             view: View { tilt: 0.2, azimuth: 0.4, ..View::default() },
             wavelengths: 8,
             samples: 1,
+            shares: 1,
             strength: 1.0,
             backdrop: true,
             photo: None,
@@ -85,9 +88,9 @@ impl Shoot {
         })
     }
 
-    /// Returns the strata, of which each sample pass sees another share.
+    /// Returns the strata, of which each sample pass sees one share after the other.
     fn strata(&self) -> Strata {
-        Strata::new(self.wavelengths, self.samples, &self.light.spectrum, true)
+        Strata::new(self.wavelengths, self.shares, &self.light.spectrum, true)
     }
 
     fn sampling(&self) -> Sampling {

@@ -309,8 +309,9 @@ mod card {
             shoot.photo = Some((stripes(), 1.5));
             shoot
         };
-        for strength in [0.0, 0.1, 0.6] {
-            let found = differ(&before_stripes(strength), &before_stripes(strength), &gpu);
+        for (strength, shares) in [(0.0, 1), (0.1, 8), (0.6, 8)] {
+            let divided = || Shoot { shares, ..before_stripes(strength) };
+            let found = differ(&divided(), &divided(), &gpu);
             assert!(found < 0.001, "strength {strength} before a photograph: {found}");
             let alone = || shoot(strength, Projection::Orthographic);
             let found = differ(&alone(), &alone(), &gpu);

@@ -52,7 +52,7 @@ fn by_rays_of(stones: Vec<Instance>, light: &Light) -> (Linear, Remainder) {
 
 fn sampled(stones: Vec<Instance>, light: &Light, sampling: Sampling) -> (Linear, Remainder) {
     taken(stones, light, |lit_scene| {
-        let strata = Strata::new(2, sampling.count, &light.spectrum, true);
+        let strata = Strata::new(2, 1, &light.spectrum, true);
         let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
         expose(lit_scene, (&strata, sampling), SIZE, prepare, &unwatched).unwrap()
     })

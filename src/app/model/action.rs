@@ -109,6 +109,10 @@ pub enum ViewAction {
     BehindMm(f64),
     /// The strength of refraction in renders: 0 goes straight on, 1 is physics.
     Strength(f64),
+    /// The greatest number of bounces of light in renders.
+    Bounces(u32),
+    /// The angle by which the light of renders is turned about its axis, degrees.
+    LightTurn(f64),
     Smoothing(Smoothing),
     Liquid(Liquid),
     /// The state of the background in a view of a refraction map.

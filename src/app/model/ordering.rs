@@ -117,6 +117,8 @@ impl Orders<'_> {
             behind: workspace.background(),
             distance: workspace.behind_mm.map_or(BEHIND, |mm| mm / document.specimen().unit_mm()),
             strength: workspace.strength(),
+            bounces: workspace.bounces,
+            light_turn: workspace.light_turn,
             copies: vec![Pose::STILL],
             smoothing: Smoothing::None,
             head: document.work.head,

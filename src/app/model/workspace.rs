@@ -6,6 +6,7 @@ use crate::app::shows::Shows;
 use crate::app::studio::Smoothing;
 use crate::io::background::BackgroundRef;
 use crate::picture::{Overlay, Pattern};
+use crate::render::USUAL_BOUNCES;
 use crate::scene::{Glare, Projection, View};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -143,6 +144,10 @@ pub struct Workspace {
     /// The strength of refraction: how much of the way that refraction turns light is followed before the backplate; 1 is
     /// physics.
     pub strength: f64,
+    /// The greatest number of bounces inside a stone through which renders follow light.
+    pub bounces: u32,
+    /// The angle by which the light is turned about its axis, degrees.
+    pub light_turn: f64,
     /// How the edges of renders are smoothed.
     pub smoothing: Smoothing,
     /// Whether the panels are hidden, so that views have the window to themselves.
@@ -190,6 +195,8 @@ impl Default for Workspace {
             of_scene: None,
             behind_mm: None,
             strength: 1.0,
+            bounces: USUAL_BOUNCES,
+            light_turn: 0.0,
             smoothing: Smoothing::None,
             hides_panels: false,
             panels: Panels::default(),
@@ -272,7 +279,7 @@ impl Workspace {
                 self.wavelengths = before.1;
             }
         }
-        (self.behind_mm, self.strength) = (None, 1.0);
+        (self.behind_mm, self.strength, self.light_turn) = (None, 1.0, 0.0);
     }
 
     /// Returns how much of the way that refraction turns light is followed; without a backplate, all of it.

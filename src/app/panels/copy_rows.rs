@@ -10,8 +10,6 @@ use crate::app::model::preset::{Known, PRESETS};
 use crate::app::panels::rows::{ANY, NUMBER, Row, choice_row, control_width, field_width, named, skip_name};
 use crate::app::shows::Shows;
 use crate::app::studio::Smoothing;
-use crate::cut::MaterialRef;
-use crate::optics::{Material, line};
 use crate::scene::MOST_COPIES;
 use egui::{Button, Ui, vec2};
 use std::ops::RangeInclusive;
@@ -24,11 +22,6 @@ const FIRST_NEWEST: f64 = 0.5;
 
 /// The range of the angle of view, degrees; an eye still nearer may be inside the glass.
 const ANGLES: RangeInclusive<f64> = 1.0..=75.0;
-
-/// The range of refractive indices of glasses, known and invented.
-const INDICES: RangeInclusive<f64> = 1.0..=3.5;
-/// The range of Abbe numbers of glasses, known and invented.
-const ABBE_NUMBERS: RangeInclusive<f64> = 1.0..=90.0;
 
 /// Draws a button for each scene of glass that comes with the program; a click begins that scene.
 pub fn presets(actions: &mut Actions, ui: &mut Ui) {
@@ -123,26 +116,4 @@ fn smoothing(before: Smoothing, actions: &mut Actions, ui: &mut Ui) {
         Row { speed: 0.01, ..Row::new("Newest part", meaning, NEWEST) }.show(ui, newest);
     }
     actions.push_changed(&before, smoothing, ViewAction::Smoothing);
-}
-
-/// Draws rows for the index and the Abbe number of a glass; returns the custom glass that a change of one makes.
-pub fn two_numbers(material: &MaterialRef, known: &Material, ui: &mut Ui) -> Option<MaterialRef> {
-    let law = &known.dispersion;
-    let (index, abbe) = (known.index(line::HELIUM_D), law.abbe_number().unwrap_or(f64::INFINITY));
-    let (mut n, mut v) = (index, abbe);
-    let meaning = "Refractive index n_d, at helium's yellow line of 587.6 nm.";
-    Row { decimals: 3, speed: 0.01, ..Row::new("Index", meaning, INDICES) }.show(ui, &mut n);
-    let meaning =
-        "V_d. A smaller number makes a wider rainbow, and inf makes none. No real glass is below 20.";
-    let limits = *ABBE_NUMBERS.start()..=f64::INFINITY;
-    let row = Row::new("Abbe number", meaning, ABBE_NUMBERS);
-    Row { limits, decimals: 1, speed: 0.1, ..row }.show(ui, &mut v);
-    // A custom glass keeps its density, which was set by hand; a known glass loses its own.
-    let own = matches!(material, MaterialRef::Custom(_)).then_some(known.density).flatten();
-    let custom = match v.is_finite() {
-        true => Material::from_abbe(&format!("index {n:.3}, Abbe number {v:.1}"), n, v),
-        false => Material::from_index(&format!("index {n:.3}"), n),
-    };
-    let custom = custom.ok().filter(|_| (n, v) != (index, abbe))?;
-    Some(MaterialRef::Custom(Box::new(Material { density: own, ..custom })))
 }

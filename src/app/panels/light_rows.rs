@@ -7,6 +7,7 @@ use crate::app::model::workspace::{WAVELENGTHS, Workspace};
 use crate::app::panels::rows::{Row, choice_row};
 use crate::app::studio::BEHIND;
 use crate::picture::Pattern;
+use crate::render::USUAL_BOUNCES;
 use crate::scene::{LIGHTS, light};
 use egui::Ui;
 use std::borrow::Cow;
@@ -22,10 +23,19 @@ const HEADS: RangeInclusive<f64> = 0.0..=30.0;
 /// The range of the strength of refraction: 0 is the straight ray, 1 is physics.
 const STRENGTHS: RangeInclusive<f64> = 0.0..=1.0;
 
+/// The range of the turn of the light, degrees.
+const TURNS: RangeInclusive<f64> = -180.0..=180.0;
+
+/// The range of the greatest number of bounces.
+const BOUNCES: RangeInclusive<f64> = 1.0..=USUAL_BOUNCES as f64;
+
 /// Draws the rows.
 pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let (work, workspace) = (&model.document.work, &model.workspace);
     light_row(&work.light, actions, ui);
+    let meaning = "The angle by which the light of renders is turned about its axis.";
+    let turn = Row { step: 1.0, decimals: 1, unit: "°", ..Row::new("Light turn", meaning, TURNS) };
+    turn.edit(ui, actions, workspace.light_turn, ViewAction::LightTurn);
     let meaning = "The brightness of renders, in stops. One stop more is twice the light.";
     let exposure = Row { step: 0.1, decimals: 1, unit: " stops", ..Row::new("Exposure", meaning, STOPS) };
     exposure.edit(ui, actions, work.exposure, Edit::Exposure);
@@ -36,6 +46,11 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
         WAVELENGTHS.into_iter().for_each(|n| drop(ui.selectable_value(&mut count, n, n.to_string())));
     });
     actions.push_changed(&workspace.wavelengths, count, ViewAction::Wavelengths);
+    let meaning = "The number of bounces inside the stone after which renders follow light no farther. Raise it from 1 to \
+        see what each bounce adds; light that is left is dark.";
+    let bounces = Row { step: 1.0, decimals: 0, ..Row::new("Most bounces", meaning, BOUNCES) };
+    let counted = |bounces: f64| ViewAction::Bounces(bounces.round() as u32);
+    bounces.edit(ui, actions, f64::from(workspace.bounces), counted);
     behind(workspace, actions, ui);
     if workspace.behind.is_some() {
         behind_how(workspace, model.document.specimen().unit_mm(), actions, ui);

@@ -3,7 +3,7 @@
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit};
 use crate::app::model::extent::Extent;
-use crate::app::panels::copy_rows;
+use crate::app::panels::material_rows;
 use crate::app::panels::rows::{
     NOT_KNOWN, NUMBER, Number, UNKNOWN, choice_row, named, number_row, skip_control,
 };
@@ -74,11 +74,8 @@ fn material(design: &Design, known: &Material, ui: &mut Ui) -> Option<MaterialRe
         ui.label(RichText::new("illustrative colour").weak().small())
             .on_hover_text(ILLUSTRATIVE.trim_start());
     }
-    if matches!(design.cut, Cut::Glass(_)) {
-        let typed = copy_rows::two_numbers(&design.material, known, ui);
-        chosen = chosen.or(typed);
-    }
-    chosen
+    let changed = material_rows::show(design, known, ui);
+    chosen.or(changed)
 }
 
 /// Draws the row for the density: a material of the library has its own, and setting another makes it a custom material,

@@ -13,6 +13,7 @@ use crate::render::{
 };
 use crate::scene::{Film, Instance, Mipmap, Panorama, Pose, Scene, Scope, View};
 use crate::trace::beam::BeamOptions;
+use crate::trace::ray::RayOptions;
 use glam::DVec2;
 use std::sync::Arc;
 
@@ -76,7 +77,8 @@ impl Shot {
             frame: self.whole,
         });
         let shows_light = self.behind == Some(BackgroundRef::Light);
-        Surroundings { shows_light, backplate, ..Surroundings::of(Arc::clone(&self.light)) }
+        let turn = self.light_turn.to_radians();
+        Surroundings { turn, shows_light, backplate, ..Surroundings::of(Arc::clone(&self.light)) }
     }
 
     fn job(&self, product: Product, quality: Quality) -> Job {
@@ -93,7 +95,8 @@ impl Shot {
             jitter: self.jitter,
             steps,
         };
-        self.job(Product::Light(product), quality)
+        let rays = RayOptions { most_bounces: self.bounces, ..quality.rays };
+        self.job(Product::Light(product), Quality { rays, ..quality })
     }
 
     /// Returns the job of a picture in a scope.

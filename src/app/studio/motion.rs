@@ -155,6 +155,8 @@ mod tests {
             behind: None,
             distance: 3.0,
             strength: 1.0,
+            bounces: 64,
+            light_turn: 0.0,
             copies,
             smoothing: Smoothing::None,
             exposure: 0.0,

@@ -69,6 +69,10 @@ pub struct Shot {
     pub whole: Film,
     /// How much of the way refraction is followed: 1 is physics.
     pub strength: f64,
+    /// The greatest number of bounces of light in a render.
+    pub bounces: u32,
+    /// The angle by which the light is turned about its axis, degrees.
+    pub light_turn: f64,
     /// The poses of the copies of the stone in a render, at least one. Other pictures show a single stone.
     pub copies: Vec<Pose>,
     /// How a render's edges are smoothed.
@@ -126,10 +130,11 @@ impl PartialEq for Shot {
 
 impl Shot {
     /// The settings that only renders and refraction maps depend on, with fixed values for those that maps ignore.
-    fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 3], &[Pose], Smoothing) {
-        let numbers = [self.distance, self.whole.pixel, self.strength];
+    fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 5], &[Pose], Smoothing) {
+        let bounces = f64::from(self.bounces);
+        let numbers = [self.distance, self.whole.pixel, self.light_turn, self.strength, bounces];
         if self.shows == Shows::Refraction {
-            let numbers = [numbers[0], numbers[1], 1.0];
+            let numbers = [numbers[0], numbers[1], numbers[2], 1.0, 0.0];
             return (self.exposure, 0, false, None, numbers, &self.copies, Smoothing::None);
         }
         let Self { exposure, bands, jitter, smoothing, .. } = *self;

@@ -172,6 +172,8 @@ mod tests {
             jitter: true,
             behind: None,
             strength: 1.0,
+            bounces: 64,
+            light_turn: 0.0,
             copies: vec![Pose::STILL],
             distance: BEHIND,
             smoothing: Smoothing::None,

@@ -1,11 +1,11 @@
 //! Writes the copies in renders as a scene file and its cut file.
 
 use crate::app::model::export::ExportPlan;
+use crate::app::studio::Shot;
 use crate::app::studio::hung;
 use crate::io::background::BackgroundRef;
 use crate::io::scene_file::{self, DEFAULT_GAP_MM, Entry, SceneFile};
 use crate::io::{Failure, WriteError, cut_file, write};
-use crate::app::studio::Shot;
 use crate::scene::{Pose, Projection, middle};
 use glam::DVec3;
 use std::path::PathBuf;
@@ -33,6 +33,7 @@ impl SceneOut {
         let scene = SceneFile {
             name: design.name.clone(),
             light: Some(plan.light.clone()),
+            light_turn: shot.light_turn,
             layout: None,
             gap_mm: DEFAULT_GAP_MM,
             background: shot.behind.clone(),

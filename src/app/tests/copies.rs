@@ -203,7 +203,8 @@ fn a_scene_is_seen_in_its_perspective_and_the_next_design_as_before() {
         let Workspace { panes, distance, smoothing, eye, .. } = &bench.editor().model.workspace;
         (panes[0].is_near, *distance, *smoothing, *eye)
     };
-    let text = "format = 1\nname = \"Near\"\nangle_of_view = 45\nexposure = 0.5\nstone = [{ cut = \"cube\" }]";
+    let text =
+        "format = 1\nname = \"Near\"\nangle_of_view = 45\nexposure = 0.5\nstone = [{ cut = \"cube\" }]";
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("near.toml");
     std::fs::write(&path, text).unwrap();

@@ -8,6 +8,7 @@ use crate::app::model::command::Command;
 use crate::app::model::eye::Eye;
 use crate::app::model::workspace::Pane;
 use crate::app::shows::Shows;
+use crate::render::USUAL_BOUNCES;
 use egui::{Button, RichText, TextStyle, Ui};
 use std::path::Path;
 
@@ -38,6 +39,7 @@ impl Mode {
         let takes_head = scope.as_ref().is_some_and(|scope| scope.takes_head);
         let head = model.document.work.head;
         let strength = if shows == Shows::Render { workspace.strength() } else { 1.0 };
+        let bounces = if shows == Shows::Render { workspace.bounces } else { USUAL_BOUNCES };
         let missing =
             workspace.missing_background().filter(|_| matches!(shows, Shows::Render | Shows::Refraction));
         let overlay =
@@ -76,6 +78,10 @@ impl Mode {
                                refraction is 1.";
                 let name = Path::new(name).file_name().map_or(name.into(), |name| name.to_string_lossy());
                 mode(format!("{name} is missing"), meaning, ViewAction::Behind(None))
+            }),
+            (bounces < USUAL_BOUNCES).then(|| {
+                let meaning = "Light is followed through no more bounces than this; what is left is dark.";
+                mode(format!("{bounces} bounces"), meaning, ViewAction::Bounces(USUAL_BOUNCES))
             }),
             (strength < 1.0).then(|| {
                 let meaning =

@@ -22,6 +22,7 @@ pub(super) struct SceneForm {
     format: i64,
     name: String,
     light: Option<String>,
+    light_turn: Option<f64>,
     layout: Option<String>,
     gap_mm: Option<f64>,
     background: Option<String>,
@@ -103,6 +104,7 @@ impl SceneForm {
             format: FORMAT,
             name: scene.name.clone(),
             light: scene.light.as_ref().map(|light| light.to_string_lossy().into_owned()),
+            light_turn: (scene.light_turn != 0.0).then_some(scene.light_turn),
             layout: scene.layout.as_ref().and_then(is).map(|(name, _)| name.to_owned()),
             gap_mm: scene.layout.map(|_| scene.gap_mm),
             background: scene.background.as_ref().map(ToString::to_string),
@@ -143,7 +145,8 @@ impl SceneForm {
         if let Some(angle) = self.angle_of_view {
             within("angle_of_view", "angle_of_view", angle, ANGLES_OF_VIEW, "degrees")?;
         }
-        let exposure = self.exposure.unwrap_or(0.0);
+        let (exposure, light_turn) = (self.exposure.unwrap_or(0.0), self.light_turn.unwrap_or(0.0));
+        within("light_turn", "light_turn", light_turn, DEGREES, "degrees")?;
         within("exposure", "exposure", exposure, STOPS, "stops")?;
         check_counts(&self.stone)?;
         let alone = self.stone.len() == 1;
@@ -159,6 +162,7 @@ impl SceneForm {
         Ok(SceneFile {
             name,
             light,
+            light_turn,
             layout,
             gap_mm,
             background,

@@ -27,6 +27,8 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: ViewAction) {
         ViewAction::Behind(behind) => workspace.behind = behind,
         ViewAction::BehindMm(mm) => workspace.behind_mm = Some(mm),
         ViewAction::Strength(strength) => workspace.strength = strength,
+        ViewAction::Bounces(bounces) => workspace.bounces = bounces,
+        ViewAction::LightTurn(degrees) => workspace.light_turn = degrees,
         ViewAction::Smoothing(smoothing) => workspace.smoothing = smoothing,
         ViewAction::Liquid(liquid) => workspace.liquid = liquid,
         ViewAction::ByArea(by_area) => workspace.by_area = by_area,

@@ -1,0 +1,111 @@
+//! Rows for the optical properties of a material of one's own: index, dispersion and colour.
+
+use crate::app::panels::rows::{Number, Row, named, number_row, skip_control};
+use crate::cut::{Cut, Design, MaterialRef};
+use crate::optics::{Absorption, Dispersion, Material, encoded_from_linear, line, linear_from_encoded};
+use egui::{CollapsingHeader, Ui};
+use std::ops::RangeInclusive;
+
+/// The range of refractive indices, of stones and of glasses known and invented.
+const INDICES: RangeInclusive<f64> = 1.0..=3.5;
+
+/// The range of Abbe numbers, of glasses known and invented.
+const ABBE_NUMBERS: RangeInclusive<f64> = 1.0..=90.0;
+
+/// The range of dispersions B - G: that of strontium titanate is 0.19.
+const DISPERSIONS: RangeInclusive<f64> = 0.0..=0.3;
+
+/// The range of lengths in which half the light is lost, mm.
+const HALF_LENGTHS: RangeInclusive<f64> = 0.01..=1e4;
+
+/// Draws the rows, for gems folded up at first; returns the material that a change of one makes.
+pub fn show(design: &Design, known: &Material, ui: &mut Ui) -> Option<MaterialRef> {
+    let changed = match design.cut {
+        Cut::Glass(_) => rows(design, known, ui),
+        _ => {
+            let folded = CollapsingHeader::new("Index and colour").show(ui, |ui| rows(design, known, ui));
+            folded.header_response.on_hover_text("Change what the material does to light.");
+            folded.body_returned.flatten()
+        }
+    };
+    changed.map(|material| MaterialRef::Custom(Box::new(material)))
+}
+
+fn rows(design: &Design, known: &Material, ui: &mut Ui) -> Option<Material> {
+    let is_own = matches!(design.material, MaterialRef::Custom(_));
+    // Another index makes another substance: it keeps a density only where that was set by hand.
+    let refracting = refraction(known, ui).map(|material| Material {
+        density: is_own.then_some(known.density).flatten(),
+        absorption: known.absorption.clone(),
+        colour_is_illustrative: known.colour_is_illustrative,
+        ..material
+    });
+    let coloured = colour(design, known, ui).map(|absorption| Material {
+        name: if is_own { known.name.clone() } else { format!("{}, of a chosen colour", known.name) },
+        absorption,
+        colour_is_illustrative: true,
+        ..known.clone()
+    });
+    refracting.or(coloured)
+}
+
+/// Draws the rows for the index, the Abbe number and the dispersion B - G; returns the clear material that a change of one
+/// makes.
+fn refraction(known: &Material, ui: &mut Ui) -> Option<Material> {
+    let law = &known.dispersion;
+    let index = known.index(line::HELIUM_D);
+    let (abbe, spread) = (law.abbe_number().unwrap_or(f64::INFINITY), law.dispersion_b_g());
+    let (mut n, mut v, mut b_g) = (index, abbe, spread);
+    let meaning = "Refractive index n_d, at helium's yellow line of 587.6 nm.";
+    Row { decimals: 3, speed: 0.01, ..Row::new("Index", meaning, INDICES) }.show(ui, &mut n);
+    let meaning =
+        "V_d. A smaller number makes a wider rainbow, and inf makes none. No real glass is below 20.";
+    let limits = *ABBE_NUMBERS.start()..=f64::INFINITY;
+    let row = Row::new("Abbe number", meaning, ABBE_NUMBERS);
+    Row { limits, decimals: 1, speed: 0.1, ..row }.show(ui, &mut v);
+    let meaning = "Dispersion as gemmologists give it: the index at the B line (686.7 nm) less than at the G line \
+        (430.8 nm). Diamond has 0.044.";
+    let row = Row::new("Dispersion B-G", meaning, DISPERSIONS);
+    Row { decimals: 4, speed: 0.0005, ..row }.show(ui, &mut b_g);
+    if b_g != spread {
+        let named = format!("index {n:.3}, dispersion {b_g:.4}");
+        let law = Dispersion::cauchy_from(n, b_g).checked().ok()?;
+        return Some(Material { dispersion: law, ..Material::from_index(&named, n).ok()? });
+    }
+    if (n, v) == (index, abbe) {
+        return None;
+    }
+    let material = match v.is_finite() {
+        true => Material::from_abbe(&format!("index {n:.3}, Abbe number {v:.1}"), n, v),
+        false => Material::from_index(&format!("index {n:.3}"), n),
+    };
+    material.ok()
+}
+
+/// Draws the rows for the colour and for how strong it is; returns the absorption that a change of one makes.
+fn colour(design: &Design, known: &Material, ui: &mut Ui) -> Option<[Absorption; 2]> {
+    let path = design.diameter_mm;
+    let shown = known.colour_after(path).to_array();
+    let before = shown.map(|linear| (encoded_from_linear(linear).clamp(0.0, 1.0) * 255.0).round() as u8);
+    let mut picked = before;
+    let meaning =
+        "The colour of daylight after a path inside as long as the stone is wide. White is a clear stone.";
+    ui.horizontal(|ui| {
+        let label = named(ui, "Body colour", meaning);
+        skip_control(ui, 0.0);
+        ui.color_edit_button_srgb(&mut picked).labelled_by(label.id).on_hover_text(meaning);
+    });
+    if picked != before {
+        let linear = picked.map(|code| linear_from_encoded(f64::from(code) / 255.0));
+        let absorption = Absorption::of_colour(linear.into(), path).ok()?;
+        return Some([absorption.clone(), absorption]);
+    }
+    let half = known.half_length()?;
+    let mut mm = half;
+    let meaning =
+        "The path inside after which half of daylight is left. A shorter one makes a deeper colour.";
+    let number = Number { decimals: 2, speed: 0.05, range: HALF_LENGTHS, unit: " mm" };
+    number_row(ui, ("Half-light path", meaning), number, &mut mm);
+    let scaled = || known.absorption.each_ref().map(|absorption| absorption.scaled(half / mm));
+    (mm != half).then(scaled)
+}
