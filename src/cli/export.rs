@@ -9,6 +9,7 @@ use crate::io::export::{self, OutputFormat, Outputs, first_twice};
 use crate::io::{Failure, MOST_PIXELS, is_standard};
 use crate::picture::{Picture, named, names};
 use crate::render::{Card, Renderer};
+use crate::scene::Glare;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -40,6 +41,10 @@ pub struct ExportArguments {
     timing: bool,
     #[command(flatten)]
     view: ViewOptions,
+    /// Add glare, the light that the stone's outer surface reflects, to pictures: what a camera in the scope records, but
+    /// orange and pink where graders look for red
+    #[arg(long, conflicts_with = "no_glare", help_heading = "Light")]
+    glare: bool,
     #[command(flatten)]
     light: LightOptions,
     #[command(flatten)]
@@ -58,7 +63,8 @@ impl ExportArguments {
         each_file(&self.files, |file| {
             let specimen = self.light.specimen(file, self.mesh.options())?;
             let mut renderer = Renderer::new(Card::Machine);
-            let viewing = self.light.viewing(&specimen, &self.view, &renderer)?;
+            let mut viewing = self.light.viewing(&specimen, &self.view, &renderer)?;
+            viewing.glare = if self.glare { Some(Glare::Included) } else { viewing.glare };
             let outputs = self.outputs(file, &pictures);
             let progress = WorkProgress::new(&specimen.design.name);
             let export = export::Export { viewing, outputs: &outputs };

@@ -32,6 +32,9 @@ pub struct Info {
     /// Print JSON: one object, or for several files one object a line
     #[arg(long)]
     json: bool,
+    /// A material's name, or an index, instead of the file's; of a scene, for every stone
+    #[arg(long, value_name = "MATERIAL")]
+    material: Option<String>,
     /// List every facet after the tiers
     #[arg(long)]
     facets: bool,
@@ -41,13 +44,13 @@ pub struct Info {
 
 impl Info {
     pub fn run(&self) -> Result<(), Failure> {
-        let mesh = self.mesh.options();
+        let (mesh, material) = (self.mesh.options(), self.material.as_deref());
         each_file(&self.files, |file| {
             if is_scene(file) {
-                let assembly = Assembly::load(file, None, None, mesh)?;
+                let assembly = Assembly::load(file, material, None, mesh)?;
                 return self.print_as(&scene_json(&assembly), || scene_table(&assembly));
             }
-            let specimen = LoadedSpecimen::load(file, mesh)?;
+            let specimen = LoadedSpecimen::load(file, mesh)?.made_of(material, None)?;
             let value = described(&specimen)?;
             self.print_as(&value, || table(&specimen, &value, self.facets))
         })

@@ -32,12 +32,22 @@ pub struct Measure {
     view: ViewOptions,
     #[command(flatten)]
     light: LightOptions,
+    /// An option of `export`, which is known here so that the message can say so.
+    #[arg(long, hide = true)]
+    glare: bool,
     #[command(flatten)]
     mesh: MeshArguments,
 }
 
 impl Measure {
     pub fn run(&self) -> Result<(), Failure> {
+        if self.glare {
+            return Err(Failure::Usage(
+                "--glare is an option of `export`, whose pictures hold no glare without it; `measure` lists glare \
+                 beside the rest, unless --no-glare is given"
+                    .into(),
+            ));
+        }
         let scoped = self.scope.as_deref().map_or_else(|| Ok(Scoped::aset()), scoped)?;
         each_file(&self.files, |file| {
             let specimen = self.light.specimen(file, self.mesh.options())?;

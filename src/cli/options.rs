@@ -117,11 +117,8 @@ pub struct LightOptions {
     /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
     #[arg(long, value_name = "SIZE")]
     pub stone: Option<Size>,
-    /// Add glare, the light that the stone's outer surface reflects, to pictures: what a camera in the scope records, but
-    /// orange and pink where graders look for red
-    #[arg(long, conflicts_with = "no_glare")]
-    pub glare: bool,
-    /// Leave glare out of figures as well: pictures hold none unless --glare is given, and figures list it beside the rest
+    /// Leave glare, the light that the stone's outer surface reflects, out of figures, which otherwise list it beside the
+    /// rest
     #[arg(long)]
     pub no_glare: bool,
     /// Use this refractive index instead of the material's
@@ -177,7 +174,7 @@ impl LightOptions {
         LoadedSpecimen::load(file, mesh)?.made_of(self.material.as_deref(), self.stone)
     }
 
-    /// Returns how a specimen is seen and traced: its viewpoint, medium, observer, glare and tracer.
+    /// Returns how a specimen is seen and traced: its viewpoint, medium, observer and tracer, without glare in pictures.
     pub fn viewing<'a>(
         &self,
         specimen: &'a LoadedSpecimen,
@@ -197,11 +194,7 @@ impl LightOptions {
             unresolved: self.unresolved()?,
             standard_error: (!self.exact && self.unresolved.is_none()).then_some(STANDARD_ERROR),
             polarised: !self.unpolarised,
-            glare: match (self.glare, self.no_glare) {
-                (true, _) => Some(Glare::Included),
-                (_, true) => Some(Glare::LeftOut),
-                _ => None,
-            },
+            glare: self.no_glare.then_some(Glare::LeftOut),
             tracer: self.tracer,
         };
         Self::check(&viewing, specimen, renderer)?;

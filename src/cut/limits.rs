@@ -9,7 +9,8 @@ impl Cut {
     ///
     /// # Errors
     /// The first bound crossed, and by how much. Bounds that depend on other proportions come after fixed ones, and those
-    /// of derived numbers at last, so that they are computed from what is possible by itself.
+    /// of derived numbers at last, so that they are computed from what is possible by itself. Where a derived number
+    /// crosses its bound, the error names the given proportion that leads to it.
     pub fn check(&self) -> Result<(), ProportionError> {
         if let Some((row, value)) = self.given().find(|(_, value)| !value.is_finite()) {
             return Err(ProportionError::NotFinite { row, value });
@@ -17,10 +18,55 @@ impl Cut {
         self.given().try_for_each(|(row, value)| row.check_fixed(value))?;
         let all = self.proportions().iter().filter(|row| (row.is_given)(self));
         for row in all.filter(|row| row.least.is_some() || row.most.is_some()) {
-            row.check((row.get)(self), Some(self))?;
+            row.check((row.get)(self), Some(self)).map_err(|error| self.in_given_terms(row, error))?;
         }
         Ok(())
     }
+
+    /// Returns the error of a derived number as one of the given proportion that changes that number most, with the limit
+    /// of that proportion.
+    ///
+    /// The limit holds with the other proportions as they are, or, where they alone cross the bound, with usual ones.
+    fn in_given_terms(&self, derived: &'static Proportion, error: ProportionError) -> ProportionError {
+        let (Some(family), Some(limit), None) = (self.family(), error.limit(), derived.give) else {
+            return error;
+        };
+        let usual = |row: &Proportion| (row.get)(&family.first);
+        let with = |cut: &Self, row: &Proportion, value| {
+            let mut cut = cut.clone();
+            row.set(&mut cut, value);
+            cut
+        };
+        let keeps = |cut: &Self| derived.check((derived.get)(cut), Some(cut)).is_ok();
+        let share = |row: &Proportion| {
+            let eased = with(self, row, usual(row));
+            // Infinite numbers have no difference.
+            ((derived.get)(self) - (derived.get)(&eased)).abs().max(0.0)
+        };
+        let given = family.editable().filter(|row| (row.is_given)(self));
+        let Some(row) = given.max_by(|a, b| share(a).total_cmp(&share(b))) else { return error };
+        let others = if keeps(&with(self, row, usual(row))) { self } else { &family.first };
+        let value = (row.get)(self);
+        let at = farthest(usual(row), value, |value| keeps(&with(others, row, value)));
+        let limit = Limit { row, value, limit: at, inclusive: true, reason: limit.reason };
+        if value > at { ProportionError::TooLarge(limit) } else { ProportionError::TooSmall(limit) }
+    }
+}
+
+/// Returns the value on the way from a possible value to an impossible one that is the last possible one, with two decimals
+/// if those are enough to leave the possible value.
+fn farthest(possible: f64, impossible: f64, is_possible: impl Fn(f64) -> bool) -> f64 {
+    let (mut good, mut bad) = (possible, impossible);
+    loop {
+        let middle = good + (bad - good) / 2.0;
+        if middle == good || middle == bad {
+            break;
+        }
+        *(if is_possible(middle) { &mut good } else { &mut bad }) = middle;
+    }
+    let hundreds = 100.0 * good;
+    let short = if bad > good { hundreds.floor() } else { hundreds.ceil() } / 100.0;
+    if is_possible(short) { short } else { good }
 }
 
 impl Proportion {
@@ -109,12 +155,36 @@ mod tests {
             );
             assert_eq!(error.row().key, key);
         }
-        let deep =
-            [("crown_angle", 89.9, "12651."), ("pavilion_depth", 1e300, "1e300 % must be at most 300 %")];
-        for (key, value, expected) in deep {
-            let error = with(key, value).check().unwrap_err().to_string();
-            assert!(error.starts_with(&format!("total_depth: {expected}")), "{error} is not {expected}");
+    }
+
+    #[test]
+    fn a_stone_that_is_too_deep_is_the_fault_of_the_number_that_was_given() {
+        let depth = "beyond which the total depth is more than 300 %";
+        for (key, value, limit) in [
+            ("crown_angle", 89.9, "85.04°"),
+            ("crown_height", 1e9, "253.84 %"),
+            ("pavilion_angle", 85.0, "79.94°"),
+            ("pavilion_depth", 1e300, "281.87 %"),
+            ("girdle_thickness", 400.0, "241.72 %"),
+        ] {
+            let error = with(key, value).check().unwrap_err();
+            let text = error.to_string();
+            assert!(text.starts_with(&format!("{key}: ")), "{text}");
+            assert!(text.contains(&format!(" must be at most {limit}, {depth}")), "{text} is not {limit}");
+            // The limit that the message names makes a stone.
+            assert_eq!(with(key, error.limit().unwrap().limit).check(), Ok(()), "{key}");
         }
+    }
+
+    #[test]
+    fn where_crown_and_pavilion_are_both_too_deep_the_deeper_one_is_named_first() {
+        let mut both = with("crown_angle", 88.0);
+        (both.proportion("pavilion_angle").unwrap().give.unwrap())(&mut both, 89.0);
+        let error = both.check().unwrap_err();
+        assert_eq!(error.row().key, "pavilion_angle");
+        (both.proportion("pavilion_angle").unwrap().give.unwrap())(&mut both, error.limit().unwrap().limit);
+        let error = both.check().unwrap_err();
+        assert_eq!(error.row().key, "crown_angle");
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //! table, z = 0 at the crown-side girdle, girdle radius 1. Impossible numbers are errors that name their limit; unusual ones
 //! are warnings.
 
+mod beyond_gear;
 mod derive;
 mod design;
 mod facets;
@@ -30,6 +31,7 @@ mod size;
 mod tiers;
 mod warning;
 
+pub use beyond_gear::BeyondGear;
 pub use design::{DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFault};
 pub use families::FAMILIES;
 pub use family::{Bound, BoundAt, Family, ProfileHandle, Proportion, Unit};

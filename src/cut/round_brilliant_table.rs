@@ -205,7 +205,10 @@ pub static ROUND_BRILLIANT: Family = Family {
             name: "Total depth",
             meaning: "From table to culet.",
             // Up to there rounding stays below every tolerance.
-            most: Bound::at(Fixed(300.0), "beyond which it is a needle, not a brilliant"),
+            most: Bound::at(
+                Fixed(300.0),
+                "beyond which the total depth is more than 300 %, that of a needle and not of a brilliant",
+            ),
             excellent: Some([58.1, 63.6]),
             get: |cut| derived(cut, |d| d.total_depth),
             ..Proportion::BLANK

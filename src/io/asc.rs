@@ -11,9 +11,11 @@ use super::text::check_size;
 use crate::cut::{Indexed, MAX_PLANES, Tier, Tiers, is_printable};
 use crate::scene::Specimen;
 use encoding_rs::WINDOWS_1252;
+use number::Token;
 use std::borrow::Cow;
 use std::fmt::Write;
 
+mod number;
 #[cfg(test)]
 mod tests;
 
@@ -33,7 +35,7 @@ pub fn looks_like(bytes: &[u8]) -> bool {
     let first = lines.next().unwrap_or_default();
     let is_facet = |line: &str| {
         let mut tokens = line.split_ascii_whitespace();
-        tokens.next() == Some("a") && tokens.take(3).filter(|t| t.parse::<f64>().is_ok()).count() == 3
+        tokens.next() == Some("a") && tokens.take(3).filter(|t| Token::of(t).number().is_some()).count() == 3
     };
     first.get(..6).is_some_and(|word| word.eq_ignore_ascii_case("gemcad"))
         || is_facet(first)
@@ -50,7 +52,7 @@ pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
     let mut reader = Reader::default();
     for (number, line) in (1..).zip(lines(&decoded(bytes))) {
         reader.number = number;
-        reader.line(line);
+        reader.line(line)?;
         if reader.count > MAX_PLANES {
             let problem = format!("more than {MAX_PLANES} facets are listed; no stone has so many");
             return Err(Fault::line(number, problem));
@@ -88,11 +90,15 @@ struct Reader {
     headers: Vec<String>,
     footers: Vec<String>,
     tiers: Vec<Tier>,
+    /// The line where each tier begins.
+    tier_lines: Vec<usize>,
     /// Whether the line before was part of a tier, so that this line may continue it.
     in_tier: bool,
     /// A name that was read before the index that it belongs to.
     name: Option<String>,
     count: usize,
+    /// The first number with a decimal comma, the line where it stands, and how many there are.
+    commas: Option<(String, usize, usize)>,
     warnings: WarningList,
 }
 
@@ -107,14 +113,34 @@ impl Reader {
         format!("line {}: ", self.number)
     }
 
-    fn line(&mut self, line: &str) {
+    fn fault(&self, problem: String) -> Fault {
+        Fault::line(self.number, problem)
+    }
+
+    /// Reads a number, also with a decimal comma; `None` where the text is no number.
+    fn number(&mut self, text: &str) -> Result<Option<f64>, Fault> {
+        match Token::of(text) {
+            Token::Number(number) => Ok(Some(number)),
+            Token::WithComma(number) => {
+                self.commas.get_or_insert_with(|| (text.to_owned(), self.number, 0)).2 += 1;
+                Ok(Some(number))
+            }
+            Token::Broken => Err(self.fault(format!(
+                "'{}' is not a number; write a decimal point, and blanks between numbers",
+                short(text)
+            ))),
+            Token::Word => Ok(None),
+        }
+    }
+
+    fn line(&mut self, line: &str) -> Result<(), Fault> {
         let trimmed = line.trim_ascii();
         let (first, _) = word(trimmed);
         if first.is_empty() {
-            return;
+            return Ok(());
         }
         let goes_on =
-            first.parse::<f64>().is_ok() || (line.starts_with([' ', '\t']) && matches!(first, "n" | "G"));
+            Token::of(first).is_numeric() || (line.starts_with([' ', '\t']) && matches!(first, "n" | "G"));
         if goes_on && (self.in_tier || self.tiers.is_empty()) {
             return self.go_on(trimmed);
         }
@@ -123,38 +149,41 @@ impl Reader {
         match letter {
             "H" | "h" => self.headers.push(text_after(line)),
             "F" | "f" => self.footers.push(text_after(line)),
-            "g" => self.gear(rest),
+            "g" => self.gear(rest)?,
             "y" => self.symmetry(rest),
-            "I" | "i" => self.index_of_refraction(rest),
-            "a" => self.tier(rest),
+            "I" | "i" => self.index_of_refraction(rest)?,
+            "a" => self.tier(rest)?,
             _ if first.get(..6).is_some_and(|word| word.eq_ignore_ascii_case("gemcad")) => {}
             _ => self.warn(&format!("'{}' is not a known record and is left out", short(trimmed))),
         }
+        Ok(())
     }
 
     /// Reads a line without a record's letter: the continuation of a tier, or a gear whose letter was left out.
-    fn go_on(&mut self, line: &str) {
+    fn go_on(&mut self, line: &str) -> Result<(), Fault> {
         if self.in_tier {
-            self.facets(line);
-        } else if self.gear.is_none() {
-            self.gear(line);
-        } else {
-            self.warn(&format!("'{}' belongs to no tier and is left out", short(line)));
+            return self.facets(line);
         }
+        if self.gear.is_none() {
+            return self.gear(line);
+        }
+        self.warn(&format!("'{}' belongs to no tier and is left out", short(line)));
+        Ok(())
     }
 
-    fn gear(&mut self, rest: &str) {
+    fn gear(&mut self, rest: &str) -> Result<(), Fault> {
         let mut tokens = rest.split_ascii_whitespace();
-        let teeth =
-            tokens.next().and_then(|token| token.parse::<f64>().ok()).filter(|teeth| teeth.fract() == 0.0);
+        let teeth = self.number(tokens.next().unwrap_or_default())?.filter(|teeth| teeth.fract() == 0.0);
         let Some(teeth) = teeth else {
-            return self.warn(&format!("'{}' is not a gear; a number of teeth is expected", short(rest)));
+            self.warn(&format!("'{}' is not a gear; a number of teeth is expected", short(rest)));
+            return Ok(());
         };
-        let offset = tokens.next().map_or(Ok(0.0), str::parse).unwrap_or_else(|_| {
+        let offset = self.number(tokens.next().unwrap_or("0"))?.unwrap_or_else(|| {
             self.warn("the gear's offset is not a number and is read as 0");
             0.0
         });
         self.gear = Some(Gear::given(teeth as i32, offset, &self.place(), &mut self.warnings));
+        Ok(())
     }
 
     fn symmetry(&mut self, rest: &str) {
@@ -168,44 +197,53 @@ impl Reader {
         self.mirror = tokens.next().is_some_and(|word| word.starts_with(['y', 'Y']));
     }
 
-    fn index_of_refraction(&mut self, rest: &str) {
-        match rest.split_ascii_whitespace().next().map(str::parse) {
-            Some(Ok(ri)) => self.ri = Some(ri),
-            _ => self.warn(&format!("'{}' is not an index of refraction; a number is expected", short(rest))),
+    fn index_of_refraction(&mut self, rest: &str) -> Result<(), Fault> {
+        match self.number(word(rest).0)? {
+            Some(ri) => self.ri = Some(ri),
+            None => {
+                self.warn(&format!("'{}' is not an index of refraction; a number is expected", short(rest)));
+            }
         }
+        Ok(())
     }
 
-    fn tier(&mut self, rest: &str) {
+    fn tier(&mut self, rest: &str) -> Result<(), Fault> {
         let (angle, after) = word(rest);
         let (distance, after) = word(after);
-        let (Ok(angle), Ok(distance)) = (angle.parse::<f64>(), distance.parse::<f64>()) else {
-            return self.warn(&format!("'a {}' has no angle and distance, and is left out", short(rest)));
+        let (Some(angle), Some(distance)) = (self.number(angle)?, self.number(distance)?) else {
+            self.warn(&format!("'a {}' has no angle and distance, and is left out", short(rest)));
+            return Ok(());
         };
         if !(angle.is_finite() && distance.is_finite()) {
-            return self
-                .warn(&format!("'a {}' has an infinite angle or distance, and is left out", short(rest)));
+            self.warn(&format!("'a {}' has an infinite angle or distance, and is left out", short(rest)));
+            return Ok(());
         }
+        self.tier_lines.push(self.number);
         self.tiers.push(Tier { angle, distance, instructions: String::new(), is_cut: true, facets: vec![] });
         (self.in_tier, self.name) = (true, None);
-        self.facets(after);
+        self.facets(after)
     }
 
     /// Reads indices, names and instructions of the open tier.
-    fn facets(&mut self, line: &str) {
+    fn facets(&mut self, line: &str) -> Result<(), Fault> {
         let mut rest = line.trim_ascii_start();
         while !rest.is_empty() {
             let (token, after) = word(rest);
             rest = after.trim_ascii_start();
             match token {
-                "G" => return self.instructions(after),
+                "G" => {
+                    self.instructions(after);
+                    break;
+                }
                 "n" => {
                     let (name, after) = word(rest);
                     rest = after.trim_ascii_start();
                     self.named(name);
                 }
-                _ => self.index(token),
+                _ => self.index(token)?,
             }
         }
+        Ok(())
     }
 
     fn instructions(&mut self, text: &str) {
@@ -233,15 +271,23 @@ impl Reader {
         }
     }
 
-    fn index(&mut self, token: &str) {
-        let Some(tier) = self.tiers.last_mut() else { return };
-        match token.parse::<f64>() {
-            Ok(index) if index.is_finite() => {
+    fn index(&mut self, token: &str) -> Result<(), Fault> {
+        let Some(tier) = self.tiers.last_mut() else { return Ok(()) };
+        match Token::of(token) {
+            Token::Number(index) if index.is_finite() => {
                 tier.facets.push(Indexed { index, name: self.name.take().unwrap_or_default() });
                 self.count += 1;
             }
+            // A stone with one facet between two teeth is another than one with two facets.
+            Token::WithComma(_) | Token::Broken => {
+                return Err(self.fault(format!(
+                    "'{}' may be one index or several; write a decimal point, and blanks between indices",
+                    short(token)
+                )));
+            }
             _ => self.warn(&format!("'{}' is not an index of a facet, and is left out", short(token))),
         }
+        Ok(())
     }
 
     /// Ends the open tier. A tier without indices cuts nothing and is dropped, except for a table, whose index means
@@ -254,14 +300,28 @@ impl Reader {
             self.count += 1;
         } else {
             self.tiers.pop();
+            self.tier_lines.pop();
             self.warn("the tier before has no indices, and is left out");
         }
+    }
+
+    fn warn_of_commas(&mut self) {
+        let Some((first, line, count)) = self.commas.take() else { return };
+        let number = first.replace(',', ".");
+        let others = match count - 1 {
+            0 => String::new(),
+            others => format!(", and so are {others} more numbers"),
+        };
+        self.warnings.warn(|| {
+            format!("line {line}: '{first}' has a decimal comma and is read as {number}{others}; write decimal points")
+        });
     }
 
     fn brought(mut self, label: &str) -> Result<ImportedDesign, Fault> {
         let mut missing = |what: bool, text: &str| what.then(|| self.warnings.warn(|| text.to_owned()));
         missing(self.gear.is_none(), "the file names no index gear; one of 96 teeth is assumed");
         missing(self.ri.is_none(), "the file names no index of refraction; 1.54 is assumed");
+        self.warn_of_commas();
         let name = cutters::title(&self.headers, label);
         let material = cutters::material(self.ri.unwrap_or(USUAL_INDEX), "", &mut self.warnings);
         let tiers = Tiers {
@@ -272,6 +332,10 @@ impl Reader {
             tiers: self.tiers,
             ..self.gear.unwrap_or_default().tiers()
         };
+        for beyond in tiers.beyond_gear() {
+            let line = self.tier_lines[beyond.tier - 1];
+            self.warnings.warn(|| format!("line {line}: {beyond}"));
+        }
         cutters::brought(name, material, tiers, self.warnings)
     }
 }

@@ -10,8 +10,8 @@ use std::path::Path;
 use super::file_error::{Fault, FileError};
 use super::text;
 use super::toml_format::check_format;
-use super::toml_text::TomlText;
-use crate::cut::{Design, FAMILIES};
+use super::toml_text::{KeyLines, TomlText};
+use crate::cut::{Cut, Design, FAMILIES};
 use family_form::FamilyForm;
 use form::DesignForm;
 
@@ -32,14 +32,14 @@ pub const MAX_BYTES: u64 = 4 << 20;
 /// The size of the largest file with a mesh that is read, in bytes: some millions of triangles.
 pub const MAX_MESH_BYTES: u64 = 256 << 20;
 
-/// Reads a cut file.
+/// Reads a cut file, without its warnings; `design_file::read` reads it with them.
 ///
 /// # Errors
 /// When the file cannot be read or is no cut file; the error names path, line and key.
 pub fn read(path: impl AsRef<Path>) -> Result<Design, FileError> {
     let path = path.as_ref();
-    let design = text::read(path, MAX_MESH_BYTES).and_then(|text| design(&text));
-    design.map_err(|fault| fault.in_file(path.display()))
+    let read = text::read(path, MAX_MESH_BYTES).and_then(|text| design(&text));
+    read.map(|(design, _)| design).map_err(|fault| fault.in_file(path.display()))
 }
 
 /// Reads a design from the text of a cut file; `label` stands for its path in errors.
@@ -47,7 +47,7 @@ pub fn read(path: impl AsRef<Path>) -> Result<Design, FileError> {
 /// # Errors
 /// When the text is no cut file; the error names label, line and key.
 pub fn parse(text: &str, label: &str) -> Result<Design, FileError> {
-    design(text).map_err(|fault| fault.in_file(label))
+    design(text).map(|(design, _)| design).map_err(|fault| fault.in_file(label))
 }
 
 /// Returns the text of a cut file that reads back as the same design.
@@ -61,14 +61,29 @@ pub fn write(design: &Design) -> String {
     text
 }
 
-/// Reads a design from the text of a cut file that is not named yet.
-pub(super) fn design(text: &str) -> Result<Design, Fault> {
+/// Reads a design, and warnings about it with their lines, from the text of a cut file that is not named yet.
+pub(super) fn design(text: &str) -> Result<(Design, Vec<String>), Fault> {
     let most = if holds_mesh(text) { MAX_MESH_BYTES } else { MAX_BYTES };
     text::check_size(text.len(), most)?;
     let toml = TomlText::parse(text)?;
     check_format(&toml)?;
     let families = FAMILIES.map(|family| family.key);
-    toml.read_beside(&families, FamilyForm::take_all, |form: DesignForm, families| form.design(&families))
+    let (design, lines) =
+        toml.read_beside(&families, FamilyForm::take_all, |form: DesignForm, families| {
+            form.design(&families)
+        })?;
+    let warnings = odd_indices(&design, &lines);
+    Ok((design, warnings))
+}
+
+/// Returns a warning for each tier with indices that its gear does not have.
+fn odd_indices(design: &Design, lines: &KeyLines<'_>) -> Vec<String> {
+    let Cut::Tiers(tiers) = &design.cut else { return vec![] };
+    let place = |tier: usize| match lines.of(&format!("tier/{}/indices", tier - 1)) {
+        Some(line) => format!("line {line}: "),
+        None => String::new(),
+    };
+    tiers.beyond_gear().map(|beyond| place(beyond.tier) + &beyond.to_string()).collect()
 }
 
 /// Returns whether the text has a table `[mesh]`, as far as its beginning shows.

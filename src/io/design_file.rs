@@ -2,13 +2,14 @@
 //! ending of its name.
 
 use super::cut_file;
+use super::cutters::WarningList;
 use super::file_error::{Fault, FileError};
 use super::mesh::{self, FINENESS, MaterialHint, Stated, stated_in_stl};
 use super::mesh_options::MeshOptions;
 use super::{Failure, asc, gcs, gem, write as write_whole};
 use super::{WriteError, text};
 use super::{write_glb, write_obj, write_ply, write_stl};
-use crate::cut::MaterialRef;
+use crate::cut::{Design, MaterialRef};
 use crate::scene::{Body, Specimen};
 use std::path::Path;
 
@@ -116,15 +117,19 @@ pub fn read_with(path: &Path, options: MeshOptions) -> Result<ImportedDesign, Fi
         DesignFormat::Obj | DesignFormat::Stl | DesignFormat::Ply | DesignFormat::Glb => {
             return mesh::read(bytes, path, options);
         }
-        DesignFormat::Toml => {
-            text::utf8(bytes).and_then(|text| cut_file::design(&text)).map(ImportedDesign::of)
-        }
+        DesignFormat::Toml => text::utf8(bytes).and_then(|text| cut_file::design(&text)).map(with_warnings),
     }
     .map_err(named)?;
     if options != MeshOptions::default() {
         brought.notes.push("--up and --as are for meshes and have no effect on this design".to_owned());
     }
     Ok(brought)
+}
+
+fn with_warnings((design, warnings): (Design, Vec<String>)) -> ImportedDesign {
+    let mut list = WarningList::default();
+    warnings.into_iter().for_each(|text| list.warn(|| text));
+    ImportedDesign { warnings: list.texts(), ..ImportedDesign::of(design) }
 }
 
 /// Encodes a stone's design as a file.

@@ -23,7 +23,7 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 /// The least side of a picture with a caption, in pixels.
-pub const LEAST_CAPTIONED: u32 = 192;
+pub const LEAST_CAPTIONED: u32 = 96;
 
 /// How many files a message names where there are too many.
 const MOST_NAMED: usize = 3;

@@ -105,26 +105,43 @@ impl<'t> TomlText<'t> {
 
     /// Reads the form of the text, and makes of it what the file says. A fault of the making gets the line of its key.
     pub fn read<T: Deserialize<'t>, U>(self, make: impl FnOnce(T) -> Result<U, Fault>) -> Result<U, Fault> {
-        self.read_beside(&[], |_| Ok(()), |form, ()| make(form))
+        self.read_beside(&[], |_| Ok(()), |form, ()| make(form)).map(|(made, _)| made)
     }
 
-    /// Reads the form of a text that may have further keys at its top, which `take` takes out and reads first, and makes of
-    /// both what the file says.
+    /// Reads the form of a text that may have further keys at its top, which `take` takes out and reads first. Returns what
+    /// `make` makes of both, and the lines of the keys.
     pub fn read_beside<T: Deserialize<'t>, B, U>(
         self,
         further: &[&str],
         take: impl FnOnce(&mut DeTable<'t>) -> Result<B, Error>,
         make: impl FnOnce(T, B) -> Result<U, Fault>,
-    ) -> Result<U, Fault> {
+    ) -> Result<(U, KeyLines<'t>), Fault> {
         let Self { text, mut table } = self;
-        let spans = spans(table.get_ref());
+        let lines = KeyLines { text, spans: spans(table.get_ref()) };
         let beside = take(table.get_mut()).map_err(|error| misshapen(text, error, &[]))?;
         let form = T::deserialize(Deserializer::from(table));
         let form = form.map_err(|error| misshapen(text, error, further))?;
-        make(form, beside).map_err(|fault| {
-            let start = || start(&spans, fault.key.as_deref()?);
-            Fault { line: fault.line.or_else(|| Some(line_at(text, start()?))), ..fault }
-        })
+        match make(form, beside) {
+            Ok(made) => Ok((made, lines)),
+            Err(fault) => {
+                let line = fault.line.or_else(|| lines.of(fault.key.as_deref()?));
+                Err(Fault { line, ..fault })
+            }
+        }
+    }
+}
+
+/// The lines of the keys of a text.
+pub(super) struct KeyLines<'t> {
+    text: &'t str,
+    spans: DeTable<'t>,
+}
+
+impl KeyLines<'_> {
+    /// Returns the line, from 1, of the value at a path such as `tier/0/indices`, or of the nearest value that encloses it;
+    /// `None` if that is the whole text.
+    pub fn of(&self, path: &str) -> Option<usize> {
+        Some(line_at(self.text, start(&self.spans, path)?))
     }
 }
 

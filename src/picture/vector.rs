@@ -1,13 +1,14 @@
-//! Pictures as drawings: the virtual facets themselves, as polygons of an SVG.
+//! Pictures as drawings: the virtual facets themselves, as polygons of an SVG. Only one domain of a picture's symmetry is
+//! written out; its copies refer to it, and say which facet each facet of a path is in them.
 
 use super::drawing::{hex, page};
 use crate::math::{Basis, Plane};
 use crate::optics::{LinearRgb, encoded_from_linear};
 use crate::scene::{Film, Glare, Scope, Stone, elevation_deg};
 use crate::trace::beam::Beams;
-use glam::{DMat2, DVec2, DVec3};
-use svg::node::element::{Description, Group, Polygon, Rectangle, Title};
-use svg::{Document, Node};
+use glam::{DAffine2, DMat2, DVec2, DVec3};
+use svg::Document;
+use svg::node::element::{Definitions, Description, Group, Polygon, Rectangle, Title, Use};
 
 /// Side of the drawing, in its own units; coordinates have four decimals.
 pub const SIDE: u32 = 1000;
@@ -15,31 +16,32 @@ pub const SIDE: u32 = 1000;
 /// Area, in square units of the drawing, below which polygons are left out, as rounding would lose them.
 const SPECK: f64 = 1e-5;
 
-/// Draws the map of strongest exits as polygons that do not overlap. Each has the path of its light (`data-path`), and
-/// the elevation and weight of its exit.
+/// Draws the map of strongest exits as polygons that do not overlap, in all copies together. Each has the path of its light
+/// (`data-path`), and the elevation and weight of its exit.
 pub fn strongest(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Document {
     let page = Page::new(stone, beams);
-    let mut groups: Vec<Group> = scope.bands.iter().map(|b| band_group(&b.name, &hex(b.colour))).collect();
-    let mut dark = band_group("unresolved", "#000000");
+    // The last list holds the cells that no light has left yet.
+    let mut polygons: Vec<Vec<Polygon>> = vec![vec![]; scope.bands.len() + 1];
     let cells = beams.strongest_exits();
     for cell in &cells {
+        let Some(polygon) = page.polygon(beams.get(cell.outline).outline) else { continue };
         let Some(exit) = cell.strongest.map(|id| beams.get(id)) else {
-            let polygons = page.polygons(beams.get(cell.outline).outline);
-            polygons.into_iter().for_each(|(_, polygon)| dark.append(polygon));
+            polygons[scope.bands.len()].push(polygon);
             continue;
         };
-        let band = scope.band(exit.exit, beams.zenith);
         let elevation = elevation_deg(exit.exit, beams.zenith);
-        let met = beams.facets(exit.id);
-        for (copy, polygon) in page.polygons(beams.get(cell.outline).outline) {
-            let polygon = polygon
-                .set("data-path", page.names(&met, copy))
-                .set("data-elevation", format!("{elevation:.3}"))
-                .set("data-weight", format!("{:.4}", exit.weight));
-            groups[band].append(polygon);
-        }
+        let polygon = polygon
+            .set("data-path", page.names(&beams.facets(exit.id)))
+            .set("data-elevation", format!("{elevation:.3}"))
+            .set("data-weight", format!("{:.4}", exit.weight));
+        polygons[scope.band(exit.exit, beams.zenith)].push(polygon);
     }
-    groups.push(dark);
+    let bands = scope.bands.iter().map(|band| (band.name.as_str(), hex(band.colour)));
+    let bands = bands.chain([("unresolved", "#000000".to_owned())]).zip(polygons);
+    let groups = bands.map(|((name, colour), polygons)| {
+        page.group(name, polygons).set("fill", colour.as_str()).set("stroke", colour)
+    });
+    let groups: Vec<Group> = groups.collect();
     let open = format!("strongest exit undecided in {:.2e} of the area", beams.undecided(&cells));
     page.document(title, &open, beams, (&hex(scope.bands[0].colour), groups))
 }
@@ -56,58 +58,80 @@ pub fn energy(stone: &Stone, beams: &Beams, (scope, glare): (&Scope, Glare), tit
         let own = if is_shown { colours[scope.band(beam.exit, beams.zenith)] } else { LinearRgb::ZERO };
         seen.push(above + own * beam.weight);
     }
-    let mut group = Group::new().set("class", "energy");
-    for id in beams.leaves() {
+    let coloured = |id: u32| {
         let encoded = seen[id as usize].to_array().map(|c| (encoded_from_linear(c) * 255.0).round() as u8);
-        let colour = hex(encoded);
-        let met = beams.facets(id);
-        for (copy, polygon) in page.polygons(beams.get(id).outline) {
-            let path = page.names(&met, copy);
-            let colour = colour.as_str();
-            group.append(polygon.set("data-path", path).set("fill", colour).set("stroke", colour));
-        }
-    }
+        let (colour, path) = (hex(encoded), page.names(&beams.facets(id)));
+        let polygon = page.polygon(beams.get(id).outline)?;
+        Some(polygon.set("data-path", path).set("fill", colour.as_str()).set("stroke", colour))
+    };
+    let group = page.group("energy", beams.leaves().filter_map(coloured).collect());
     let open = format!("unresolved light {:.2e} of the whole", beams.unresolved());
-    let groups = vec![group.set("stroke-width", SEAM)];
-    page.document(title, &open, beams, (&hex(scope.bands[0].colour), groups))
+    page.document(title, &open, beams, (&hex(scope.bands[0].colour), vec![group]))
 }
 
 /// Width of a line in each polygon's own colour. It closes the hairlines that viewers leave between polygons that touch.
 const SEAM: f64 = 0.8;
 
-fn band_group(name: &str, colour: &str) -> Group {
-    Group::new().set("class", name).set("fill", colour).set("stroke", colour).set("stroke-width", SEAM)
-}
-
 /// A drawing's frame, and the copies of the symmetry that make up the whole drawing.
 struct Page<'a> {
     stone: &'a Stone,
     film: Film,
-    copies: Vec<DMat2>,
-    /// For each copy, the facet that each facet is mapped to.
+    /// The maps of the drawing that carry the first copy to each of the others.
+    copies: Vec<DAffine2>,
+    /// For each of these, the facet that each facet is mapped to.
     carried: Vec<Vec<u32>>,
 }
 
 impl<'a> Page<'a> {
     fn new(stone: &'a Stone, beams: &Beams) -> Self {
-        let copies = beams.symmetry.copies();
+        let film = Film::around(&stone.polytope, &beams.view, SIDE);
         let planes: Vec<Plane> = stone.polytope.planes().collect();
-        let carried = copies.iter().map(|&c| carried(&planes, &beams.view, c)).collect();
-        Self { stone, film: Film::around(&stone.polytope, &beams.view, SIDE), copies, carried }
+        let others: Vec<DMat2> = beams.symmetry.copies().into_iter().skip(1).collect();
+        let first = film.pixels_from_image(DMat2::IDENTITY).inverse();
+        let copies = others.iter().map(|&copy| film.pixels_from_image(copy) * first).collect();
+        let carried = others.iter().map(|&copy| carried(&planes, &beams.view, copy)).collect();
+        Self { stone, film, copies, carried }
     }
 
-    /// Returns an outline in every copy, in the drawing's units.
-    fn polygons(&self, outline: &[DVec2]) -> Vec<(usize, Polygon)> {
-        let map = |copy| self.film.pixels_from_image(copy);
-        let points = |copy| outline.iter().map(|&p| map(copy).transform_point2(p)).collect::<Vec<_>>();
-        let drawn = self.copies.iter().map(|&c| points(c)).enumerate();
-        let large = drawn.filter(|(_, p)| crate::math::area(p).abs() > SPECK);
-        large.map(|(k, p)| (k, Polygon::new().set("points", listed(&p)))).collect()
+    /// Returns an outline of the first copy in the drawing's units; `None` for a speck.
+    fn polygon(&self, outline: &[DVec2]) -> Option<Polygon> {
+        let map = self.film.pixels_from_image(DMat2::IDENTITY);
+        let points: Vec<DVec2> = outline.iter().map(|&p| map.transform_point2(p)).collect();
+        let is_large = crate::math::area(&points).abs() > SPECK;
+        is_large.then(|| Polygon::new().set("points", listed(&points)))
     }
 
-    fn names(&self, facets: &[u32], copy: usize) -> String {
-        let name = |&f: &u32| self.stone.name(self.carried[copy][f as usize]);
-        facets.iter().map(name).collect::<Vec<_>>().join(", ")
+    /// Returns a group of this class with polygons of the first copy, and with the other copies of them.
+    fn group(&self, class: &str, polygons: Vec<Polygon>) -> Group {
+        let group =
+            Group::new().set("class", class).set("stroke-width", SEAM).set("stroke-linejoin", "round");
+        if self.copies.is_empty() || polygons.is_empty() {
+            return polygons.into_iter().fold(group, Group::add);
+        }
+        let first = polygons.into_iter().fold(Group::new().set("id", class), Group::add);
+        let numbered = (2..).zip(&self.copies);
+        let copies = numbered.map(|(number, copy)| {
+            // Older programs know references by this name alone.
+            let copied = Use::new().set("xlink:href", format!("#{class}")).set("data-copy", number);
+            copied.set("transform", matrix(copy))
+        });
+        copies.fold(group.add(first), Group::add)
+    }
+
+    /// Returns the names of facets in the first copy.
+    fn names(&self, facets: &[u32]) -> String {
+        facets.iter().map(|&facet| self.stone.name(facet)).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Returns the facets' names in every copy, in one order: for each copy a group without a picture.
+    fn copies(&self) -> Definitions {
+        let all: Vec<u32> = (0..self.stone.polytope.facets().len() as u32).collect();
+        let lists = std::iter::once(&all).chain(&self.carried);
+        let groups = (1..).zip(lists).map(|(number, list)| {
+            let group = Group::new().set("class", "copy").set("data-copy", number);
+            group.set("data-facets", self.names(list))
+        });
+        groups.fold(Definitions::new(), Definitions::add)
     }
 
     fn document(
@@ -124,8 +148,19 @@ impl<'a> Page<'a> {
             .add(Title::new(title))
             .add(Description::new().add(svg::node::Text::new(description)))
             .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", backing));
-        groups.into_iter().fold(frame, |document, group| document.add(group.set("stroke-linejoin", "round")))
+        let frame = match self.copies.is_empty() {
+            true => frame,
+            false => frame.set("xmlns:xlink", "http://www.w3.org/1999/xlink").add(self.copies()),
+        };
+        groups.into_iter().fold(frame, Document::add)
     }
+}
+
+/// Writes a map as the value of an SVG's `transform`.
+fn matrix(map: &DAffine2) -> String {
+    // The sum with 0 turns -0 into 0.
+    let numbers = map.to_cols_array().map(|number| ((number * 1e12).round() / 1e12 + 0.0).to_string());
+    format!("matrix({})", numbers.join(" "))
 }
 
 fn listed(points: &[DVec2]) -> String {

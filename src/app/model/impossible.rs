@@ -33,9 +33,7 @@ pub fn explain(given: &Cut, last: &Cut, edited: Option<&str>, fault: &Proportion
     }
     // No row alone, when set back, makes a stone.
     let text = format!("{} More than one proportion is outside its limits.", message(fault));
-    let own = Some(fault.row()).filter(|row| row.give.is_some());
-    let row = edited.or(own).or(given.proportions().first()).unwrap_or(fault.row());
-    RowMessage { row, text }
+    RowMessage { row: edited.unwrap_or(fault.row()), text }
 }
 
 /// Whether the proportions make a stone once one of them is set to `value`.
@@ -109,7 +107,10 @@ mod tests {
         assert_eq!(said.row.key, "crown_angle");
         assert!(said.text.starts_with("Crown angle: 89° is impossible."), "{}", said.text);
         assert!(
-            said.text.contains("it can be at most 84.") && said.text.contains("Total depth would be 1392.4")
+            said.text.contains("it can be at most 84.")
+                && said.text.contains("The limit is 84.71°, beyond which the total depth is more than 300 %"),
+            "{}",
+            said.text
         );
         // The same stone, but with the height as the row that was edited.
         let said = text(&given, "crown_height");
@@ -165,11 +166,10 @@ mod tests {
         culet.set(&mut given, 120.0);
         let said = text(&given, "culet");
         assert!(said.row.key == "culet" && said.text.contains("More than one"), "{}", said.text);
-        // What only follows from others has no row that could show a message.
+        // Of two that are too steep, the one that makes the stone deepest.
         let mut deep = with(brilliant(), "crown_angle", 89.0);
         brilliant().proportion("pavilion_angle").unwrap().set(&mut deep, 89.0);
         let fault = deep.check().unwrap_err();
-        assert_eq!(fault.row().key, "total_depth");
-        assert_eq!(explain(&deep, &brilliant().first, None, &fault).row.key, "table");
+        assert_eq!(explain(&deep, &brilliant().first, None, &fault).row.key, "pavilion_angle");
     }
 }

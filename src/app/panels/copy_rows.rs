@@ -98,8 +98,8 @@ fn copies(before: usize, actions: &mut Actions, ui: &mut Ui) {
 
 fn smoothing(before: Smoothing, actions: &mut Actions, ui: &mut Ui) {
     let mut smoothing = before;
-    let meaning = "How the edges of renders are smoothed: not at all, in each picture (FXAA), or over time while \
-        anything moves (temporal). A still picture is smoothed by its many samples of each pixel.";
+    let meaning = "How the edges of renders are smoothed while anything moves: not at all, in each picture (FXAA), or \
+        over time (temporal). A still picture is smoothed by its many samples of each pixel.";
     let newest = match before {
         Smoothing::Temporal { newest } => newest,
         _ => FIRST_NEWEST,

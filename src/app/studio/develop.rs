@@ -20,7 +20,7 @@ pub(super) fn manner(shot: &Shot, fine: bool) -> Develop {
     Develop { exposure: shot.exposure, bloom, background, ..Develop::default() }
 }
 
-/// Develops the picture of a shot from its light; `fine` where there is time for glow. `unresolved` is the share of the
+/// Develops the picture of a shot from its light; `fine` where it is more than a rough one. `unresolved` is the share of the
 /// light that was not followed to its end.
 pub(super) fn developed(
     shot: &Shot,
@@ -29,7 +29,8 @@ pub(super) fn developed(
     watch: Watch,
 ) -> Result<TakenPicture, Stopped> {
     let mut rgba = develop(picture, &manner(shot, fine));
-    if shot.smoothing == Smoothing::Fxaa {
+    // A refined picture has smooth edges, which FXAA would only blur.
+    if shot.smoothing == Smoothing::Fxaa && !fine {
         fxaa(&mut rgba, picture.width);
     }
     let size = [picture.width, picture.height];

@@ -28,7 +28,7 @@ pub type Slot = (usize, Which);
 pub enum Smoothing {
     #[default]
     None,
-    /// FXAA in the finished picture.
+    /// FXAA in each rough picture.
     Fxaa,
     /// Temporal antialiasing while anything moves: earlier pictures are moved along with the bodies and blended in.
     Temporal {

@@ -145,7 +145,7 @@ mod tests {
     use crate::app::studio::jobs::BEHIND;
     use crate::app::studio::order::{Paper, Smoothing, Which};
     use crate::io::lighting::Lighting;
-    use crate::picture::{Background, Bloom, Develop, develop};
+    use crate::picture::{Background, Bloom, Develop, develop, fxaa};
     use crate::render::{Quality, Steps};
     use crate::scene::{Glare, Pose, Projection, View};
     use crate::trace::gpu::Gpu;
@@ -295,6 +295,31 @@ mod tests {
             let is_light = matches!(shows, Shows::Render | Shows::Refraction);
             assert_eq!([shot.has_light_of(&strongest), shot.has_light_of(&head)], [is_light; 2], "{shows:?}");
         }
+    }
+
+    #[test]
+    fn fxaa_smooths_rough_renders_and_leaves_refined_ones_as_they_are() {
+        let plain = shot(Shows::Render, None);
+        let smooth = Shot { smoothing: Smoothing::Fxaa, ..plain.clone() };
+        let mut camera = ShotTracer::default();
+        let mut image = |shot: &Shot, refinement| taken(&mut camera, shot, 4, refinement).image;
+        assert_ne!(image(&plain, None), image(&smooth, None), "a rough picture");
+        let refinement = Some(Refinement { samples: 4, after: 0, unresolved: 2e-3 });
+        let refined = image(&plain, refinement);
+        assert_eq!(refined, image(&smooth, refinement), "a refined picture");
+        let codes: Vec<u8> = refined.pixels.iter().flat_map(|p| p.to_srgba_unmultiplied()).collect();
+        let mut blurred = codes.clone();
+        fxaa(&mut blurred, refined.size[0] as u32);
+        assert_ne!(codes, blurred, "FXAA would change it");
+        // Light that is developed again is that of a refined picture.
+        let slot = (0, Which::Present);
+        let brighter = Shot { exposure: 1.0, ..smooth };
+        let again = camera.develop_again(slot, &brighter, &unwatched);
+        let light = camera.kept.get(&slot).map(|(_, light)| light);
+        let (Some(Ok(again)), Some(TracedLight::Render { picture, .. })) = (again, light) else { panic!() };
+        let unsmoothed = Shot { smoothing: Smoothing::None, ..brighter };
+        let expected = developed(&unsmoothed, (picture, true), (0.0, ""), &unwatched).unwrap();
+        assert_eq!(again.image, expected.image, "developed again");
     }
 
     #[test]

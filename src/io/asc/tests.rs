@@ -143,6 +143,69 @@ fn what_is_odd_is_told_with_its_line_and_the_stone_opens() {
 }
 
 #[test]
+fn an_index_beyond_the_gear_is_told_with_line_and_tier_and_the_number_of_teeth_is_none() {
+    let beyond = STONE.replace("0.8 n C1 96 24 48 72", "0.8 n C1 100 24 48 72");
+    assert_eq!(
+        tiers(&beyond).1,
+        [
+            "line 12: tier 3 'C1': index 100 is beyond the gear of 96 teeth and is taken as 4; check the gear and the tier"
+        ]
+    );
+    // The gear may follow its tiers, and a tier that is left out does not count.
+    let late = STONE.replace("g 96 0.0\r\n", "").replace("a 35.5", "a 12 1\r\na 35.5") + "g 64 0\r\n";
+    assert_eq!(
+        tiers(&late).1,
+        [
+            "line 12: the tier before has no indices, and is left out",
+            "line 7: tier 1 'G1': indices 96, 72 are beyond the gear of 64 teeth and are taken as 32, 8; check the \
+             gear and the tier",
+            "line 8: tier 2 'P1': indices 96, 72 are beyond the gear of 64 teeth and are taken as 32, 8; check the \
+             gear and the tier",
+            "line 12: tier 3 'C1': indices 96, 72 are beyond the gear of 64 teeth and are taken as 32, 8; check the \
+             gear and the tier",
+        ]
+    );
+}
+
+#[test]
+fn decimal_commas_make_the_same_stone_with_one_warning_for_all_of_them() {
+    let commas = STONE
+        .replace("g 96 0.0", "g 96 0,0")
+        .replace("I 1.76", "I 1,76")
+        .replace("a -45.0 0.9", "a -45,0 0,9")
+        .replace("a 35.5 0.8", "a 35,5 0.8");
+    assert!(looks_like(commas.replace("GemCad 5.0\r\n", "").as_bytes()));
+    let (read, warnings) = tiers(&commas);
+    assert_eq!(read, tiers(STONE).0);
+    assert_eq!(
+        warnings,
+        [
+            "line 2: '0,0' has a decimal comma and is read as 0.0, and so are 4 more numbers; write decimal points"
+        ]
+    );
+    let one = tiers(&STONE.replace("a 35.5", "a 35,5")).1;
+    assert_eq!(one, ["line 12: '35,5' has a decimal comma and is read as 35.5; write decimal points"]);
+}
+
+#[test]
+fn a_comma_that_can_be_read_in_two_ways_is_an_error_with_its_line() {
+    let message = |from: &str, to: &str| {
+        assert!(STONE.contains(from), "{from}");
+        let bytes = STONE.replace(from, to).into_bytes();
+        read(&bytes, "x.asc").unwrap_err().in_file("x.asc").to_string()
+    };
+    let index = "may be one index or several; write a decimal point, and blanks between indices";
+    assert_eq!(message("n C1 96 24 48", "n C1 96 24,48"), format!("x.asc:12: '24,48' {index}"));
+    assert_eq!(message(" 48 72 n P1", " 48,72 n P1"), format!("x.asc:10: '48,72' {index}"));
+    assert_eq!(message("96 24\r\n 48 72", "96,24,48,72"), format!("x.asc:9: '96,24,48,72' {index}"));
+    let number = "is not a number; write a decimal point, and blanks between numbers";
+    assert_eq!(message("a 35.5 0.8", "a 35.5,0.8"), format!("x.asc:12: '35.5,0.8' {number}"));
+    assert_eq!(message("I 1.76", "I 1,7,6"), format!("x.asc:4: '1,7,6' {number}"));
+    // Names and texts may hold commas.
+    assert_eq!(tiers(&STONE.replace("n P1", "n 3,5").replace("A square", "1,5 A")).1, Vec::<String>::new());
+}
+
+#[test]
 fn a_gear_and_a_symmetry_that_make_no_sense_are_mended_with_a_warning_as_in_gem_files() {
     let gear = "must be from 1 to 100000 teeth, or below 0 where they are counted clockwise";
     let mended = "the facets are given by a gear of 96 teeth";

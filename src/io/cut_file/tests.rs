@@ -142,6 +142,21 @@ fn a_wrong_type_is_told_with_what_was_expected() {
 }
 
 #[test]
+fn an_index_beyond_the_gear_is_told_with_its_line() {
+    let text = "format = 1\nname = \"x\"\nmaterial = 1.5\n[index]\ngear = 96\n[[tier]]\nangle = -45\ndistance = 1\n\
+                indices = [96, 24, 48, 72]\n[[tier]]\nangle = 45\ndistance = 1\nindices = [\n0, 25, 100, 97.5]\n\
+                names = [\"C\"]\n";
+    let (_, warnings) = design(text).unwrap();
+    assert_eq!(
+        warnings,
+        [
+            "line 13: tier 2 'C': indices 100, 97.5 are beyond the gear of 96 teeth and are taken as 4, 1.5; check the \
+          gear and the tier"
+        ]
+    );
+}
+
+#[test]
 fn lists_of_values_do_not_pass_for_tables() {
     assert_message(
         "format = 1\nname = \"x\"\nmaterial = 2\nround_brilliant = [53.0]",
@@ -266,8 +281,13 @@ fn what_is_out_of_range_is_told_with_its_line() {
     }
     assert_message(
         &with("crown_angle = 34.5", "crown_angle = 89.9"),
-        "x.toml:5: total_depth: 13510.5773 % must be at most 300 %, beyond which it is a needle, not a brilliant; \
-         lower it by at least 13210.58",
+        "x.toml:7: crown_angle: 89.9° must be at most 84.71°, beyond which the total depth is more than 300 %, that of a \
+         needle and not of a brilliant; lower it by at least 5.2",
+    );
+    assert_message(
+        &with("pavilion_angle = 40.75", "pavilion_angle = 85"),
+        "x.toml:8: pavilion_angle: 85° must be at most 79.9°, beyond which the total depth is more than 300 %, that of a \
+         needle and not of a brilliant; lower it by at least 5.1",
     );
     assert_message(
         &with("star_length = 50.0", "star_length = nan"),

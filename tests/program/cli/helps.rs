@@ -40,6 +40,33 @@ fn legends_are_notes_and_printed_are_names_of_files_alone() {
 }
 
 #[test]
+fn info_weighs_a_stone_or_a_scene_of_another_material() {
+    let desk = Desk::new();
+    let carats = |options: &str| at(&desk.json(&format!("info --json {options}")), "carats");
+    for file in ["tolkowsky", "ring"] {
+        let [diamond, ruby] = ["diamond", "ruby"].map(|m| carats(&format!("{file} --material {m}")));
+        // The densities of diamond and corundum, g/cm³.
+        near(ruby / diamond, 4.0 / 3.515, 0.01, file);
+    }
+    let ruby = desk.json("info --json tolkowsky --material ruby");
+    assert_eq!(ruby["material"], "ruby");
+    assert!(desk.done("info tolkowsky --material ruby").contains("ruby"));
+    assert!(desk.json("info --json tolkowsky --material 1.9")["carats"].is_null(), "an index has no density");
+    assert!(desk.refused("info tolkowsky --material rubby", 2).contains("did you mean 'ruby'"));
+}
+
+#[test]
+fn measure_says_which_command_takes_glare() {
+    let desk = Desk::new();
+    let refused = desk.refused("measure tolkowsky --glare", 2);
+    assert!(refused.contains("--glare is an option of `export`"), "{refused}");
+    let [measure, export] = ["measure", "export"].map(|command| options(&desk, command));
+    let has = |list: &[String], option: &str| list.iter().any(|listed| listed == option);
+    assert!(has(&export, "glare") && has(&export, "no-glare"), "{export:?}");
+    assert!(!has(&measure, "glare") && has(&measure, "no-glare"), "{measure:?}");
+}
+
+#[test]
 fn info_lists_tiers_and_facets_only_where_they_are_asked_for() {
     let desk = Desk::new();
     let rows = |line: &str, name: &str| {
