@@ -41,6 +41,8 @@ pub struct Assembly {
     pub exposure: f64,
     /// The angle by which the scene turns its light about its axis, in degrees.
     pub light_turn: f64,
+    /// Whether the light's axis points up in the picture, and not to the eye.
+    pub light_upright: bool,
 }
 
 /// The size and place of a stone.
@@ -103,6 +105,7 @@ impl Assembly {
             angle_of_view: None,
             exposure: 0.0,
             light_turn: 0.0,
+            light_upright: false,
         })
     }
 
@@ -144,6 +147,7 @@ impl Assembly {
             angle_of_view: scene.angle_of_view,
             exposure: scene.exposure,
             light_turn: scene.light_turn,
+            light_upright: scene.light_upright,
         })
     }
 

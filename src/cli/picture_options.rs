@@ -19,6 +19,9 @@ pub struct PictureOptions {
     /// Turn the light about its axis by DEGREES
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
     pub turn: f64,
+    /// Let the light's axis point up in the picture, so that its horizon lies level behind the stones, and not to the eye
+    #[arg(long)]
+    pub upright: bool,
     /// Half angle of the observer's head, which blocks light, in DEGREES [default: the light's]
     #[arg(long, allow_negative_numbers = true, value_name = "DEGREES", value_parser = number)]
     pub head: Option<f64>,

@@ -167,6 +167,7 @@ impl<'a> PictureSetup<'a> {
             frame: Film::new(self.options.size, pixel),
         };
         Surroundings {
+            is_upright: self.assembly.light_upright || self.options.upright,
             turn: (self.assembly.light_turn + self.options.turn).to_radians(),
             shows_light: self.background == BackgroundRef::Light,
             backplate: self.photo.as_ref().map(hung),

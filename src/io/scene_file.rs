@@ -39,6 +39,8 @@ pub struct SceneFile {
     pub gap_mm: f64,
     /// The angle by which the light is turned about its axis, counter-clockwise seen from the axis's end, in degrees.
     pub light_turn: f64,
+    /// Whether the light's axis points up in pictures, with its azimuth 0 behind the middle; else it points to the eye.
+    pub light_upright: bool,
     /// What lies behind the stones.
     pub background: Option<BackgroundRef>,
     /// How far behind the middle of all stones a pattern or photograph lies, in mm, from 0.

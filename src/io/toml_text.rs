@@ -10,7 +10,7 @@ use toml::de::{DeString, DeTable, DeValue, Deserializer, Error};
 
 /// The meanings of keys, for someone who left a key out or wrote something else. Those of proportions are in their
 /// families' tables.
-const MEANINGS: [(&str, &str); 51] = [
+const MEANINGS: [(&str, &str); 52] = [
     ("name", "what it is called"),
     ("material", "a material's name, an index, or a table of its own"),
     ("diameter_mm", "girdle diameter in mm"),
@@ -30,6 +30,7 @@ const MEANINGS: [(&str, &str); 51] = [
     ("density", "g/cm³"),
     ("light", "a light's name, or a file"),
     ("light_turn", "degrees about the light's axis"),
+    ("light_upright", "true or false"),
     ("layout", "row, ring or parcel"),
     ("gap_mm", "mm between the girdles of a layout"),
     ("strength", "of refraction, 0 to 1; 1 is physics"),

@@ -407,3 +407,41 @@ fn figures_of_bounds_are_followed_to_them() {
     let measured = done(&rough).figures().unwrap();
     assert!(measured.figures.unresolved <= 1e-2 && measured.figures.unresolved > 1e-4);
 }
+
+#[test]
+fn an_upright_light_has_its_horizon_level_behind_the_stones() {
+    let light = Light::ring();
+    let map = EnvironmentMap::new(&light, None);
+    let lighting = Arc::new(Lighting { light, map, warnings: vec![] });
+    let view = View { tilt: 0.3, azimuth: 1.0, ..View::default() };
+    let eye = view.basis();
+    let overhead = Surroundings::of(lighting);
+    assert_eq!(overhead.around(&view).basis.toward, eye.toward);
+    let upright = Surroundings { is_upright: true, ..overhead };
+    let basis = upright.around(&view).basis;
+    assert_eq!((basis.toward, basis.right), (eye.up, -eye.toward));
+    assert!((basis.right.cross(basis.up) - basis.toward).length() < 1e-12, "right-handed");
+    // A quarter turn brings the light from the right of the picture behind it.
+    let turned = Surroundings { turn: std::f64::consts::FRAC_PI_2, ..upright }.around(&view).basis;
+    assert!((turned.right + eye.right).length() < 1e-12 && turned.toward == eye.up);
+}
+
+#[test]
+fn with_few_bounces_rays_leave_the_rest_dark() {
+    let of = |bounces: u32| {
+        let mut job = job(alone(), light(Steps::Strips));
+        job.quality.rays.most_bounces = bounces;
+        let plan = Renderer::default().plan(&job).unwrap();
+        let rendered = Renderer::default().run(&job, &unwatched, &mut |_| Ok::<_, RenderError>(())).unwrap();
+        (plan.backend.is_beams(), rendered.remainder().unwrap().unresolved)
+    };
+    let [one, three, eight, all] = [1, 3, 8, 64].map(of);
+    assert!(!one.0 && !eight.0 && all.0, "exact beams follow all bounces");
+    assert!(
+        one.1 > three.1 && three.1 > eight.1 && eight.1 > all.1 && one.1 > 0.5,
+        "{one:?} {three:?} {eight:?}"
+    );
+    let mut wants_beams = job(alone(), light(Steps::Strips));
+    (wants_beams.quality.rays.most_bounces, wants_beams.quality.tracer) = (6, Wanted::Beams);
+    assert_eq!(Renderer::default().plan(&wants_beams).err(), Some(Unfit::FewBounces));
+}

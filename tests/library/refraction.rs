@@ -114,14 +114,14 @@ impl Shoot {
     }
 
     fn map(&self) -> (RefractionMap, Carried) {
-        let bands = Strata::new(self.bands, 1, &Illuminant::D65, true);
+        let bands = Strata::of_middles(self.bands, &Illuminant::D65, true);
         let survey = Survey { bands: &bands, places: self.places, shades: &bands, passes: 1 };
         self.with_lit_scene(None, |s| RefractionMap::trace(s, &self.plane(), &survey, &unwatched)).unwrap()
     }
 
     /// Returns the program's render with a photograph behind: one pass, through the same points at the same wavelengths.
     fn traced(&self, photo: &Panorama) -> Linear {
-        let bands = Strata::new(self.bands, 1, &Illuminant::D65, true);
+        let bands = Strata::of_middles(self.bands, &Illuminant::D65, true);
         let prepare = |lit_scene: &LitScene<'_>| {
             let rows = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
             spectral::expose(lit_scene, (&bands, Sampling::of(1)), self.size[1], rows, &unwatched).unwrap().0

@@ -113,6 +113,8 @@ pub enum ViewAction {
     Bounces(u32),
     /// The angle by which the light of renders is turned about its axis, degrees.
     LightTurn(f64),
+    /// Whether the light's axis points up in renders, and not to the eye.
+    LightUpright(bool),
     Smoothing(Smoothing),
     Liquid(Liquid),
     /// The state of the background in a view of a refraction map.

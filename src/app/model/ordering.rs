@@ -119,6 +119,7 @@ impl Orders<'_> {
             strength: workspace.strength(),
             bounces: workspace.bounces,
             light_turn: workspace.light_turn,
+            light_upright: workspace.light_upright,
             copies: vec![Pose::STILL],
             smoothing: Smoothing::None,
             head: document.work.head,

@@ -148,6 +148,8 @@ pub struct Workspace {
     pub bounces: u32,
     /// The angle by which the light is turned about its axis, degrees.
     pub light_turn: f64,
+    /// Whether the light's axis points up in renders, and not to the eye.
+    pub light_upright: bool,
     /// How the edges of renders are smoothed.
     pub smoothing: Smoothing,
     /// Whether the panels are hidden, so that views have the window to themselves.
@@ -197,6 +199,7 @@ impl Default for Workspace {
             strength: 1.0,
             bounces: USUAL_BOUNCES,
             light_turn: 0.0,
+            light_upright: false,
             smoothing: Smoothing::None,
             hides_panels: false,
             panels: Panels::default(),
@@ -279,7 +282,8 @@ impl Workspace {
                 self.wavelengths = before.1;
             }
         }
-        (self.behind_mm, self.strength, self.light_turn) = (None, 1.0, 0.0);
+        (self.behind_mm, self.strength) = (None, 1.0);
+        (self.light_turn, self.light_upright) = (0.0, false);
     }
 
     /// Returns how much of the way that refraction turns light is followed; without a backplate, all of it.

@@ -36,6 +36,15 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let meaning = "The angle by which the light of renders is turned about its axis.";
     let turn = Row { step: 1.0, decimals: 1, unit: "°", ..Row::new("Light turn", meaning, TURNS) };
     turn.edit(ui, actions, workspace.light_turn, ViewAction::LightTurn);
+    let mut upright = workspace.light_upright;
+    let meaning = "Where the axis of the light points in renders: to the eye, as a sky over a stone that lies on its culet, or \
+        up, so that a panorama's horizon lies level behind the stone.";
+    let names = ["to the eye", "up"];
+    choice_row(ui, "Light axis", meaning, names[usize::from(upright)], |ui| {
+        ui.selectable_value(&mut upright, false, names[0]);
+        ui.selectable_value(&mut upright, true, names[1]);
+    });
+    actions.push_changed(&workspace.light_upright, upright, ViewAction::LightUpright);
     let meaning = "The brightness of renders, in stops. One stop more is twice the light.";
     let exposure = Row { step: 0.1, decimals: 1, unit: " stops", ..Row::new("Exposure", meaning, STOPS) };
     exposure.edit(ui, actions, work.exposure, Edit::Exposure);

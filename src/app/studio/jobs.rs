@@ -78,7 +78,8 @@ impl Shot {
         });
         let shows_light = self.behind == Some(BackgroundRef::Light);
         let turn = self.light_turn.to_radians();
-        Surroundings { turn, shows_light, backplate, ..Surroundings::of(Arc::clone(&self.light)) }
+        let is_upright = self.light_upright;
+        Surroundings { turn, is_upright, shows_light, backplate, ..Surroundings::of(Arc::clone(&self.light)) }
     }
 
     fn job(&self, product: Product, quality: Quality) -> Job {

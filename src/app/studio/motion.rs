@@ -157,6 +157,7 @@ mod tests {
             strength: 1.0,
             bounces: 64,
             light_turn: 0.0,
+            light_upright: false,
             copies,
             smoothing: Smoothing::None,
             exposure: 0.0,

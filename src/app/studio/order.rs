@@ -73,6 +73,8 @@ pub struct Shot {
     pub bounces: u32,
     /// The angle by which the light is turned about its axis, degrees.
     pub light_turn: f64,
+    /// Whether the light's axis points up in the picture, and not to the eye.
+    pub light_upright: bool,
     /// The poses of the copies of the stone in a render, at least one. Other pictures show a single stone.
     pub copies: Vec<Pose>,
     /// How a render's edges are smoothed.
@@ -130,11 +132,12 @@ impl PartialEq for Shot {
 
 impl Shot {
     /// The settings that only renders and refraction maps depend on, with fixed values for those that maps ignore.
-    fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 5], &[Pose], Smoothing) {
+    fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 6], &[Pose], Smoothing) {
         let bounces = f64::from(self.bounces);
-        let numbers = [self.distance, self.whole.pixel, self.light_turn, self.strength, bounces];
+        let upright = f64::from(u8::from(self.light_upright));
+        let numbers = [self.distance, self.whole.pixel, self.light_turn, upright, self.strength, bounces];
         if self.shows == Shows::Refraction {
-            let numbers = [numbers[0], numbers[1], numbers[2], 1.0, 0.0];
+            let numbers = [numbers[0], numbers[1], numbers[2], upright, 1.0, 0.0];
             return (self.exposure, 0, false, None, numbers, &self.copies, Smoothing::None);
         }
         let Self { exposure, bands, jitter, smoothing, .. } = *self;

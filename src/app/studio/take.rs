@@ -174,6 +174,7 @@ mod tests {
             strength: 1.0,
             bounces: 64,
             light_turn: 0.0,
+            light_upright: false,
             copies: vec![Pose::STILL],
             distance: BEHIND,
             smoothing: Smoothing::None,

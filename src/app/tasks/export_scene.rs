@@ -34,6 +34,7 @@ impl SceneOut {
             name: design.name.clone(),
             light: Some(plan.light.clone()),
             light_turn: shot.light_turn,
+            light_upright: shot.light_upright,
             layout: None,
             gap_mm: DEFAULT_GAP_MM,
             background: shot.behind.clone(),

@@ -23,6 +23,8 @@ pub(super) struct SceneForm {
     name: String,
     light: Option<String>,
     light_turn: Option<f64>,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    light_upright: bool,
     layout: Option<String>,
     gap_mm: Option<f64>,
     background: Option<String>,
@@ -105,6 +107,7 @@ impl SceneForm {
             name: scene.name.clone(),
             light: scene.light.as_ref().map(|light| light.to_string_lossy().into_owned()),
             light_turn: (scene.light_turn != 0.0).then_some(scene.light_turn),
+            light_upright: scene.light_upright,
             layout: scene.layout.as_ref().and_then(is).map(|(name, _)| name.to_owned()),
             gap_mm: scene.layout.map(|_| scene.gap_mm),
             background: scene.background.as_ref().map(ToString::to_string),
@@ -158,11 +161,12 @@ impl SceneForm {
             form.check_place(layout, alone).and_then(|()| form.entry(line)).map_err(of_stone)
         };
         let stones = self.stone.into_iter().enumerate().map(entry).collect::<Result<_, _>>()?;
-        let Self { name, background_distance_mm, angle_of_view, .. } = self;
+        let Self { name, background_distance_mm, angle_of_view, light_upright, .. } = self;
         Ok(SceneFile {
             name,
             light,
             light_turn,
+            light_upright,
             layout,
             gap_mm,
             background,

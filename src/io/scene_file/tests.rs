@@ -51,13 +51,14 @@ fn a_layout_and_places_read_as_written() {
     let behind = with(
         PLACED,
         "[[stone]]",
-        "background = \"Page\"\nbackground_distance_mm = 12\nstrength = 0.5\nlight_turn = 30\nangle_of_view = 45\nexposure = -0.5\n\
+        "background = \"Page\"\nbackground_distance_mm = 12\nstrength = 0.5\nlight_turn = 30\nlight_upright = true\nangle_of_view = 45\nexposure = -0.5\n\
             [[stone]]",
     );
     let scene = parse(&behind, "x.toml", None).unwrap();
     assert_eq!(scene.background, Some(BackgroundRef::Pattern(crate::picture::Pattern::Page)));
     assert_eq!((scene.background_distance_mm, scene.strength), (Some(12.0), 0.5));
-    assert_eq!((scene.angle_of_view, scene.exposure, scene.light_turn), (Some(45.0), -0.5, 30.0));
+    assert_eq!((scene.angle_of_view, scene.exposure), (Some(45.0), -0.5));
+    assert_eq!((scene.light_turn, scene.light_upright), (30.0, true));
     let alone = "format = 1\nname = \"One\"\nstone = [{ cut = \"shallow\" }]";
     assert_eq!(parse(alone, "x.toml", None).unwrap().stones.len(), 1);
 }
@@ -181,7 +182,7 @@ fn what_is_written_reads_back_as_the_same_scene() {
     let [own, pattern, colours] = [
         with(PLACED, "material = { index = 1.5 }", own),
         behind(
-            "background = \"Dots\"\nbackground_distance_mm = 12.5\nangle_of_view = 45\nexposure = 1.5\nlight_turn = -7.5",
+            "background = \"Dots\"\nbackground_distance_mm = 12.5\nangle_of_view = 45\nexposure = 1.5\nlight_turn = -7.5\nlight_upright = true",
         ),
         behind("background = \"#404850-#101215\""),
     ];

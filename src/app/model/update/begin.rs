@@ -84,7 +84,7 @@ pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset) {
     // The workspace cannot hold plain colours.
     let behind = scene.background.as_ref().filter(|behind| !matches!(behind, BackgroundRef::Plain(_)));
     workspace.enter_scene(behind.map(ToString::to_string), wavelengths);
-    workspace.light_turn = scene.light_turn;
+    (workspace.light_turn, workspace.light_upright) = (scene.light_turn, scene.light_upright);
     workspace.see_under(scene.angle_of_view.map(|angle| reach / (0.5 * angle).to_radians().tan()));
     (workspace.behind_mm, workspace.strength) = (scene.background_distance_mm, scene.strength);
     session.notes.say(&format!("{}: renders show all copies{layers}; other views show one", scene.name));

@@ -29,6 +29,7 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: ViewAction) {
         ViewAction::Strength(strength) => workspace.strength = strength,
         ViewAction::Bounces(bounces) => workspace.bounces = bounces,
         ViewAction::LightTurn(degrees) => workspace.light_turn = degrees,
+        ViewAction::LightUpright(is_upright) => workspace.light_upright = is_upright,
         ViewAction::Smoothing(smoothing) => workspace.smoothing = smoothing,
         ViewAction::Liquid(liquid) => workspace.liquid = liquid,
         ViewAction::ByArea(by_area) => workspace.by_area = by_area,
