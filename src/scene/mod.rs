@@ -16,6 +16,7 @@ mod specimen;
 mod stone;
 mod view;
 mod viewpoint;
+mod worlds;
 
 pub use crate::math::Pose;
 pub use body::Body;
@@ -33,3 +34,4 @@ pub use specimen::{Specimen, SpecimenError};
 pub use stone::Stone;
 pub use view::{Lean, Projection, Side, View};
 pub use viewpoint::Viewpoint;
+pub use worlds::World;

@@ -56,6 +56,10 @@ fn a_layout_and_places_read_as_written() {
     let scene = parse(&behind, "x.toml", None).unwrap();
     assert_eq!(scene.background, Some(BackgroundRef::Pattern(crate::picture::Pattern::Page)));
     assert_eq!((scene.background_distance_mm, scene.strength), (Some(12.0), 0.5));
+    let scene = parse(&behind.replace("Page", "City"), "x.toml", None).unwrap();
+    assert_eq!(scene.background, Some(BackgroundRef::World(crate::scene::World::City)));
+    let world = with(PLACED, "[[stone]]", "light = \"room\"\n[[stone]]");
+    assert_eq!(parse(&world, "x.toml", None).unwrap().light.unwrap(), std::path::Path::new("room"));
     let alone = "format = 1\nname = \"One\"\nstone = [{ cut = \"shallow\" }]";
     assert_eq!(parse(alone, "x.toml", None).unwrap().stones.len(), 1);
 }
