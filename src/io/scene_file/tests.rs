@@ -114,7 +114,10 @@ fn what_is_wrong_with_a_scene_is_told_with_line_and_key() {
             "background = 3",
             "x.toml:3: background: invalid type: integer `3`, expected text (a colour, light,",
         ),
-        ("background_distance_mm = 3", "x.toml:3: background_distance_mm: only a pattern or a photograph"),
+        (
+            "background_distance_mm = 3",
+            "x.toml:3: background_distance_mm: only a pattern, a world or a photograph",
+        ),
         (
             "background = \"black\"\nbackground_distance_mm = 3",
             "x.toml:4: background_distance_mm: only a pattern",

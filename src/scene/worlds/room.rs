@@ -2,11 +2,15 @@
 //! them, a picture, a sideboard, shelves. z is up; the eye is 1.35 m above the floor and looks at the window wall, which
 //! is the middle of the picture, along +x. Lengths are in metres.
 
+mod furniture;
 mod surfaces;
+mod walls;
 
-use super::noise::{band, fractal, noise, ramp, random};
+use super::noise::ramp;
+use furniture::{SHADES, Thing, first_box, furniture};
 use glam::{DVec2, DVec3};
-use surfaces::{Surface, furniture, shell};
+use surfaces::RoomSurface;
+use walls::shell;
 
 /// The room's corners, seen from the eye.
 const LOW: DVec3 = DVec3::new(-2.6, -2.3, -1.35);
@@ -92,26 +96,26 @@ pub(super) fn radiance(d: DVec3, footprint: f64) -> DVec3 {
 }
 
 /// Returns what a ray meets first, where, and how far away.
-fn hit(from: DVec3, d: DVec3, footprint: f64) -> (Surface, DVec3, f64) {
+fn hit(from: DVec3, d: DVec3, footprint: f64) -> (RoomSurface, DVec3, f64) {
     let walls = (LOW - from) / d;
     let far = ((HIGH - from) / d).max(walls);
     let t = far.min_element();
     let mut nearest = None;
     let mut reach = t;
-    for (place, shade) in surfaces::SHADES.iter().enumerate() {
+    for (place, shade) in SHADES.iter().enumerate() {
         if let Some(t) = shade.meets(from, d).filter(|&t| t < reach) {
-            (nearest, reach) = (Some(surfaces::Thing::Shade(place)), t);
+            (nearest, reach) = (Some(Thing::Shade(place)), t);
         }
     }
     for (place, globe) in GLOBES.iter().enumerate() {
         let (to, b) = (*globe - from, (*globe - from).dot(d));
         let under_root = b * b - to.length_squared() + GLOBE_RADIUS * GLOBE_RADIUS;
         if b > 0.0 && under_root > 0.0 && b - under_root.sqrt() < reach {
-            (nearest, reach) = (Some(surfaces::Thing::Globe(place)), b - under_root.sqrt());
+            (nearest, reach) = (Some(Thing::Globe(place)), b - under_root.sqrt());
         }
     }
-    if let Some((place, t)) = surfaces::first_box(from, d, reach) {
-        (nearest, reach) = (Some(surfaces::Thing::Box(place)), t);
+    if let Some((place, t)) = first_box(from, d, reach) {
+        (nearest, reach) = (Some(Thing::Box(place)), t);
     }
     let p = from + d * reach;
     let surface = match nearest {
@@ -122,7 +126,7 @@ fn hit(from: DVec3, d: DVec3, footprint: f64) -> (Surface, DVec3, f64) {
 }
 
 /// Returns the light that a surface sends back: what the lamps and the window give it, and its own.
-fn lit(surface: &Surface, p: DVec3, d: DVec3) -> DVec3 {
+fn lit(surface: &RoomSurface, p: DVec3, d: DVec3) -> DVec3 {
     if surface.albedo == DVec3::ZERO {
         return surface.own;
     }
