@@ -9,8 +9,7 @@ const FIRST: Pattern = Pattern::Page;
 
 /// Returns the backplate of a picture that needs one: the chosen one where it is a picture, else a pattern.
 pub fn backdrop(chosen: Option<&BackgroundRef>) -> BackgroundRef {
-    let is_picture = |a: &&BackgroundRef| matches!(a, BackgroundRef::Pattern(_) | BackgroundRef::Photo(_));
-    chosen.filter(is_picture).cloned().unwrap_or(BackgroundRef::Pattern(FIRST))
+    chosen.filter(|chosen| chosen.is_picture()).cloned().unwrap_or(BackgroundRef::Pattern(FIRST))
 }
 
 /// Returns a picture for the screen whose light is shown as it is, without exposure or tone.

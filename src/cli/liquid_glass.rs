@@ -31,8 +31,8 @@ const WAVELENGTHS: u32 = 12;
 
 #[derive(Debug, Args)]
 pub struct LiquidGlass {
-    /// The background: a colour (white, #20262e), two from top to bottom (#404850-#101215), a pattern (page, grid, checks,
-    /// stripes, dots, slit), or a photograph's file
+    /// The background: a colour (white, #20262e), two from top to bottom (#404850-#101215), a world (sunset, room, city),
+    /// a pattern (page, grid, checks, stripes, dots, slit), or a photograph's file
     #[arg(long, value_name = "WHAT")]
     background: String,
     /// Folder to write to; without --compare `-` is standard output

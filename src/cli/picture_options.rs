@@ -54,11 +54,11 @@ pub struct PictureOptions {
     #[arg(long, value_name = "CURVE", default_value = "neutral")]
     pub tone: Tone,
     /// The background: transparent, a colour (white, #20262e), two from top to bottom (#404850-#101215), `light` for the
-    /// light itself, a pattern (page, grid, checks, stripes, dots, slit), or a photograph's file; by default the
-    /// scene's, or #33373d-#0e0f11
+    /// light itself, a world (sunset, room, city), a pattern (page, grid, checks, stripes, dots, slit), or a
+    /// photograph's file; by default the scene's, or #33373d-#0e0f11
     #[arg(long, value_name = "WHAT")]
     pub background: Option<String>,
-    /// How far behind the stones the pattern or photograph hangs, in girdle radii [default: the scene's, or 3]
+    /// How far behind the stones the world, pattern or photograph hangs, in girdle radii [default: the scene's, or 3]
     #[arg(long, allow_negative_numbers = true, value_name = "DISTANCE", value_parser = number)]
     pub photo_distance: Option<f64>,
     #[command(flatten)]

@@ -132,7 +132,7 @@ impl<'a> PictureSetup<'a> {
             return Ok(self);
         }
         Err(Failure::Usage(
-            "--photo-distance: only a pattern or a photograph has a distance; give one by --background"
+            "--photo-distance: only a world, a pattern or a photograph has a distance; give one by --background"
                 .into(),
         ))
     }

@@ -1,14 +1,14 @@
-//! What lies behind the stones, as people name it: the light itself, a colour, a pattern that the program draws, a
-//! photograph.
+//! What lies behind the stones, as people name it: the light itself, a colour, a pattern or a world that the program
+//! draws, a photograph.
 
 use super::panorama::{self, LoadedPanorama};
 use super::png_bytes::png;
 use super::text::unreadable;
 use super::{FileError, NameOrFileError, rasterize};
-use crate::optics::linear_from_encoded;
+use crate::optics::{encoded_from_linear, linear_from_encoded};
 use crate::picture::filling;
-use crate::picture::{Background, PATTERN_SIDE, PATTERN_SPAN, Pattern};
-use crate::scene::Panorama;
+use crate::picture::{Background, PATTERN_SIDE, PATTERN_SPAN, Pattern, Tone};
+use crate::scene::{Panorama, World};
 use ::png::{BitDepth, ColorType};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -25,6 +25,8 @@ pub enum BackgroundRef {
     Plain(Background),
     /// A drawing that comes with the program.
     Pattern(Pattern),
+    /// A world that the program draws.
+    World(World),
     /// The path of a photograph's file, which existed when the name was read.
     Photo(PathBuf),
 }
@@ -36,15 +38,27 @@ impl fmt::Display for BackgroundRef {
             Self::Light => f.write_str("light"),
             Self::Plain(background) => background.fmt(f),
             Self::Pattern(pattern) => f.write_str(pattern.name()),
+            Self::World(world) => f.write_str(world.name()),
             Self::Photo(path) => std::path::absolute(path).as_deref().unwrap_or(path).display().fmt(f),
         }
     }
 }
 
 impl BackgroundRef {
-    /// Returns how many times as wide as the picture the background hangs behind it: patterns go on beside the picture.
+    /// Returns the names of all pictures that the program draws itself: worlds, then patterns.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        World::NAMES.map(|(name, _)| name).into_iter().chain(Pattern::NAMES.map(|(name, _)| name))
+    }
+
+    /// Returns whether it is a picture that hangs at a distance behind the stones.
+    pub fn is_picture(&self) -> bool {
+        matches!(self, Self::Pattern(_) | Self::World(_) | Self::Photo(_))
+    }
+
+    /// Returns how many times as wide as the picture the background hangs behind it: patterns and worlds go on beside the
+    /// picture.
     pub fn span(&self) -> f64 {
-        if matches!(self, Self::Pattern(_)) { PATTERN_SPAN } else { 1.0 }
+        if matches!(self, Self::Pattern(_) | Self::World(_)) { PATTERN_SPAN } else { 1.0 }
     }
 
     /// Returns a word that tells people what hangs behind, such as `Photograph`.
@@ -53,6 +67,7 @@ impl BackgroundRef {
             Self::Light => "light",
             Self::Plain(_) => "colours",
             Self::Pattern(pattern) => pattern.name(),
+            Self::World(world) => world.name(),
             Self::Photo(_) => "photograph",
         }
         .to_owned();
@@ -71,6 +86,9 @@ impl BackgroundRef {
         if let Some(pattern) = Pattern::named(text) {
             return Ok(Self::Pattern(pattern));
         }
+        if let Some(world) = World::named(text) {
+            return Ok(Self::World(world));
+        }
         let path = folder.join(text);
         match text.parse::<Background>() {
             Ok(background) => Ok(Self::Plain(background)),
@@ -79,8 +97,11 @@ impl BackgroundRef {
                 Err(FileError::new(path.display(), "there is no such file").into())
             }
             Err(why) => {
-                let names = Pattern::NAMES.map(|(name, _)| name).join(", ");
-                let message = format!("{why}, `light`, a pattern ({names}), or a photograph's file");
+                let patterns = Pattern::NAMES.map(|(name, _)| name).join(", ");
+                let worlds = World::NAMES.map(|(name, _)| name).join(", ");
+                let message = format!(
+                    "{why}, `light`, a world ({worlds}), a pattern ({patterns}), or a photograph's file"
+                );
                 Err(NameOrFileError::Unknown(message))
             }
         }
@@ -97,6 +118,7 @@ impl BackgroundRef {
             Self::Pattern(pattern) => {
                 Ok(Some(LoadedPanorama { panorama: drawn(*pattern)?, warnings: vec![] }))
             }
+            Self::World(world) => Ok(Some(LoadedPanorama { panorama: hung(*world), warnings: vec![] })),
             Self::Photo(path) => {
                 let mut reading = panorama::read_photo(path)?;
                 while reading.panorama.width > WIDEST || reading.panorama.height > WIDEST {
@@ -107,8 +129,8 @@ impl BackgroundRef {
         }
     }
 
-    /// Returns a picture of a size in pixels as it is where nothing stands before the background: a pattern or photograph
-    /// that fills it, or colours; `None` for the light and for a transparent background.
+    /// Returns a picture of a size in pixels as it is where nothing stands before the background: a pattern, a world or a
+    /// photograph that fills it, or colours; `None` for the light and for a transparent background.
     ///
     /// # Errors
     /// When a photograph's file is at fault.
@@ -120,6 +142,10 @@ impl BackgroundRef {
             let plain =
                 |pixels| LoadedPanorama { panorama: Panorama { width, height, pixels }, warnings: vec![] };
             return Ok(pixels.map(plain));
+        }
+        if let Self::World(world) = self {
+            let panorama = world.picture([width, height], 1.0);
+            return Ok(Some(LoadedPanorama { panorama, warnings: vec![] }));
         }
         let filled =
             |r: LoadedPanorama| LoadedPanorama { panorama: filling(&r.panorama, [width, height]), ..r };
@@ -139,6 +165,14 @@ impl BackgroundRef {
                 let file = png([width, height], (ColorType::Rgb, BitDepth::Eight), &rgb, &[]);
                 file.map(Some).map_err(|error| FileError::new(pattern.name(), error))
             }
+            Self::World(world) => {
+                let picture = hung(*world);
+                let shown = |light: &[f32; 3]| Tone::Neutral.shown(*light, 1.0).map(encoded);
+                let rgb: Vec<u8> = picture.pixels.iter().flat_map(shown).collect();
+                let size = [picture.width, picture.height];
+                let file = png(size, (ColorType::Rgb, BitDepth::Eight), &rgb, &[]);
+                file.map(Some).map_err(|error| FileError::new(world.name(), error))
+            }
             Self::Photo(path) => {
                 std::fs::read(path).map(Some).map_err(|e| unreadable(e).in_file(path.display()))
             }
@@ -149,6 +183,16 @@ impl BackgroundRef {
 fn rastered(pattern: Pattern) -> Result<(u32, u32, Vec<u8>), FileError> {
     let raster = rasterize(&pattern.drawing().to_string(), PATTERN_SIDE);
     raster.map_err(|error| FileError::new(pattern.name(), error))
+}
+
+/// Draws a world as it hangs behind a picture: its middle half is what a photograph 60 degrees across shows.
+fn hung(world: World) -> Panorama {
+    world.picture([PATTERN_SIDE; 2], PATTERN_SPAN)
+}
+
+/// Returns a channel of linear light from 0 to 1 as a byte of sRGB.
+fn encoded(channel: f32) -> u8 {
+    (encoded_from_linear(f64::from(channel)) * 255.0).round() as u8
 }
 
 /// Draws a pattern in linear light.
@@ -206,6 +250,26 @@ mod tests {
     }
 
     #[test]
+    fn a_world_hangs_behind_in_full_range_and_goes_into_a_file_as_a_screen_shows_it() {
+        let room = BackgroundRef::World(World::Room);
+        let hung = room.picture().unwrap().unwrap().panorama;
+        assert_eq!((hung.width, hung.height), (PATTERN_SIDE, PATTERN_SIDE));
+        assert!(hung.pixels.iter().flatten().any(|&c| c > 4.0));
+        // A picture that the world fills is its photograph, and not a part of what hangs behind.
+        let filled = room.filling([60, 40]).unwrap().unwrap().panorama;
+        assert_eq!(filled, World::Room.picture([60, 40], 1.0));
+        let bytes = room.bytes().unwrap().unwrap();
+        let mut reader = ::png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+        let mut rgb = vec![0; reader.output_buffer_size().unwrap()];
+        assert_eq!(reader.next_frame(&mut rgb).unwrap().width, PATTERN_SIDE);
+        let wrong = |(light, code): (&[f32; 3], &[u8; 3])| {
+            let shown = Tone::Neutral.shown(*light, 1.0).map(|c| encoded_from_linear(f64::from(c)) * 255.0);
+            (0..3).any(|c| (shown[c] - f64::from(code[c])).abs() > 0.51)
+        };
+        assert!(!hung.pixels.iter().zip(rgb.as_chunks::<3>().0).any(wrong));
+    }
+
+    #[test]
     fn names_stand_before_files_and_what_is_neither_is_told() {
         let folder = tempfile::tempdir().unwrap();
         for file in ["page", "white", "photo.png", "odd"] {
@@ -214,6 +278,12 @@ mod tests {
         let read = |text: &str| BackgroundRef::read(text, folder.path());
         assert_eq!(read("Light"), Ok(BackgroundRef::Light));
         assert_eq!(read("page"), Ok(BackgroundRef::Pattern(Pattern::Page)));
+        assert_eq!(read("Sunset"), Ok(BackgroundRef::World(World::Sunset)));
+        for name in BackgroundRef::names() {
+            let known = read(name).unwrap();
+            assert_eq!((known.to_string().as_str(), read(&known.to_string())), (name, Ok(known.clone())));
+            assert!(known.is_picture() && known.span() > 1.0, "{name}");
+        }
         assert_eq!(read("white"), Ok(BackgroundRef::Plain(Background::Plain([1.0; 3]))));
         assert_eq!(read("odd"), Ok(BackgroundRef::Photo(folder.path().join("odd"))));
         assert!(read("photo.png").unwrap().picture().unwrap_err().to_string().contains("photo.png"));
@@ -224,6 +294,7 @@ mod tests {
         assert!(
             message.contains("'pages'")
                 && message.contains("page, grid, checks")
+                && message.contains("sunset, room, city")
                 && message.contains("photograph")
         );
     }

@@ -133,6 +133,7 @@ mod tests {
                 "5000 K",
             ),
             ("name = \"x\"\n[[field]]\ncount = -1".into(), "3: field.count: invalid value", "whole number"),
+            (format!("world = \"moon\"\n{dome}"), "1: world", "sunset"),
             (dome.replace("= 1", "= 1,5"), "3: radiance: column 13", "decimal point"),
         ];
         for (text, start, within) in cases {

@@ -47,6 +47,7 @@ pub fn unknown(name: &str) -> String {
 mod tests {
     use super::*;
     use crate::io::write_rgba_png;
+    use crate::scene::World;
 
     fn refused(name: &str) -> NameOrFileError {
         Lighting::load(name).err().unwrap()
@@ -76,6 +77,21 @@ mod tests {
         assert_eq!((named.light.name.as_str(), &named.map), ("named", &bare.map));
         let brightest = |sky: &EnvironmentMap| sky.levels[0].iter().map(|t| t[1]).fold(0.0, f32::max);
         assert!((brightest(&bare.map) - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_world_is_drawn_anew_from_its_name() {
+        let sunset = Lighting::load("Sunset").unwrap();
+        assert_eq!(sunset.light.world, Some(World::Sunset));
+        let data = serde_json::to_string(&sunset).unwrap();
+        assert!(data.len() < 1000, "the map is in the data: {} bytes", data.len());
+        assert!(serde_json::from_str::<Lighting>(&data).unwrap() == sunset);
+        let other = data.replace("\"world\":\"sunset\"", "\"world\":\"city\"");
+        assert!(serde_json::from_str::<Lighting>(&other).unwrap() != sunset);
+        // A world adds to the other parts of its light.
+        let lit = Light { dome: Light::dome().dome, ..sunset.light };
+        let sum = |map: &EnvironmentMap| map.levels[0].iter().flatten().map(|&c| f64::from(c)).sum::<f64>();
+        assert!(sum(&EnvironmentMap::new(&lit, None)) > 1.2 * sum(&sunset.map));
     }
 
     #[test]

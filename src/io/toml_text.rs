@@ -10,7 +10,7 @@ use toml::de::{DeString, DeTable, DeValue, Deserializer, Error};
 
 /// The meanings of keys, for someone who left a key out or wrote something else. Those of proportions are in their
 /// families' tables.
-const MEANINGS: [(&str, &str); 52] = [
+const MEANINGS: [(&str, &str); 53] = [
     ("name", "what it is called"),
     ("material", "a material's name, an index, or a table of its own"),
     ("diameter_mm", "girdle diameter in mm"),
@@ -36,7 +36,7 @@ const MEANINGS: [(&str, &str); 52] = [
     ("strength", "of refraction, 0 to 1; 1 is physics"),
     ("angle_of_view", "degrees of a perspective"),
     ("exposure", "stops"),
-    ("background", "a colour, light, a pattern's name, or a photograph"),
+    ("background", "a colour, light, the name of a world or a pattern, or a photograph"),
     ("background_distance_mm", "mm behind the middle of the stones"),
     ("stone", "a table [[stone]] for each kind"),
     ("cut", "a cut's name, or a cut file"),
@@ -53,6 +53,7 @@ const MEANINGS: [(&str, &str); 52] = [
     ("lamp", "discs of light, each a table [[lamp]]"),
     ("field", "many lamps, each field a table [[field]]"),
     ("panorama", "a picture of the surroundings, a table [panorama]"),
+    ("world", "sunset, room or city"),
     ("to", "degrees of elevation at which it ends, -90 to 90"),
     ("soft", "width of its edges, degrees"),
     ("radiance", RADIANCE),

@@ -1,9 +1,11 @@
 //! Backgrounds that the program draws itself: square drawings of 2048 units, black or coloured on white. Their edges lie
 //! on whole units, so that 2048 pixels show them crisp.
 
+mod page;
+
 use std::fmt::Write as _;
 use svg::Document;
-use svg::node::element::{Path, Rectangle, Text};
+use svg::node::element::{Path, Rectangle};
 
 /// Side of a pattern, in units of its drawing.
 pub const PATTERN_SIDE: u32 = 2048;
@@ -14,7 +16,7 @@ pub const PATTERN_SPAN: f64 = 2.0;
 /// A background that the program draws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pattern {
-    /// A page of text.
+    /// A page of text with pictures.
     Page,
     /// Fine lines, of one colour across and of another down.
     Grid,
@@ -36,13 +38,6 @@ const STEP: u32 = 64;
 
 /// Half the height of the slit: so narrow that a prism near it keeps three images of it apart.
 const HALF_SLIT: u32 = 5;
-
-/// The text of the page, which is about what is seen there.
-const WORDS: &str = "Light that enters glass is bent toward the normal, blue more than red, and bent back where it leaves. \
-    Between parallel faces both cancel and the page only shifts; at a rounded rim they do not, and letters are drawn out, \
-    turned over and given coloured edges. How far they move depends on how far behind the glass the page lies: laid against \
-    it they are read as they are, a hand's breadth away they swim. What is dark here is ink, what is bright the lamp behind \
-    you, sent back by the paper. ";
 
 impl Pattern {
     /// All patterns with their names.
@@ -70,7 +65,7 @@ impl Pattern {
         let sheet = Document::new().set("viewBox", (0, 0, PATTERN_SIDE, PATTERN_SIDE));
         let all = || 0..PATTERN_SIDE / STEP;
         match self {
-            Self::Page => page(sheet),
+            Self::Page => page::page(sheet),
             Self::Grid => {
                 let across = all().map(|k| (0, k * STEP + STEP / 2 - 3, PATTERN_SIDE, 6));
                 let down = all().map(|k| (k * STEP + STEP / 2 - 3, 0, 6, PATTERN_SIDE));
@@ -123,25 +118,6 @@ fn rectangles(all: impl Iterator<Item = Corner>) -> Path {
         let _ = write!(data, "M{x},{y}h{width}v{height}h-{width}z");
     }
     Path::new().set("d", data)
-}
-
-/// Writes lines of even length, broken between words, down to the foot of the page.
-fn page(sheet: Document) -> Document {
-    const SIZE: u32 = 40;
-    const LEADING: u32 = 60;
-    // Letters are 0.44 of the size wide, on average.
-    const LETTERS: usize = (PATTERN_SIDE as usize - 2 * SIZE as usize) * 25 / (11 * SIZE as usize);
-    let mut words = WORDS.split_whitespace().cycle().peekable();
-    (1..PATTERN_SIDE / LEADING).fold(sheet, |sheet, line| {
-        let mut text = String::new();
-        while words.peek().is_some_and(|word| text.len() + word.len() < LETTERS) {
-            text.extend(words.next());
-            text.push(' ');
-        }
-        let text = Text::new(text.trim_end()).set("x", SIZE).set("y", line * LEADING);
-        sheet
-            .add(text.set("font-family", "Ubuntu").set("font-size", SIZE).set("fill", INK).set("stroke", INK))
-    })
 }
 
 #[cfg(test)]

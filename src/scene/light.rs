@@ -1,9 +1,10 @@
-//! Light from all around, as data: domes, soft boxes, lamps, a panorama.
+//! Light from all around, as data: domes, soft boxes, lamps, a panorama, a world.
 //!
 //! Directions are given by azimuth and elevation. All angles are degrees. Elevations are counted from the plane square to
 //! the light's axis; 90 lies along the axis. Radiance 1 is that of a white sheet in full light. A part with a colour of its
 //! own sheds light in the smooth spectra of red, green and blue; one without sheds the light's spectrum.
 
+use super::worlds::World;
 use crate::optics::Illuminant;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -25,6 +26,9 @@ pub struct Light {
     /// head.
     #[serde(default)]
     pub head: f64,
+    /// A world that the program draws. The middle of its photograph lies opposite the axis, behind the stones.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub world: Option<World>,
     /// Belts of the sky.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub dome: Vec<Dome>,
@@ -183,7 +187,7 @@ pub enum LightError {
         most: usize,
     },
     /// A light without any part that shines.
-    #[error("nothing shines: give a dome, a box, a lamp, a field of lamps or a panorama")]
+    #[error("nothing shines: give a dome, a box, a lamp, a field of lamps, a panorama or a world")]
     Dark,
 }
 
@@ -257,7 +261,8 @@ impl Light {
         if count > MOST_LAMPS as u64 {
             return Err(LightError::TooManyLamps { count, most: MOST_LAMPS });
         }
-        let shines = count > 0 || !self.dome.is_empty() || !self.boxes.is_empty() || self.panorama.is_some();
+        let is_broad = !self.dome.is_empty() || !self.boxes.is_empty();
+        let shines = count > 0 || is_broad || self.panorama.is_some() || self.world.is_some();
         if shines { Ok(()) } else { Err(LightError::Dark) }
     }
 }

@@ -1,12 +1,15 @@
 //! The lights that come with the program. A light from a publication says so; the others are chosen to show stones well.
 
 use super::light::{Dome, Lamp, LampField, Light, PanoramaRef, SoftBox};
+use super::worlds::World;
 use crate::optics::Illuminant;
 use std::path::Path;
 
 /// The names of the lights that come with the program. The first is the default.
-pub const LIGHTS: [&str; 9] =
-    ["studio", "dome", "cosine", "ring", "lamps", "fire", "office", "daylight", "white"];
+pub const LIGHTS: [&str; 12] = [
+    "studio", "dome", "cosine", "ring", "lamps", "fire", "office", "daylight", "sunset", "room", "city",
+    "white",
+];
 
 /// Returns the light of a name among [`LIGHTS`].
 pub fn light(name: &str) -> Option<Light> {
@@ -20,7 +23,7 @@ pub fn light(name: &str) -> Option<Light> {
         "office" => Some(Light::office()),
         "daylight" => Some(Light::daylight()),
         "white" => Some(Light::white()),
-        _ => None,
+        _ => World::named(name).map(Light::of_world),
     }
 }
 
@@ -47,6 +50,7 @@ impl Light {
             description: description.to_owned(),
             spectrum: Illuminant::D65,
             head: 0.0,
+            world: None,
             dome: vec![],
             boxes: vec![],
             lamp: vec![],
@@ -189,6 +193,16 @@ impl Light {
         let stem = file.file_stem().map_or_else(|| "panorama".into(), |stem| stem.to_string_lossy());
         let panorama = PanoramaRef { file: file.to_owned(), exposure: 0.0, turn: 0.0 };
         Self { panorama: Some(panorama), ..Self::named(&stem, "") }
+    }
+
+    /// A light that is a world alone, which the program draws: behind the stones lies its best side.
+    pub fn of_world(world: World) -> Self {
+        let description = match world {
+            World::Sunset => "a sunset over water, seen behind the stones; the dusk lights them from before",
+            World::Room => "a living room at dusk: lamps, candles, a window",
+            World::City => "a city at night around a bay: windows, signs, lamps along the shore",
+        };
+        Self { world: Some(world), ..Self::named(world.name(), description) }
     }
 
     /// The same radiance from everywhere: a stone that absorbs no light vanishes in it.

@@ -17,6 +17,7 @@ mod specimen;
 mod stone;
 mod view;
 mod viewpoint;
+mod worlds;
 
 pub use crate::math::Pose;
 pub use body::Body;
@@ -35,3 +36,4 @@ pub use specimen::{Specimen, SpecimenError};
 pub use stone::Stone;
 pub use view::{Lean, Projection, Side, View};
 pub use viewpoint::Viewpoint;
+pub use worlds::World;

@@ -9,7 +9,7 @@
 mod drawing;
 
 use crate::math::Basis;
-use crate::scene::{Film, Light, LightError, Mipmap, Panorama, View, toward};
+use crate::scene::{Film, Light, LightError, Mipmap, Panorama, View, World, toward};
 use drawing::{channels, shine};
 use glam::{DVec2, DVec3, DVec4, IVec2, Vec2Swizzles as _, Vec4Swizzles as _};
 use rayon::prelude::*;
@@ -21,8 +21,8 @@ pub const TEXEL_ANGLE: f64 = 3.544_907_701_811_032;
 /// Side of the map, in texels, for light without a panorama.
 const SIDE: usize = 512;
 
-/// Side of the map, in texels, for light with a panorama.
-const SIDE_OF_PANORAMA: usize = 1024;
+/// Side of the map, in texels, for light with a panorama or a world.
+const SIDE_OF_PICTURE: usize = 1024;
 
 /// The least and the greatest number of samples along each side of a texel; between these, as many as the panorama has
 /// pixels.
@@ -171,9 +171,10 @@ const ALONG: f64 = 1e-6;
 pub(crate) const HEAD_EDGE: f64 = 0.004;
 
 impl EnvironmentMap {
-    /// Draws a light into maps; `panorama` is the picture that the light names.
+    /// Draws a light into maps, with the world that it names; `panorama` is the picture that the light names.
     pub fn new(light: &Light, panorama: Option<&Panorama>) -> Self {
-        let side = if panorama.is_some() { SIDE_OF_PANORAMA } else { SIDE };
+        let side = if panorama.is_some() || light.world.is_some() { SIDE_OF_PICTURE } else { SIDE };
+        let world = light.world.map(|world| world_texels(world, side));
         let pixels = panorama.map_or(0, |p| p.width as usize / (2 * side));
         let per_side = pixels.clamp(PER_SIDE.0, PER_SIDE.1);
         let cells = side * per_side;
@@ -185,7 +186,9 @@ impl EnvironmentMap {
                     shine(light, panorama, direction(at))
                 };
                 let all: DVec4 = (0..per_side * per_side).map(sample).sum();
-                (all / (per_side * per_side) as f64).min(DVec4::splat(BRIGHTEST)).as_vec4().to_array()
+                let world = world.as_ref().map_or(DVec3::ZERO, |texels| texels[y * side + x]);
+                let all = all / (per_side * per_side) as f64 + world.extend(0.0).wxyz();
+                all.min(DVec4::splat(BRIGHTEST)).as_vec4().to_array()
             };
             (0..side).map(texel).collect::<Vec<_>>()
         };
@@ -419,6 +422,12 @@ pub(super) fn wrapped(mut p: IVec2, size: i32) -> IVec2 {
     p
 }
 
+/// Draws a world into a map of a side, row by row.
+fn world_texels(world: World, side: usize) -> Vec<DVec3> {
+    let texel = TEXEL_ANGLE / side as f64;
+    world.drawn([side; 2], |at| (World::from_light(direction(at / side as f64)), texel))
+}
+
 /// Returns the next coarser level: each texel is the mean of two by two.
 fn halved(fine: &[Radiance]) -> Vec<Radiance> {
     let size = fine.len().isqrt();
@@ -469,6 +478,23 @@ mod tests {
             let counted = (0..100_000).map(inside).sum::<f64>() / 1e5;
             assert!((share_inside(from - lamp, way, chord) - counted).abs() < 2e-4);
         }
+    }
+
+    #[test]
+    fn the_map_of_a_world_shows_the_world_with_its_middle_behind_the_stones() {
+        let sky = EnvironmentMap::new(&Light::of_world(World::Room), None);
+        let (texel, count) = (TEXEL_ANGLE / sky.side as f64, 4000);
+        let shares = [World::from_light, |d: DVec3| d].map(|turned| {
+            let agrees = |k: &i32| {
+                let z = 1.0 - 2.0 * (f64::from(*k) + 0.5) / f64::from(count);
+                let (sin, cos) = (2.399_963 * f64::from(*k)).sin_cos();
+                let d = DVec3::new((1.0 - z * z).sqrt() * cos, (1.0 - z * z).sqrt() * sin, z);
+                let (seen, drawn) = (World::Room.radiance(turned(d), texel), sky.at(d, 0.0).yzw());
+                (seen - drawn).abs().max_element() < 0.01 + 0.1 * seen.max_element()
+            };
+            (0..count).filter(agrees).count() as f64 / f64::from(count)
+        });
+        assert!(shares[0] > 0.85 && shares[1] < 0.6, "{shares:?}");
     }
 
     #[test]

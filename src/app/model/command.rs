@@ -46,7 +46,7 @@ pub enum Command by keys {
     LightPath: "L", "Light path", "Follows one ray through the stone; click a point of a view to choose it.";
     Play: "M", "Motion", "Starts or stops the motion in renders: copies tumble and plates wave.";
     LayOut: "Space", "Scatter copies", "Scatters the copies in renders anew.";
-    NextBehind: "G", "Next background", "Puts the next pattern behind renders.";
+    NextBehind: "G", "Next background", "Puts the next world or pattern behind renders.";
     Panels: "H", "Hide panels", "Hides the panels at both sides, or shows them again.";
     FullScreen: "F11", "Full screen", "Fills the screen with the window, or makes it smaller again.";
     ResetView: "", "Reset view",

@@ -5,7 +5,7 @@ use crate::app::model::eye::Eye;
 use crate::app::shows::Shows;
 use crate::app::studio::Smoothing;
 use crate::io::background::BackgroundRef;
-use crate::picture::{Overlay, Pattern};
+use crate::picture::Overlay;
 use crate::render::USUAL_BOUNCES;
 use crate::scene::{Glare, Projection, View};
 use serde::{Deserialize, Serialize};
@@ -224,17 +224,11 @@ impl Workspace {
         self.behind.as_deref().filter(|_| self.background().is_none())
     }
 
-    /// Hangs the next pattern behind renders, in the order of patterns; after the last one, nothing.
+    /// Hangs the next world or pattern behind renders, in the order of their names; after the last one, nothing.
     pub fn next_behind(&mut self) {
-        let next = match self
-            .behind
-            .as_deref()
-            .map(|now| Pattern::NAMES.iter().position(|(name, _)| *name == now))
-        {
-            Some(Some(now)) => now + 1,
-            Some(None) | None => 0,
-        };
-        self.behind = Pattern::NAMES.get(next).map(|(name, _)| (*name).to_owned());
+        let place = |now: &str| BackgroundRef::names().position(|name| name == now);
+        let next = self.behind.as_deref().and_then(place).map_or(0, |now| now + 1);
+        self.behind = BackgroundRef::names().nth(next).map(str::to_owned);
     }
 
     /// Hangs the backplate of a scene behind it, and sees the scene in its number of bands of wavelengths, if it has one.
@@ -424,12 +418,12 @@ mod tests {
     fn backgrounds_come_one_after_the_other_and_around() {
         let mut workspace = Workspace { behind: Some("/a/photo.png".to_owned()), ..Workspace::default() };
         let mut seen = vec![];
-        for _ in 0..Pattern::NAMES.len() + 1 {
+        for _ in 0..BackgroundRef::names().count() + 1 {
             workspace.next_behind();
             seen.push(workspace.behind.clone());
         }
-        assert_eq!(seen.iter().flatten().count(), Pattern::NAMES.len());
-        assert_eq!((seen[0].as_deref(), seen.last()), (Some("page"), Some(&None)));
+        assert_eq!(seen.iter().flatten().count(), BackgroundRef::names().count());
+        assert_eq!((seen[0].as_deref(), seen.last()), (Some("sunset"), Some(&None)));
     }
 
     #[test]

@@ -6,7 +6,7 @@ use crate::app::model::choosing::Purpose;
 use crate::app::model::workspace::{WAVELENGTHS, Workspace};
 use crate::app::panels::rows::{Row, choice_row};
 use crate::app::studio::BEHIND;
-use crate::picture::Pattern;
+use crate::io::background::BackgroundRef;
 use crate::render::USUAL_BOUNCES;
 use crate::scene::{LIGHTS, light};
 use egui::Ui;
@@ -100,7 +100,7 @@ fn behind(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
         ui.selectable_value(&mut behind, None, "nothing");
         ui.selectable_value(&mut behind, Some("light".to_owned()), "light")
             .on_hover_text("The light itself, for example a panorama.");
-        for (name, _) in Pattern::NAMES {
+        for name in BackgroundRef::names() {
             ui.selectable_value(&mut behind, Some(name.to_owned()), name);
         }
         if ui.button("From a file…").on_hover_text("A picture: .png, .jpg, .hdr or .exr.").clicked() {

@@ -29,7 +29,7 @@ impl SceneOut {
         let unit_mm = 0.5 * design.diameter_mm;
         // Scenes are seen around their middle.
         let middle = middle(&poses, shot.specimen.solid().vertices());
-        let is_picture = matches!(shot.behind, Some(BackgroundRef::Pattern(_) | BackgroundRef::Photo(_)));
+        let is_picture = shot.behind.as_ref().is_some_and(BackgroundRef::is_picture);
         let scene = SceneFile {
             name: design.name.clone(),
             light: Some(plan.light.clone()),

@@ -133,8 +133,8 @@ impl SceneForm {
         within("gap_mm", "gap_mm", gap_mm, GAPS_MM, "mm")?;
         let background = self.background.as_deref().map(|given| behind(given, folder)).transpose()?;
         if let Some(distance) = self.background_distance_mm {
-            if !matches!(background, Some(BackgroundRef::Pattern(_) | BackgroundRef::Photo(_))) {
-                let message = "background_distance_mm: only a pattern or a photograph has a distance; give background, or \
+            if !background.as_ref().is_some_and(BackgroundRef::is_picture) {
+                let message = "background_distance_mm: only a pattern, a world or a photograph has a distance; give background, or \
                                leave it out";
                 return Err(Fault::key("background_distance_mm", message));
             }

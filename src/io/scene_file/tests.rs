@@ -59,6 +59,10 @@ fn a_layout_and_places_read_as_written() {
     assert_eq!((scene.background_distance_mm, scene.strength), (Some(12.0), 0.5));
     assert_eq!((scene.angle_of_view, scene.exposure), (Some(45.0), -0.5));
     assert_eq!((scene.light_turn, scene.light_upright), (30.0, true));
+    let scene = parse(&behind.replace("Page", "City"), "x.toml", None).unwrap();
+    assert_eq!(scene.background, Some(BackgroundRef::World(crate::scene::World::City)));
+    let world = with(PLACED, "[[stone]]", "light = \"room\"\n[[stone]]");
+    assert_eq!(parse(&world, "x.toml", None).unwrap().light.unwrap(), std::path::Path::new("room"));
     let alone = "format = 1\nname = \"One\"\nstone = [{ cut = \"shallow\" }]";
     assert_eq!(parse(alone, "x.toml", None).unwrap().stones.len(), 1);
 }
@@ -113,7 +117,10 @@ fn what_is_wrong_with_a_scene_is_told_with_line_and_key() {
             "background = 3",
             "x.toml:3: background: invalid type: integer `3`, expected text (a colour, light,",
         ),
-        ("background_distance_mm = 3", "x.toml:3: background_distance_mm: only a pattern or a photograph"),
+        (
+            "background_distance_mm = 3",
+            "x.toml:3: background_distance_mm: only a pattern, a world or a photograph",
+        ),
         (
             "background = \"black\"\nbackground_distance_mm = 3",
             "x.toml:4: background_distance_mm: only a pattern",

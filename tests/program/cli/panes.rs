@@ -73,7 +73,7 @@ fn a_pane_without_strength_is_its_background() {
 fn a_pane_lies_over_patterns_as_it_does_over_photographs() {
     let desk = desk();
     let mut seen = vec![];
-    for name in ["page", "grid", "checks", "stripes", "dots", "slit"] {
+    for name in ["page", "grid", "checks", "stripes", "dots", "slit", "sunset", "room", "city"] {
         desk.done(&format!("liquid-glass --background {name} --size 64x48 --out {name}"));
         let (size, pixels, _) = png(&desk.at(format!("{name}/liquid-glass.png")));
         assert_eq!(size, (64, 48));

@@ -1,0 +1,28 @@
+//! What a ray meets in the room: how it looks there.
+
+use glam::{DVec2, DVec3};
+
+/// What a ray has met: how it looks there.
+pub(super) struct RoomSurface {
+    pub(super) normal: DVec3,
+    /// The share of light that is sent back; zero where only its own light counts.
+    pub(super) albedo: DVec3,
+    /// Light of its own.
+    pub(super) own: DVec3,
+    /// How much of the room's light reaches it, 0 to 1.
+    pub(super) shelter: f64,
+    /// The strength of its mirror image, 0 to 1, its blur in radians, and how the mirror leans.
+    pub(super) gloss: f64,
+    pub(super) blur: f64,
+    pub(super) tilt: DVec2,
+}
+
+impl RoomSurface {
+    pub(super) fn new(normal: DVec3, albedo: DVec3) -> Self {
+        Self { normal, albedo, own: DVec3::ZERO, shelter: 1.0, gloss: 0.0, blur: 0.0, tilt: DVec2::ZERO }
+    }
+
+    pub(super) fn shining(light: DVec3) -> Self {
+        Self { own: light, ..Self::new(DVec3::Z, DVec3::ZERO) }
+    }
+}
