@@ -117,39 +117,37 @@ fn go(next: Waiting, met: Meeting, wavelength: u32) {
 }
 
 @compute @workgroup_size(8, 8)
-fn light(@builtin(global_invocation_id) id: vec3u) {
-    // The buffer holds some rows of the film, and this dispatch traces some of those.
-    let row = frame.film.z + id.y;
-    let pixel = vec2u(id.x, frame.turn.y + row);
-    if id.x >= frame.film.x || id.y >= frame.film.w {
+fn light(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: vec3u) {
+    let place = strip_pixel(group, id.xy);
+    if place.x >= frame.film.x || place.y >= frame.film.w {
         return;
     }
-    sum = RadiancePixel();
-    let start = pixel_ray(pixel, frame.limits.zw);
+    let start = pixel_ray(vec2u(place.x, frame.film.z + place.y), frame.limits.zw);
     straight = Ray(start[0], start[1], vec3f(0.0));
     let eye = Waiting(straight, 1.0, NONE);
     // The ray meets the first stone at the same point in all wavelengths.
     let met = nearest(eye.ray, NONE);
     let first = present;
-    if met.distance >= 0.0 || environment.backdrop.x > 0.0 {
-        for (var w = frame.turn.z; w < frame.turn.w; w++) {
-            response = responses[w];
-            present = first;
-            go(eye, met, w);
-            while count > 0u {
-                count -= 1u;
-                let next = waiting[count];
-                go(next, nearest(next.ray, next.left), w);
-            }
+    if met.distance < 0.0 && environment.backdrop.x <= 0.0 {
+        return;
+    }
+    let turns_before = turns;
+    let at = place.y * frame.film.x + place.x;
+    // Each wavelength is added up alone: so the sum does not depend on how many a dispatch takes.
+    var total = lit[at];
+    for (var w = frame.turn.z; w < frame.turn.w; w++) {
+        sum = RadiancePixel();
+        turns = turns_before;
+        response = responses[w];
+        present = first;
+        go(eye, met, w);
+        while count > 0u {
+            count -= 1u;
+            let next = waiting[count];
+            go(next, nearest(next.ray, next.left), w);
         }
-        sum.colour.w = f32(frame.turn.w - frame.turn.z);
+        total.colour += vec4f(sum.colour.xyz, 1.0);
+        total.rest += sum.rest;
     }
-    let at = row * frame.film.x + id.x;
-    var before = RadiancePixel();
-    if frame.turn.x > 0u {
-        before = lit[at];
-    }
-    before.colour += sum.colour;
-    before.rest += sum.rest;
-    lit[at] = before;
+    lit[at] = total;
 }

@@ -39,11 +39,14 @@ both_sides! {
         limits: vec4f,
         /// x: number of stones; y: number of wavelengths; z: most bounces; w: 1 for polarised light.
         counts: vec4u,
-        /// x: pixels across; y: pixels down; z: first row of this dispatch; w: number of its rows.
+        /// x: pixels across; y: pixels down; z: first row of the strip that the buffer holds; w: number of its rows.
         film: vec4u,
-        /// x: how many dispatches the pixels have had before; y: in scopes the rays along each side of a pixel, under light
-        /// the first row that the buffer holds; z: first wavelength; w: the one after the last.
+        /// x: in scopes the number of the cell in the pixel's grid; y: the cells along each side of a pixel; z: first
+        /// wavelength; w: the one after the last.
         turn: vec4u,
+        /// The strip's tiles of 8 by 8 pixels. x: the first of this dispatch; y: how many it takes; z: the stride by which
+        /// their order goes through the strip; w: the number of all.
+        tiles: vec4u,
         /// x: loop turns that a ray may take where it counts them; the others are unused.
         most: vec4u,
         /// x: the share of refraction's turning of light that is followed, 1 for physics; the others are unused.

@@ -156,7 +156,7 @@ fn compared(given: &[[f32; 4]], found: &[[[f32; 4]; 7]], factor: f64) -> (u32, f
 }
 
 /// Opens the card. Where there is none it reports that the test is skipped, or panics where a card is required.
-fn card(test: &str) -> Option<Gpu> {
+pub(super) fn card(test: &str) -> Option<Gpu> {
     match Gpu::open() {
         Ok(gpu) => Some(gpu),
         Err(error) if std::env::var_os("BRILLIANTEER_REQUIRE_GPU").is_some() => panic!("{test}: {error}"),
