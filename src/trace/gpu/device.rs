@@ -116,6 +116,7 @@ pub struct Gpu {
     pub(super) lights: Pipelines,
     name: String,
     is_software: bool,
+    lanes: u32,
     dispatches: Mutex<DispatchTotals>,
     fault: Arc<Mutex<Option<Fault>>>,
 }
@@ -209,10 +210,20 @@ impl Gpu {
         device.set_device_lost_callback(move |_, why| note(&lost, Fault::Failed(in_one_line(&why))));
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| note(&other, error.into())));
         let name = format!("{} ({})", info.name, info.backend);
+        let lanes = info.subgroup_max_size.max(1);
         let is_software = info.device_type == wgpu::DeviceType::Cpu;
         let [scopes, lights] = [ShaderTask::Scope, ShaderTask::Light].map(Pipelines::new);
-        let gpu =
-            Self { device, queue, scopes, lights, name, is_software, dispatches: Mutex::default(), fault };
+        let gpu = Self {
+            device,
+            queue,
+            scopes,
+            lights,
+            name,
+            is_software,
+            lanes,
+            dispatches: Mutex::default(),
+            fault,
+        };
         gpu.check().map(|()| gpu)
     }
 
@@ -237,6 +248,11 @@ impl Gpu {
         });
         self.queue.write_buffer(&buffer, 0, contents);
         buffer
+    }
+
+    /// Returns how many invocations at most run in step.
+    pub fn lanes(&self) -> u32 {
+        self.lanes
     }
 
     /// Returns what the card has done since the last call, and begins anew.

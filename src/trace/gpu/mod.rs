@@ -9,6 +9,7 @@ mod fields;
 mod gpu_types;
 mod light;
 mod limits;
+mod peak;
 mod pieces;
 mod scope;
 mod shaders;
@@ -21,6 +22,7 @@ pub use device::{DispatchTotals, Gpu, GpuError};
 pub use gpu_types::ScopePixel;
 pub use light::{ByCard, GpuEnvironment};
 pub use limits::{MOST_BODIES, MOST_BOUNCES, MOST_CARD_BANDS, MOST_TRIANGLES, MOST_WAVELENGTHS};
+pub use peak::CardPeak;
 
 #[cfg(test)]
 mod parity;

@@ -55,14 +55,13 @@ fn options() -> RayOptions {
 /// pixels and the number of dispatches.
 fn lit(
     gpu: &Gpu,
-    (scene, surface): (&Scene, ShaderSurface),
+    (scene, surface, map): (&Scene, ShaderSurface, &EnvironmentMap),
     (throttle, bands): (Throttle, u32),
     shift: f64,
 ) -> (Vec<u32>, u32) {
-    let (light, view) = (Light::lamps_on_dome(), View { tilt: 0.2, ..View::default() });
-    let map = EnvironmentMap::new(&light, None);
+    let view = View { tilt: 0.2, ..View::default() };
     let (basis, eye) = (view.light_basis(), view.basis());
-    let environment = Environment { map: &map, basis, eye, head: 0.0, backplate: None, backdrop: true };
+    let environment = Environment { map, basis, eye, head: 0.0, backplate: None, backdrop: true };
     let film = Film::new(SIZE, 0.05);
     let lit_scene = LitScene { scene, environment, view: &view, film, options: options() };
     let around = GpuEnvironment::new(gpu, &environment).unwrap();
@@ -108,9 +107,10 @@ fn pictures_under_light_are_the_same_to_the_bit_however_they_are_divided() {
     let Some(gpu) = card("pictures_under_light_are_the_same_to_the_bit_however_they_are_divided") else {
         return;
     };
+    let map = EnvironmentMap::new(&Light::lamps_on_dome(), None);
     for (family, surface) in [("round_brilliant", ShaderSurface::Few), ("plate", ShaderSurface::Wavy)] {
         let scene = Scene::alone(&specimen(family));
-        let taken = |division| lit(&gpu, (&scene, surface), division, 0.0);
+        let taken = |division| lit(&gpu, (&scene, surface, &map), division, 0.0);
         let [whole, others @ ..] = divisions().map(taken);
         assert_eq!(whole.1, PASSES);
         assert!(whole.0.iter().filter(|&&bits| bits != 0).count() > whole.0.len() / 4, "{family} is empty");
@@ -118,7 +118,7 @@ fn pictures_under_light_are_the_same_to_the_bit_however_they_are_divided() {
             assert!(count > PASSES && count <= TILES * BANDS * PASSES, "{count} dispatches");
             assert!(bits == whole.0, "{family}, division {k} of {count} dispatches");
         }
-        let mutant = lit(&gpu, (&scene, surface), divisions()[0].clone(), 1e-4).0;
+        let mutant = lit(&gpu, (&scene, surface, &map), divisions()[0].clone(), 1e-4).0;
         assert!(mutant != whole.0, "{family}: the comparison notices nothing");
     }
 }
