@@ -22,6 +22,8 @@ struct State {
     at_rest: bool,
     /// How the views are arranged.
     layout: PaneLayout,
+    /// How many times larger than the film's pixels those of the coarsest picture in sight are.
+    coarsest: f64,
 }
 
 /// Writes the file whenever the state has changed.
@@ -39,13 +41,14 @@ impl StateFile {
         Some(Self { path: path.into(), written: None, quiet_frames: 0 })
     }
 
-    /// Takes note of a frame, at its end; `is_quiet` says that nothing is under way.
+    /// Takes note of a frame, at its end; `is_quiet` says that nothing is under way, and `coarsest` how many times
+    /// larger than the film's pixels those of the coarsest picture in sight are.
     ///
     /// Returns whether one more frame is needed to find out whether the window is at rest.
-    pub fn note(&mut self, is_quiet: bool, layout: PaneLayout) -> bool {
+    pub fn note(&mut self, is_quiet: bool, layout: PaneLayout, coarsest: f64) -> bool {
         self.quiet_frames = if is_quiet { self.quiet_frames.saturating_add(1) } else { 0 };
         let at_rest = self.quiet_frames >= QUIET_FRAMES;
-        let state = State { at_rest, layout };
+        let state = State { at_rest, layout, coarsest };
         // If the file cannot be written, the test that waits for it fails; nobody else needs to know.
         if self.written != Some(state) && self.put(&state).is_ok() {
             self.written = Some(state);
@@ -69,7 +72,7 @@ mod tests {
         let path = folder.path().join("state.json");
         let mut file = StateFile { path: path.clone(), written: None, quiet_frames: 0 };
         let mut note = |is_quiet| {
-            let needs_another = file.note(is_quiet, PaneLayout::Two);
+            let needs_another = file.note(is_quiet, PaneLayout::Two, 1.0);
             let text = std::fs::read(&path).unwrap();
             let state: serde_json::Value = serde_json::from_slice(&text).unwrap();
             (needs_another, state["at_rest"].as_bool().unwrap())

@@ -102,7 +102,7 @@ impl Render {
             }
             write_linear_exr(&path, &mut taken.light, &description)?;
         } else {
-            let progress = WorkProgress::new(&format!("{}: overlays", studio.assembly.name));
+            let progress = WorkProgress::new(&format!("{}: developing", studio.assembly.name));
             studio.finish(&job).write_png(&path, &mut taken.light, &description, &progress.watch())?;
             studio.legend().iter().for_each(|line| say(&format!("note: {line}")));
         }

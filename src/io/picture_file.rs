@@ -6,8 +6,8 @@ use super::exr;
 use super::png::{PngFile, encoder};
 use super::stored_light::{MOST_HELD, StoredLight};
 use crate::picture::{Background, Develop, LightRows, Overlay, OverlayDrawing, develop_rows};
-use crate::trace::Watch;
 use crate::trace::sampling::LitScene;
+use crate::trace::{Stopped, Watch};
 #[cfg(feature = "exr")]
 use ::exr::{math::Vec2, meta::attribute::Chromaticities};
 use std::path::Path;
@@ -67,7 +67,7 @@ impl Finish<'_> {
     /// [`develop`](crate::picture::develop()) makes them, from top to bottom.
     ///
     /// # Errors
-    /// The errors of `each`, those of reading the light, and [`Stopped`](crate::trace::Stopped) when `watch` stops the work.
+    /// The errors of `each`, those of reading the light, and [`Stopped`] when `watch` stops the work.
     fn rows(
         &self,
         light: &mut StoredLight,
@@ -77,7 +77,11 @@ impl Finish<'_> {
         let drawing =
             |lit_scene| self.overlays.iter().map(move |&overlay| OverlayDrawing::new(overlay, lit_scene));
         let drawings: Vec<_> = self.lit_scene.as_ref().into_iter().flat_map(drawing).collect();
+        let height = f64::from(light.size()[1]);
         develop_rows(light, &self.develop, |first, rgba| {
+            if watch(f64::from(first) / height).is_break() {
+                return Err(Stopped.into());
+            }
             drawings.iter().try_for_each(|drawing| drawing.lay(first, rgba, watch))?;
             each(rgba)
         })
@@ -86,7 +90,7 @@ impl Finish<'_> {
     /// Returns the pixels of a finished picture.
     ///
     /// # Errors
-    /// Those of reading the light, and [`Stopped`](crate::trace::Stopped) when `watch` stops the work.
+    /// Those of reading the light, and [`Stopped`] when `watch` stops the work.
     pub fn pixels(&self, light: &mut StoredLight, watch: Watch) -> Result<Vec<u8>, WriteError> {
         let [width, height] = light.size();
         let mut out = Vec::with_capacity(4 * width as usize * height as usize);

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 const BINS: usize = 16;
 
 /// The most triangles that one box holds itself.
-const FULL: usize = 4;
+pub(super) const FULL: usize = 4;
 
 /// From this level down, boxes are halved by the number of triangles alone. So there are no more levels than this plus log2
 /// of that number.

@@ -5,6 +5,7 @@
 
 use super::Plane;
 use super::bvh::BvhNode;
+use super::bvh_build::FULL;
 use glam::{BVec3, DVec3};
 use pulp::{Arch, Simd, WithSimd};
 use std::sync::LazyLock;
@@ -12,7 +13,10 @@ use std::sync::LazyLock;
 /// How many boxes or triangles are tried side by side.
 const SIDE: usize = 4;
 
-/// The numbers of boxes or triangles that are tried side by side.
+// All triangles that one box holds are tried at once.
+const _: () = assert!(FULL <= SIDE);
+
+/// One number for each of the boxes or triangles that are tried side by side.
 type Four = [f64; SIDE];
 
 /// The bit of a box's content that says that it holds triangles.
@@ -304,7 +308,7 @@ impl Sheared {
         let far = (root.low - origin).abs().max((root.high - origin).abs()).max_element();
         let slack = DVec3::select(is_up, DVec3::ONE, DVec3::NEG_ONE) * (far * BOX_SLACK);
         let (before, beyond) = (origin + slack, origin - slack);
-        (shear.is_finite() && origin.is_finite()).then_some(Self {
+        (shear.is_finite() && direction.is_finite() && origin.is_finite()).then_some(Self {
             origin,
             axes: [x, y, z],
             shear,

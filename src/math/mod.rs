@@ -23,6 +23,7 @@ mod polygon;
 mod polytope;
 mod polytope_build;
 mod pose;
+pub(crate) mod random_bits;
 mod regions;
 mod smooth;
 mod solid;

@@ -15,7 +15,7 @@ pub(super) use glare::GatheredGlare;
 
 use super::linear::LightRows;
 use glare::{BrightPass, halved};
-use grid::LightGrid;
+use grid::{LightGrid, SOFTENED};
 use rayon::prelude::*;
 use star::{TINT, star};
 
@@ -56,9 +56,13 @@ const SPARKLE: f64 = 0.008;
 /// The least standard deviation, in cells, that the finest detail may have on a halved grid to be shown well.
 const COARSEST: f64 = 1.3;
 
-/// The most cells of the grid on which glare is made, at some 32 bytes each. Only pictures higher than wide come to so many
-/// before they are halved as often as their detail allows.
-const MOST_CELLS: u64 = 14 << 20;
+/// The most cells of the grid on which glare is made, at some 32 bytes each. A grid that would have more is halved once
+/// more than its detail asks for; the finest detail is then at least a cell wide, except in pictures higher than wide.
+const MOST_CELLS: u64 = 8 << 20;
+
+/// The variance that halving a grid again and again and doubling it back adds, in square cells of the coarsest grid, for
+/// ever more halvings: each halving adds [`SOFTENED`] in cells half as wide as the next one's.
+const ALL_SOFTENED: f64 = SOFTENED / 3.0;
 
 impl Bloom {
     /// The most streaks that a star may have.
@@ -67,7 +71,7 @@ impl Bloom {
     /// Returns the glare of a picture, whose pixels count as `exposed` says; `None` where nothing is bright enough. A
     /// setting out of its range counts as the nearer end of the range, NaN as 0.
     ///
-    /// The light is read from top to bottom, once, some rows at a time.
+    /// The light is read from top to bottom, some rows at a time; rows where two pieces touch are read twice.
     ///
     /// # Errors
     /// The errors of reading the light.
@@ -88,15 +92,21 @@ impl Bloom {
         if source.iter().all(LightGrid::is_dark) {
             return Ok(None);
         }
-        let spread = self.spread(source, f64::from(size[0]) / f64::from(1_u32 << halvings));
+        let spread = self.spread(source, size[0], halvings);
         Ok(Some(GatheredGlare { bright, size, halvings, spread }))
     }
 
-    /// Returns the glow and the streaks of a grid's light in each colour, where the whole picture is `width` cells wide.
-    fn spread(&self, source: [LightGrid; 3], width: f64) -> [LightGrid; 3] {
+    /// Returns the glow and the streaks of a grid's light in each colour, for a picture `pixels` wide whose grid was halved
+    /// this often.
+    fn spread(&self, source: [LightGrid; 3], pixels: u32, halvings: u32) -> [LightGrid; 3] {
+        let cell = f64::from(1_u32 << halvings);
+        let width = f64::from(pixels) / cell;
+        // The halvings blur already, so the Gaussians blur by the rest.
+        let softened = ALL_SOFTENED * (1.0 - cell.powi(-2));
+        let rest = |sigma: f64| (sigma * sigma - softened).max(0.0).sqrt();
         let streaks = self.streaks.min(Self::MOST_STREAKS);
         let radius = within(self.radius, 0.5) * width;
-        let glow = GLOW.map(|(part, weight)| (radius * part, weight));
+        let glow = GLOW.map(|(part, weight)| (rest(radius * part), weight));
         if streaks == 0 {
             return source.map(|colour| colour.glow(&glow));
         }
@@ -104,13 +114,13 @@ impl Bloom {
         let length = within(self.streak_length, 1.0) * width;
         let [red, green, blue] = source;
         // The colours are spread one after the other, so that less memory is held.
-        [(red, TINT[0]), (green, TINT[1]), (blue, TINT[2])].map(|(mut rest, tint)| {
-            let sparkle = rest.times(&sparkling);
-            rest.add(&sparkle, -1.0);
-            let fine = sparkle.gaussian(STREAK_WIDTH * width);
+        [(red, TINT[0]), (green, TINT[1]), (blue, TINT[2])].map(|(mut steady, tint)| {
+            let sparkle = steady.times(&sparkling);
+            steady.add(&sparkle, -1.0);
+            let fine = sparkle.gaussian(rest(STREAK_WIDTH * width));
             drop(sparkle);
             let star = star(fine, streaks, length * tint);
-            let mut sum = rest.glow(&glow);
+            let mut sum = steady.glow(&glow);
             sum.add(&star, 1.0);
             sum
         })
@@ -132,12 +142,11 @@ fn halvings(size: [u32; 2]) -> u32 {
 /// Light as bright as its surroundings is not a sparkle: streaks from a wide patch would be curtains with hard edges.
 fn sparkling(source: &[LightGrid; 3], sigma: f64) -> LightGrid {
     let [red, green, blue] = source;
-    let mut around = red.glow(&[(sigma, 1.0)]);
-    [green, blue].into_iter().for_each(|colour| around.add(&colour.glow(&[(sigma, 1.0)]), 1.0));
-    let colours = red.cells.par_iter().zip(&green.cells).zip(&blue.cells);
-    around.cells.par_iter_mut().zip(colours).for_each(|(cell, ((red, green), blue))| {
-        let own = red + green + blue;
-        *cell = if own > *cell { IN_STREAKS * (1.0 - *cell / own) } else { 0.0 };
+    let mut own = red.clone();
+    [green, blue].into_iter().for_each(|colour| own.add(colour, 1.0));
+    let mut around = own.glow(&[(sigma, 1.0)]);
+    around.cells.par_iter_mut().zip(&own.cells).for_each(|(cell, own)| {
+        *cell = if own > cell { IN_STREAKS * (1.0 - *cell / own) } else { 0.0 };
     });
     around
 }

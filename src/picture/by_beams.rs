@@ -21,7 +21,7 @@ const UNEVEN: f64 = 1.0 / 16.0;
 const PIECE: u32 = 16;
 
 /// The most bytes of colour and cover that are held at once; larger pictures are taken in several ranges of rows.
-const MOST_BYTES: usize = 256 << 20;
+const MOST_BYTES: usize = 192 << 20;
 
 /// The number of beams whose colours are found as one piece of work.
 const AT_ONCE: usize = 512;
@@ -62,7 +62,7 @@ impl<'a> ByBeams<'a> {
         Self::of_rows(lit_scene, options, 0..lit_scene.film.size[1])
     }
 
-    /// Returns how many rows of a picture of this width may be prepared at once, so that they take no more than 256 MiB.
+    /// Returns how many rows of a picture of this width may be prepared at once, so that they take no more than 192 MiB.
     pub fn most_rows(width: u32) -> u32 {
         let piece = PIECE as usize * (width as usize + 1) * size_of::<DVec4>();
         ((MOST_BYTES / piece).max(1) as u32).saturating_mul(PIECE)

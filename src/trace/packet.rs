@@ -1,18 +1,20 @@
 //! Packets of rays: one ray in each lane of the processor's registers, in single precision, for pictures that are looked at.
 //!
-//! A packet follows the same chain of bounces as [`ray`](super::ray) does in double precision, through bodies from which light
-//! that has left never returns. Each ray has a medium of its own, so that the wavelengths of one pixel share a packet. When a
+//! A packet follows the same chains of bounces as [`ray`](super::ray) does in double precision, through bodies of planes and
+//! glass shapes; light may enter a plate with waves again. Light that goes from one body to another keeps its polarisation,
+//! which `ray` forgets. Each ray has a medium of its own, so that the wavelengths of one pixel share a packet. When a
 //! ray ends, the next one takes its lane. `shaders/trace.wgsl` does the same on a graphics card.
 
 mod chain;
 mod entering;
+mod environment;
 mod fields;
 mod lanes;
 mod optics;
 mod outside;
 mod planes;
 mod rays;
-mod sky;
+
 mod tracer;
 
 use self::lanes::{Lanes, Vectors};
@@ -20,7 +22,7 @@ pub(in crate::trace) use self::tracer::PacketTracer;
 use pulp::Simd;
 
 /// Where rays meet a surface.
-struct Met<S: Simd> {
+struct PacketHit<S: Simd> {
     /// The distance along each ray; infinite where it misses.
     distance: Lanes<S>,
     /// The unit outward normals; anything, NaN included, where a ray misses.
@@ -35,10 +37,10 @@ trait PacketSurface: Sync {
     const IS_CURVED: bool;
 
     /// Returns where rays from outside enter. A ray from the surface outward does not meet its own start.
-    fn entry<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> Met<S>;
+    fn entry<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> PacketHit<S>;
 
     /// Returns where rays from inside or from the surface leave.
-    fn exit<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> Met<S>;
+    fn exit<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> PacketHit<S>;
 
     /// Returns the change of the unit normals where points of the surface move along it.
     fn turned<S: Simd>(&self, simd: S, point: Vectors<S>, by: Vectors<S>) -> Vectors<S>;

@@ -54,7 +54,8 @@ pub struct Sampling {
     /// physics.
     pub strength: f64,
     /// The share of a ray's light below which, in solids that are not convex, light goes on by chance alone, counting for
-    /// more where it does; 0 where all light is followed. A graphics card follows all.
+    /// more where it does; 0 where all light is followed. Only single rays in double precision heed this; packets and graphics
+    /// cards follow all light.
     pub by_chance: f64,
 }
 

@@ -18,8 +18,8 @@ const ROULETTE: f64 = 0.15;
 /// undecided, of which little light may be left.
 const BY_LIGHT: f64 = 0.8;
 
-/// The least light that a beam must have left, as a part of the silhouette's light, for rays to go on from it. Far less has
-/// no reciprocal.
+/// The least light that a beam must have left, as a part of the silhouette's light, for rays to go on from it. The
+/// reciprocal of far less would be infinite.
 const LEAST_LIGHT: f64 = 1e-30;
 
 /// The least light that all beams must have left to be estimated: less is below the rounding of figures.

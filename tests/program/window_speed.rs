@@ -9,10 +9,12 @@ use brillianteer::app::{Editor, Setup};
 use egui::{Pos2, Rect, Role, pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use std::ffi::OsStr;
 use std::fs::File;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{BufRead, BufReader};
 use std::os::unix::fs::FileExt;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use x11rb::connection::Connection;
@@ -58,6 +60,23 @@ struct Places {
     figure: Rect,
 }
 
+/// Returns the position of the render of a design.
+fn render_of(design: &Path) -> Rect {
+    let setup = Setup { file: Some(design.to_owned()), ..Setup::default() };
+    let mut harness = Harness::builder()
+        .with_size(egui::Vec2::from(SIZE))
+        .build_eframe(|context| Editor::new(context, setup).unwrap());
+    let is_open =
+        |harness: &Harness<Editor>| harness.query_by_role_and_label(Role::Image, "Render picture").is_some();
+    let begun = Instant::now();
+    while !is_open(&harness) {
+        assert!(begun.elapsed() < PATIENCE, "{} does not open", design.display());
+        harness.run_steps(1);
+    }
+    harness.run_steps(8);
+    harness.get_by_role_and_label(Role::Image, "Render picture").rect()
+}
+
 impl Places {
     /// Finds the positions from the editor itself, in a window of the same size that is not shown.
     fn find() -> Self {
@@ -91,7 +110,8 @@ struct Stage {
 }
 
 impl Stage {
-    fn open() -> Self {
+    /// Starts the program on a screen of its own, with the design that it opens by itself or another.
+    fn open(design: Option<&Path>) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let mut server = Command::new("Xvfb")
             .args([
@@ -115,6 +135,7 @@ impl Stage {
         BufReader::new(server.stdout.take().unwrap()).read_line(&mut number).unwrap();
         let display = format!(":{}", number.trim());
         let program = Command::new(env!("CARGO_BIN_EXE_brillianteer"))
+            .args(design.map(|path| [OsStr::new("edit"), path.as_os_str()]).into_iter().flatten())
             .env("DISPLAY", &display)
             .env("XDG_DATA_HOME", folder.path())
             .env("XDG_RUNTIME_DIR", folder.path())
@@ -187,15 +208,19 @@ impl Stage {
         hash.finish()
     }
 
+    /// Returns what the program last reported of itself.
+    fn state(&self) -> serde_json::Value {
+        let text = std::fs::read(self.folder.path().join("state.json")).unwrap_or_default();
+        serde_json::from_slice(&text).unwrap_or_default()
+    }
+
     /// Waits until the program has reported for a while that every picture and figure is final.
     fn rest(&self) {
         let (begun, mut since) = (Instant::now(), Instant::now());
         while since.elapsed() < Duration::from_secs(1) {
             assert!(begun.elapsed() < PATIENCE, "the window does not come to rest");
             std::thread::sleep(Duration::from_millis(50));
-            let text = std::fs::read(self.folder.path().join("state.json")).unwrap_or_default();
-            let state: serde_json::Value = serde_json::from_slice(&text).unwrap_or_default();
-            if state["at_rest"] != true {
+            if self.state()["at_rest"] != true {
                 since = Instant::now();
             }
         }
@@ -309,7 +334,7 @@ impl Judge {
 #[ignore = "takes minutes and two idle cores"]
 fn the_window_follows_the_hand() {
     let places = Places::find();
-    let stage = Stage::open();
+    let stage = Stage::open(None);
     stage.rest();
     let cores = std::thread::available_parallelism().unwrap().get() as f64;
     let (begun, before) = (Instant::now(), used(&stage));
@@ -379,5 +404,38 @@ fn the_window_follows_the_hand() {
         println!("NOT JUDGED: the machine is not idle");
     } else {
         assert!(judge.0.is_empty(), "{}", judge.0.join("; "));
+    }
+}
+
+/// The designs that are turned: files that the environment names, as it does the paths of programs, or else all glass shapes.
+fn turned() -> Vec<PathBuf> {
+    let glass = |name| Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cuts/{name}.toml"));
+    match std::env::var_os("BRILLIANTEER_TURNED") {
+        Some(files) => std::env::split_paths(&files).collect(),
+        None => ["pill", "prism", "cube", "plate", "fisheye"].map(glass).to_vec(),
+    }
+}
+
+#[test]
+#[ignore = "takes minutes and two idle cores"]
+fn the_window_shows_designs_while_they_are_turned() {
+    for design in turned() {
+        let place = render_of(&design);
+        let stage = Stage::open(Some(&design));
+        stage.rest();
+        let hold = place.center() + egui::vec2(40.0, 30.0);
+        stage.hand_at(hold);
+        std::thread::sleep(Duration::from_millis(200));
+        stage.press(hold);
+        let path = |step: u32| swing(hold, egui::vec2(1.5, 1.0), step);
+        let rate = stage.changes(path, &[place], DRAG)[0];
+        let blocks = stage.state()["coarsest"].as_f64().unwrap_or(f64::NAN);
+        stage.release(path(23));
+        let [across, down] = [place.width(), place.height()];
+        println!(
+            "{}: {rate:.1} renders of {across:.0} x {down:.0} points a second while it is turned, at the end in \
+             blocks of {blocks:.1} pixels",
+            design.display()
+        );
     }
 }

@@ -20,7 +20,7 @@ pub use order::{
     Answer, FiguresOrder, Grade, Order, Paper, Shot, Slot, Smoothing, TakenPicture, Tilts, Which,
 };
 
-pub use effort::{Effort, FINE};
+pub use effort::{Effort, FINE, Grain};
 pub use jobs::{BEHIND, SPAN, hung};
 pub use mailbox::Wake;
 pub use refracted::survey;

@@ -2,7 +2,7 @@
 //! glass.
 
 use super::develop::map_taken;
-use super::effort::{Effort, FINE_RENDER, RAYS_COARSER};
+use super::effort::{Effort, FINE_RENDER};
 use super::jobs::{MapDetail, coarser};
 use super::order::{Shot, Slot, TakenPicture};
 use super::take::ShotTracer;
@@ -27,7 +27,7 @@ impl ShotTracer {
         watch: Watch,
     ) -> Result<TakenPicture, Failure> {
         let (detail, factor) = match effort.refinement {
-            None => (ROUGH, effort.coarser * RAYS_COARSER),
+            None => (ROUGH, effort.coarser_by_single_rays()),
             Some(refinement) if refinement.samples == 1 => (FAIR, 1.0),
             Some(_) => (FINE, 1.0),
         };
@@ -46,13 +46,12 @@ impl ShotTracer {
         effort: &Effort,
         watch: Watch,
     ) -> Result<TakenPicture, Failure> {
-        let factor = if effort.is_refined() { 1.0 } else { effort.coarser * RAYS_COARSER };
         let Some(behind) = self.picture_behind(Some(&shot.pane_background()))? else {
             return Err(Failure::Input("the pane has no background".into()));
         };
         // Panes are always traced by the processor, which takes no more passes than its fine renders have.
         let samples = effort.refinement.map_or(1, |r| r.samples.min(FINE_RENDER.samples));
-        let size = coarser(&shot.film, factor).size;
+        let size = coarser(&shot.film, effort.coarser_by_single_rays()).size;
         let job = shot.pane_job(&behind, size, samples > 1, samples);
         let rendered = run(&mut self.renderer, &job, watch)?;
         let tracer = rendered.backend.kind();

@@ -1,7 +1,7 @@
 //! Traces renders: a body or its copies under a light, in front of a background.
 
 use super::develop::{developed, manner};
-use super::effort::{Effort, RAYS_COARSER, Refinement};
+use super::effort::{Effort, Grain, Refinement};
 use super::jobs::coarser;
 use super::motion::Moment;
 use super::order::{Shot, Slot, Smoothing, TakenPicture};
@@ -31,9 +31,12 @@ impl ShotTracer {
         };
         let first = moving.and_then(|_| self.trails.get(&slot)).map_or(0, |(trail, _)| trail.count);
         let mut job = self.light_job(shot, effort, first)?;
-        let is_slow =
-            self.renderer.plan(&job).map_err(RenderError::from)?.backend.is_slow() && !effort.is_refined();
-        job.film = coarser(&shot.film, effort.coarser * if is_slow { RAYS_COARSER } else { 1.0 });
+        let mut grain = effort.grain;
+        if self.renderer.plan(&job).map_err(RenderError::from)?.backend.is_slow() {
+            job = self.light_job(shot, &effort.by_rays(), first)?;
+            grain = effort.grain_of_rays;
+        }
+        job.film = coarser(&shot.film, grain.coarser);
         let Self { renderer, trails, kept, notes, .. } = self;
         renderer.run(&job, watch, &mut |part| {
             let (picture, unresolved, tracer) = match part {
@@ -65,10 +68,14 @@ impl ShotTracer {
         quality.beams.unresolved = refinement.map_or(effort.unresolved, |r| r.unresolved);
         quality.samples = refinement.map(|r| r.samples);
         let steps = match refinement {
-            None => Steps::Glance { first },
+            None => {
+                // Rough pictures by rays leave as much light as those by beams.
+                quality.rays.least_weight = effort.unresolved;
+                Steps::Glance { first }
+            }
             Some(refinement) => Steps::Passes { first, hidden: refinement.after },
         };
-        Ok(shot.light_job(behind, effort.bands, steps, quality))
+        Ok(shot.light_job(behind, effort.grain.bands, steps, quality))
     }
 
     /// Whether a shot is a render that rays on the processor trace, which takes long.
@@ -77,7 +84,11 @@ impl ShotTracer {
             return false;
         }
         let refinement = Some(Refinement { samples: 1, after: 0, unresolved: 1.0 });
-        let job = self.light_job(shot, &Effort { refinement, ..Effort::rough(1.0, 1.0, 1) }, 0);
+        let job = self.light_job(
+            shot,
+            &Effort { refinement, ..Effort::rough(1.0, Grain { coarser: 1.0, bands: 1 }) },
+            0,
+        );
         job.is_ok_and(|job| self.renderer.plan(&job).is_ok_and(|plan| plan.backend.is_slow()))
     }
 

@@ -1,7 +1,7 @@
 //! Traces one picture.
 
 use super::develop::{developed, map_taken, overlaid};
-use super::effort::{Effort, RAYS_COARSER};
+use super::effort::Effort;
 use super::jobs::coarser;
 use super::motion::Trails;
 use super::order::{Shot, Slot, TakenPicture};
@@ -79,9 +79,9 @@ impl ShotTracer {
         let scope = scoped.with_head(shot.head);
         let palette = Palette::of(&scope);
         let mut job = shot.scope_job(scope, effort, if effort.is_refined() { 3 } else { 1 });
-        let is_slow =
-            self.renderer.plan(&job).map_err(RenderError::from)?.backend.is_slow() && !effort.is_refined();
-        job.film = coarser(&shot.film, effort.coarser * if is_slow { RAYS_COARSER } else { 1.0 });
+        let is_slow = self.renderer.plan(&job).map_err(RenderError::from)?.backend.is_slow();
+        let times = if is_slow { effort.coarser_by_single_rays() } else { effort.grain.coarser };
+        job.film = coarser(&shot.film, times);
         let size = job.film.size;
         let (mut pixels, mut unresolved) =
             (Vec::with_capacity(3 * size[0] as usize * size[1] as usize), None);
@@ -141,7 +141,7 @@ mod tests {
     use crate::app::model::document::Document;
     use crate::app::model::eye::Eye;
     use crate::app::model::framing::FramingFit;
-    use crate::app::studio::effort::Refinement;
+    use crate::app::studio::effort::{Grain, Refinement};
     use crate::app::studio::jobs::BEHIND;
     use crate::app::studio::order::{Paper, Smoothing, Which};
     use crate::io::lighting::Lighting;
@@ -220,7 +220,7 @@ mod tests {
         refinement: Option<Refinement>,
     ) -> TakenPicture {
         let mut last = None;
-        let effort = Effort { refinement, ..Effort::rough(5e-3, 1.0, bands) };
+        let effort = Effort { refinement, ..Effort::rough(5e-3, Grain { coarser: 1.0, bands }) };
         let each = &mut |taken| last = Some(taken);
         camera.take(((0, Which::Present), shot), &effort, &unwatched, each).unwrap();
         last.unwrap()

@@ -5,7 +5,7 @@ use super::export_scene::SceneOut;
 use crate::app::model::export::ExportPlan;
 use crate::app::model::exporting::ExportEvent;
 use crate::app::shows::Shows;
-use crate::app::studio::{Effort, ExportedRender, SPAN, ShotTracer, Which, survey};
+use crate::app::studio::{Effort, ExportedRender, Grain, SPAN, ShotTracer, Which, survey};
 use crate::io::Failure;
 use crate::io::background::BackgroundRef;
 use crate::io::export::{Event, Export, OutputFormat, Outputs};
@@ -147,7 +147,7 @@ pub fn thumbnails(
     is_stopped: &(dyn Fn() -> bool + Sync),
 ) {
     let mut tracer = ShotTracer::default();
-    let effort = Effort::rough(2e-2, 1.0, 6);
+    let effort = Effort::rough(2e-2, Grain { coarser: 1.0, bands: 6 });
     let watch = |_: f64| if is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
     for shows in plan.can_be_shown().take_while(|_| !is_stopped()) {
         if shows == Shows::Profile {

@@ -42,6 +42,12 @@ impl Gallery {
         }
     }
 
+    /// Returns how many times larger than the film's pixels those of the coarsest picture are; 1 where there is none.
+    pub fn coarsest(&self) -> f64 {
+        let times = |shown: &Shown| f64::from(shown.shot.film.size[0]) / shown.texture.size()[0] as f64;
+        self.traced.values().map(times).fold(1.0, f64::max)
+    }
+
     /// Drops the pictures of a document, or of a comparison, that has ended. The studio may still answer with such a picture.
     pub fn tidy(&mut self, Model { session, .. }: &Model) {
         let stays = |which: Which, shot: &Shot| match which {

@@ -22,7 +22,7 @@ const WIDEST: f64 = 3.0;
 const REACH: f64 = 5.0;
 
 /// The variance that halving and then doubling a grid adds, in square cells: 3/4 each.
-const SOFTENED: f64 = 1.5;
+pub(super) const SOFTENED: f64 = 1.5;
 
 /// The shares that a cell of the halved grid takes of the four nearest cells along an axis: the transpose of linear
 /// interpolation, scaled to a sum of 1.

@@ -52,6 +52,40 @@ fn a_large_picture_conserves_light_too_and_glares_alike() {
 }
 
 #[test]
+fn a_grid_that_is_halved_once_more_glares_alike() {
+    let bloom = Bloom { streak_length: 0.05, ..Bloom::default() };
+    let bright = BrightPass { strength: 0.5, threshold: 1.0 };
+    // A part of a picture 3000 pixels wide, with three bright points.
+    let size = [1500, 1100];
+    let mut picture = Linear::new(size[0], size[1]);
+    for (k, pixel) in picture.pixels.iter_mut().enumerate() {
+        let (x, y) = ((k % 1500) as i32, (k / 1500) as i32);
+        let from = |(at_x, at_y): (i32, i32)| (x - at_x).pow(2) + (y - at_y).pow(2);
+        *pixel =
+            if [(300, 401), (750, 550), (1101, 800)].map(from).contains(&0) { [1e4; 4] } else { [0.0; 4] };
+    }
+    let glare = |halvings| {
+        let Ok(source) = bright.source(&mut &picture, |pixel| *pixel, halvings);
+        let spread = bloom.spread(source, 3000, halvings);
+        GatheredGlare { bright, size, halvings, spread }
+    };
+    let rows = |halvings| {
+        let (glare, mut rows) = (glare(halvings), vec![]);
+        for y in 0..size[1] as usize {
+            let mut row = vec![[0.0; 4]; size[0] as usize];
+            glare.add(y, &mut row);
+            rows.extend(row.into_iter().map(|pixel| f64::from(pixel[1])));
+        }
+        rows
+    };
+    let (fine, coarse) = (rows(0), rows(1));
+    let square = |light: &[f64]| light.iter().map(|l| l * l).sum::<f64>();
+    let apart: Vec<f64> = fine.iter().zip(&coarse).map(|(fine, coarse)| fine - coarse).collect();
+    let part = (square(&apart) / square(&fine)).sqrt();
+    assert!(part < 0.02, "{part} of the glare differs");
+}
+
+#[test]
 fn light_gathered_some_rows_at_a_time_is_that_of_the_whole_picture() {
     let mut picture = Linear::new(2051, 1501);
     for (k, pixel) in picture.pixels.iter_mut().enumerate() {

@@ -32,7 +32,7 @@ impl BeamSums {
     }
 }
 
-/// How a beam stands among those on its way and after it.
+/// What is known of the strongest exit on the way to a beam, and whether the beam was split.
 #[derive(Clone, Copy)]
 pub(in crate::trace) struct Standing {
     /// The strongest exit on its way, as a band of the scope.

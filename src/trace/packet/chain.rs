@@ -2,9 +2,9 @@
 
 use super::entering::enter;
 use super::lanes::{Lanes, MOST_LANES, Vectors};
-use super::optics::{LEAST_COS, Meeting, PacketLight, Reflection, s_axis};
-use super::rays::{EnteringRay, InnerRay, InnerRays, OuterRay, PacketLoss};
-use super::{Met, PacketSurface};
+use super::optics::{Incidence, LEAST_COS, PacketLight, Reflection, s_axis};
+use super::rays::{EnteringRay, InnerRay, InnerRays, PacketLoss, SingleRay, Travelled};
+use super::{PacketHit, PacketSurface};
 use crate::trace::ray::RayOptions;
 use pulp::{Simd, WithSimd};
 
@@ -18,7 +18,7 @@ pub(super) struct Passage<'a, P> {
     pub rays: &'a [EnteringRay],
     pub options: RayOptions,
     /// Takes the light that leaves.
-    pub leaving: &'a mut Vec<OuterRay>,
+    pub leaving: &'a mut Vec<SingleRay>,
     /// Takes what does not leave.
     pub losses: &'a mut Vec<PacketLoss>,
 }
@@ -52,7 +52,7 @@ impl<P: PacketSurface> WithSimd for Passage<'_, P> {
             if is_empty {
                 break;
             }
-            let before = lanes.weight();
+            let before = [lanes.weight(), lanes.absorbed];
             self.bounce(simd, &mut lanes, &occupants, absorbs);
             self.end(&mut lanes, &mut occupants, before);
         }
@@ -62,12 +62,13 @@ impl<P: PacketSurface> WithSimd for Passage<'_, P> {
 impl<P: PacketSurface> Passage<'_, P> {
     /// Returns the occupant that a ray becomes; `None` where it has too little light to be followed.
     #[inline(always)]
-    fn admitted(&mut self, ray: &InnerRay) -> Occupant {
-        let weight = ray.light.ss + ray.light.pp;
-        if weight > self.options.least_weight as f32 && self.options.most_bounces > 0 {
-            return Some((ray.tag, 0));
+    fn admitted(&mut self, InnerRay { ray, .. }: &InnerRay) -> Occupant {
+        let &SingleRay { light, travelled: Travelled { bounces, .. }, tag, .. } = ray;
+        let weight = light.weight();
+        if weight > self.options.least_weight as f32 && bounces < self.options.most_bounces {
+            return Some((tag, bounces));
         }
-        self.losses.push(PacketLoss { absorbed: 0.0, unresolved: weight, tag: ray.tag });
+        self.losses.push(PacketLoss { absorbed: 0.0, unresolved: weight, tag });
         None
     }
 
@@ -80,7 +81,7 @@ impl<P: PacketSurface> Passage<'_, P> {
         occupants: &[Occupant; MOST_LANES],
         absorbs: bool,
     ) {
-        let Met { distance, normal } = self.surface.exit(simd, rays.origin, rays.direction);
+        let PacketHit { distance, normal } = self.surface.exit(simd, rays.origin, rays.direction);
         let point = rays.origin + rays.direction * distance;
         rays.path = rays.path + distance;
         let cos_i = rays.direction.dot(normal);
@@ -99,7 +100,7 @@ impl<P: PacketSurface> Passage<'_, P> {
             rays.light = rays.light.turned(rays.s.dot(across), sine);
             rays.s = across;
         }
-        let meeting = Meeting {
+        let incidence = Incidence {
             direction: rays.direction,
             normal: -normal,
             cos_i,
@@ -108,20 +109,23 @@ impl<P: PacketSurface> Passage<'_, P> {
         };
         let passed = rays.light.transmitted(&surface);
         let weight = passed.weight() * rays.left;
-        let outward = meeting.refracted(rays.index, surface.cos_t);
-        let swept = meeting.refracted_change(rays.index, rays.spread, surface.cos_t);
+        let outward = incidence.refracted(rays.index, surface.cos_t);
+        let swept = incidence.refracted_change(rays.index, rays.spread, surface.cos_t);
         let swept = if P::IS_CURVED { tamed(swept) } else { swept };
         for (lane, occupant) in occupants[..S::F32_LANES].iter().enumerate() {
-            if let Some((tag, _)) = *occupant
+            if let Some((tag, bounces)) = *occupant
                 && weight.lane(lane) > 0.0
+                && rays.path.lane(lane).is_finite()
             {
-                self.leaving.push(OuterRay {
+                let (left, path) = (rays.left.lane(lane), rays.path.lane(lane));
+                self.leaving.push(SingleRay {
                     origin: point.lane(lane),
                     direction: outward.lane(lane),
                     sweep: swept.lane(lane),
                     shift: rays.shift.lane(lane),
                     s: rays.s.lane(lane),
-                    light: passed.lane(lane).times(rays.left.lane(lane)),
+                    light: passed.lane(lane).times(left),
+                    travelled: Travelled { left, path, bounces: bounces + 1 },
                     tag,
                 });
             }
@@ -130,34 +134,37 @@ impl<P: PacketSurface> Passage<'_, P> {
         if !self.options.polarised {
             rays.light = PacketLight::<Lanes<S>>::unpolarised(rays.light.weight());
         }
-        let reflected_sweep = meeting.reflected_change();
+        let reflected_sweep = incidence.reflected_change();
         rays.sweep = if P::IS_CURVED { tamed(reflected_sweep) } else { reflected_sweep };
-        rays.direction = meeting.reflected();
+        rays.direction = incidence.reflected();
         rays.origin = point;
     }
 
-    /// Counts the bounce, and empties the lanes of rays that end. `before` is the light before the bounce.
+    /// Counts the bounce, and empties the lanes of rays that end. `before` is the light before the bounce, and what of it
+    /// was absorbed until then.
     #[inline(always)]
     fn end<S: Simd>(
         &mut self,
         rays: &mut InnerRays<S>,
         occupants: &mut [Occupant; MOST_LANES],
-        before: Lanes<S>,
+        before: [Lanes<S>; 2],
     ) {
         let weights = rays.weight();
         for (lane, occupant) in occupants[..S::F32_LANES].iter_mut().enumerate() {
             let Some((tag, bounces)) = occupant else { continue };
             *bounces += 1;
             let (weight, absorbed) = (weights.lane(lane), rays.absorbed.lane(lane));
-            if weight > self.options.least_weight as f32 && *bounces < self.options.most_bounces {
+            // Rounding may let a ray slip out of the body at an edge. It is then nowhere, and what is left of it unresolved.
+            let has_slipped = !rays.path.lane(lane).is_finite() || !(weight + absorbed).is_finite();
+            if !has_slipped
+                && weight > self.options.least_weight as f32
+                && *bounces < self.options.most_bounces
+            {
                 continue;
             }
-            let mut loss = PacketLoss { absorbed, unresolved: weight, tag: *tag };
-            if !(weight + absorbed).is_finite() {
-                // Rounding has let the ray slip out of the body.
-                loss = PacketLoss { absorbed: 0.0, unresolved: before.lane(lane), tag: *tag };
-            }
-            self.losses.push(loss);
+            let [unresolved, absorbed] =
+                if has_slipped { before.map(|light| light.lane(lane)) } else { [weight, absorbed] };
+            self.losses.push(PacketLoss { absorbed, unresolved, tag: *tag });
             rays.set_lane(lane, &InnerRay::DARK);
             *occupant = None;
         }
@@ -194,4 +201,64 @@ pub(super) fn along_surface<S: Simd>(
 fn tamed<S: Simd>(v: Vectors<S>) -> Vectors<S> {
     let most = v[0].abs().max(v[1].abs()).max(v[2].abs()).max(v[0].all(1e-30));
     v * (most.all(MOST_SWEPT) / most).min(most.all(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::rays::{PacketMedium, SingleHit};
+    use super::*;
+    use glam::Vec3;
+    use pulp::Arch;
+
+    /// A slab whose upper face is missed from inside, as rounding may miss a facet at an edge.
+    struct OpenSlab;
+
+    impl PacketSurface for OpenSlab {
+        const IS_CURVED: bool = false;
+
+        fn entry<S: Simd>(&self, simd: S, _: Vectors<S>, direction: Vectors<S>) -> PacketHit<S> {
+            PacketHit { distance: direction[0].all(1.0), normal: Vectors::splat(simd, Vec3::Z) }
+        }
+
+        fn exit<S: Simd>(&self, simd: S, _: Vectors<S>, direction: Vectors<S>) -> PacketHit<S> {
+            let (one, never) = (direction[0].all(1.0), direction[0].all(f32::INFINITY));
+            let distance = direction[2].is_negative().select(one, never);
+            PacketHit { distance, normal: Vectors::splat(simd, Vec3::NEG_Z) }
+        }
+
+        fn turned<S: Simd>(&self, _: S, _: Vectors<S>, by: Vectors<S>) -> Vectors<S> {
+            by
+        }
+    }
+
+    #[test]
+    fn light_that_slips_out_of_a_body_is_unresolved() {
+        for (polarised, absorption) in [(false, 0.0), (true, 0.0), (false, 0.7), (true, 0.7)] {
+            let medium = PacketMedium { index: 1.5, spread: 0.0, absorption: [absorption; 2] };
+            let down = SingleRay { direction: Vec3::NEG_Z, ..InnerRay::DARK.ray };
+            let ray = SingleRay { light: PacketLight::<f32>::unpolarised(1.0), ..down };
+            let met = SingleHit { distance: 1.0, normal: Vec3::Z };
+            let rays = [EnteringRay { ray, met, medium }; 3];
+            let options = RayOptions { polarised, ..RayOptions::default() };
+            let (mut leaving, mut losses) = (vec![], vec![]);
+            let passage = Passage {
+                surface: &OpenSlab,
+                rays: &rays,
+                options,
+                leaving: &mut leaving,
+                losses: &mut losses,
+            };
+            Arch::new().dispatch(passage);
+            // Glare, and what leaves below; the rest goes up, where there is no facet.
+            assert_eq!((leaving.len(), losses.len()), (6, 3));
+            let r = 0.04_f32;
+            let inside = (1.0 - r) * (-absorption).exp();
+            for loss in &losses {
+                assert!((loss.unresolved - inside * r).abs() < 1e-6, "{loss:?}");
+                assert!((loss.absorbed - (1.0 - r) * (1.0 - (-absorption).exp())).abs() < 1e-6, "{loss:?}");
+            }
+            let out: f32 = leaving.iter().map(|ray| ray.light.weight()).sum();
+            assert!((out - 3.0 * (r + inside * (1.0 - r))).abs() < 1e-5, "{out}");
+        }
+    }
 }

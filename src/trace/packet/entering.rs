@@ -3,8 +3,8 @@
 use super::PacketSurface;
 use super::chain::along_surface;
 use super::lanes::{Lanes, Vectors};
-use super::optics::{Meeting, PacketLight, Reflection, s_axis};
-use super::rays::{EnteringRay, InnerRay, OuterRay};
+use super::optics::{Incidence, PacketLight, Reflection, s_axis};
+use super::rays::{EnteringRay, InnerRay, SingleRay};
 use glam::Vec3;
 use pulp::Simd;
 
@@ -15,7 +15,7 @@ pub(super) fn enter<S: Simd, P: PacketSurface>(
     surface: &P,
     rays: &[EnteringRay],
     is_polarised: bool,
-    leaving: &mut Vec<OuterRay>,
+    leaving: &mut Vec<SingleRay>,
 ) -> Vec<InnerRay> {
     let mut inner = Vec::with_capacity(rays.len());
     for chunk in rays.chunks(S::F32_LANES) {
@@ -23,25 +23,13 @@ pub(super) fn enter<S: Simd, P: PacketSurface>(
             Arrivals::of(simd, chunk).split(simd, surface, is_polarised);
         for (lane, EnteringRay { ray, medium, .. }) in chunk.iter().enumerate() {
             let (point, shift, s) = (point.lane(lane), shift.lane(lane), s.lane(lane));
-            leaving.push(OuterRay {
-                origin: point,
-                direction: back.lane(lane),
-                sweep: swept_back.lane(lane),
-                shift,
-                s,
-                light: glare.lane(lane),
-                tag: ray.tag,
-            });
-            inner.push(InnerRay {
-                origin: point,
-                direction: inward.lane(lane),
-                sweep: swept.lane(lane),
-                shift,
-                s,
-                light: inside.lane(lane),
-                medium: *medium,
-                tag: ray.tag,
-            });
+            let light = glare.lane(lane);
+            let (direction, sweep) = (back.lane(lane), swept_back.lane(lane));
+            leaving.push(SingleRay { origin: point, direction, sweep, shift, s, light, ..*ray });
+            let light = inside.lane(lane);
+            let (direction, sweep) = (inward.lane(lane), swept.lane(lane));
+            let ray = SingleRay { origin: point, direction, sweep, shift, s, light, ..*ray };
+            inner.push(InnerRay { ray, medium: *medium });
         }
     }
     inner
@@ -129,16 +117,16 @@ impl<S: Simd> Arrivals<S> {
             glare = PacketLight::<Lanes<S>>::unpolarised(glare.weight());
             inside = PacketLight::<Lanes<S>>::unpolarised(inside.weight());
         }
-        let meeting = Meeting { direction, normal, cos_i, of_direction: sweep, of_normal };
+        let incidence = Incidence { direction, normal, cos_i, of_direction: sweep, of_normal };
         Split {
             point,
             shift,
             s,
-            back: meeting.reflected(),
-            swept_back: meeting.reflected_change(),
+            back: incidence.reflected(),
+            swept_back: incidence.reflected_change(),
             glare,
-            inward: meeting.refracted(eta, reflection.cos_t),
-            swept: meeting.refracted_change(eta, -(self.spread * eta * eta), reflection.cos_t),
+            inward: incidence.refracted(eta, reflection.cos_t),
+            swept: incidence.refracted_change(eta, -(self.spread * eta * eta), reflection.cos_t),
             inside,
         }
     }

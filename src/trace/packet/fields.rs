@@ -19,7 +19,7 @@ mod tests;
 use self::body::{PacketBody, PacketJet};
 use self::wave::PacketWave;
 use super::lanes::{Lanes, Mask, Vectors};
-use super::{Met, PacketSurface};
+use super::{PacketHit, PacketSurface};
 use crate::math::ImplicitSurface;
 use pulp::Simd;
 
@@ -80,10 +80,10 @@ impl PacketShape {
 
     /// Returns what the rays have met at this place on their line; infinity where they have met nothing.
     #[inline(always)]
-    fn met<S: Simd>(&self, line: &Line<S>, at: Lanes<S>) -> Met<S> {
+    fn met<S: Simd>(&self, line: &Line<S>, at: Lanes<S>) -> PacketHit<S> {
         let normal = self.normal(line.from + line.direction * at);
         let distance = (at - line.start).max(at.all(0.0));
-        Met { distance, normal: self.body.shape_axes(normal) }
+        PacketHit { distance, normal: self.body.shape_axes(normal) }
     }
 
     #[inline(always)]
@@ -243,7 +243,7 @@ impl PacketSurface for PacketShape {
     const IS_CURVED: bool = true;
 
     #[inline(always)]
-    fn entry<S: Simd>(&self, _simd: S, origin: Vectors<S>, direction: Vectors<S>) -> Met<S> {
+    fn entry<S: Simd>(&self, _simd: S, origin: Vectors<S>, direction: Vectors<S>) -> PacketHit<S> {
         let line = self.line(origin, direction);
         let behind = line.start - ROUNDING * self.reach;
         let at = match &self.wave {
@@ -259,7 +259,7 @@ impl PacketSurface for PacketShape {
     }
 
     #[inline(always)]
-    fn exit<S: Simd>(&self, _simd: S, origin: Vectors<S>, direction: Vectors<S>) -> Met<S> {
+    fn exit<S: Simd>(&self, _simd: S, origin: Vectors<S>, direction: Vectors<S>) -> PacketHit<S> {
         let line = self.line(origin, direction);
         let at = match &self.wave {
             None => {

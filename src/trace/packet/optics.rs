@@ -32,7 +32,7 @@ pub(super) struct PacketLight<T> {
 
 /// Directions of light that meets a surface, and how they change over the spread of wavelengths.
 #[derive(Clone, Copy)]
-pub(super) struct Meeting<S: Simd> {
+pub(super) struct Incidence<S: Simd> {
     pub direction: Vectors<S>,
     /// The unit normal on the side that the light comes from.
     pub normal: Vectors<S>,
@@ -136,7 +136,7 @@ impl<S: Simd> PacketLight<Lanes<S>> {
     }
 }
 
-impl<S: Simd> Meeting<S> {
+impl<S: Simd> Incidence<S> {
     /// Returns the direction of the reflected rays.
     #[inline(always)]
     pub fn reflected(&self) -> Vectors<S> {

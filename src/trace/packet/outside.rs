@@ -5,11 +5,11 @@ use super::chain::Passage;
 use super::fields::PacketShape;
 use super::lanes::Vectors;
 use super::planes::PacketPlanes;
-use super::rays::{EnteringRay, OuterRay, PacketLoss, SingleMeeting};
+use super::rays::{EnteringRay, PacketLoss, SingleHit, SingleRay};
 use crate::math::{Ball, Pose, SolidRef};
 use crate::scene::Instance;
 use crate::trace::ray::RayOptions;
-use glam::{Quat, Vec3};
+use glam::{DVec3, Quat, Vec3};
 use pulp::{Arch, Simd, WithSimd};
 use std::sync::Arc;
 
@@ -26,10 +26,18 @@ pub(super) struct PacketInstance {
     solid: PacketSolid,
     /// Whether light that has left may meet the body again.
     branches: bool,
-    pose: SinglePose,
+    pose: Pose,
+    single: SinglePose,
     /// A ball around the body, in the world.
     ball: Ball,
 }
+
+/// How many times its own radius a body may be away from the middle of the world: a rounding of its place is then less than a
+/// part in ten thousand of its radius.
+const FARTHEST: f64 = 1e3;
+
+/// Where rays from the eye begin, in radii of the ball around a body before the ball's middle.
+const ROUND_BALL: f64 = 1.01;
 
 /// A [`Pose`] in single precision.
 #[derive(Clone, Copy)]
@@ -46,7 +54,7 @@ impl From<Pose> for SinglePose {
 }
 
 impl PacketInstance {
-    /// Prepares the bodies of a scene; `None` where one of them has triangles.
+    /// Prepares the bodies of a scene; `None` where one of them has triangles, or is too far away for single precision.
     pub fn of_all(instances: &[Instance]) -> Option<Vec<Self>> {
         let mut all: Vec<Self> = Vec::with_capacity(instances.len());
         for (place, instance) in instances.iter().enumerate() {
@@ -63,26 +71,47 @@ impl PacketInstance {
                 }
                 (None, SolidRef::Triangles(_)) => return None,
             };
-            all.push(Self { solid, branches, pose: instance.pose.into(), ball: instance.solid().ball() });
+            let (pose, ball) = (instance.pose, instance.solid().ball());
+            if ball.middle.length() > FARTHEST * ball.radius {
+                return None;
+            }
+            all.push(Self { solid, branches, pose, single: pose.into(), ball });
         }
         Some(all)
     }
 
     /// Whether a ray of the world may meet the body; `has_left` says that it has just left it.
-    pub fn may_meet(&self, ray: &OuterRay, has_left: bool) -> bool {
+    pub fn may_meet(&self, ray: &SingleRay, has_left: bool) -> bool {
         (!has_left || self.branches) && self.ball.is_met(ray.origin.as_dvec3(), ray.direction.as_dvec3())
     }
 
     /// Returns the length in the world of the unit of the body's frame.
     pub fn unit(&self) -> f32 {
-        self.pose.scale
+        self.single.scale
+    }
+
+    /// Carries a ray from the eye into the frame of the body, in double precision, as the eye may be far away. The ray begins
+    /// near the body; the second number is how far from the eye that is, in the world's unit. `None` where the ray misses.
+    pub fn seen(&self, ray: &SingleRay, (eye, direction): (DVec3, DVec3)) -> Option<(SingleRay, f64)> {
+        if !self.ball.is_met(eye, direction) {
+            return None;
+        }
+        let before = ((self.ball.middle - eye).dot(direction) - self.ball.radius * ROUND_BALL).max(0.0);
+        let back = self.pose.turn.inverse();
+        let own = SingleRay {
+            origin: self.pose.unplace(eye + direction * before).as_vec3(),
+            direction: (back * direction).as_vec3(),
+            s: (back * ray.s.as_dvec3()).as_vec3(),
+            ..*ray
+        };
+        Some((own, before))
     }
 
     /// Carries a ray of the world into the frame of the body.
-    pub fn arriving(&self, ray: &OuterRay) -> OuterRay {
-        let SinglePose { at, turn, scale } = self.pose;
+    pub fn arriving(&self, ray: &SingleRay) -> SingleRay {
+        let SinglePose { at, turn, scale } = self.single;
         let back = turn.inverse();
-        OuterRay {
+        SingleRay {
             origin: back * (ray.origin - at) / scale,
             direction: back * ray.direction,
             sweep: back * ray.sweep,
@@ -93,9 +122,9 @@ impl PacketInstance {
     }
 
     /// Carries a ray of the body's frame into the world.
-    pub fn departing(&self, ray: &OuterRay) -> OuterRay {
-        let SinglePose { at, turn, scale } = self.pose;
-        OuterRay {
+    pub fn departing(&self, ray: &SingleRay) -> SingleRay {
+        let SinglePose { at, turn, scale } = self.single;
+        SingleRay {
             origin: turn * ray.origin * scale + at,
             direction: turn * ray.direction,
             sweep: turn * ray.sweep,
@@ -106,7 +135,7 @@ impl PacketInstance {
     }
 
     /// Returns where rays of the body's frame enter the body.
-    pub fn entries(&self, arch: Arch, rays: &[OuterRay]) -> Vec<SingleMeeting> {
+    pub fn entries(&self, arch: Arch, rays: &[SingleRay]) -> Vec<SingleHit> {
         match &self.solid {
             PacketSolid::Planes(planes) => arch.dispatch(Entries { surface: &**planes, rays }),
             PacketSolid::Glass(shape) => arch.dispatch(Entries { surface: shape, rays }),
@@ -119,7 +148,7 @@ impl PacketInstance {
         arch: Arch,
         rays: &[EnteringRay],
         options: RayOptions,
-    ) -> (Vec<OuterRay>, Vec<PacketLoss>) {
+    ) -> (Vec<SingleRay>, Vec<PacketLoss>) {
         let (mut outer, mut lost) = (vec![], vec![]);
         let (leaving, losses) = (&mut outer, &mut lost);
         match &self.solid {
@@ -137,14 +166,14 @@ impl PacketInstance {
 /// A search for the points where rays enter a body.
 struct Entries<'a, P> {
     surface: &'a P,
-    rays: &'a [OuterRay],
+    rays: &'a [SingleRay],
 }
 
 impl<P: PacketSurface> WithSimd for Entries<'_, P> {
-    type Output = Vec<SingleMeeting>;
+    type Output = Vec<SingleHit>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Vec<SingleMeeting> {
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<SingleHit> {
         let mut found = Vec::with_capacity(self.rays.len());
         for chunk in self.rays.chunks(S::F32_LANES) {
             let mut origin = Vectors::splat(simd, Vec3::NAN);
@@ -155,8 +184,7 @@ impl<P: PacketSurface> WithSimd for Entries<'_, P> {
             }
             let met = self.surface.entry(simd, origin, direction);
             for lane in 0..chunk.len() {
-                found
-                    .push(SingleMeeting { distance: met.distance.lane(lane), normal: met.normal.lane(lane) });
+                found.push(SingleHit { distance: met.distance.lane(lane), normal: met.normal.lane(lane) });
             }
         }
         found

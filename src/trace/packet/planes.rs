@@ -1,7 +1,7 @@
 //! The planes of a convex stone, as packets of rays meet them.
 
 use super::lanes::{Lanes, Vectors};
-use super::{Met, PacketSurface};
+use super::{PacketHit, PacketSurface};
 use crate::math::{Plane, Polytope};
 use glam::{DVec3, Vec3, Vec4};
 use pulp::Simd;
@@ -125,7 +125,7 @@ impl PacketSurface for PacketPlanes {
     const IS_CURVED: bool = false;
 
     #[inline(always)]
-    fn entry<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> Met<S> {
+    fn entry<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> PacketHit<S> {
         let (zero, none) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, f32::INFINITY));
         let (mut into, mut out) = (zero, none);
         let mut normal = Vectors::splat(simd, Vec3::ZERO);
@@ -147,11 +147,11 @@ impl PacketSurface for PacketPlanes {
             out = is_beside.select(zero, out);
         }
         let is_met = into.is_positive() & into.less(out);
-        Met { distance: is_met.select(into, none), normal }
+        PacketHit { distance: is_met.select(into, none), normal }
     }
 
     #[inline(always)]
-    fn exit<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> Met<S> {
+    fn exit<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> PacketHit<S> {
         let ray = (origin, direction);
         let [crown, face] = self.ends;
         let [down, up] = [Lanes::splat(simd, self.steep[0]), Lanes::splat(simd, self.steep[1])];
@@ -175,7 +175,7 @@ impl PacketSurface for PacketPlanes {
         }
         let gap = (offset - normal.dot(origin)).max(Lanes::splat(simd, 0.0));
         let speed = normal.dot(direction).max(Lanes::splat(simd, LEAST_GAP));
-        Met { distance: gap / speed, normal }
+        PacketHit { distance: gap / speed, normal }
     }
 
     #[inline(always)]

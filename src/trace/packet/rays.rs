@@ -16,9 +16,19 @@ pub(super) struct PacketMedium {
     pub absorption: [f32; 2],
 }
 
-/// A ray outside all bodies, in the world or in the frame of a body.
+/// How light has travelled inside the body that it left, or is in.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Travelled {
+    /// The share of the light that absorption has left.
+    pub left: f32,
+    /// Length of the way inside the body so far, in the unit of its frame.
+    pub path: f32,
+    pub bounces: u32,
+}
+
+/// A ray outside all bodies, in the world or in the frame of a body; or one that has just entered a body, in its frame.
 #[derive(Clone, Copy)]
-pub(super) struct OuterRay {
+pub(super) struct SingleRay {
     pub origin: Vec3,
     /// The unit direction in which the light travels.
     pub direction: Vec3,
@@ -28,14 +38,16 @@ pub(super) struct OuterRay {
     pub shift: Vec3,
     /// The axis s of the light's polarisation.
     pub s: Vec3,
+    /// The light, less what was absorbed.
     pub light: PacketLight<f32>,
+    pub travelled: Travelled,
     /// Which ray of the picture this is a part of.
     pub tag: u32,
 }
 
 /// Where a ray meets a body, in the frame of the body.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct SingleMeeting {
+pub(super) struct SingleHit {
     /// Infinite where the ray misses.
     pub distance: f32,
     /// The unit outward normal; anything where the ray misses.
@@ -45,8 +57,8 @@ pub(super) struct SingleMeeting {
 /// A ray that is about to enter a body, in the frame of the body.
 #[derive(Clone, Copy)]
 pub(super) struct EnteringRay {
-    pub ray: OuterRay,
-    pub met: SingleMeeting,
+    pub ray: SingleRay,
+    pub met: SingleHit,
     /// The body's medium.
     pub medium: PacketMedium,
 }
@@ -54,16 +66,8 @@ pub(super) struct EnteringRay {
 /// A ray inside a body, in the frame of the body, where it has just entered.
 #[derive(Clone, Copy)]
 pub(super) struct InnerRay {
-    pub origin: Vec3,
-    pub direction: Vec3,
-    pub sweep: Vec3,
-    /// The displacement of the origin over the spread of wavelengths.
-    pub shift: Vec3,
-    /// The axis s of the light's polarisation.
-    pub s: Vec3,
-    pub light: PacketLight<f32>,
+    pub ray: SingleRay,
     pub medium: PacketMedium,
-    pub tag: u32,
 }
 
 /// The part of a ray's light that did not leave the body.
@@ -82,6 +86,7 @@ pub(super) struct InnerRays<S: Simd> {
     pub sweep: Vectors<S>,
     pub shift: Vectors<S>,
     pub s: Vectors<S>,
+    /// The light without absorption.
     pub light: PacketLight<Lanes<S>>,
     pub index: Lanes<S>,
     pub spread: Lanes<S>,
@@ -150,17 +155,25 @@ impl PacketMedium {
     }
 }
 
+impl Travelled {
+    /// What light has that has not been in the body.
+    pub const NONE: Self = Self { left: 1.0, path: 0.0, bounces: 0 };
+}
+
 impl InnerRay {
     /// No light, in a lane that waits for a ray.
     pub const DARK: Self = Self {
-        origin: Vec3::ZERO,
-        direction: Vec3::Z,
-        sweep: Vec3::ZERO,
-        shift: Vec3::ZERO,
-        s: Vec3::X,
-        light: PacketLight { ss: 0.0, pp: 0.0, re: 0.0, im: 0.0 },
+        ray: SingleRay {
+            origin: Vec3::ZERO,
+            direction: Vec3::Z,
+            sweep: Vec3::ZERO,
+            shift: Vec3::ZERO,
+            s: Vec3::X,
+            light: PacketLight { ss: 0.0, pp: 0.0, re: 0.0, im: 0.0 },
+            travelled: Travelled::NONE,
+            tag: 0,
+        },
         medium: PacketMedium { index: 1.0, spread: 0.0, absorption: [0.0; 2] },
-        tag: 0,
     };
 }
 
@@ -192,19 +205,21 @@ impl<S: Simd> InnerRays<S> {
 
     /// Puts a ray that has just entered into a lane.
     #[inline(always)]
-    pub fn set_lane(&mut self, lane: usize, ray: &InnerRay) {
+    pub fn set_lane(&mut self, lane: usize, InnerRay { ray, medium }: &InnerRay) {
+        let Travelled { left, path, .. } = ray.travelled;
         self.origin.set_lane(lane, ray.origin);
         self.direction.set_lane(lane, ray.direction);
         self.sweep.set_lane(lane, ray.sweep);
         self.shift.set_lane(lane, ray.shift);
         self.s.set_lane(lane, ray.s);
-        self.light.set_lane(lane, &ray.light);
-        self.index.set_lane(lane, ray.medium.index);
-        self.spread.set_lane(lane, ray.medium.spread);
-        self.absorption[0].set_lane(lane, ray.medium.absorption[0]);
-        self.absorption[1].set_lane(lane, ray.medium.absorption[1]);
-        self.left.set_lane(lane, 1.0);
-        self.path.set_lane(lane, 0.0);
+        // Light of which absorption has left next to nothing is not followed unless the least weight is 0.
+        self.light.set_lane(lane, &ray.light.times(1.0 / left.max(f32::MIN_POSITIVE)));
+        self.index.set_lane(lane, medium.index);
+        self.spread.set_lane(lane, medium.spread);
+        self.absorption[0].set_lane(lane, medium.absorption[0]);
+        self.absorption[1].set_lane(lane, medium.absorption[1]);
+        self.left.set_lane(lane, left);
+        self.path.set_lane(lane, path);
         self.absorbed.set_lane(lane, 0.0);
     }
 

@@ -1,9 +1,9 @@
 //! What pixels see of a scene under light, by packets of rays.
 
+use super::environment::{LookUp, LookUpRay, PacketEnvironment};
 use super::optics::PacketLight;
 use super::outside::PacketInstance;
-use super::rays::{EnteringRay, OuterRay, PacketMedium, SingleMeeting};
-use super::sky::{LookUp, PacketSky, SkyRay};
+use super::rays::{EnteringRay, PacketMedium, SingleHit, SingleRay, Travelled};
 use crate::trace::sampling::{LitScene, RadiancePixel, SamplePass};
 use glam::{DVec3, DVec4, Vec3};
 use pulp::Arch;
@@ -13,12 +13,12 @@ use pulp::Arch;
 pub(in crate::trace) struct PacketTracer<'a> {
     lit_scene: LitScene<'a>,
     instances: Vec<PacketInstance>,
-    sky: PacketSky<'a>,
+    environment: PacketEnvironment<'a>,
     arch: Arch,
 }
 
-/// The most bodies that light passes through one after the other, as often as it enters the same one again. Light that would
-/// enter one more is unresolved.
+/// The most passages of light through bodies, one after the other; each time that it enters the same body counts. Light that
+/// would enter once more is unresolved.
 const MOST_PASSAGES: usize = 1000;
 
 /// A ray from the eye: a point and the unit direction in which it runs.
@@ -37,11 +37,13 @@ struct Pixels<'a> {
 
 /// A body that a ray meets first, and where.
 #[derive(Clone, Copy)]
-struct FirstMeeting {
+struct FirstHit {
     body: usize,
     /// The distance to it, in the world's unit.
-    distance: f32,
-    met: SingleMeeting,
+    distance: f64,
+    /// The ray in the body's frame.
+    ray: SingleRay,
+    met: SingleHit,
 }
 
 impl<'a> PacketTracer<'a> {
@@ -51,7 +53,12 @@ impl<'a> PacketTracer<'a> {
     /// Prepares the bodies of a scene; `None` where one of them has triangles.
     pub fn new(lit_scene: LitScene<'a>) -> Option<Self> {
         let instances = PacketInstance::of_all(&lit_scene.scene.instances)?;
-        Some(Self { lit_scene, instances, sky: PacketSky::new(&lit_scene.environment), arch: Arch::new() })
+        Some(Self {
+            lit_scene,
+            instances,
+            environment: PacketEnvironment::new(&lit_scene.environment),
+            arch: Arch::new(),
+        })
     }
 
     /// Adds what pixels see, each along one ray from the eye, to their sums.
@@ -86,21 +93,22 @@ impl<'a> PacketTracer<'a> {
     fn seen_first(&self, pixels: &mut Pixels) -> Vec<Vec<EnteringRay>> {
         let mut queues = vec![vec![]; self.instances.len()];
         let bands = pixels.pass.responses.len();
-        let rays: Vec<OuterRay> = (0..).zip(pixels.eye_rays).map(|(tag, ray)| eye_ray(*ray, tag)).collect();
-        for ((pixel, first), ray) in self.first(&rays, None).into_iter().enumerate().zip(&rays) {
+        let rays: Vec<SingleRay> = (0..).zip(pixels.eye_rays).map(|(tag, ray)| eye_ray(*ray, tag)).collect();
+        let seen =
+            |instance: &PacketInstance, _, place: usize| instance.seen(&rays[place], pixels.eye_rays[place]);
+        let first = self.first(rays.len(), seen);
+        for (pixel, first) in first.into_iter().enumerate() {
             let backdrop = self.lit_scene.environment.backdrop;
             if first.is_some() || backdrop {
                 pixels.lit[pixel].cover = 1.0;
             }
             match first {
-                Some(FirstMeeting { body, met, .. }) => {
+                Some(FirstHit { body, ray, met, .. }) => {
                     // The ray meets the body at the same point in all wavelengths.
-                    let instance = &self.instances[body];
-                    let ray = instance.arriving(ray);
                     let tags = (pixel * bands) as u32..;
                     queues[body].extend(
                         pixels.media[body].iter().zip(tags).map(|(&medium, tag)| EnteringRay {
-                            ray: OuterRay { tag, ..ray },
+                            ray: SingleRay { tag, ..ray },
                             met,
                             medium,
                         }),
@@ -117,17 +125,27 @@ impl<'a> PacketTracer<'a> {
         queues
     }
 
-    /// Returns the bodies that rays of the world meet first; `left` is the body that they have just left.
-    fn first(&self, rays: &[OuterRay], left: Option<usize>) -> Vec<Option<FirstMeeting>> {
-        let mut first: Vec<Option<FirstMeeting>> = vec![None; rays.len()];
+    /// Returns the bodies that some rays meet first. `arriving` carries a ray, given by its number, into the frame of a body,
+    /// where it begins at a distance from its origin in the world; `None` where it cannot meet the body.
+    fn first(
+        &self,
+        count: usize,
+        arriving: impl Fn(&PacketInstance, usize, usize) -> Option<(SingleRay, f64)>,
+    ) -> Vec<Option<FirstHit>> {
+        let mut first: Vec<Option<FirstHit>> = vec![None; count];
         for (body, instance) in self.instances.iter().enumerate() {
-            let near = rays.iter().enumerate().filter(|(_, ray)| instance.may_meet(ray, left == Some(body)));
-            let (places, own): (Vec<usize>, Vec<OuterRay>) =
-                near.map(|(place, ray)| (place, instance.arriving(ray))).unzip();
-            for (place, met) in places.into_iter().zip(instance.entries(self.arch, &own)) {
-                let distance = met.distance * instance.unit();
+            let (mut places, mut own) = (vec![], vec![]);
+            for place in 0..count {
+                if let Some((ray, before)) = arriving(instance, body, place) {
+                    places.push((place, before));
+                    own.push(ray);
+                }
+            }
+            let met = instance.entries(self.arch, &own);
+            for (((place, before), ray), met) in places.into_iter().zip(own).zip(met) {
+                let distance = before + f64::from(met.distance * instance.unit());
                 if distance.is_finite() && first[place].is_none_or(|first| distance < first.distance) {
-                    first[place] = Some(FirstMeeting { body, distance, met });
+                    first[place] = Some(FirstHit { body, distance, ray, met });
                 }
             }
         }
@@ -151,26 +169,36 @@ impl<'a> PacketTracer<'a> {
             lit.unresolved += f64::from(loss.unresolved);
         }
         leaving.iter_mut().for_each(|ray| *ray = instance.departing(ray));
-        let mut skyward: Vec<SkyRay> = Vec::with_capacity(leaving.len());
-        for (ray, first) in leaving.iter().zip(self.first(&leaving, Some(body))) {
+        let mut to_look_up: Vec<LookUpRay> = Vec::with_capacity(leaving.len());
+        let onward = |instance: &PacketInstance, other, place: usize| {
+            let ray = &leaving[place];
+            instance.may_meet(ray, other == body).then(|| (instance.arriving(ray), 0.0))
+        };
+        for (ray, first) in leaving.iter().zip(self.first(leaving.len(), onward)) {
             let (tag, weight) = (ray.tag as usize, ray.light.weight());
             match first {
-                None => skyward.extend(self.looked_up(ray, pixels)),
-                Some(FirstMeeting { body, met, .. })
+                None => to_look_up.extend(self.looked_up(ray, pixels)),
+                Some(FirstHit { body: then, mut ray, met, .. })
                     if f64::from(weight) > self.lit_scene.options.least_weight =>
                 {
-                    let (ray, medium) = (self.instances[body].arriving(ray), pixels.media[body][tag % bands]);
-                    next[body].push(EnteringRay { ray, met, medium });
+                    if then != body {
+                        ray.travelled = Travelled::NONE;
+                    }
+                    next[then].push(EnteringRay { ray, met, medium: pixels.media[then][tag % bands] });
                 }
                 Some(_) => pixels.lit[tag / bands].unresolved += f64::from(weight),
             }
         }
-        self.arch.dispatch(LookUp { sky: &self.sky, rays: &skyward, light: &mut pixels.light });
+        self.arch.dispatch(LookUp {
+            environment: &self.environment,
+            rays: &to_look_up,
+            light: &mut pixels.light,
+        });
     }
 
     /// Returns for what light that has left all bodies is looked up; `None` where it comes from the photograph behind them,
     /// which is added at once.
-    fn looked_up(&self, ray: &OuterRay, pixels: &mut Pixels) -> Option<SkyRay> {
+    fn looked_up(&self, ray: &SingleRay, pixels: &mut Pixels) -> Option<LookUpRay> {
         let (tag, weight) = (ray.tag as usize, ray.light.weight());
         let straight = pixels.eye_rays[tag / pixels.pass.responses.len()];
         let own = (ray.origin.as_dvec3(), ray.direction.as_dvec3(), ray.sweep.as_dvec3());
@@ -179,19 +207,20 @@ impl<'a> PacketTracer<'a> {
             pixels.light[tag] += seen * f64::from(weight);
             return None;
         }
-        Some(SkyRay { direction: direction.as_vec3(), sweep: sweep.as_vec3(), weight, tag: ray.tag })
+        Some(LookUpRay { direction: direction.as_vec3(), sweep: sweep.as_vec3(), weight, tag: ray.tag })
     }
 }
 
-fn eye_ray((origin, direction): EyeRay, tag: u32) -> OuterRay {
+fn eye_ray((origin, direction): EyeRay, tag: u32) -> SingleRay {
     let direction = direction.as_vec3();
-    OuterRay {
+    SingleRay {
         origin: origin.as_vec3(),
         direction,
         sweep: Vec3::ZERO,
         shift: Vec3::ZERO,
         s: direction.any_orthonormal_vector(),
         light: PacketLight::<f32>::unpolarised(1.0),
+        travelled: Travelled::NONE,
         tag,
     }
 }

@@ -3,6 +3,7 @@
 
 use super::light::PathLight;
 use super::loss::Loss;
+use crate::math::random_bits::{mixed, unit};
 
 /// The least luck of a chain: with less, it would be followed until nothing is left.
 const LEAST_LUCK: f64 = 1e-9;
@@ -104,7 +105,7 @@ impl Roulette {
             Some(step) => own.wrapping_add(step.wrapping_mul(self.number)),
             None => mixed(own ^ mixed(self.number)),
         };
-        (bits >> 11) as f64 * (-53_f64).exp2()
+        unit(bits)
     }
 }
 
@@ -157,14 +158,6 @@ impl Sieve {
             self.threshold
         })
     }
-}
-
-/// Mixes the bits of a number well (S. Vigna's splitmix64).
-fn mixed(number: u64) -> u64 {
-    let z = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 #[cfg(test)]

@@ -142,13 +142,19 @@ impl SceneTracer {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct First(Met);
 
+/// What follows the rays of a picture under light.
+enum RayTracer<'a> {
+    /// Packets in single precision, which are quicker.
+    Packets(Box<PacketTracer<'a>>),
+    /// Single rays in double precision.
+    Single(SceneTracer),
+}
+
 /// Rows of a picture under light, traced by the processor.
 pub struct ByRays<'a> {
     lit_scene: LitScene<'a>,
     camera: Camera,
-    tracer: SceneTracer,
-    /// Packets in single precision, which are quicker, where no body has triangles.
-    packets: Option<PacketTracer<'a>>,
+    tracer: RayTracer<'a>,
     rows: Range<u32>,
     passes: u32,
     sums: Vec<RadiancePixel>,
@@ -158,19 +164,26 @@ impl<'a> ByRays<'a> {
     /// The most rows to trace at once: the sums of their passes are held in memory.
     pub const MOST_ROWS: u32 = 256;
 
-    /// Prepares some rows of a picture: in double precision where a body has triangles, else by packets of rays in single
-    /// precision.
+    /// Prepares some rows of a picture: by packets of rays in single precision where these can follow light through all
+    /// bodies, else by single rays in double precision. Triangles, and bodies a thousand times their size away from the
+    /// middle of the world, need the latter.
     pub fn new(lit_scene: LitScene<'a>, rows: Range<u32>) -> Self {
-        Self { packets: PacketTracer::new(lit_scene), ..Self::in_f64(lit_scene, rows) }
+        match PacketTracer::new(lit_scene) {
+            Some(packets) => Self::of(lit_scene, rows, RayTracer::Packets(Box::new(packets))),
+            None => Self::in_f64(lit_scene, rows),
+        }
     }
 
     /// Prepares some rows of a picture in double precision.
     pub fn in_f64(lit_scene: LitScene<'a>, rows: Range<u32>) -> Self {
+        Self::of(lit_scene, rows, RayTracer::Single(SceneTracer::new(&lit_scene)))
+    }
+
+    fn of(lit_scene: LitScene<'a>, rows: Range<u32>, tracer: RayTracer<'a>) -> Self {
         Self {
-            packets: None,
             lit_scene,
             camera: Camera::reaching(lit_scene.view, lit_scene.scene.reach()),
-            tracer: SceneTracer::new(&lit_scene),
+            tracer,
             sums: vec![RadiancePixel::default(); rows.len() * lit_scene.film.size[0] as usize],
             rows,
             passes: 0,
@@ -182,7 +195,7 @@ impl<'a> ByRays<'a> {
         let straight = self.eye_ray(pass, pixel);
         let mut start = WaitingRay::from_eye(straight);
         // The ray meets the first stone at the same point in all wavelengths.
-        let first = self.tracer.first(&start);
+        let first = bands.first().and_then(|tracer| tracer.first(&start));
         let is_seen = first.is_some() || self.lit_scene.environment.backdrop;
         let mut lit = RadiancePixel { cover: f64::from(u8::from(is_seen)), ..RadiancePixel::default() };
         for (band, (tracer, response)) in bands.iter().zip(&pass.responses).enumerate() {
@@ -222,7 +235,7 @@ impl<'a> ByRays<'a> {
     fn add(&self, bands: &[SceneTracer], pass: &SamplePass, first: usize, sums: &mut [RadiancePixel]) {
         let across = self.lit_scene.film.size[0] as usize;
         let pixel = |k: usize| [(k % across) as u32, self.rows.start + (k / across) as u32];
-        if let Some(packets) = &self.packets {
+        if let RayTracer::Packets(packets) = &self.tracer {
             let numbers = first..first + sums.len();
             let rays: Vec<_> = numbers.map(|k| self.eye_ray(pass, pixel(k))).collect();
             packets.see(pass, &rays, sums);
@@ -240,7 +253,10 @@ impl<'a> ByRays<'a> {
 
 impl<E: From<Stopped>> ProgressiveImage<E> for ByRays<'_> {
     fn add_pass(&mut self, pass: &SamplePass, watch: Watch) -> Result<(), E> {
-        let bands = self.tracer.made_of(pass);
+        let bands = match &self.tracer {
+            RayTracer::Packets(_) => vec![],
+            RayTracer::Single(tracer) => tracer.made_of(pass),
+        };
         let across = self.lit_scene.film.size[0] as usize;
         let at_once = (PacketTracer::RAYS_AT_ONCE / pass.responses.len().max(1)).max(1);
         let mut sums = std::mem::take(&mut self.sums);

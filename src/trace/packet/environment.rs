@@ -8,7 +8,7 @@ use pulp::{Simd, WithSimd};
 
 /// Light that has left all bodies and meets no backplate.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct SkyRay {
+pub(super) struct LookUpRay {
     /// The direction in the middle of the wavelengths that the ray stands for.
     pub direction: Vec3,
     /// The change of that direction over these wavelengths.
@@ -19,7 +19,7 @@ pub(super) struct SkyRay {
 
 /// The environment without its backplate, in single precision.
 #[derive(Clone)]
-pub(super) struct PacketSky<'a> {
+pub(super) struct PacketEnvironment<'a> {
     map: &'a EnvironmentMap,
     /// The axes of the light's frame in the world.
     axes: [Vec3; 3],
@@ -39,12 +39,12 @@ struct Lamp {
 
 /// A look-up of many rays; the light of each is added to `light` at its tag.
 pub(super) struct LookUp<'a> {
-    pub sky: &'a PacketSky<'a>,
-    pub rays: &'a [SkyRay],
+    pub environment: &'a PacketEnvironment<'a>,
+    pub rays: &'a [LookUpRay],
     pub light: &'a mut [DVec4],
 }
 
-impl<'a> PacketSky<'a> {
+impl<'a> PacketEnvironment<'a> {
     pub fn new(environment: &Environment<'a>) -> Self {
         let lamps = environment.map.lamps.iter().map(|lamp| Lamp {
             toward: lamp.toward.as_vec3(),
@@ -105,7 +105,7 @@ impl WithSimd for LookUp<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { sky, rays, light } = self;
+        let Self { environment, rays, light } = self;
         for chunk in rays.chunks(S::F32_LANES) {
             let mut direction = Vectors::splat(simd, Vec3::Z);
             let mut sweep = Vectors::splat(simd, Vec3::ZERO);
@@ -113,12 +113,14 @@ impl WithSimd for LookUp<'_> {
                 direction.set_lane(lane, ray.direction);
                 sweep.set_lane(lane, ray.sweep);
             }
-            let own = Swept { direction: sky.own(simd, direction), sweep: sky.own(simd, sweep) };
+            let own =
+                Swept { direction: environment.own(simd, direction), sweep: environment.own(simd, sweep) };
             let swept = own.sweep.length_squared().sqrt();
-            let lamps = own.lamps(simd, &sky.lamps);
+            let lamps = own.lamps(simd, &environment.lamps);
             let (x, y) = octahedral(own.direction);
-            let texels = swept * Lanes::splat(simd, (f64::from(sky.map.side as u32) / TEXEL_ANGLE) as f32);
-            let clear = sky.beside_the_head(simd, direction, swept);
+            let texels =
+                swept * Lanes::splat(simd, (f64::from(environment.map.side as u32) / TEXEL_ANGLE) as f32);
+            let clear = environment.beside_the_head(simd, direction, swept);
             for (lane, ray) in chunk.iter().enumerate() {
                 let at = Vec2::new(x.lane(lane), y.lane(lane));
                 let lit = Vec4::new(
@@ -127,14 +129,14 @@ impl WithSimd for LookUp<'_> {
                     lamps[2].lane(lane),
                     lamps[3].lane(lane),
                 );
-                let seen = (sky.at(at, texels.lane(lane)) + lit) * (clear.lane(lane) * ray.weight);
+                let seen = (environment.at(at, texels.lane(lane)) + lit) * (clear.lane(lane) * ray.weight);
                 light[ray.tag as usize] += seen.as_dvec4();
             }
         }
     }
 }
 
-impl PacketSky<'_> {
+impl PacketEnvironment<'_> {
     /// Returns the share of the light that passes the observer's head, whose edge is as wide as the sweep.
     #[inline(always)]
     fn beside_the_head<S: Simd>(&self, simd: S, direction: Vectors<S>, swept: Lanes<S>) -> Lanes<S> {
