@@ -140,11 +140,17 @@ fn light(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: 
         turns = turns_before;
         response = responses[w];
         present = first;
-        go(eye, met, w);
-        while count > 0u {
+        var next = eye;
+        var entered = met;
+        // One call of `go` for all light: compilers put all that it calls in its place, which takes some of them long.
+        loop {
+            go(next, entered, w);
+            if count == 0u {
+                break;
+            }
             count -= 1u;
-            let next = waiting[count];
-            go(next, nearest(next.ray, next.left), w);
+            next = waiting[count];
+            entered = nearest(next.ray, next.left);
         }
         total.colour += vec4f(sum.colour.xyz, 1.0);
         total.rest += sum.rest;

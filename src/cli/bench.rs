@@ -151,10 +151,9 @@ fn timed(mut work: impl FnMut() -> Result<(), Failure>) -> Result<(f64, usize), 
 /// Returns in words what the machine's card does at most; empty where there is none.
 #[cfg(feature = "gpu")]
 fn card_peak() -> Result<String, Failure> {
-    match Card::Machine.any() {
-        Ok(Backend::Card(gpu)) => Ok(card_use::peak_line(&card_use::peak(&gpu)?)),
-        _ => Ok(String::new()),
-    }
+    let card = Card::Machine.any().ok();
+    let gpu = card.as_ref().and_then(Backend::gpu);
+    gpu.map_or(Ok(String::new()), |gpu| Ok(card_use::peak_line(gpu, &card_use::peak(gpu)?)))
 }
 
 /// Returns nothing: this build uses no card.
@@ -170,7 +169,7 @@ fn timed_by(
     load: &Load,
     work: impl FnMut() -> Result<(), Failure>,
 ) -> Result<(f64, Option<CardLine>), Failure> {
-    let Backend::Card(gpu) = backend else { return Ok((timed(work)?.0, None)) };
+    let Some(gpu) = backend.gpu() else { return Ok((timed(work)?.0, None)) };
     let peak = card_use::peak(gpu)?;
     gpu.take_totals();
     let (milliseconds, runs) = timed(work)?;

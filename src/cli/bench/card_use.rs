@@ -62,11 +62,13 @@ pub fn line(
 }
 
 /// Returns what the card does at most, in words.
-pub fn peak_line(peak: &CardPeak) -> String {
+pub fn peak_line(gpu: &Gpu, peak: &CardPeak) -> String {
+    let what = if gpu.is_software() { "driver in software, no card" } else { "card" };
     format!(
-        "\ncard, measured: {:.3} TFLOP/s of fused multiply-adds in f32, {:.1} GB/s read, {:.0} µs for an empty dispatch\n\
-         parts of time below are lower bounds: they leave out what is computed beside plane tests, reads of planes and of \
-         the map of the light, and waiting",
+        "\n{what}: {}; measured: {:.3} TFLOP/s of fused multiply-adds in f32, {:.1} GB/s read, {:.0} µs for an empty \
+         dispatch\nparts of its time below are lower bounds: they leave out what is computed beside plane tests, reads of \
+         planes and of the map of the light, and waiting",
+        gpu.name(),
         peak.flops / 1e12,
         peak.bytes_per_second / 1e9,
         peak.launch_s * 1e6

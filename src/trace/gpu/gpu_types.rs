@@ -28,6 +28,10 @@ macro_rules! both_sides {
 both_sides! {
     /// The parameters of a dispatch, for scopes and for light.
     Frame, FRAME_WGSL {
+        /// x: loop turns that a ray may take where it counts them; the others are unused. It comes first because Mesa's software
+        /// driver (22.3) writes the first number of a uniform into the shader, and compiles that anew at each dispatch where
+        /// it then has more operations than before, as with a tilted axis.
+        most: vec4u,
         /// xyz: the image's x axis; w: how far the stones reach from the origin.
         right: vec4f,
         /// xyz: the image's y axis; w: the side of a pixel.
@@ -47,8 +51,6 @@ both_sides! {
         /// The strip's tiles of 8 by 8 pixels. x: the first of this dispatch; y: how many it takes; z: the stride by which
         /// their order goes through the strip; w: the number of all.
         tiles: vec4u,
-        /// x: loop turns that a ray may take where it counts them; the others are unused.
-        most: vec4u,
         /// x: the share of refraction's turning of light that is followed, 1 for physics; the others are unused.
         strength: vec4f,
     }

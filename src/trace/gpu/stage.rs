@@ -12,7 +12,7 @@ use crate::trace::{Stopped, Watch};
 use bytemuck::Pod;
 use glam::DVec2;
 use std::ops::Range;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Side of a tile, which one workgroup traces, in pixels.
 const TILE: u32 = 8;
@@ -120,10 +120,10 @@ impl<'a> Stage<'a> {
             layout: &kernel.pipeline.get_bind_group_layout(0),
             entries: &all,
         });
-        // What was copied arrives now, so that it does not count as time of the first dispatch.
-        gpu.queue.submit([]);
-        gpu.wait()?;
-        Ok(Self { gpu, kernel, frame, cost, bands_at_once, frame_buffer, seen, back, bound, width })
+        let stage = Self { gpu, kernel, frame, cost, bands_at_once, frame_buffer, seen, back, bound, width };
+        // A dispatch without tiles: what was copied arrives, and drivers that compile late do so, before times are measured.
+        stage.submit(&Frame { tiles: [0, 0, 1, 1], ..frame }, 1)?;
+        Ok(stage)
     }
 
     /// Traces one ray of each pixel in a strip of the film's rows and adds it to the pixels, as many at once as the card was
@@ -154,26 +154,30 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// Does one piece of work, of this cost a tile and band, and waits for its end: dispatches that were queued up would go on
-    /// after the watch has asked to stop.
+    /// Does one piece of work, of this cost a tile and band.
     fn dispatch(&self, frame: &Frame, piece: &Piece, cost: f64) -> Result<(), GpuError> {
+        let took = self.submit(frame, piece.tiles.len() as u32)?;
+        self.kernel.throttle().note(cost * piece.size() as f64, took);
+        let pixels = piece.tiles.len() as u64 * u64::from(TILE * TILE);
+        self.gpu.count(took, 2 * pixels * self.width);
+        Ok(())
+    }
+
+    /// Dispatches this many workgroups and returns the time until they end. It waits for that: dispatches that were queued up
+    /// would go on after the watch has asked to stop.
+    fn submit(&self, frame: &Frame, count: u32) -> Result<Duration, GpuError> {
         self.gpu.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(frame));
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
             pass.set_pipeline(&self.kernel.pipeline);
             pass.set_bind_group(0, &self.bound, &[]);
-            let count = piece.tiles.len() as u32;
             pass.dispatch_workgroups(count.min(GROUPS_ACROSS), count.div_ceil(GROUPS_ACROSS), 1);
         }
         let start = Instant::now();
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.wait()?;
-        let took = start.elapsed();
-        self.kernel.throttle().note(cost * piece.size() as f64, took);
-        let pixels = piece.tiles.len() as u64 * u64::from(TILE * TILE);
-        self.gpu.count(took, 2 * pixels * self.width);
-        Ok(())
+        Ok(start.elapsed())
     }
 
     /// Reads the pixels of the first `count` rows back.
