@@ -1,7 +1,7 @@
 // The colour that a camera sees of stones under light, one band of wavelengths after the other.
 
 @group(0) @binding(2) var<storage, read_write> lit: array<RadiancePixel>;
-@group(0) @binding(10) var<uniform> responses: array<Response, MOST_WAVELENGTHS>;
+@group(0) @binding(10) var<uniform> responses: array<Response, MOST_WAVELENGTHS + 1u>;
 
 // A ray on its way from one stone to another.
 struct Waiting {
@@ -33,10 +33,7 @@ fn mixed(ray: Ray) -> Ray {
 
 // Adds the light of the environment that arrives along a ray.
 fn see(leaving: Ray, weight: f32) {
-    let ray = mixed(leaving);
-    // The ray stands for its band: the look-up is in the direction of the band's middle.
-    let middle = Ray(ray.origin, ray.direction + ray.sweep * frame.limits.y, ray.sweep);
-    let light = radiance(middle) * weight;
+    let light = radiance(mixed(leaving)) * weight;
     sum.colour += response.key * light.x + response.red * light.y + response.green * light.z + response.blue * light.w;
 }
 
@@ -117,39 +114,48 @@ fn go(next: Waiting, met: Meeting, wavelength: u32) {
 }
 
 @compute @workgroup_size(8, 8)
-fn light(@builtin(global_invocation_id) id: vec3u) {
-    // The buffer holds some rows of the film, and this dispatch traces some of those.
-    let row = frame.film.z + id.y;
-    let pixel = vec2u(id.x, frame.turn.y + row);
-    if id.x >= frame.film.x || id.y >= frame.film.w {
+fn light(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: vec3u) {
+    let place = strip_pixel(group, id.xy);
+    if place.x >= frame.film.x || place.y >= frame.film.w {
         return;
     }
-    sum = RadiancePixel();
-    let start = pixel_ray(pixel, frame.limits.zw);
+    let start = pixel_ray(vec2u(place.x, frame.film.z + place.y), frame.limits.zw);
     straight = Ray(start[0], start[1], vec3f(0.0));
     let eye = Waiting(straight, 1.0, NONE);
     // The ray meets the first stone at the same point in all wavelengths.
     let met = nearest(eye.ray, NONE);
     let first = present;
-    if met.distance >= 0.0 || environment.backdrop.x > 0.0 {
-        for (var w = frame.turn.z; w < frame.turn.w; w++) {
-            response = responses[w];
-            present = first;
-            go(eye, met, w);
-            while count > 0u {
-                count -= 1u;
-                let next = waiting[count];
-                go(next, nearest(next.ray, next.left), w);
-            }
+    if met.distance < 0.0 && environment.backdrop.x <= 0.0 {
+        return;
+    }
+    let turns_before = turns;
+    let at = place.y * frame.film.x + place.x;
+    // Each wavelength is added up alone: so the sum does not depend on how many a dispatch takes.
+    var total = lit[at];
+    for (var w = frame.turn.z; w < frame.turn.w; w++) {
+        // Light that meets no stone is the same at all wavelengths: it is looked up once, for all of them together.
+        let is_beside = met.distance < 0.0;
+        if is_beside && w > 0u {
+            break;
         }
-        sum.colour.w = f32(frame.turn.w - frame.turn.z);
+        sum = RadiancePixel();
+        turns = turns_before;
+        response = responses[select(w, frame.counts.y, is_beside)];
+        present = first;
+        var next = eye;
+        var entered = met;
+        // One call of `go` for all light: compilers put all that it calls in its place, which takes some of them long.
+        loop {
+            go(next, entered, w);
+            if count == 0u {
+                break;
+            }
+            count -= 1u;
+            next = waiting[count];
+            entered = nearest(next.ray, next.left);
+        }
+        total.colour += vec4f(sum.colour.xyz, select(1.0, f32(frame.counts.y), is_beside));
+        total.rest += sum.rest;
     }
-    let at = row * frame.film.x + id.x;
-    var before = RadiancePixel();
-    if frame.turn.x > 0u {
-        before = lit[at];
-    }
-    before.colour += sum.colour;
-    before.rest += sum.rest;
-    lit[at] = before;
+    lit[at] = total;
 }

@@ -43,9 +43,9 @@ fn is_taken(ray: Ray, distance: f32) -> bool {
 }
 
 @compute @workgroup_size(8, 8)
-fn scope(@builtin(global_invocation_id) id: vec3u) {
-    let pixel = vec2u(id.x, frame.film.z + id.y);
-    if id.x >= frame.film.x || id.y >= frame.film.w {
+fn scope(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: vec3u) {
+    let place = strip_pixel(group, id.xy);
+    if place.x >= frame.film.x || place.y >= frame.film.w {
         return;
     }
     sum = ScopePixel();
@@ -53,11 +53,11 @@ fn scope(@builtin(global_invocation_id) id: vec3u) {
     strongest_band = NONE;
     body = bodies[0];
     medium = media[0];
-    // Each dispatch traces the ray in one cell of the pixel's grid.
+    // A dispatch traces the ray in one cell of the pixel's grid.
     let grid = frame.turn.y;
     let turn = frame.turn.x;
     let cell = vec2f(f32(turn % grid), f32(turn / grid));
-    let ray = pixel_ray(pixel, (cell + frame.limits.zw) / f32(grid));
+    let ray = pixel_ray(vec2u(place.x, frame.film.z + place.y), (cell + frame.limits.zw) / f32(grid));
     let entered = meet(ray[0], ray[1]);
     if entered.distance >= 0.0 {
         let rest = follow(Ray(ray[0], ray[1], vec3f(0.0)), entered, 1.0);
@@ -69,7 +69,7 @@ fn scope(@builtin(global_invocation_id) id: vec3u) {
         }
     }
     let share = 1.0 / f32(grid * grid);
-    let at = id.y * frame.film.x + id.x;
+    let at = place.y * frame.film.x + place.x;
     var before = seen[at];
     if turn == 0u {
         before = ScopePixel();

@@ -1,4 +1,7 @@
-//! `bench`: measures how long each tracer takes for the same pictures on this machine.
+//! `bench`: measures how long each tracer takes for the same pictures on this machine, and what bounds a graphics card.
+
+#[cfg(feature = "gpu")]
+mod card_use;
 
 use super::console::{json, print, say};
 use super::specimen::LoadedSpecimen;
@@ -8,8 +11,8 @@ use crate::math::Polytope;
 use crate::measure::{Bounds, STANDARD_ERROR};
 use crate::optics::line;
 use crate::render::{
-    Card, FiguresProduct, Job, LightProduct, Product, Quality, Reading, RenderError, Renderer, ScopeProduct,
-    Steps, Surroundings, Wanted,
+    Backend, Card, FiguresProduct, Job, LightProduct, Product, Quality, Reading, RenderError, Renderer,
+    ScopeProduct, Steps, Surroundings, Wanted,
 };
 use crate::scene::{ASET_CONE, Backing, Film, Glare, Light, Medium, Scene, Scope, View, Viewpoint};
 use crate::trace::environment::{EnvironmentMap, Lighting};
@@ -57,7 +60,12 @@ struct Row {
     tracer: &'static str,
     by: String,
     milliseconds: f64,
+    /// What a graphics card's time went into.
+    card: Option<CardLine>,
 }
+
+/// Text for the table and an object for JSON.
+type CardLine = (String, Value);
 
 /// A picture, and how long each tracer took for it.
 struct Task {
@@ -73,7 +81,7 @@ impl BenchArguments {
         let has_card = has_card();
         let threads = rayon::current_num_threads();
         if !self.json {
-            print(&format!("modern ideal; {threads} threads"))?;
+            print(&format!("modern ideal; {threads} threads{}", card_peak()?))?;
         }
         let mut tasks = vec![];
         let mut done = |task: Task| {
@@ -102,7 +110,13 @@ impl Task {
     }
 
     fn json(&self) -> Value {
-        let row = |row: &Row| json!({ "tracer": row.tracer, "by": row.by, "ms": row.milliseconds, "plane_tests_per_second": self.rate(row) });
+        let row = |row: &Row| {
+            let card = row.card.as_ref().map(|(_, json)| json);
+            json!({
+                "tracer": row.tracer, "by": row.by, "ms": row.milliseconds, "plane_tests_per_second": self.rate(row),
+                "card": card,
+            })
+        };
         let rows: Vec<Value> = self.rows.iter().map(row).collect();
         json!({ "task": self.what, "plane_tests": self.plane_tests, "results": rows })
     }
@@ -110,26 +124,68 @@ impl Task {
     fn table(&self) -> String {
         let line = |row: &Row| {
             let rate = self.rate(row).map(|r| format!("{:.1} G/s", r / 1e9)).unwrap_or_default();
-            format!("\n{:>10.2} ms {rate:>12}  {}", row.milliseconds, row.by)
+            let card = row.card.as_ref().map_or("", |(text, _)| text);
+            format!("\n{:>10.2} ms {rate:>12}  {}{card}", row.milliseconds, row.by)
         };
         let rows: String = self.rows.iter().map(line).collect();
         format!("{}\n{:>13} {:>12}{rows}", self.what, "time", "plane tests")
     }
 }
 
-/// Times `work` and returns the median of several runs, or the first run where it is long, in milliseconds.
-fn timed(mut work: impl FnMut() -> Result<(), Failure>) -> Result<f64, Failure> {
+/// Times `work` and returns the median of several runs, or the first run where it is long, in milliseconds, and how many runs
+/// there were in all.
+fn timed(mut work: impl FnMut() -> Result<(), Failure>) -> Result<(f64, usize), Failure> {
     let mut once = || {
         let start = Instant::now();
         work().map(|()| start.elapsed().as_secs_f64() * 1e3)
     };
     let first = once()?;
     if first > LONG_MS {
-        return Ok(first);
+        return Ok((first, 1));
     }
     let mut times = (0..TIMES).map(|_| once()).collect::<Result<Vec<f64>, Failure>>()?;
     times.sort_by(f64::total_cmp);
-    Ok(times[TIMES / 2])
+    Ok((times[TIMES / 2], TIMES + 1))
+}
+
+/// Returns in words what the machine's card does at most; empty where there is none.
+#[cfg(feature = "gpu")]
+fn card_peak() -> Result<String, Failure> {
+    let card = Card::Machine.any().ok();
+    let gpu = card.as_ref().and_then(Backend::gpu);
+    gpu.map_or(Ok(String::new()), |gpu| Ok(card_use::peak_line(gpu, &card_use::peak(gpu)?)))
+}
+
+/// Returns nothing: this build uses no card.
+#[cfg(not(feature = "gpu"))]
+fn card_peak() -> Result<String, Failure> {
+    Ok(String::new())
+}
+
+/// Times a picture by a tracer; of a card it says as well what its time goes into.
+#[cfg(feature = "gpu")]
+fn timed_by(
+    backend: &Backend,
+    load: &Load,
+    work: impl FnMut() -> Result<(), Failure>,
+) -> Result<(f64, Option<CardLine>), Failure> {
+    let Some(gpu) = backend.gpu() else { return Ok((timed(work)?.0, None)) };
+    let peak = card_use::peak(gpu)?;
+    gpu.take_totals();
+    let (milliseconds, runs) = timed(work)?;
+    let load = (load.plane_tests, load.busy_lanes(gpu.lanes()));
+    let line = card_use::line(&peak, &gpu.take_totals(), (runs, milliseconds / 1e3), load);
+    Ok((milliseconds, Some(line)))
+}
+
+/// Times a picture by a tracer.
+#[cfg(not(feature = "gpu"))]
+fn timed_by(
+    _backend: &Backend,
+    _load: &Load,
+    work: impl FnMut() -> Result<(), Failure>,
+) -> Result<(f64, Option<CardLine>), Failure> {
+    Ok((timed(work)?.0, None))
 }
 
 fn options(most_bounces: u32) -> RayOptions {
@@ -151,7 +207,7 @@ fn has_card() -> bool {
 }
 
 /// Times a job by each tracer that there is, from its planning to the finished picture.
-fn rows(job: &Job) -> Result<Vec<Row>, Failure> {
+fn rows(job: &Job, load: &Load) -> Result<Vec<Row>, Failure> {
     let row = |tracer: Wanted| {
         let job = Job { quality: Quality { tracer, ..job.quality }, ..job.clone() };
         let plan = Renderer::new(Card::Machine).plan(&job).map_err(RenderError::from)?;
@@ -166,7 +222,8 @@ fn rows(job: &Job) -> Result<Vec<Row>, Failure> {
         let unresolved =
             if plan.backend.is_beams() { format!(", unresolved {UNRESOLVED}") } else { String::new() };
         let by = plan.backend.description() + &unresolved;
-        Ok(Some(Row { tracer: plan.backend.name(), by, milliseconds: timed(picture)? }))
+        let (milliseconds, card) = timed_by(&plan.backend, load, picture)?;
+        Ok(Some(Row { tracer: plan.backend.name(), by, milliseconds, card }))
     };
     TRACERS.into_iter().filter_map(|tracer| row(tracer).transpose()).collect()
 }
@@ -193,7 +250,8 @@ fn in_scope(specimen: &LoadedSpecimen, size: u32, bounces: u32) -> Result<Task, 
     let job = Job { scene, view: View::default(), film, product, quality: quality(bounces) };
     let planes = polytope.facets().len();
     let what = format!("ASET, {planes} planes, {size} x {size}, {bounces} bounces at most");
-    Ok(Task { what, plane_tests: plane_tests(polytope, &film, medium, bounces), rows: rows(&job)? })
+    let load = Load::new(polytope, film, &[medium], bounces);
+    Ok(Task { what, plane_tests: load.plane_tests, rows: rows(&job, &load)? })
 }
 
 fn polytope(specimen: &LoadedSpecimen) -> Result<&Polytope, Failure> {
@@ -221,13 +279,13 @@ fn under_light(specimen: &LoadedSpecimen, has_card: bool) -> Result<Task, Failur
     let strata = product.strata(1);
     let (scene, product) = (Arc::new(Scene::alone(specimen)), Product::Light(product));
     let pass = SamplePass::new(&scene, &strata, 0);
-    let tests: f64 = pass.media[0].iter().map(|&medium| plane_tests(polytope, &film, medium, bounces)).sum();
+    let load = Load::new(polytope, film, &pass.media[0], bounces);
     let job = Job { scene, view: View::default(), film, product, quality: quality(bounces) };
     let what = format!(
         "diamond under eight lamps, {} planes, {size} x {size}, {bounces} bounces at most, {wavelengths} wavelengths",
         polytope.facets().len()
     );
-    Ok(Task { what, plane_tests: tests, rows: rows(&job)? })
+    Ok(Task { what, plane_tests: load.plane_tests, rows: rows(&job, &load)? })
 }
 
 /// Times the figures of a stone in the ASET by beams, whose rest is estimated by rays.
@@ -238,28 +296,70 @@ fn figures(specimen: &LoadedSpecimen, tilt_deg: f64) -> Result<Task, Failure> {
     let view = Viewpoint { tilt_deg, azimuth_deg: AZIMUTH, ..Viewpoint::default() }.view();
     let quality = Quality::of_figures(&Bounds::default(), Wanted::Beams);
     let job = Job { scene, view, film: Film::NONE, product, quality };
-    let milliseconds = timed(|| {
+    let (milliseconds, _) = timed(|| {
         let done = Renderer::default().run(&job, &unwatched, &mut |_| Ok::<_, Failure>(()));
         done.map(|_| ())
     })?;
     let by = format!("exact beams and rays, standard error {STANDARD_ERROR}");
     let what = format!("figures, tilted {tilt_deg} degrees, {} planes", polytope(specimen)?.facets().len());
-    Ok(Task { what, plane_tests: 0.0, rows: vec![Row { tracer: "beam", by, milliseconds }] })
+    Ok(Task { what, plane_tests: 0.0, rows: vec![Row { tracer: "beam", by, milliseconds, card: None }] })
 }
 
-/// Returns how many planes are tested for a picture, if each ray tests all planes at each bounce. The count is extrapolated
-/// from the pixels of every eighth row and column.
-fn plane_tests(polytope: &Polytope, film: &Film, medium: Medium, bounces: u32) -> f64 {
-    const STEP: u32 = 8;
-    let camera = Camera::new(&View::default(), polytope);
-    let tracer = StoneTracer::new(polytope, medium, options(bounces));
-    let side = film.size[0] / STEP;
-    let pixels = (0..side * side).map(|k| DVec2::new(f64::from(k % side), f64::from(k / side)) + 0.5);
-    let searches: f64 = pixels
-        .map(|pixel| {
-            let (origin, direction) = camera.ray(film.image_from_pixels(pixel * f64::from(STEP)));
-            1.0 + f64::from(tracer.follow(origin, direction, |_| {}).map_or(0, |rest| rest.bounces))
-        })
-        .sum();
-    searches * f64::from(STEP * STEP) * polytope.facets().len() as f64
+/// What a picture asks of a tracer that tests all planes at each bounce.
+struct Load {
+    /// The number of planes tested, extrapolated from the pixels of every eighth row and column.
+    plane_tests: f64,
+    /// The searches of the rays in one workgroup of every eighth, each way, at the middle wavelength: row by row.
+    #[cfg(feature = "gpu")]
+    groups: Vec<[f64; 64]>,
+}
+
+impl Load {
+    /// Follows some rays of a picture face up at these wavelengths' media.
+    fn new(polytope: &Polytope, film: Film, media: &[Medium], bounces: u32) -> Self {
+        const STEP: u32 = 8;
+        let camera = Camera::new(&View::default(), polytope);
+        let searches = |medium: Medium| {
+            let tracer = StoneTracer::new(polytope, medium, options(bounces));
+            let camera = &camera;
+            move |pixel: DVec2| {
+                let (origin, direction) = camera.ray(film.image_from_pixels(pixel));
+                1.0 + f64::from(tracer.follow(origin, direction, |_| {}).map_or(0, |rest| rest.bounces))
+            }
+        };
+        let side = film.size[0] / STEP;
+        let place = |k: u32| DVec2::new(f64::from(k % side), f64::from(k / side));
+        let of_medium = |&medium: &Medium| -> f64 {
+            (0..side * side).map(|k| (place(k) + 0.5) * f64::from(STEP)).map(searches(medium)).sum()
+        };
+        let all: f64 = media.iter().map(of_medium).sum();
+        #[cfg(feature = "gpu")]
+        let groups = {
+            let of_middle = media.get(media.len() / 2).map(|&medium| searches(medium));
+            let group = |k: u32| {
+                let pixel = |n: u32| {
+                    place(k) * f64::from(STEP) + DVec2::new(f64::from(n % 8), f64::from(n / 8)) + 0.5
+                };
+                std::array::from_fn(|n| of_middle.as_ref().map_or(1.0, |search| search(pixel(n as u32))))
+            };
+            (0..side * side).filter(|k| k % side % 8 == 3 && k / side % 8 == 3).map(group).collect()
+        };
+        let plane_tests = all * f64::from(STEP * STEP) * polytope.facets().len() as f64;
+        Self {
+            plane_tests,
+            #[cfg(feature = "gpu")]
+            groups,
+        }
+    }
+
+    /// Returns the mean part of lanes that still follow a ray where so many run in step until the last ray ends, above 0.
+    #[cfg(feature = "gpu")]
+    fn busy_lanes(&self, lanes: u32) -> f64 {
+        let (mut busy, mut all) = (0.0, 0.0);
+        for subgroup in self.groups.iter().flat_map(|group| group.chunks((lanes as usize).clamp(1, 64))) {
+            busy += subgroup.iter().sum::<f64>();
+            all += subgroup.len() as f64 * subgroup.iter().copied().fold(0.0, f64::max);
+        }
+        if all > 0.0 { busy / all } else { 1.0 }
+    }
 }

@@ -107,6 +107,15 @@ impl Backend {
         matches!(self, Self::Beams)
     }
 
+    /// Returns the graphics card, or the driver in software, that traces; `None` for the other tracers.
+    #[cfg(feature = "gpu")]
+    pub fn gpu(&self) -> Option<&Arc<Gpu>> {
+        match self {
+            Self::Beams | Self::Rays => None,
+            Self::Card(gpu) => Some(gpu),
+        }
+    }
+
     /// Whether it is a real graphics card, and not one in software.
     pub fn is_quick(&self) -> bool {
         match self {

@@ -2,6 +2,7 @@
 
 use super::shaders::{Pipelines, ShaderTask};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 /// Why the graphics card cannot do the work; point rays on the processor can do it instead.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -115,7 +116,22 @@ pub struct Gpu {
     pub(super) lights: Pipelines,
     name: String,
     is_software: bool,
+    lanes: u32,
+    dispatches: Mutex<DispatchTotals>,
     fault: Arc<Mutex<Option<Fault>>>,
+}
+
+/// What a card has done since these totals were last taken.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct DispatchTotals {
+    /// The number of dispatches.
+    pub count: u32,
+    /// The time of all dispatches, each from its submission to its end, seconds.
+    pub seconds: f64,
+    /// The time of the longest dispatch, seconds.
+    pub longest_s: f64,
+    /// The bytes of pixels that were read and written.
+    pub pixel_bytes: u64,
 }
 
 /// What has gone wrong with a card.
@@ -194,9 +210,20 @@ impl Gpu {
         device.set_device_lost_callback(move |_, why| note(&lost, Fault::Failed(in_one_line(&why))));
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| note(&other, error.into())));
         let name = format!("{} ({})", info.name, info.backend);
+        let lanes = info.subgroup_max_size.max(1);
         let is_software = info.device_type == wgpu::DeviceType::Cpu;
         let [scopes, lights] = [ShaderTask::Scope, ShaderTask::Light].map(Pipelines::new);
-        let gpu = Self { device, queue, scopes, lights, name, is_software, fault };
+        let gpu = Self {
+            device,
+            queue,
+            scopes,
+            lights,
+            name,
+            is_software,
+            lanes,
+            dispatches: Mutex::default(),
+            fault,
+        };
         gpu.check().map(|()| gpu)
     }
 
@@ -221,6 +248,25 @@ impl Gpu {
         });
         self.queue.write_buffer(&buffer, 0, contents);
         buffer
+    }
+
+    /// Returns how many invocations at most run in step.
+    pub fn lanes(&self) -> u32 {
+        self.lanes
+    }
+
+    /// Returns what the card has done since the last call, and begins anew.
+    pub fn take_totals(&self) -> DispatchTotals {
+        std::mem::take(&mut *self.dispatches.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Adds a dispatch to the totals.
+    pub(super) fn count(&self, took: Duration, pixel_bytes: u64) {
+        let mut totals = self.dispatches.lock().unwrap_or_else(PoisonError::into_inner);
+        totals.count = totals.count.saturating_add(1);
+        totals.seconds += took.as_secs_f64();
+        totals.longest_s = totals.longest_s.max(took.as_secs_f64());
+        totals.pixel_bytes = totals.pixel_bytes.saturating_add(pixel_bytes);
     }
 
     /// Waits until all submitted work is done.

@@ -28,24 +28,28 @@ macro_rules! both_sides {
 both_sides! {
     /// The parameters of a dispatch, for scopes and for light.
     Frame, FRAME_WGSL {
+        /// x: loop turns that a ray may take where it counts them; the others are unused. It comes first because Mesa's software
+        /// driver (22.3) writes the first number of a uniform into the shader, and compiles that anew at each dispatch where
+        /// it then has more operations than before, as with a tilted axis.
+        most: vec4u,
         /// xyz: the image's x axis; w: how far the stones reach from the origin.
         right: vec4f,
         /// xyz: the image's y axis; w: the side of a pixel.
         up: vec4f,
         /// xyz: the axis to the eye; w: the eye's distance, 0 for parallel rays.
         toward: vec4f,
-        /// x: the least weight that is followed; y: how far it is from the traced wavelength to its band's middle, as a part
-        /// of the band; zw: where the ray stands in its pixel, or in its cell of the pixel's grid.
+        /// x: the least weight that is followed; zw: where the ray stands in its pixel, or in its cell of the pixel's grid.
         limits: vec4f,
         /// x: number of stones; y: number of wavelengths; z: most bounces; w: 1 for polarised light.
         counts: vec4u,
-        /// x: pixels across; y: pixels down; z: first row of this dispatch; w: number of its rows.
+        /// x: pixels across; y: pixels down; z: first row of the strip that the buffer holds; w: number of its rows.
         film: vec4u,
-        /// x: how many dispatches the pixels have had before; y: in scopes the rays along each side of a pixel, under light
-        /// the first row that the buffer holds; z: first wavelength; w: the one after the last.
+        /// x: in scopes the number of the cell in the pixel's grid; y: the cells along each side of a pixel; z: first
+        /// wavelength; w: the one after the last.
         turn: vec4u,
-        /// x: loop turns that a ray may take where it counts them; the others are unused.
-        most: vec4u,
+        /// The strip's tiles of 8 by 8 pixels. x: the first of this dispatch; y: how many it takes; z: the stride by which
+        /// their order goes through the strip; w: the number of all.
+        tiles: vec4u,
         /// x: the share of refraction's turning of light that is followed, 1 for physics; the others are unused.
         strength: vec4f,
     }

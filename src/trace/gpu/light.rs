@@ -4,7 +4,7 @@ use super::device::{Gpu, GpuError};
 use super::gpu_types::{self, Lamp, Response, with};
 use super::limits::MOST_WAVELENGTHS;
 use super::solids::Solids;
-use super::stage::{GpuCamera, Stage};
+use super::stage::{GpuCamera, Stage, StripLayer};
 use crate::math::PosedSolid;
 use crate::scene::{self, Instance, MOST_LAMPS, Mipmap, Panorama};
 use crate::trace::environment::{Environment, HEAD_EDGE};
@@ -15,19 +15,17 @@ use std::ops::Range;
 use wgpu::util::DeviceExt;
 
 /// The most wavelengths of one dispatch.
-const AT_ONCE: usize = 16;
+const AT_ONCE: u32 = 16;
 
 /// Rows of a picture under light, traced by a graphics card.
 pub struct ByCard<'a> {
     rows: Range<u32>,
-    at_once: u32,
-    stage: Stage<'a>,
+    pub(super) stage: Stage<'a>,
     media: wgpu::Buffer,
     /// The unit of length in which the shader traces each stone, in units of the stone's body.
     units: Vec<f64>,
     responses: wgpu::Buffer,
     wavelengths: usize,
-    dispatches: u32,
     looks: u32,
     /// How far a film around the origin is shifted to become the picture's, in pixels.
     shift: DVec2,
@@ -63,7 +61,8 @@ impl<'a> ByCard<'a> {
         };
         let bytes = size_of::<gpu_types::Medium>() * wavelengths * stones.len();
         let media = copied("media", bytes, wgpu::BufferUsages::STORAGE);
-        let bytes = size_of::<Response>() * MOST_WAVELENGTHS;
+        // After the bands comes the response of all of them together.
+        let bytes = size_of::<Response>() * (MOST_WAVELENGTHS + 1);
         let responses = copied("responses", bytes, wgpu::BufferUsages::UNIFORM);
         let mut entries = solids.entries(&media);
         entries.extend(around.entries());
@@ -76,18 +75,19 @@ impl<'a> ByCard<'a> {
         };
         let frame = eye.frame(gpu, &solids, wavelengths);
         solids.enough(gpu, frame.counts[2], lit_scene.options.most_bounces)?;
-        let pipeline = gpu.lights.pipeline(&gpu.device, solids.surfaces.facets);
-        let stage = Stage::new::<gpu_types::RadiancePixel>(gpu, pipeline, frame, rows.len() as u32, entries)?;
-        let at_once = Stage::rows(gpu, lit_scene.film.size);
+        let kernel = gpu.lights.kernel(&gpu.device, solids.surfaces.facets);
+        // A software driver counts the loop turns of all wavelengths of a dispatch together.
+        let at_once = if gpu.is_software() { 1 } else { AT_ONCE };
+        let cost = (solids.cost(frame.counts[2]), at_once);
+        let count = rows.len() as u32;
+        let stage = Stage::new::<gpu_types::RadiancePixel>(gpu, kernel, (frame, count), cost, entries)?;
         Ok(Self {
             rows,
-            at_once,
             stage,
             media,
             units: solids.units,
             responses,
             wavelengths,
-            dispatches: 0,
             looks: 0,
             shift: lit_scene.film.shift(),
         })
@@ -104,7 +104,8 @@ impl<'a> ByCard<'a> {
             let [key, red, green, blue] = r.map(wide);
             Response { key, red, green, blue }
         };
-        let responses: Vec<Response> = look.responses.iter().map(response).collect();
+        let bands = look.responses.iter().chain(std::iter::once(&look.whole));
+        let responses: Vec<Response> = bands.map(response).collect();
         self.stage.gpu.queue.write_buffer(&self.media, 0, bytemuck::cast_slice(&media));
         self.stage.gpu.queue.write_buffer(&self.responses, 0, bytemuck::cast_slice(&responses));
     }
@@ -114,21 +115,13 @@ impl<E: From<Stopped> + From<GpuError>> ProgressiveImage<E> for ByCard<'_> {
     fn add_pass(&mut self, look: &SamplePass, watch: Watch) -> Result<(), E> {
         self.write_frame(look);
         self.stage.frame.strength[0] = look.strength as f32;
-        let step = if self.stage.gpu.is_software() { 1 } else { AT_ONCE };
-        let bands: Vec<usize> = (0..self.wavelengths).step_by(step).collect();
-        for (done, &band) in bands.iter().enumerate() {
-            let end = (band + step).min(self.wavelengths);
-            for first in (0..self.rows.len() as u32).step_by(self.at_once as usize) {
-                let count = self.at_once.min(self.rows.len() as u32 - first);
-                let part = f64::from(first) / self.rows.len() as f64;
-                if watch((done as f64 + part) / bands.len() as f64).is_break() {
-                    return Err(Stopped.into());
-                }
-                let turn = [self.dispatches, self.rows.start, band as u32, end as u32];
-                self.stage.look((first, count), (look.shift + self.shift, 0.0), turn)?;
-            }
-            self.dispatches += 1;
-        }
+        let layer = StripLayer {
+            shift: look.shift + self.shift,
+            origin: self.shift,
+            cell: [0, 1],
+            bands: self.wavelengths as u32,
+        };
+        self.stage.trace::<E>(&self.rows, &layer, watch)?;
         self.looks += 1;
         Ok(())
     }

@@ -27,3 +27,6 @@ pub const MOST_CARD_BANDS: usize = 8;
 
 /// The most wavelengths that one sample pass may have.
 pub const MOST_WAVELENGTHS: usize = 64;
+
+/// The workgroups in a row of a dispatch; every card takes 65,535.
+pub(super) const GROUPS_ACROSS: u32 = 1 << 15;

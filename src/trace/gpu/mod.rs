@@ -9,16 +9,22 @@ mod fields;
 mod gpu_types;
 mod light;
 mod limits;
+mod peak;
+mod pieces;
 mod scope;
 mod shaders;
 mod solids;
 mod stage;
+mod throttle;
 mod triangles;
 
-pub use device::{Gpu, GpuError};
+pub use device::{DispatchTotals, Gpu, GpuError};
 pub use gpu_types::ScopePixel;
 pub use light::{ByCard, GpuEnvironment};
 pub use limits::{MOST_BODIES, MOST_BOUNCES, MOST_CARD_BANDS, MOST_TRIANGLES, MOST_WAVELENGTHS};
+pub use peak::CardPeak;
 
 #[cfg(test)]
 mod parity;
+#[cfg(test)]
+mod splits;

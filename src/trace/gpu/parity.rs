@@ -6,6 +6,7 @@ mod lamps;
 
 use super::Gpu;
 use super::gpu_types;
+use super::peak::{ARITHMETIC_WGSL, MEMORY_WGSL};
 use super::shaders::{ShaderSurface, ShaderTask, compiled, source};
 use crate::optics::{Fresnel, fresnel, reflect, reflected_change, refract, refracted_change};
 use glam::DVec3;
@@ -52,6 +53,28 @@ fn every_shader_is_valid_and_its_structs_are_laid_out_as_in_rust() {
             assert_eq!(size("RadiancePixel"), Some(size_of::<gpu_types::RadiancePixel>()));
         }
     }
+}
+
+#[test]
+fn the_shaders_that_measure_a_card_are_valid() {
+    for text in [ARITHMETIC_WGSL, MEMORY_WGSL] {
+        let module = front::wgsl::parse_str(text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(text)));
+        let mut validator =
+            valid::Validator::new(valid::ValidationFlags::all(), valid::Capabilities::empty());
+        validator.validate(&module).unwrap_or_else(|e| panic!("{}", e.emit_to_string(text)));
+    }
+}
+
+#[test]
+fn a_cards_peak_is_beyond_what_a_tenth_of_a_core_does() {
+    let Some(gpu) = card("a_cards_peak_is_beyond_what_a_tenth_of_a_core_does") else { return };
+    let peak = gpu.peak().unwrap();
+    // Above these bounds a compiler has left the work out.
+    assert!((1e8..1e15).contains(&peak.flops), "{peak:?}");
+    assert!((1e7..1e14).contains(&peak.bytes_per_second), "{peak:?}");
+    assert!(peak.launch_s > 0.0 && peak.launch_s < 1.0, "{peak:?}");
+    // Nothing of this is a picture.
+    assert_eq!(gpu.take_totals().count, 0);
 }
 
 /// A shader that takes rays which meet a surface, as (cos_i, eta, turn of the axes, unused), and returns all that the optics
@@ -156,7 +179,7 @@ fn compared(given: &[[f32; 4]], found: &[[[f32; 4]; 7]], factor: f64) -> (u32, f
 }
 
 /// Opens the card. Where there is none it reports that the test is skipped, or panics where a card is required.
-fn card(test: &str) -> Option<Gpu> {
+pub(super) fn card(test: &str) -> Option<Gpu> {
     match Gpu::open() {
         Ok(gpu) => Some(gpu),
         Err(error) if std::env::var_os("BRILLIANTEER_REQUIRE_GPU").is_some() => panic!("{test}: {error}"),

@@ -4,9 +4,13 @@ use super::device::{Gpu, GpuError};
 use super::gpu_types::{Bands, Medium, ScopePixel, with};
 use super::limits::MOST_CARD_BANDS;
 use super::solids::Solids;
-use super::stage::{GpuCamera, Stage};
+use super::stage::{GpuCamera, Stage, StripLayer};
 use crate::math::{Pose, PosedSolid};
 use crate::trace::{ScopeShot, Stopped, Watch};
+use glam::DVec2;
+
+/// The pixels that a strip holds at most, in a buffer of less than the 128 MiB that all cards take.
+const PIXELS_AT_ONCE: u32 = 1 << 20;
 
 impl Gpu {
     /// Takes a picture, some rows at a time, from the top: calls `each` with the first row's number and the pixels of whole
@@ -20,24 +24,31 @@ impl Gpu {
         watch: Watch,
         mut each: impl FnMut(u32, &[ScopePixel]) -> Result<(), E>,
     ) -> Result<(), E> {
-        let rows = Stage::rows(self, shot.film.size);
+        let [across, down] = shot.film.size;
+        let rows = (PIXELS_AT_ONCE / across.max(1)).clamp(1, down.max(1));
         let stage = stage(self, shot, rows)?;
         let turns = shot.per_side * shot.per_side;
-        let shift = shot.shift + shot.film.shift() * f64::from(shot.per_side);
-        let down = shot.film.size[1];
+        let (shift, origin) = shifts(shot);
         for first in (0..down).step_by(rows as usize) {
-            let count = rows.min(down - first);
+            let strip = first..down.min(first + rows);
             for turn in 0..turns {
-                let part = f64::from(turn) / f64::from(turns);
-                if watch((f64::from(first) + part * f64::from(count)) / f64::from(down)).is_break() {
-                    return Err(Stopped.into());
-                }
-                stage.look((first, count), (shift, 0.0), [turn, shot.per_side, 0, 1])?;
+                let layer = StripLayer { shift, origin, cell: [turn, shot.per_side], bands: 1 };
+                let part = |part: f64| {
+                    let part = (f64::from(turn) + part) / f64::from(turns);
+                    (f64::from(first) + part * strip.len() as f64) / f64::from(down)
+                };
+                stage.trace::<E>(&strip, &layer, &|done| watch(part(done)))?;
             }
-            each(first, &stage.read::<ScopePixel>(count)?)?;
+            each(first, &stage.read::<ScopePixel>(strip.len() as u32)?)?;
         }
         Ok(())
     }
+}
+
+/// Returns the place of a ray in its cell, shifted to the film's centre, and how far the centre's shift is in pixels.
+fn shifts(shot: &ScopeShot) -> (DVec2, DVec2) {
+    let origin = shot.film.shift();
+    (shot.shift + origin * f64::from(shot.per_side), origin)
 }
 
 fn stage<'a>(gpu: &'a Gpu, shot: &ScopeShot, rows: u32) -> Result<Stage<'a>, GpuError> {
@@ -55,13 +66,8 @@ fn stage<'a>(gpu: &'a Gpu, shot: &ScopeShot, rows: u32) -> Result<Stage<'a>, Gpu
     let eye = GpuCamera { view: shot.view, film: shot.film, reach, options: shot.options };
     let frame = eye.frame(gpu, &solids, 1);
     solids.enough(gpu, frame.counts[2], shot.options.most_bounces)?;
-    Stage::new::<ScopePixel>(
-        gpu,
-        gpu.scopes.pipeline(&gpu.device, solids.surfaces.facets),
-        frame,
-        rows,
-        entries,
-    )
+    let kernel = gpu.scopes.kernel(&gpu.device, solids.surfaces.facets);
+    Stage::new::<ScopePixel>(gpu, kernel, (frame, rows), (solids.cost(frame.counts[2]), 1), entries)
 }
 
 fn bands(shot: &ScopeShot) -> Bands {

@@ -1,11 +1,12 @@
 //! The shaders: put together as text, and each compiled when first used.
 
 use super::gpu_types;
-use super::limits::{MOST_BODIES, MOST_INBOUND, MOST_LEVELS, MOST_UNIFORM, MOST_WAVELENGTHS};
+use super::limits::{GROUPS_ACROSS, MOST_BODIES, MOST_INBOUND, MOST_LEVELS, MOST_UNIFORM, MOST_WAVELENGTHS};
+use super::throttle::Throttle;
 use crate::scene::MOST_LAMPS;
 use crate::trace::environment::TEXEL_ANGLE;
 use crate::trace::sampling::MOST_WAITING;
-use std::sync::OnceLock;
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// The kinds of surface that shaders trace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,7 +45,19 @@ pub(super) enum ShaderTask {
 /// The pipelines of one task, one for each kind of surface, each compiled when first used.
 pub(super) struct Pipelines {
     reading: ShaderTask,
-    by_facets: [OnceLock<wgpu::ComputePipeline>; ShaderSurface::ALL.len()],
+    by_facets: [OnceLock<Kernel>; ShaderSurface::ALL.len()],
+}
+
+/// A compiled shader, and what was learnt of how much work it does in a time.
+pub(super) struct Kernel {
+    pub pipeline: wgpu::ComputePipeline,
+    throttle: Mutex<Throttle>,
+}
+
+impl Kernel {
+    pub fn throttle(&self) -> MutexGuard<'_, Throttle> {
+        self.throttle.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 /// Returns a shader's text, with its structs and constants in front.
@@ -54,7 +67,7 @@ pub(super) fn source(facets: ShaderSurface, reading: ShaderTask) -> String {
          const MOST_WAITING: u32 = {MOST_WAITING}u;\nconst MOST_LAMPS: u32 = {MOST_LAMPS}u;\n\
          const MOST_WAVELENGTHS: u32 = {MOST_WAVELENGTHS}u;\nconst TEXEL_ANGLE: f32 = {TEXEL_ANGLE};\n\
          const NONE: u32 = 0xffffffffu;\nconst MOST_INBOUND: u32 = {MOST_INBOUND}u;\n\
-         const MOST_LEVELS: u32 = {MOST_LEVELS}u;\n"
+         const MOST_LEVELS: u32 = {MOST_LEVELS}u;\nconst GROUPS_ACROSS: u32 = {GROUPS_ACROSS}u;\n"
     );
     let stones = "@group(0) @binding(0) var<uniform> frame: Frame;\n\
         @group(0) @binding(4) var<uniform> bodies: array<Body, MOST_BODIES>;\n\
@@ -103,6 +116,7 @@ pub(super) fn source(facets: ShaderSurface, reading: ShaderTask) -> String {
         include_str!("../../../shaders/trace.wgsl"),
         include_str!("../../../shaders/pose.wgsl"),
         include_str!("../../../shaders/camera.wgsl"),
+        include_str!("../../../shaders/tiles.wgsl"),
     ];
     common.iter().chain(facets).chain(reading).copied().collect()
 }
@@ -112,8 +126,11 @@ impl Pipelines {
         Self { reading, by_facets: Default::default() }
     }
 
-    pub fn pipeline(&self, device: &wgpu::Device, facets: ShaderSurface) -> &wgpu::ComputePipeline {
-        self.by_facets[facets as usize].get_or_init(|| compiled(device, source(facets, self.reading)))
+    pub fn kernel(&self, device: &wgpu::Device, facets: ShaderSurface) -> &Kernel {
+        self.by_facets[facets as usize].get_or_init(|| Kernel {
+            pipeline: compiled(device, source(facets, self.reading)),
+            throttle: Mutex::default(),
+        })
     }
 }
 

@@ -18,14 +18,17 @@ const FEW: usize = 192;
 /// whatever they have done by then.
 const MOST_TURNS_IN_SOFTWARE: usize = 60_000;
 
-/// Loop turns after which, on a card, the light of a ray that counts them is unresolved, so that no driver thinks that it
-/// hangs.
-const MOST_TURNS: u32 = 1 << 20;
+/// Loop turns after which, on a card, the light of a ray in one wavelength is unresolved where they are counted: some 20 ms
+/// if each waits for memory, so that even the least dispatch is short.
+const MOST_TURNS: u32 = 1 << 16;
 
 /// The same on a software driver; turns that are not counted fit into the rest.
 const MOST_COUNTED_IN_SOFTWARE: u32 = 48_000;
 
-/// Returns the loop turns that one ray may take where it counts them.
+/// The cost of looking for the next facet where it is not known by the number of planes, in plane tests.
+const SEARCH: usize = 256;
+
+/// Returns the loop turns that one ray may take in one wavelength where it counts them.
 pub(super) fn most_turns(gpu: &Gpu) -> u32 {
     if gpu.is_software() { MOST_COUNTED_IN_SOFTWARE } else { MOST_TURNS }
 }
@@ -166,6 +169,12 @@ impl Solids {
     /// Returns the number of stones.
     pub fn count(&self) -> usize {
         self.units.len()
+    }
+
+    /// Returns an estimate of the most that a ray through the stones costs in one wavelength, in plane tests.
+    pub fn cost(&self, bounces: u32) -> f64 {
+        let search = if self.surfaces.largest > 0 { self.surfaces.largest } else { SEARCH };
+        (1.0 + f64::from(bounces)) * search as f64 * self.count() as f64
     }
 
     /// Returns how many of the wanted bounces the card can follow.

@@ -2,22 +2,23 @@
 
 use super::device::{Gpu, GpuError};
 use super::gpu_types::{Frame, with};
-use super::limits::MOST_BOUNCES;
+use super::limits::{GROUPS_ACROSS, MOST_BOUNCES};
+use super::pieces::{Piece, Pieces, stride};
+use super::shaders::Kernel;
 use super::solids::{Solids, most_turns};
 use crate::scene::{Film, Projection, View};
 use crate::trace::ray::RayOptions;
+use crate::trace::{Stopped, Watch};
 use bytemuck::Pod;
 use glam::DVec2;
+use std::ops::Range;
+use std::time::{Duration, Instant};
 
-/// Pixels of one dispatch, one ray each: far less than a second's work, so that no driver thinks the card hangs, and a
-/// buffer of less than 128 MiB, which all cards take.
-const PIXELS_AT_ONCE: u32 = 1 << 20;
+/// Side of a tile, which one workgroup traces, in pixels.
+const TILE: u32 = 8;
 
-/// The same on a software driver.
-const PIXELS_AT_ONCE_IN_SOFTWARE: u32 = 1 << 17;
-
-/// Side of a workgroup, pixels.
-const WORKGROUP: u32 = 8;
+/// What a ray costs that passes the stones by, in plane tests.
+const BESIDE: f64 = 8.0;
 
 /// The view and the film of a picture, and how far its rays are followed.
 pub(super) struct GpuCamera<'a> {
@@ -46,17 +47,34 @@ impl GpuCamera<'_> {
             counts: [solids.count() as u32, wavelengths as u32, bounces, u32::from(self.options.polarised)],
             film: [across, down, 0, 0],
             turn: [0, 1, 0, wavelengths as u32],
+            tiles: [0, 0, 1, 1],
             most: [most_turns(gpu), 0, 0, 0],
             strength: [1.0, 0.0, 0.0, 0.0],
         }
     }
 }
 
-/// The pixels of some rows in a card's memory, and the pipeline that adds to them.
+/// One ray of each pixel of a strip, in all bands.
+pub(super) struct StripLayer {
+    /// The ray's place in its pixel, or in its cell of the pixel's grid.
+    pub shift: DVec2,
+    /// How far a film around the origin is shifted to become the picture's, in pixels.
+    pub origin: DVec2,
+    /// The number of the cell in the pixel's grid, and the cells along each side of a pixel.
+    pub cell: [u32; 2],
+    /// The number of bands.
+    pub bands: u32,
+}
+
+/// The pixels of some rows in a card's memory, and the kernel that adds to them.
 pub(super) struct Stage<'a> {
     pub gpu: &'a Gpu,
-    pipeline: &'a wgpu::ComputePipeline,
+    kernel: &'a Kernel,
     pub frame: Frame,
+    /// The most that a ray through the stones costs in one band, in plane tests.
+    cost: f64,
+    /// The most bands of one dispatch.
+    pub bands_at_once: u32,
     frame_buffer: wgpu::Buffer,
     seen: wgpu::Buffer,
     back: wgpu::Buffer,
@@ -66,12 +84,14 @@ pub(super) struct Stage<'a> {
 }
 
 impl<'a> Stage<'a> {
-    /// Creates a stage for `rows` rows of the frame's film; `entries` are what its shader needs besides frame and pixels.
+    /// Creates a stage for up to `rows` rows of the frame's film. `cost` is what a ray through the stones costs at most in
+    /// one band, in plane tests, of which a dispatch takes `bands_at_once`; `entries` are what the shader needs besides frame
+    /// and pixels.
     pub fn new<T: Pod>(
         gpu: &'a Gpu,
-        pipeline: &'a wgpu::ComputePipeline,
-        frame: Frame,
-        rows: u32,
+        kernel: &'a Kernel,
+        (frame, rows): (Frame, u32),
+        (cost, bands_at_once): (f64, u32),
         entries: Vec<wgpu::BindGroupEntry>,
     ) -> Result<Self, GpuError> {
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
@@ -95,43 +115,67 @@ impl<'a> Stage<'a> {
         all.extend(entries);
         let bound = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,
-            layout: &pipeline.get_bind_group_layout(0),
+            layout: &kernel.pipeline.get_bind_group_layout(0),
             entries: &all,
         });
-        gpu.check()?;
-        Ok(Self { gpu, pipeline, frame, frame_buffer, seen, back, bound, width })
+        let stage = Self { gpu, kernel, frame, cost, bands_at_once, frame_buffer, seen, back, bound, width };
+        // A dispatch without tiles: what was copied arrives, and drivers that compile late do so, before times are measured.
+        stage.submit(&Frame { tiles: [0, 0, 1, 1], ..frame }, 1)?;
+        Ok(stage)
     }
 
-    /// Returns the rows that one dispatch takes of a film of this size.
-    pub fn rows(gpu: &Gpu, [across, down]: [u32; 2]) -> u32 {
-        let pixels = if gpu.is_software() { PIXELS_AT_ONCE_IN_SOFTWARE } else { PIXELS_AT_ONCE };
-        (pixels / across).clamp(1, down)
-    }
-
-    /// Traces one ray of each pixel in `count` rows from `first` and adds it to the pixels.
-    ///
-    /// `shift` is the ray's place in its pixel, or in its cell of the pixel's grid; `to_middle` is the distance from its
-    /// wavelength to its band's middle, as a part of the band; `turn` becomes the field of that name in [`Frame`].
-    pub fn look(
-        &self,
-        (first, count): (u32, u32),
-        (shift, to_middle): (DVec2, f64),
-        turn: [u32; 4],
-    ) -> Result<(), GpuError> {
+    /// Traces one ray of each pixel in a strip of the film's rows and adds it to the pixels, as many at once as the card was
+    /// measured to trace in a short time. Pixels and bands add up to the same bits however the work is divided.
+    pub fn trace<E>(&self, strip: &Range<u32>, layer: &StripLayer, watch: Watch) -> Result<(), E>
+    where
+        E: From<Stopped> + From<GpuError>,
+    {
         let mut frame = self.frame;
-        (frame.film[2], frame.film[3], frame.turn) = (first, count, turn);
-        frame.limits[1..].copy_from_slice(&[to_middle as f32, shift.x as f32, shift.y as f32]);
-        self.gpu.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(&frame));
+        let tiles = frame.film[0].div_ceil(TILE) * (strip.len() as u32).div_ceil(TILE);
+        (frame.film[2], frame.film[3]) = (strip.start, strip.len() as u32);
+        frame.limits[2..].copy_from_slice(&[layer.shift.x, layer.shift.y].map(|x| x as f32));
+        let share = covered(&frame, strip, layer.origin);
+        let cost = f64::from(TILE * TILE) * (BESIDE + share * self.cost);
+        let all = f64::from(tiles) * f64::from(layer.bands);
+        let (mut pieces, mut done) = (Pieces::new(tiles, layer.bands, self.bands_at_once), 0);
+        self.kernel.throttle().open();
+        loop {
+            let most = self.kernel.throttle().most() / cost;
+            let Some(piece) = pieces.next(most) else { return Ok(()) };
+            if watch(done as f64 / all).is_break() {
+                return Err(Stopped.into());
+            }
+            done += piece.size();
+            frame.turn = [layer.cell[0], layer.cell[1], piece.bands.start, piece.bands.end];
+            frame.tiles = [piece.tiles.start, piece.tiles.len() as u32, stride(tiles), tiles];
+            self.dispatch(&frame, &piece, cost)?;
+        }
+    }
+
+    /// Does one piece of work, of this cost a tile and band.
+    fn dispatch(&self, frame: &Frame, piece: &Piece, cost: f64) -> Result<(), GpuError> {
+        let took = self.submit(frame, piece.tiles.len() as u32)?;
+        self.kernel.throttle().note(cost * piece.size() as f64, took);
+        let pixels = piece.tiles.len() as u64 * u64::from(TILE * TILE);
+        self.gpu.count(took, 2 * pixels * self.width);
+        Ok(())
+    }
+
+    /// Dispatches this many workgroups and returns the time until they end. It waits for that: dispatches that were queued up
+    /// would go on after the watch has asked to stop.
+    fn submit(&self, frame: &Frame, count: u32) -> Result<Duration, GpuError> {
+        self.gpu.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(frame));
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            pass.set_pipeline(self.pipeline);
+            pass.set_pipeline(&self.kernel.pipeline);
             pass.set_bind_group(0, &self.bound, &[]);
-            pass.dispatch_workgroups(frame.film[0].div_ceil(WORKGROUP), count.div_ceil(WORKGROUP), 1);
+            pass.dispatch_workgroups(count.min(GROUPS_ACROSS), count.div_ceil(GROUPS_ACROSS), 1);
         }
+        let start = Instant::now();
         self.gpu.queue.submit([encoder.finish()]);
-        // Dispatches run one after the other: queued up, they would go on after the watch has asked to stop.
-        self.gpu.wait()
+        self.gpu.wait()?;
+        Ok(start.elapsed())
     }
 
     /// Reads the pixels of the first `count` rows back.
@@ -147,5 +191,54 @@ impl<'a> Stage<'a> {
         drop(mapped);
         self.back.unmap();
         Ok(seen)
+    }
+}
+
+/// Returns which part of a strip's pixels the ball around all stones covers, about; `origin` is how far the film is shifted,
+/// in pixels.
+fn covered(frame: &Frame, strip: &Range<u32>, origin: DVec2) -> f64 {
+    const LINES: u32 = 64;
+    let [across, down] = [frame.film[0], frame.film[1]].map(f64::from);
+    let middle = DVec2::new(across, down) / 2.0 - origin;
+    let (reach, distance) = (f64::from(frame.right[3]), f64::from(frame.toward[3]));
+    let nearness = if distance > 0.0 { (1.0 - (reach / distance).powi(2)).sqrt() } else { 1.0 };
+    // An eye within the ball has it everywhere; then the root is no number.
+    let radius = reach / f64::from(frame.up[3]) / nearness;
+    if !radius.is_finite() {
+        return 1.0;
+    }
+    let line = |k: u32| {
+        let part = (f64::from(k) + 0.5) / f64::from(LINES);
+        let y = f64::from(strip.start) + strip.len() as f64 * part - middle.y;
+        let half = (radius * radius - y * y).max(0.0).sqrt();
+        ((middle.x + half).min(across) - (middle.x - half).max(0.0)).max(0.0) / across
+    };
+    (0..LINES).map(line).sum::<f64>() / f64::from(LINES)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bytemuck::Zeroable;
+
+    /// A film of 100 x 200 pixels around a ball of this many pixels, seen from `distance` pixels away.
+    fn frame(radius: f32, distance: f32) -> Frame {
+        let mut frame = Frame::zeroed();
+        (frame.film[0], frame.film[1]) = (100, 200);
+        (frame.right[3], frame.up[3], frame.toward[3]) = (radius * 0.1, 0.1, distance * 0.1);
+        frame
+    }
+
+    #[test]
+    fn the_part_that_stones_cover_is_that_of_a_disc() {
+        let disc = std::f64::consts::PI * 1600.0 / 20_000.0;
+        assert!((covered(&frame(40.0, 0.0), &(0..200), DVec2::ZERO) / disc - 1.0).abs() < 0.01);
+        let [top, middle] = [0..50, 50..150].map(|strip| covered(&frame(40.0, 0.0), &strip, DVec2::ZERO));
+        assert!(top == 0.0 && (middle / (2.0 * disc) - 1.0).abs() < 0.01, "{top}, {middle}");
+        let beside = covered(&frame(40.0, 0.0), &(0..200), DVec2::new(50.0, 0.0));
+        assert!((beside / (0.5 * disc) - 1.0).abs() < 0.01, "{beside}");
+        let near = covered(&frame(40.0, 50.0), &(0..200), DVec2::ZERO);
+        assert!(near > 1.5 * disc && near < 1.0, "{near}");
+        assert_eq!(covered(&frame(40.0, 30.0), &(0..200), DVec2::ZERO), 1.0);
     }
 }

@@ -1,0 +1,13 @@
+// Which pixel an invocation traces. A dispatch takes some tiles of 8 by 8 pixels from everywhere in the strip, so that it is
+// about as heavy as any other; src/trace/gpu/pieces.rs says which.
+
+// Returns the column and the row, in the strip, of an invocation's pixel; it may lie beyond the strip.
+fn strip_pixel(group: vec3u, within: vec2u) -> vec2u {
+    let number = group.x + group.y * GROUPS_ACROSS;
+    if number >= frame.tiles.y {
+        return vec2u(NONE);
+    }
+    let tile = (frame.tiles.x + number) * frame.tiles.z % frame.tiles.w;
+    let across = (frame.film.x + 7u) / 8u;
+    return vec2u(tile % across, tile / across) * 8u + within;
+}

@@ -1,0 +1,139 @@
+//! Tests that a picture is the same to the bit however its work is divided into dispatches.
+
+use super::gpu_types::RadiancePixel;
+use super::parity::card;
+use super::shaders::ShaderSurface;
+use super::throttle::Throttle;
+use super::{ByCard, Gpu, GpuEnvironment, ScopePixel};
+use crate::cut::{Design, Family, MaterialRef};
+use crate::optics::{Illuminant, Strata};
+use crate::scene::{ASET_CONE, Backing, Film, Light, Scene, Scope, Specimen, View};
+use crate::trace::environment::{Environment, EnvironmentMap};
+use crate::trace::ray::RayOptions;
+use crate::trace::sampling::{LitScene, ProgressiveImage, SamplePass};
+use crate::trace::{ScopeShot, unwatched};
+use glam::DVec2;
+
+/// No side is a multiple of a tile's.
+const SIZE: [u32; 2] = [61, 45];
+const TILES: u32 = 8 * 6;
+const BANDS: u32 = 5;
+const PASSES: u32 = 2;
+
+/// The ways to divide work: the throttle that a picture begins with, and the most bands of a dispatch.
+fn divisions() -> [(Throttle, u32); 5] {
+    [
+        // All at once; tile by tile and band by band; twice as much each time, with two sets of bands; a part, then tile by
+        // tile.
+        (Throttle::new(f64::INFINITY, 1e18), BANDS),
+        (Throttle::new(0.0, 1.0), 1),
+        (Throttle::new(f64::INFINITY, 1.0), BANDS),
+        (Throttle::new(f64::INFINITY, 1.0), 2),
+        (Throttle::new(0.0, 3e6), 3),
+    ]
+}
+
+type Broken = Box<dyn std::error::Error>;
+
+fn specimen(family: &str) -> Specimen {
+    let design = Design {
+        name: family.to_owned(),
+        source: None,
+        notes: None,
+        material: MaterialRef::Name("diamond".to_owned()),
+        diameter_mm: 6.5,
+        cut: Family::of_key(family).unwrap().first.clone(),
+    };
+    Specimen::new(design).unwrap()
+}
+
+fn options() -> RayOptions {
+    RayOptions { polarised: true, most_bounces: 6, least_weight: 1e-4 }
+}
+
+/// Takes a picture under light, divided in a way, with the first pass at this place in its pixels; returns the bits of its
+/// pixels and the number of dispatches.
+fn lit(
+    gpu: &Gpu,
+    (scene, surface, map): (&Scene, ShaderSurface, &EnvironmentMap),
+    (throttle, bands): (Throttle, u32),
+    shift: f64,
+) -> (Vec<u32>, u32) {
+    let view = View { tilt: 0.2, ..View::default() };
+    let (basis, eye) = (view.light_basis(), view.basis());
+    let environment = Environment { map, basis, eye, head: 0.0, backplate: None, backdrop: true };
+    let film = Film::new(SIZE, 0.05);
+    let lit_scene = LitScene { scene, environment, view: &view, film, options: options() };
+    let around = GpuEnvironment::new(gpu, &environment).unwrap();
+    let mut image = ByCard::new(gpu, &lit_scene, &around, 0..SIZE[1], BANDS as usize).unwrap();
+    *gpu.lights.kernel(&gpu.device, surface).throttle() = throttle;
+    image.stage.bands_at_once = bands;
+    gpu.take_totals();
+    for number in 0..PASSES {
+        let strata = Strata::new(BANDS, 1, &Illuminant::D65, true);
+        let mut pass = SamplePass::new(scene, &strata, number);
+        pass.shift += DVec2::splat(shift);
+        let added: Result<(), Broken> = image.add_pass(&pass, &unwatched);
+        added.unwrap();
+    }
+    let pixels: Vec<RadiancePixel> = image.stage.read(SIZE[1]).unwrap();
+    (bytemuck::cast_slice(&pixels).to_vec(), gpu.take_totals().count)
+}
+
+fn in_scope(gpu: &Gpu, specimen: &Specimen, throttle: Throttle, per_side: u32) -> (Vec<u32>, u32) {
+    let shot = ScopeShot {
+        solid: specimen.body.solid(),
+        medium: specimen.medium(589.3),
+        view: &View::default(),
+        scope: &Scope::aset(ASET_CONE, Backing::Black),
+        film: Film::new(SIZE, 0.05),
+        per_side,
+        shift: DVec2::splat(0.5),
+        options: options(),
+    };
+    *gpu.scopes.kernel(&gpu.device, ShaderSurface::Few).throttle() = throttle;
+    gpu.take_totals();
+    let mut bits = vec![];
+    let taken = gpu.scope::<Broken>(&shot, &unwatched, |_, pixels: &[ScopePixel]| {
+        bits.extend_from_slice(bytemuck::cast_slice(pixels));
+        Ok(())
+    });
+    taken.unwrap();
+    (bits, gpu.take_totals().count)
+}
+
+#[test]
+fn pictures_under_light_are_the_same_to_the_bit_however_they_are_divided() {
+    let Some(gpu) = card("pictures_under_light_are_the_same_to_the_bit_however_they_are_divided") else {
+        return;
+    };
+    let map = EnvironmentMap::new(&Light::lamps_on_dome(), None);
+    for (family, surface) in [("round_brilliant", ShaderSurface::Few), ("plate", ShaderSurface::Wavy)] {
+        let scene = Scene::alone(&specimen(family));
+        let taken = |division| lit(&gpu, (&scene, surface, &map), division, 0.0);
+        let [whole, others @ ..] = divisions().map(taken);
+        assert_eq!(whole.1, PASSES);
+        assert!(whole.0.iter().filter(|&&bits| bits != 0).count() > whole.0.len() / 4, "{family} is empty");
+        for (k, (bits, count)) in others.into_iter().enumerate() {
+            assert!(count > PASSES && count <= TILES * BANDS * PASSES, "{count} dispatches");
+            assert!(bits == whole.0, "{family}, division {k} of {count} dispatches");
+        }
+        let mutant = lit(&gpu, (&scene, surface, &map), divisions()[0].clone(), 1e-4).0;
+        assert!(mutant != whole.0, "{family}: the comparison notices nothing");
+    }
+}
+
+#[test]
+fn pictures_in_a_scope_are_the_same_to_the_bit_however_they_are_divided() {
+    let Some(gpu) = card("pictures_in_a_scope_are_the_same_to_the_bit_however_they_are_divided") else {
+        return;
+    };
+    let specimen = specimen("round_brilliant");
+    let [whole, others @ ..] = divisions().map(|(throttle, _)| in_scope(&gpu, &specimen, throttle, 2));
+    assert_eq!(whole.1, 4);
+    for (bits, count) in others {
+        assert!(count > whole.1 && count <= 4 * TILES, "{count} dispatches");
+        assert!(bits == whole.0, "divided into {count} dispatches");
+    }
+    assert!(in_scope(&gpu, &specimen, divisions()[0].0.clone(), 1).0 != whole.0);
+}
