@@ -72,7 +72,7 @@ pub(super) fn page(sheet: Document) -> Document {
     let both = third + WIDTH - second;
     sheet = sheet.add(rectangle((second, 506, both, 10)).set("fill", RED));
     sheet = line(sheet, "OPTICS AT HOME", [second, 556], 30, RED, 1);
-    sheet = line(sheet, "How Glass Bends Light", [second, 652], 102, INK, 4);
+    sheet = line(sheet, "How Glass Bends Light", [second, 648], 90, INK, 4);
     sheet = line(sheet, "And why it never bends all colours alike", [second, 708], 40, GREY, 1);
     sheet = sheet.add(rectangle((second, 732, both, 2)).set("fill", INK));
     sheet = column(sheet, second, [752, 1130], &mut words);
