@@ -12,10 +12,10 @@ use std::sync::Arc;
 pub struct Surroundings {
     /// The light around the stones, ready to be looked up.
     pub lighting: Arc<Lighting>,
-    /// The angle by which the light is turned about its axis, radians.
+    /// The angle by which the light is turned about its axis, and a world about its vertical, radians.
     pub turn: f64,
     /// Whether the light's axis points up in the picture, so that its horizon lies level behind the stones and its azimuth 0 in
-    /// the middle; else the axis points to the eye.
+    /// the middle; else the axis points to the eye. Worlds stand upright in any case.
     pub is_upright: bool,
     /// The half angle of the observer's head, radians; 0 for no head.
     pub head: f64,
@@ -45,16 +45,27 @@ impl Surroundings {
         Self { lighting, turn: 0.0, is_upright: false, head, shows_light: false, backplate: None }
     }
 
+    /// Returns the frame of the light in a view, turned.
+    fn light_basis(&self, view: &View) -> Basis {
+        let rest = view.light_basis();
+        // A world is drawn upright as it is: its vertical axis is y.
+        let is_world = self.lighting.light.world.is_some();
+        let rest = match self.is_upright && !is_world {
+            true => Basis { right: -rest.toward, up: -rest.right, toward: rest.up },
+            false => rest,
+        };
+        let turned = |x: DVec3| rest.right * x.x + rest.up * x.y + rest.toward * x.z;
+        if is_world {
+            let turn = DQuat::from_rotation_y(self.turn);
+            return Basis { right: turned(turn * DVec3::X), up: rest.up, toward: turned(turn * DVec3::Z) };
+        }
+        let turn = DQuat::from_rotation_z(self.turn);
+        Basis { right: turned(turn * DVec3::X), up: turned(turn * DVec3::Y), toward: rest.toward }
+    }
+
     /// Returns the environment of a view.
     pub(super) fn around(&self, view: &View) -> Environment<'_> {
-        let turn = DQuat::from_rotation_z(self.turn);
-        let mut basis = view.light_basis();
-        if self.is_upright {
-            basis = Basis { right: -basis.toward, up: -basis.right, toward: basis.up };
-        }
-        let turned = |x: DVec3| basis.right * x.x + basis.up * x.y + basis.toward * x.z;
-        let (right, up) = (turned(turn * DVec3::X), turned(turn * DVec3::Y));
-        (basis.right, basis.up) = (right, up);
+        let basis = self.light_basis(view);
         let backplate = self
             .backplate
             .as_ref()

@@ -421,6 +421,13 @@ fn an_upright_light_has_its_horizon_level_behind_the_stones() {
     let basis = upright.around(&view).basis;
     assert_eq!((basis.toward, basis.right), (eye.up, -eye.toward));
     assert!((basis.right.cross(basis.up) - basis.toward).length() < 1e-12, "right-handed");
+    let light = crate::scene::light("city").unwrap();
+    let map = EnvironmentMap::new(&Light::ring(), None);
+    let world = Arc::new(Lighting { light, map, warnings: vec![] });
+    let city = Surroundings { is_upright: true, turn: 0.7, ..Surroundings::of(world) };
+    let basis = city.around(&view).basis;
+    assert_eq!(basis.up, eye.up, "a world turns about its vertical, and stands upright in any case");
+    assert!((basis.toward.dot(eye.toward) - 0.7_f64.cos()).abs() < 1e-12);
     // A quarter turn brings the light from the right of the picture behind it.
     let turned = Surroundings { turn: std::f64::consts::FRAC_PI_2, ..upright }.around(&view).basis;
     assert!((turned.right + eye.right).length() < 1e-12 && turned.toward == eye.up);
