@@ -138,8 +138,9 @@ fn photo_at(ray: Ray) -> vec4f {
         return vec4f(0.0);
     }
     let speeds = vec2f(photo_speed(ray, first), photo_speed(ray, last));
-    let begin = mix(first, last, photo_passed(enters, speeds));
-    let finish = mix(first, last, photo_passed(leaves, speeds));
+    // The ends are taken as they are, because rounding must not make a whole sweep less.
+    let begin = select(mix(first, last, photo_passed(enters, speeds)), first, enters <= 0.0);
+    let finish = select(mix(first, last, photo_passed(leaves, speeds)), last, leaves >= 1.0);
     let length = length(way) * (leaves - enters);
     let level = clamp(ceil(log2(max(length, 1e-6) / MOST_TAPS)), 0.0, f32(textureNumLevels(photo)) - 1.0);
     let taps = clamp(ceil(length / exp2(level)), 1.0, MOST_TAPS);
@@ -149,7 +150,7 @@ fn photo_at(ray: Ray) -> vec4f {
         let at = photo_place(ray, height, mix(begin, finish, (k + 0.5) / taps));
         sum += photo_level((at + 0.5) * scale - 0.5, i32(level));
     }
-    let share = select(1.0, finish - begin, length > 0.0);
+    let share = select(finish - begin, 1.0, all(way == vec2f(0.0)));
     return vec4f(sum * (share / taps), share);
 }
 

@@ -8,7 +8,6 @@ use crate::io::scene_file::{self, Entry, SceneFile};
 use crate::io::{Failure, is_standard, library};
 use crate::optics::Material;
 use crate::scene::{Instance, Pose, Projection, Scene, Viewpoint, overlapping};
-use crate::trace::ray::Camera;
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -154,16 +153,13 @@ impl Assembly {
     /// Returns the viewpoint of the scene: in its perspective, unless the viewpoint has one of its own.
     pub fn seen_from(&self, viewpoint: Viewpoint) -> Viewpoint {
         let Some(angle) = self.angle_of_view else { return viewpoint };
-        let view = viewpoint.view();
-        let stones = &self.setting.instances;
-        let camera = Camera::reaching(&view, self.setting.reach());
-        match (viewpoint.projection, camera.extent(stones.iter().flat_map(|s| s.solid().vertices()))) {
-            (Projection::Orthographic, Some(extent)) => {
-                let distance = extent.max_element() / (0.5 * angle).to_radians().tan();
-                Viewpoint { projection: Projection::Perspective { distance }, ..viewpoint }
-            }
-            _ => viewpoint,
+        if viewpoint.projection != Projection::Orthographic {
+            return viewpoint;
         }
+        let corners = self.setting.instances.iter().flat_map(|stone| stone.solid().vertices());
+        let reach = corners.map(|corner| corner.truncate().abs().max_element()).fold(0.0, f64::max);
+        let distance = reach / (0.5 * angle).to_radians().tan();
+        Viewpoint { projection: Projection::Perspective { distance }, ..viewpoint }
     }
 
     /// Returns the weight of all stones together, in carats; `None` if one has no density.

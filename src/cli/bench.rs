@@ -12,7 +12,7 @@ use crate::measure::{Bounds, STANDARD_ERROR};
 use crate::optics::line;
 use crate::render::{
     Backend, Card, FiguresProduct, Job, LightProduct, Product, Quality, Reading, RenderError, Renderer,
-    ScopeProduct, Steps, Surroundings, Wanted,
+    ScopeProduct, Steps, Surroundings, USUAL_BOUNCES, Wanted,
 };
 use crate::scene::{ASET_CONE, Backing, Film, Glare, Light, Medium, Scene, Scope, View, Viewpoint};
 use crate::trace::environment::{EnvironmentMap, Lighting};
@@ -209,7 +209,10 @@ fn has_card() -> bool {
 /// Times a job by each tracer that there is, from its planning to the finished picture.
 fn rows(job: &Job, load: &Load) -> Result<Vec<Row>, Failure> {
     let row = |tracer: Wanted| {
-        let job = Job { quality: Quality { tracer, ..job.quality }, ..job.clone() };
+        // Exact beams have no limit of bounces, which would be refused.
+        let bounces = if tracer == Wanted::Beams { USUAL_BOUNCES } else { job.quality.rays.most_bounces };
+        let quality = Quality { tracer, rays: options(bounces), ..job.quality };
+        let job = Job { quality, ..job.clone() };
         let plan = Renderer::new(Card::Machine).plan(&job).map_err(RenderError::from)?;
         if plan.no_card.is_some() {
             return Ok(None);

@@ -16,10 +16,11 @@ pub struct PictureOptions {
     /// A light's name, a light file or an HDR panorama (.hdr, .exr); see `lights` [default: the scene's, or studio]
     #[arg(long, value_name = "LIGHT")]
     pub light: Option<String>,
-    /// Turn the light about its axis by DEGREES
+    /// Turn the light about its axis, a world about its vertical, by DEGREES
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
     pub turn: f64,
-    /// Let the light's axis point up in the picture, so that its horizon lies level behind the stones, and not to the eye
+    /// Let the light's axis point up in the picture, so that its horizon lies level behind the stones, and not to the eye;
+    /// worlds stand upright in any case
     #[arg(long)]
     pub upright: bool,
     /// Half angle of the observer's head, which blocks light, in DEGREES [default: the light's]

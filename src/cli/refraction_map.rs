@@ -128,7 +128,7 @@ impl RefractionMaps {
             tracer,
             100.0 * behind,
             100.0 * single,
-            viewpoint.description()
+            studio.viewpoint.description()
         );
         self.write(file, &studio, &map, (&kinds, &description, &viewpoint.suffix()), &bar)
     }

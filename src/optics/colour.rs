@@ -7,6 +7,9 @@ use glam::DVec3;
 /// Linear light in the sRGB primaries, white at (1, 1, 1); may exceed 1 until it is encoded.
 pub type LinearRgb = DVec3;
 
+/// The shares of linear sRGB's red, green and blue in luminance (IEC 61966-2-1:1999).
+pub const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
+
 /// Encodes one linear component; 0..=1 maps to 0..=1, and nothing is clamped.
 pub fn encoded_from_linear(linear: f64) -> f64 {
     if linear <= 0.0031308 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }

@@ -1,6 +1,7 @@
 //! The materials that have a name: how each bends and absorbs light, and who measured it.
 
 use super::absorption::Absorption;
+use super::colour::LUMINANCE;
 use super::dispersion::{Dispersion, DispersionError};
 use super::illuminant::Illuminant;
 use super::strata::{Stratum, strata};
@@ -37,9 +38,6 @@ pub struct Material {
 
 /// The strata by which the colour of a path is found: as many as serve the narrowest bands.
 static DAYLIGHT: LazyLock<Vec<Stratum>> = LazyLock::new(|| strata(64, &Illuminant::D65, true));
-
-/// The shares of linear sRGB's red, green and blue in luminance (IEC 61966-2-1).
-const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
 
 impl Material {
     /// Makes a clear stone with one index for all wavelengths.
@@ -79,9 +77,10 @@ impl Material {
     }
 
     /// Returns the path inside, in mm, after which half of daylight's luminance is left, at most 1e9; `None` where the material
-    /// is clear.
+    /// is clear, or clear to half of the light.
     pub fn half_length(&self) -> Option<f64> {
-        let is_dim = |mm: f64| self.colour_after(mm).dot(LUMINANCE) < 0.5;
+        let shares = DVec3::from_array(LUMINANCE.map(f64::from));
+        let is_dim = |mm: f64| self.colour_after(mm).dot(shares) < 0.5;
         if self.absorption.iter().all(Absorption::is_clear) || !is_dim(1e9) {
             return None;
         }

@@ -19,7 +19,7 @@ pub mod strata;
 mod weight;
 
 pub use absorption::{Absorption, AbsorptionError, MOST_PER_MM};
-pub use colour::{LinearRgb, SrgbEncoder, encoded_from_linear, linear_from_encoded};
+pub use colour::{LUMINANCE, LinearRgb, SrgbEncoder, encoded_from_linear, linear_from_encoded};
 pub use dispersion::{Dispersion, DispersionError, VISIBLE_NM, line};
 pub use fresnel::{Fresnel, fresnel, reflectance};
 pub use illuminant::{DAYLIGHT_KELVIN, Illuminant, IlluminantError};

@@ -70,12 +70,12 @@ impl Strata {
         let shares = shares.clamp(1, (MOST_SHARES / count.max(1)).max(1));
         let whole = strata(count, key, adapted);
         let all = if shares == 1 { whole.clone() } else { strata(count * shares, key, adapted) };
-        let mut turns: Vec<u32> = (0..shares).collect();
-        // The places of J. G. van der Corput's sequence (1935), in which any first few are evenly spread.
-        turns.sort_by_key(|k| k.reverse_bits());
-        let mut places = vec![0; shares as usize];
-        (0..).zip(&turns).for_each(|(place, &turn)| places[turn as usize] = place);
-        Self { whole, shares: all, turns: places }
+        // Passes in the order of their places in J. G. van der Corput's sequence (1935), in which any first few are evenly spread.
+        let mut order: Vec<u32> = (0..shares).collect();
+        order.sort_by_key(|k| k.reverse_bits());
+        let mut turns = vec![0; shares as usize];
+        (0..).zip(&order).for_each(|(share, &pass)| turns[pass as usize] = share);
+        Self { whole, shares: all, turns }
     }
 
     /// Divides the visible range as [`strata()`] does, and lets every pass see the middle wavelength of each stratum alone.

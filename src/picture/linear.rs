@@ -1,12 +1,9 @@
 //! A picture in linear light, before it is developed.
 
+use crate::optics::LUMINANCE;
 use std::borrow::Cow;
 use std::convert::Infallible;
 use std::ops::Range;
-
-/// The share of each linear sRGB primary in luminance (ITU-R BT.709-6, §3: the second row of its matrix from RGB to
-/// XYZ).
-pub const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
 
 /// A picture in linear sRGB light, premultiplied by cover, and cover. Pixels run row by row from the top, each row from
 /// the left.

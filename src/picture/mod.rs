@@ -32,6 +32,7 @@ mod tone;
 pub mod vector;
 mod views;
 
+pub use crate::optics::LUMINANCE;
 pub use background::Background;
 pub use bloom::Bloom;
 pub use by_beams::ByBeams;
@@ -43,7 +44,7 @@ pub use filling::filling;
 pub use fxaa::fxaa;
 pub use icon::icon;
 pub use layer::Layer;
-pub use linear::{LUMINANCE, LightRows, Linear, luminance};
+pub use linear::{LightRows, Linear, luminance};
 pub use name_error::NameError;
 pub use overlay::{Code, Overlay, OverlayDrawing, lay};
 pub use paint::paint;

@@ -198,7 +198,9 @@ impl Light {
     /// A light that is a world alone, which the program draws: behind the stones lies its best side.
     pub fn of_world(world: World) -> Self {
         let description = match world {
-            World::Sunset => "a sunset over water, seen behind the stones; the dusk lights them from before",
+            World::Sunset => {
+                "a sunset over water, seen behind the stones; the dusk lights them from the front"
+            }
             World::Room => "a living room at dusk: lamps, candles, a window",
             World::City => "a city at night around a bay: windows, signs, lamps along the shore",
         };

@@ -52,7 +52,7 @@ impl Mipmap {
     /// Returns the mean light along a stretch of this length, in pixels. `at` gives the places along it, for 0 to 1, in pixels
     /// from the middle of the first pixel.
     ///
-    /// It takes up to eight look-ups, in the finest level in which they lie no more than one pixel apart.
+    /// It takes up to eight look-ups, in the finest level in which they lie no more than one pixel apart, or in the coarsest.
     pub fn along(&self, length: f64, at: impl Fn(f64) -> DVec2) -> DVec3 {
         let level = (length / MOST_TAPS).log2().ceil().clamp(0.0, (self.levels.len() - 1) as f64);
         let taps = (length / level.exp2()).ceil().clamp(1.0, MOST_TAPS);

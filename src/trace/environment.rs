@@ -342,7 +342,7 @@ impl<'a> Backplate<'a> {
         let (first, last) = (of_sweep(enters), of_sweep(leaves));
         let length = (to - from).length() * (leaves - enters);
         let light = self.picture.along(length, |part| place(first + (last - first) * part));
-        let share = if length > 0.0 { last - first } else { 1.0 };
+        let share = if from == to { 1.0 } else { last - first };
         Some(Photographed { light: light.extend(0.0).wxyz() * share, share })
     }
 }
@@ -350,9 +350,9 @@ impl<'a> Backplate<'a> {
 /// What a ray sees of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::trace) struct Photographed {
-    /// The light by channel, of that part of the ray's wavelengths which meets the picture.
+    /// The light by channel, of that part of the ray's wavelengths which meets the picture, times this part.
     pub light: DVec4,
-    /// That part.
+    /// That part, 0 to 1.
     pub share: f64,
 }
 

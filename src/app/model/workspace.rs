@@ -165,9 +165,16 @@ pub struct Workspace {
 pub struct OfScene {
     set: (Option<String>, u32),
     before: (Option<String>, u32),
-    /// The distance of the eye before, and which views were in perspective.
+    /// How views saw what they showed.
     #[serde(default)]
-    sight: Option<(f64, [bool; 4])>,
+    sight: Option<SightOfScene>,
+}
+
+/// How views see what they show, as a scene has set it and as it was before.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SightOfScene {
+    set: (f64, [bool; 4], Smoothing),
+    before: (f64, [bool; 4], Smoothing),
 }
 
 /// The numbers of bands of wavelengths that are offered; of only three bands, each shows in the picture.
@@ -241,15 +248,22 @@ impl Workspace {
     /// Sees renders as a scene is meant to be seen, face up and all of it: in perspective from a distance, in girdle radii, or
     /// along parallel rays; neither edges nor motion are smoothed.
     pub fn see_under(&mut self, distance: Option<f64>) {
-        if let Some(of_scene) = &mut self.of_scene {
-            of_scene.sight = Some((self.distance, self.panes.each_ref().map(|pane| pane.is_near)));
-        }
+        let before = self.sight();
         self.eye = Eye::default();
         for pane in self.panes.iter_mut().filter(|pane| pane.shows == Shows::Render) {
             (pane.own, pane.is_near) = (None, distance.is_some());
         }
         self.distance = distance.unwrap_or(self.distance);
         self.smoothing = Smoothing::None;
+        let set = self.sight();
+        if let Some(of_scene) = &mut self.of_scene {
+            of_scene.sight = Some(SightOfScene { set, before });
+        }
+    }
+
+    /// Returns the distance of the eye, which views are in perspective, and how moving edges are smoothed.
+    fn sight(&self) -> (f64, [bool; 4], Smoothing) {
+        (self.distance, self.panes.each_ref().map(|pane| pane.is_near), self.smoothing)
     }
 
     /// Shows a render alone.
@@ -262,11 +276,15 @@ impl Workspace {
         self.large = (panes.len() > 1).then_some(found.unwrap_or(0));
     }
 
-    /// Forgets what goes with one stone: the distance in mm, what its scene has set, and a strength below 1.
+    /// Forgets what goes with one stone: the distance in mm, what its scene has set (also its perspective and the turn and axis
+    /// of its light), and a strength below 1.
     pub fn rest(&mut self) {
         if let Some(OfScene { set, before, sight }) = self.of_scene.take() {
-            if let Some((distance, is_near)) = sight {
-                self.distance = distance;
+            // What was changed since is not the scene's any more, and stays.
+            if let Some(SightOfScene { before: (distance, is_near, smoothing), .. }) =
+                sight.filter(|sight| sight.set == self.sight())
+            {
+                (self.distance, self.smoothing) = (distance, smoothing);
                 self.panes.iter_mut().zip(is_near).for_each(|(pane, is_near)| pane.is_near = is_near);
             }
             if self.behind == set.0 {

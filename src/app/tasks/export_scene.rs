@@ -69,5 +69,7 @@ fn angle_of_view(shot: &Shot, poses: &[Pose], middle: DVec3) -> Option<f64> {
     let corners = shot.specimen.solid().vertices();
     let placed = poses.iter().flat_map(|pose| corners.iter().map(move |&corner| pose.place(corner) - middle));
     let reach = placed.map(|at| at.truncate().abs().max_element()).fold(0.0, f64::max);
+    // The scene is moved so that its middle lies at the origin.
+    let distance = (distance - middle.z).max(f64::MIN_POSITIVE);
     Some((2.0 * (reach / distance).atan()).to_degrees().clamp(1.0, 120.0))
 }

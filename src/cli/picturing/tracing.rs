@@ -3,7 +3,7 @@
 use super::PictureSetup;
 use crate::cli::console::say;
 use crate::io::Failure;
-use crate::render::{Rendered, mixture_note};
+use crate::render::{Rendered, USUAL_BOUNCES, mixture_note};
 
 /// The share of unresolved light above which a warning is printed.
 const MUCH_UNRESOLVED: f64 = 0.02;
@@ -17,16 +17,21 @@ impl PictureSetup<'_> {
             let percent = 100.0 * rest.unresolved;
             say(&format!(
                 "warning: {}: {percent:.1} % of the light is unresolved by {tracer} and missing in the picture; \
-                 --tracer beam or ray may follow it farther",
-                self.assembly.path
+                 {} may follow it farther",
+                self.assembly.path,
+                if self.finish.bounces < USUAL_BOUNCES { "more --bounces" } else { "--tracer beam or ray" }
             ));
         }
         let light = &self.lighting.light.name;
         let samples = if samples == 1 { "1 sample".to_owned() } else { format!("{samples} samples") };
         let jitter = if self.finish.no_jitter { ", without jitter" } else { "" };
+        let bounces = match self.finish.bounces {
+            USUAL_BOUNCES => String::new(),
+            few => format!(", at most {few} bounces"),
+        };
         let polarised = if self.options.unpolarised { "unpolarised" } else { "polarised" };
         Ok(format!(
-            "{}; light {light}; {} wavelengths in {samples}{jitter}, {polarised}; {tracer}, unresolved {:.2e}, absorbed \
+            "{}; light {light}; {} wavelengths in {samples}{jitter}{bounces}, {polarised}; {tracer}, unresolved {:.2e}, absorbed \
              {:.3}{}",
             self.assembly.name,
             self.options.wavelengths,

@@ -3,6 +3,7 @@
 
 use super::{INK, PATTERN_SIDE, rectangle};
 use std::fmt::Write as _;
+use std::iter::Peekable;
 use svg::Document;
 use svg::node::element::{Circle, Definitions, LinearGradient, Path, Stop, Text};
 
@@ -55,7 +56,7 @@ const MORNING: Plate = Plate {
 /// Draws the page.
 pub(super) fn page(sheet: Document) -> Document {
     let paper = rectangle((0, 0, PATTERN_SIDE, PATTERN_SIDE)).set("fill", PAPER);
-    let mut words = WORDS.split_whitespace().cycle();
+    let mut words = WORDS.split_whitespace().cycle().peekable();
     let end = PATTERN_SIDE - MARGIN;
     let [first, second, third, fourth] = COLUMNS;
     let mut sheet = sheet.add(paper);
@@ -92,19 +93,14 @@ fn column<'a>(
     sheet: Document,
     x: u32,
     [from, to]: [u32; 2],
-    words: &mut impl Iterator<Item = &'a str>,
+    words: &mut Peekable<impl Iterator<Item = &'a str>>,
 ) -> Document {
     // Letters are 0.46 of the size wide, on average.
     let letters = (WIDTH * 50 / (23 * SIZE)) as usize;
     let lines = (to - from) / LEADING;
-    let mut held: Option<&str> = None;
     (1..=lines).fold(sheet, |sheet, row| {
         let mut text = String::new();
-        while let Some(word) = held.take().or_else(|| words.next()) {
-            if text.len() + word.len() >= letters {
-                held = Some(word);
-                break;
-            }
+        while let Some(word) = words.next_if(|word| text.len() + word.len() < letters) {
             // Writing to a string cannot fail.
             let _ = write!(text, "{word} ");
         }

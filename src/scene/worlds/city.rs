@@ -373,7 +373,7 @@ static CITY: LazyLock<Table<DVec3>> = LazyLock::new(|| {
     })
 });
 
-/// Coarser copies of [`CITY`] with wider and wider gathering upward: the spread doubles from one to the next.
+/// Coarser copies of [`CITY`] with wider and wider gathering upward: the spread grows by a factor of 2.3 to 3 from one to the next.
 static GATHERED: LazyLock<Vec<Table<DVec3>>> = LazyLock::new(|| {
     let spreads = [0.004, 0.012, 0.030, 0.070];
     let gathered = |spread: f64| {

@@ -1,5 +1,6 @@
 //! Draws pictures of functions with smooth edges: one sample in each pixel, and more where neighbours differ.
 
+use crate::optics::LUMINANCE;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -41,6 +42,6 @@ pub(super) fn drawn([width, height]: [usize; 2], sample: impl Fn(DVec2, f64) -> 
 
 /// Returns the brightness of light on a scale that ends at 1.
 fn shade(light: DVec3) -> f32 {
-    let luminance = light.dot(DVec3::new(0.2126, 0.7152, 0.0722));
+    let luminance = light.dot(DVec3::from_array(LUMINANCE.map(f64::from)));
     (luminance / (luminance + MIDDLE)) as f32
 }

@@ -73,7 +73,7 @@ const FLAMES: [DVec3; 3] =
 /// The square of the angle in radians at which the halo of a flame ends.
 const FARTHEST_HALO: f64 = 0.04;
 
-/// Middle, radiance, and half width and height of the window as it lights the room.
+/// The middle of the window, and the radiance with which it lights the room.
 const WINDOW: DVec3 = DVec3::new(5.0, 0.9, 0.30);
 const DUSK: DVec3 = DVec3::new(0.15, 0.24, 0.50);
 

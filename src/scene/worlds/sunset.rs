@@ -111,7 +111,7 @@ fn clouds(d: DVec3, footprint: f64, behind: DVec3, from_sun: f64, side: f64) -> 
     let width = footprint / (lift * lift);
     let wind = DMat2::from_cols(DVec2::new(0.50, 0.24), DVec2::new(-0.80, 1.10));
     let q = wind * p;
-    let wide = 0.62 * noise(q * 0.24 + 3.1, 31).0 + 0.00;
+    let wide = 0.62 * noise(q * 0.24 + 3.1, 31).0;
     if wide < -0.28 {
         return behind;
     }

@@ -38,7 +38,7 @@ both_sides! {
         up: vec4f,
         /// xyz: the axis to the eye; w: the eye's distance, 0 for parallel rays.
         toward: vec4f,
-        /// x: the least weight that is followed; zw: where the ray stands in its pixel, or in its cell of the pixel's grid.
+        /// x: the least weight that is followed; y: unused; zw: where the ray stands in its pixel, or in its cell of the pixel's grid.
         limits: vec4f,
         /// x: number of stones; y: number of wavelengths; z: most bounces; w: 1 for polarised light.
         counts: vec4u,

@@ -73,13 +73,14 @@ pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset) {
     document.work.copies = copies;
     document.keep_copies();
     model.workspace.last = None;
+    // What is set before the scene begins is no step that undo takes back.
+    model.document.work.exposure = scene.exposure;
     if let Some(light) = scene.light {
         let light = if light.is_file() { std::path::absolute(&light).unwrap_or(light) } else { light };
         model.document.work.light = light.to_string_lossy().into_owned();
     }
     begin(model, tasks, document);
     let reach = model.reach(Shows::Render);
-    model.document.work.exposure = scene.exposure;
     let Model { workspace, session, .. } = model;
     // The workspace cannot hold plain colours.
     let behind = scene.background.as_ref().filter(|behind| !matches!(behind, BackgroundRef::Plain(_)));

@@ -14,7 +14,7 @@ pub(super) enum Thing {
     Box(usize),
 }
 
-/// A lampshade: a cone around an upright axis, `low` to `high`, and the radii there.
+/// A lampshade: a cone around an upright axis, by its middle, half its height, and the radii at its lower and upper end.
 pub(super) struct Shade {
     middle: DVec3,
     half: f64,
