@@ -65,7 +65,9 @@ impl Viewpoint {
         };
         let near = match self.projection {
             Projection::Orthographic => String::new(),
-            Projection::Perspective { distance } => format!(", from {distance} girdle radii"),
+            Projection::Perspective { distance } => {
+                format!(", from {} girdle radii", (distance * 1e3).round() / 1e3)
+            }
         };
         format!("{side} side{tilt}{near}")
     }

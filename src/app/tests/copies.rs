@@ -26,7 +26,7 @@ fn bench(scene: &str) -> Bench {
     let workspace =
         Workspace { layout: PaneLayout::One, panes: [pane; 4], wavelengths: 3, ..Workspace::default() };
     let setup = Setup { file: Some(PathBuf::from(scene)), workspace, ..Setup::default() };
-    let mut bench = Bench::sized(setup, egui::vec2(860.0, 1040.0));
+    let mut bench = Bench::sized(setup, egui::vec2(860.0, 1240.0));
     bench.harness.run_steps(3);
     bench
 }
@@ -295,10 +295,10 @@ fn copies_that_were_moved_are_asked_about_before_they_go() {
     let mut bench = bench("rotating-cube");
     bench.harness.state_mut().model.session.motion.rest();
     bench.click("Prism rainbow");
-    assert_eq!(bench.editor().model.workspace.strength, 0.155, "nothing was moved");
+    assert_eq!(bench.editor().model.workspace.strength, 1.0, "nothing was moved");
     bench.click("Scatter");
     bench.click("Subtle pill");
-    assert_eq!(bench.editor().model.workspace.strength, 0.155);
+    assert_eq!(bench.editor().model.workspace.strength, 1.0);
     bench.click("Export…");
     let Some(Dialog::Export(export)) = &bench.editor().model.session.dialog else { panic!() };
     assert!(export.plan.selection.scene);

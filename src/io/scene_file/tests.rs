@@ -81,7 +81,11 @@ fn what_is_wrong_with_a_scene_is_told_with_line_and_key() {
         ("\"row\"", "4", "x.toml:4: layout: invalid type: integer `4`, expected text (row, ring or parcel)"),
         ("0.6", "-1", "x.toml:5: gap_mm: -1 must be from 0 to 1000 mm"),
         ("layout = \"row\"\n", "", "x.toml:4: gap_mm: only a layout has gaps"),
-        ("gap_mm", "gap", "x.toml:5: unknown key `gap`, known here are `format`, `name`, `light`, `layout`"),
+        (
+            "gap_mm",
+            "gap",
+            "x.toml:5: unknown key `gap`, known here are `format`, `name`, `light`, `light_turn`",
+        ),
         (
             "\"ruby\"",
             "\"rubby\"",
