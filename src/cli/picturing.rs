@@ -105,7 +105,8 @@ impl<'a> PictureSetup<'a> {
         if let BackgroundRef::Plain(plain) = background {
             develop.background = plain;
         }
-        let reading = background.picture()?;
+        let [across, down] = options.size;
+        let reading = background.picture_behind(across.max(down))?;
         reading.iter().flat_map(|r| &r.warnings).for_each(|w| say(&format!("warning: {w}")));
         let photo = reading.map(|reading| Arc::new(Mipmap::new(reading.panorama)));
         let mut studio = Self {

@@ -107,18 +107,31 @@ impl BackgroundRef {
         }
     }
 
-    /// Returns the picture that hangs behind; a photograph is halved until no side is longer than 4096 pixels. `None` for
-    /// the light and for colours.
+    /// Returns the picture that hangs behind, as [`Self::picture_behind`] does for a film of 1024 pixels.
     ///
     /// # Errors
     /// When a photograph's file is at fault.
     pub fn picture(&self) -> Result<Option<LoadedPanorama>, FileError> {
+        self.picture_behind(PATTERN_SIDE / 2)
+    }
+
+    /// Returns the picture that hangs behind a film with this many pixels along its longer side. A world is drawn as fine as
+    /// the film shows it, with 256 to 4096 pixels a side; a photograph is halved until no side is longer than 4096
+    /// pixels. `None` for the light and for colours.
+    ///
+    /// # Errors
+    /// When a photograph's file is at fault.
+    pub fn picture_behind(&self, film: u32) -> Result<Option<LoadedPanorama>, FileError> {
         match self {
             Self::Light | Self::Plain(_) => Ok(None),
             Self::Pattern(pattern) => {
                 Ok(Some(LoadedPanorama { panorama: drawn(*pattern)?, warnings: vec![] }))
             }
-            Self::World(world) => Ok(Some(LoadedPanorama { panorama: hung(*world), warnings: vec![] })),
+            Self::World(world) => {
+                // The film shows the middle half.
+                let side = film.clamp(128, WIDEST / 2).next_power_of_two() * 2;
+                Ok(Some(LoadedPanorama { panorama: hung(*world, side), warnings: vec![] }))
+            }
             Self::Photo(path) => {
                 let mut reading = panorama::read_photo(path)?;
                 while reading.panorama.width > WIDEST || reading.panorama.height > WIDEST {
@@ -166,7 +179,7 @@ impl BackgroundRef {
                 file.map(Some).map_err(|error| FileError::new(pattern.name(), error))
             }
             Self::World(world) => {
-                let picture = hung(*world);
+                let picture = hung(*world, PATTERN_SIDE);
                 let shown = |light: &[f32; 3]| Tone::Neutral.shown(*light, 1.0).map(encoded);
                 let rgb: Vec<u8> = picture.pixels.iter().flat_map(shown).collect();
                 let size = [picture.width, picture.height];
@@ -186,8 +199,8 @@ fn rastered(pattern: Pattern) -> Result<(u32, u32, Vec<u8>), FileError> {
 }
 
 /// Draws a world as it hangs behind a picture: its middle half is what a photograph 60 degrees across shows.
-fn hung(world: World) -> Panorama {
-    world.picture([PATTERN_SIDE; 2], PATTERN_SPAN)
+fn hung(world: World, side: u32) -> Panorama {
+    world.picture([side; 2], PATTERN_SPAN)
 }
 
 /// Returns a channel of linear light from 0 to 1 as a byte of sRGB.

@@ -54,6 +54,9 @@ impl Mipmap {
     ///
     /// It takes up to eight look-ups, in the finest level in which they lie no more than one pixel apart, or in the coarsest.
     pub fn along(&self, length: f64, at: impl Fn(f64) -> DVec2) -> DVec3 {
+        if length <= 1.0 {
+            return self.picture().between(at(0.5));
+        }
         let level = (length / MOST_TAPS).log2().ceil().clamp(0.0, (self.levels.len() - 1) as f64);
         let taps = (length / level.exp2()).ceil().clamp(1.0, MOST_TAPS);
         let picture = &self.levels[level as usize];

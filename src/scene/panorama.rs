@@ -114,12 +114,19 @@ impl Panorama {
     fn mixed(&self, at: DVec2, column: impl Fn(i64) -> i64) -> DVec3 {
         let base = at.floor();
         let part = (at - base).as_vec2();
-        let (left, top) = (base.x as i64, base.y as i64);
-        let columns = [column(left), column(left.saturating_add(1))];
-        let rows = [top, top.saturating_add(1)].map(|y| y.clamp(0, i64::from(self.height) - 1));
-        let pixel = |x: i64, y: i64| Vec3::from_array(self.pixels[(y * i64::from(self.width) + x) as usize]);
-        let [high, low] = rows.map(|y| pixel(columns[0], y).lerp(pixel(columns[1], y), part.x));
-        high.lerp(low, part.y).as_dvec3()
+        let (left, top, width) = (base.x as i64, base.y as i64, i64::from(self.width));
+        let mean = |columns: [i64; 2], rows: [i64; 2]| {
+            let pixel = |x: i64, y: i64| Vec3::from_array(self.pixels[(y * width + x) as usize]);
+            let [high, low] = rows.map(|y| pixel(columns[0], y).lerp(pixel(columns[1], y), part.x));
+            high.lerp(low, part.y).as_dvec3()
+        };
+        // Most places have all four pixels around them, which saves the search for those beyond the edge.
+        let last = i64::from(self.height) - 1;
+        if (0..width - 1).contains(&left) && (0..last).contains(&top) {
+            return mean([left, left + 1], [top, top + 1]);
+        }
+        let rows = [top, top.saturating_add(1)].map(|y| y.clamp(0, last));
+        mean([column(left), column(left.saturating_add(1))], rows)
     }
 }
 

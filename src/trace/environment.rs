@@ -317,7 +317,8 @@ impl<'a> Backplate<'a> {
     /// that sweeps.
     fn at(&self, eye: &Basis, from: DVec3, (direction, sweep): (DVec3, DVec3)) -> Option<Photographed> {
         let height = from.dot(eye.toward) + self.distance;
-        let speed = |part: f64| -(direction + sweep * part).dot(eye.toward);
+        let (speed, faster) = (-direction.dot(eye.toward), -sweep.dot(eye.toward));
+        let speed = |part: f64| speed + faster * part;
         // The part of the sweep that runs toward the plane, from half of it before the ray's direction to half after it.
         let (low, high) = (speed(-0.5), speed(0.5));
         if height <= 0.0 || low.max(high) <= ALONG {
@@ -327,12 +328,11 @@ impl<'a> Backplate<'a> {
         let (first, last) = (meets(low, high) - 0.5, 0.5 - meets(high, low));
         let picture = self.picture.picture();
         let size = DVec2::new(f64::from(picture.width), f64::from(picture.height));
-        let place = |part: f64| {
-            let met = eye.project(from + (direction + sweep * part) * (height / speed(part).max(ALONG)));
-            let p = met * DVec2::new(1.0, -1.0) / self.width + 0.5;
-            DVec2::new(p.x, (p.y - 0.5) * size.x / size.y + 0.5) * size - 0.5
-        };
-        let (from, to) = (place(first), place(last));
+        // In pixels from the middle of the first: rows count down, and both axes have the same scale.
+        let pixels = |v: DVec3| eye.project(v) * DVec2::new(1.0, -1.0) * (size.x / self.width);
+        let (start, way, turn) = (pixels(from) + 0.5 * size - 0.5, pixels(direction), pixels(sweep));
+        let place = |part: f64| start + (way + turn * part) * (height / speed(part).max(ALONG));
+        let (from, to) = (place(first), if sweep == DVec3::ZERO { place(first) } else { place(last) });
         let (enters, leaves) = inside(from, to, size)?;
         // Along the line, places are projected: parts of its length become parts of the sweep.
         let of_sweep = |q: f64| {
