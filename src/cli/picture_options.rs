@@ -68,6 +68,7 @@ pub struct PictureOptions {
 
 /// How a picture is traced and finished, which maps have no use for.
 #[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Tracing and finish")]
 pub struct FinishOptions {
     /// Take the middle wavelength of each band alone in every sample, instead of another share of the band each time
     #[arg(long)]

@@ -67,7 +67,7 @@ pub enum Unfit {
     NotConvex(#[from] NotConvex),
     /// There are several bodies, a body that is not convex, a perspective, or a backplate.
     #[error(
-        "exact beams are for one convex stone, parallel rays and no pattern or photograph behind: trace by rays"
+        "exact beams are for one convex stone, parallel rays and no world, pattern or photograph behind: trace by rays"
     )]
     NotAlone,
     /// Refraction is followed only part of the way.

@@ -168,6 +168,9 @@ pub struct OfScene {
     /// How views saw what they showed.
     #[serde(default)]
     sight: Option<SightOfScene>,
+    /// The light and its exposure in stops, as the scene has set them, and as they were before.
+    #[serde(default)]
+    light: Option<[(String, f64); 2]>,
 }
 
 /// How views see what they show, as a scene has set it and as it was before.
@@ -242,7 +245,8 @@ impl Workspace {
     pub fn enter_scene(&mut self, behind: Option<String>, wavelengths: Option<u32>) {
         let before = (self.behind.take(), self.wavelengths);
         (self.behind, self.wavelengths) = (behind, wavelengths.unwrap_or(self.wavelengths));
-        self.of_scene = Some(OfScene { set: (self.behind.clone(), self.wavelengths), before, sight: None });
+        self.of_scene =
+            Some(OfScene { set: (self.behind.clone(), self.wavelengths), before, sight: None, light: None });
     }
 
     /// Sees renders as a scene is meant to be seen, face up and all of it: in perspective from a distance, in girdle radii, or
@@ -276,10 +280,33 @@ impl Workspace {
         self.large = (panes.len() > 1).then_some(found.unwrap_or(0));
     }
 
+    /// Remembers the light and the exposure that a scene has set, and those before.
+    pub fn light_scene(&mut self, set: (String, f64), before: (String, f64)) {
+        if let Some(of_scene) = &mut self.of_scene {
+            of_scene.light = Some([set, before]);
+        }
+    }
+
+    /// Forgets the light and the exposure before a scene.
+    pub fn forget_light(&mut self) {
+        if let Some(of_scene) = &mut self.of_scene {
+            of_scene.light = None;
+        }
+    }
+
+    /// Returns the light and the exposure with which another design begins: where they are those of a scene, the ones before
+    /// the scene, and else the present ones.
+    pub fn light_after_scene(&self, present: (String, f64)) -> (String, f64) {
+        match self.of_scene.as_ref().and_then(|of_scene| of_scene.light.as_ref()) {
+            Some([set, before]) if *set == present => before.clone(),
+            _ => present,
+        }
+    }
+
     /// Forgets what goes with one stone: the distance in mm, what its scene has set (also its perspective and the turn and axis
     /// of its light), and a strength below 1.
     pub fn rest(&mut self) {
-        if let Some(OfScene { set, before, sight }) = self.of_scene.take() {
+        if let Some(OfScene { set, before, sight, .. }) = self.of_scene.take() {
             // What was changed since is not the scene's any more, and stays.
             if let Some(SightOfScene { before: (distance, is_near, smoothing), .. }) =
                 sight.filter(|sight| sight.set == self.sight())
@@ -295,7 +322,7 @@ impl Workspace {
             }
         }
         (self.behind_mm, self.strength) = (None, 1.0);
-        (self.light_turn, self.light_upright) = (0.0, false);
+        (self.light_turn, self.light_upright, self.bounces) = (0.0, false, USUAL_BOUNCES);
     }
 
     /// Returns how much of the way that refraction turns light is followed; without a backplate, all of it.

@@ -38,7 +38,8 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     turn.edit(ui, actions, workspace.light_turn, ViewAction::LightTurn);
     let mut upright = workspace.light_upright;
     let meaning = "Where the axis of the light points in renders: to the eye, as a sky over a stone that lies on its culet, or \
-        up, so that a panorama's horizon lies level behind the stone.";
+        up, so that a panorama's horizon lies level behind the stone. The worlds sunset, room and city stand upright in \
+        any case.";
     let names = ["to the eye", "up"];
     choice_row(ui, "Light axis", meaning, names[usize::from(upright)], |ui| {
         ui.selectable_value(&mut upright, false, names[0]);

@@ -3,7 +3,7 @@
 use crate::app::panels::rows::{Number, Row, named, number_row, skip_control};
 use crate::cut::{Cut, Design, MaterialRef};
 use crate::optics::{Absorption, Dispersion, Material, encoded_from_linear, line, linear_from_encoded};
-use egui::{CollapsingHeader, Ui};
+use egui::{CollapsingHeader, Id, Ui, UiBuilder};
 use std::ops::RangeInclusive;
 
 /// The range of refractive indices, of stones and of glasses known and invented.
@@ -90,10 +90,13 @@ fn colour(design: &Design, known: &Material, ui: &mut Ui) -> Option<[Absorption;
     let mut picked = before;
     let meaning =
         "The colour of daylight after a path inside as long as the stone is wide. White is a clear stone.";
-    ui.horizontal(|ui| {
-        let label = named(ui, "Body colour", meaning);
-        skip_control(ui, 0.0);
-        ui.color_edit_button_srgb(&mut picked).labelled_by(label.id).on_hover_text(meaning);
+    // The picker has an identity of its own, so that it stays open when a first colour makes other rows appear.
+    ui.scope_builder(UiBuilder::new().scope_id(Id::unique("body colour")), |ui| {
+        ui.horizontal(|ui| {
+            let label = named(ui, "Body colour", meaning);
+            skip_control(ui, 0.0);
+            ui.color_edit_button_srgb(&mut picked).labelled_by(label.id).on_hover_text(meaning);
+        });
     });
     if picked != before {
         let linear = picked.map(|code| linear_from_encoded(f64::from(code) / 255.0));

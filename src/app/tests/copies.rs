@@ -3,7 +3,7 @@
 use super::Bench;
 use crate::app::editor::Editor;
 use crate::app::model::action::{Edit, FileAction};
-use crate::app::model::dialog::Dialog;
+use crate::app::model::dialog::{Dialog, Then};
 use crate::app::model::eye::Eye;
 use crate::app::model::motion::Motion;
 use crate::app::model::plan::export_plan;
@@ -214,7 +214,18 @@ fn a_scene_is_seen_in_its_perspective_and_the_next_design_as_before() {
     assert!(is_near && (distance * 22.5_f64.to_radians().tan() / reach - 1.0).abs() < 1e-9, "{distance}");
     assert_eq!((smoothing, eye), (Smoothing::None, Eye::default()));
     assert_eq!(bench.editor().model.document.work.exposure, 0.5);
-    bench.harness.state_mut().model.workspace.rest();
+    // A preset that follows has its own; after it, all is as it was before the first scene.
+    let light = |bench: &Bench| {
+        let work = &bench.editor().model.document.work;
+        (work.light.clone(), work.exposure, bench.editor().model.workspace.bounces)
+    };
+    bench.harness.state_mut().model.workspace.bounces = 3;
+    bench.harness.state_mut().act(FileAction::Ask(Then::Preset("free-diamond".to_owned())));
+    bench.harness.run_steps(3);
+    assert_eq!(light(&bench), ("room".to_owned(), 0.7, 64));
+    bench.harness.state_mut().act(FileAction::Ask(Then::Library("modern-ideal".to_owned())));
+    bench.harness.run_steps(3);
+    assert_eq!(light(&bench), ("studio".to_owned(), 0.0, 64));
     assert_eq!((sight(&bench).0, sight(&bench).1), (false, Workspace::default().distance));
 }
 
@@ -282,10 +293,7 @@ fn zooming_shows_the_same_light_nearer_and_another_design_is_seen_as_physics() {
     bench.harness.run_steps(2);
     let after = seen(&bench);
     assert!(after.0 == before.0 && after.1 < before.1 && before.2 == 0.035);
-    bench
-        .harness
-        .state_mut()
-        .act(FileAction::Ask(crate::app::model::dialog::Then::Library("modern-ideal".to_owned())));
+    bench.harness.state_mut().act(FileAction::Ask(Then::Library("modern-ideal".to_owned())));
     bench.harness.run_steps(2);
     assert_eq!(seen(&bench).2, 1.0);
 }

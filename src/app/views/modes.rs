@@ -81,7 +81,7 @@ impl Mode {
             }),
             (bounces < USUAL_BOUNCES).then(|| {
                 let meaning = "Light is followed through no more bounces than this; what is left is dark.";
-                mode(format!("{bounces} bounces"), meaning, ViewAction::Bounces(USUAL_BOUNCES))
+                mode(format!("bounces ≤ {bounces}"), meaning, ViewAction::Bounces(USUAL_BOUNCES))
             }),
             (strength < 1.0).then(|| {
                 let meaning =

@@ -27,6 +27,7 @@ impl PictureSetup<'_> {
         let jitter = if self.finish.no_jitter { ", without jitter" } else { "" };
         let bounces = match self.finish.bounces {
             USUAL_BOUNCES => String::new(),
+            1 => ", at most 1 bounce".to_owned(),
             few => format!(", at most {few} bounces"),
         };
         let polarised = if self.options.unpolarised { "unpolarised" } else { "polarised" };

@@ -12,7 +12,8 @@ use crate::io::background::BackgroundRef;
 /// Begins to work on another document, under the present light.
 pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
     let work = &model.document.work;
-    document.begin(&work.light, work.exposure, work.head);
+    let (light, exposure) = model.workspace.light_after_scene((work.light.clone(), work.exposure));
+    document.begin(&light, exposure, work.head);
     model.document = document;
     let Model { document, workspace, session } = model;
     session.framing.renew(document.specimen());
@@ -73,6 +74,10 @@ pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset) {
     document.work.copies = copies;
     document.keep_copies();
     model.workspace.last = None;
+    let work = &model.document.work;
+    let before = model.workspace.light_after_scene((work.light.clone(), work.exposure));
+    // Another scene has a light of its own.
+    model.workspace.forget_light();
     // What is set before the scene begins is no step that undo takes back.
     model.document.work.exposure = scene.exposure;
     if let Some(light) = scene.light {
@@ -81,10 +86,11 @@ pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset) {
     }
     begin(model, tasks, document);
     let reach = model.reach(Shows::Render);
-    let Model { workspace, session, .. } = model;
+    let Model { workspace, session, document } = model;
     // The workspace cannot hold plain colours.
     let behind = scene.background.as_ref().filter(|behind| !matches!(behind, BackgroundRef::Plain(_)));
     workspace.enter_scene(behind.map(ToString::to_string), wavelengths);
+    workspace.light_scene((document.work.light.clone(), document.work.exposure), before);
     (workspace.light_turn, workspace.light_upright) = (scene.light_turn, scene.light_upright);
     workspace.see_under(scene.angle_of_view.map(|angle| reach / (0.5 * angle).to_radians().tan()));
     (workspace.behind_mm, workspace.strength) = (scene.background_distance_mm, scene.strength);
