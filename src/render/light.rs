@@ -16,8 +16,8 @@ use crate::trace::sampling::{LitScene, ProgressiveImage, Sampling};
 use crate::trace::sampling::{RadiancePixel, SamplePass};
 use std::ops::Range;
 
-/// The share of a ray's light below which it goes on by chance in solids that are not convex, in a picture of one pass: so
-/// little that its noise is hardly seen.
+/// The share of a ray's light below which it goes on by chance, in a picture of one pass: so little that its noise is hardly
+/// seen.
 const CHANCE_OF_ONE_PASS: f64 = 0.025;
 
 /// The greatest such share, in pictures of many passes, over which the noise of each is averaged.

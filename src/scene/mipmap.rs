@@ -1,7 +1,7 @@
 //! Pictures with coarser levels, so that light from a whole stretch of them is found by a few look-ups.
 
 use super::Panorama;
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -11,10 +11,15 @@ use serde::{Deserialize, Serialize};
 pub struct Mipmap {
     /// The finest first; each has half the width and height of the one before, rounded down, until one of them is 1.
     levels: Vec<Panorama>,
+    /// The width and height of each level as parts of those of the finest.
+    scales: Vec<Vec2>,
 }
 
 /// The most look-ups along a stretch.
 const MOST_TAPS: f64 = 8.0;
+
+/// The same number as an exponent of 2.
+const TAP_BITS: i32 = 3;
 
 impl From<Panorama> for Mipmap {
     fn from(picture: Panorama) -> Self {
@@ -36,7 +41,9 @@ impl Mipmap {
         while let Some(last) = levels.last().filter(|last| is_whole && last.width.min(last.height) > 1) {
             levels.push(halved(last));
         }
-        Self { levels }
+        let size = |level: &Panorama| Vec2::new(level.width as f32, level.height as f32);
+        let scales = levels.iter().map(|level| size(level) / size(&levels[0])).collect();
+        Self { levels, scales }
     }
 
     /// Returns the picture itself.
@@ -69,6 +76,29 @@ impl Mipmap {
             .map(|k| picture.between((at((f64::from(k) + 0.5) / taps) + 0.5) * scale - 0.5))
             .sum();
         sum / taps
+    }
+
+    /// Returns in which level a stretch of this length, in pixels, is looked up in single precision, and how often, as
+    /// [`along`](Self::along) does.
+    #[inline]
+    pub fn taps(&self, length: f32) -> (usize, u32) {
+        if length <= 1.0 {
+            return (0, 1);
+        }
+        // The exponent of the least power of 2 that is not below the length.
+        let rounded_up = ((length.to_bits() + 0x007f_ffff) >> 23) as i32 - 127;
+        let level = (rounded_up - TAP_BITS).clamp(0, self.levels.len() as i32 - 1);
+        let taps = (length * f32::from_bits(((127 - level) as u32) << 23)).ceil();
+        (level as usize, (taps as u32).clamp(1, 1 << TAP_BITS))
+    }
+
+    /// Returns the light of a level, from [`taps`](Self::taps), at a place in pixels from the middle of the picture's first
+    /// pixel, interpolated in single precision; beyond the edge it is the edge's.
+    #[inline]
+    pub fn near(&self, level: usize, at: Vec2) -> Vec3 {
+        let picture = &self.levels[level];
+        let at = if level == 0 { at } else { (at + 0.5) * self.scales[level] - 0.5 };
+        picture.near(at)
     }
 }
 
@@ -147,6 +177,23 @@ mod tests {
         for (length, start) in [(6.0, 253.3), (8.0, 251.9), (40.0, 230.1), (100.0, 200.7)] {
             let seen = line.along(length, |part| DVec2::new(start + part * length, 256.0)).x;
             assert!((seen * length - 1.0).abs() < 0.35, "{length}: {}", seen * length);
+        }
+    }
+
+    #[test]
+    fn single_precision_finds_the_same() {
+        let (width, height) = (211, 130);
+        let pixels = (0..width * height).map(|k| [(k % 7) as f32, (k * k % 11) as f32, 1.0]).collect();
+        let mipmap = Mipmap::new(Panorama { width, height, pixels });
+        for k in 0..400 {
+            let from = DVec2::new(f64::from(k) * 0.611 - 10.0, f64::from(k * 7 % 400) * 0.4 - 10.0);
+            let by = DVec2::from_angle(f64::from(k)) * (f64::from(k) * 0.03).exp2();
+            let place = |part: f64| from + by * part;
+            let (level, taps) = mipmap.taps(by.length() as f32);
+            let middle = |tap: u32| place((f64::from(tap) + 0.5) / f64::from(taps)).as_vec2();
+            let mean = (0..taps).map(|tap| mipmap.near(level, middle(tap))).sum::<Vec3>() / taps as f32;
+            let off = mean.as_dvec3() - mipmap.along(by.length(), place);
+            assert!(off.abs().max_element() < 1e-3, "{k}: {taps} in level {level}: {off}");
         }
     }
 

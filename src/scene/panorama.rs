@@ -1,6 +1,6 @@
 //! A photograph in linear light: of all the surroundings, or of a backplate.
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3, Vec4};
 use serde::{Deserialize, Serialize};
 
 /// A picture in linear light of sRGB's primaries, row by row from the top.
@@ -100,6 +100,36 @@ impl Panorama {
     /// four pixels around it. Beyond the edge it is the edge's.
     pub fn between(&self, at: DVec2) -> DVec3 {
         self.mixed(at, |x| x.clamp(0, i64::from(self.width) - 1))
+    }
+
+    /// Returns the light at a place as [`between`](Self::between) does, in single precision.
+    #[inline]
+    pub fn near(&self, at: Vec2) -> Vec3 {
+        let base = at.floor();
+        let part = at - base;
+        let (left, top, width, height) =
+            (base.x as i32, base.y as i32, self.width as i32, self.height as i32);
+        let texels = self.pixels.as_flattened();
+        // Four numbers are read at once: the last is not used. The very last pixel has no number after it.
+        let texel = |x: i32, y: i32| {
+            let first = 3 * (y * width + x) as usize;
+            match texels.get(first..first + 4) {
+                Some(four) => Vec4::from_slice(four),
+                None => Vec3::from_slice(&texels[first..]).extend(0.0),
+            }
+        };
+        let mut columns = [left, left.saturating_add(1)];
+        let mut rows = [top, top.saturating_add(1)];
+        if left < 0 || top < 0 || left >= width - 1 || top >= height - 1 {
+            columns = columns.map(|x| x.clamp(0, width - 1));
+            rows = rows.map(|y| y.clamp(0, height - 1));
+        }
+        let row = |y: i32| {
+            let (from, to) = (texel(columns[0], y), texel(columns[1], y));
+            from + (to - from) * part.x
+        };
+        let (high, low) = (row(rows[0]), row(rows[1]));
+        (high + (low - high) * part.y).truncate()
     }
 
     /// Returns the light from a unit direction, z up, interpolated between pixels.

@@ -165,7 +165,7 @@ pub struct Environment<'a> {
 pub(super) const STILL: f64 = 1e-14;
 
 /// The cosine between a ray and the axis to the eye below which the ray counts as running along the backplate.
-const ALONG: f64 = 1e-6;
+pub(in crate::trace) const ALONG: f64 = 1e-6;
 
 /// Least width of the edge of the head's shadow, in cosine.
 pub(crate) const HEAD_EDGE: f64 = 0.004;

@@ -5,6 +5,7 @@
 //! which `ray` forgets. Each ray has a medium of its own, so that the wavelengths of one pixel share a packet. When a
 //! ray ends, the next one takes its lane. `shaders/trace.wgsl` does the same on a graphics card.
 
+mod backplate;
 mod chain;
 mod entering;
 mod environment;
@@ -18,7 +19,7 @@ mod rays;
 mod tracer;
 
 use self::lanes::{Lanes, Vectors};
-pub(in crate::trace) use self::tracer::PacketTracer;
+pub(in crate::trace) use self::tracer::{EyeRay, PacketTracer};
 use pulp::Simd;
 
 /// Where rays meet a surface.

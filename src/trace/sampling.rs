@@ -52,9 +52,9 @@ pub struct Sampling {
     /// from the eye is looked up on a mixture of its own ray and the straight one, which is a choice of looks and not
     /// physics.
     pub strength: f64,
-    /// The share of a ray's light below which, in solids that are not convex, light goes on by chance alone, counting for
-    /// more where it does; 0 where all light is followed. Only single rays in double precision heed this; packets and graphics
-    /// cards follow all light.
+    /// The share of a ray's light below which light goes on by chance alone, counting for more where it does; 0 where all light
+    /// is followed. Packets heed this, and single rays in double precision in solids that are not convex; graphics cards
+    /// follow all light.
     pub by_chance: f64,
 }
 

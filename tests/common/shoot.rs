@@ -27,6 +27,8 @@ pub struct Shoot {
     pub shares: u32,
     /// How much of the way refraction is followed: 1 is physics.
     pub strength: f64,
+    /// The weight below which light goes on by chance; 0 where all is followed.
+    pub by_chance: f64,
     pub backdrop: bool,
     /// A photograph behind the stones, and its distance.
     pub photo: Option<(Panorama, f64)>,
@@ -55,6 +57,7 @@ impl Shoot {
             samples: 1,
             shares: 1,
             strength: 1.0,
+            by_chance: 0.0,
             backdrop: true,
             photo: None,
             options: RayOptions { polarised: true, most_bounces: 64, least_weight: 1e-4 },
@@ -94,7 +97,7 @@ impl Shoot {
     }
 
     fn sampling(&self) -> Sampling {
-        Sampling { strength: self.strength, ..Sampling::of(self.samples) }
+        Sampling { strength: self.strength, by_chance: self.by_chance, ..Sampling::of(self.samples) }
     }
 
     /// Traces the picture by single rays in double precision.

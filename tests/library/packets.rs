@@ -5,6 +5,7 @@ use crate::common::*;
 use brillianteer::math::{ImplicitForm, ImplicitSurface, Plane, Polytope, Pose, SmoothSolid};
 use brillianteer::optics::{Material, material};
 use brillianteer::scene::{Body, Instance, Light, Projection, View, light};
+use brillianteer::trace::ray::RayOptions;
 use glam::{DQuat, DVec2, DVec3};
 
 /// Returns the largest difference of a block's mean between packets and single rays, as a fraction of the brightest block.
@@ -128,9 +129,59 @@ fn packets_go_through_glass_shapes() {
     assert!(differ(&shoot(pill(0.2)), &shoot(pill(0.23))) > 0.01);
 }
 
+/// A pill and a plate of glass, between which light goes.
+fn two_shapes() -> Shoot {
+    let pill = ImplicitForm::Pill { size: DVec3::new(1.0, 0.7, 0.6), edge: 0.2 };
+    let plate = ImplicitForm::Plate {
+        size: DVec3::new(1.2, 1.0, 0.3),
+        edge: 0.05,
+        amplitude: 0.05,
+        wavelength: 0.8,
+        phase: 0.0,
+    };
+    let body = |form| Body::Glass(SmoothSolid::new(ImplicitSurface::new(form).unwrap()));
+    let mut shoot = Shoot::of(body(pill), "diamond", light("studio").unwrap());
+    let moved = |x: f64| Pose { at: DVec3::X * x, turn: DQuat::from_rotation_y(0.5), scale: 0.6 };
+    let diamond = material("diamond").unwrap();
+    shoot.setting.instances = [(pill, -0.5), (plate, 0.5)]
+        .map(|(form, x)| Instance::new(body(form), diamond.clone()).moved(&moved(x)))
+        .into();
+    (shoot.samples, shoot.wavelengths, shoot.size) = (64, 3, 32);
+    shoot
+}
+
+#[test]
+fn light_that_goes_on_by_chance_is_all_light_in_the_mean() {
+    let all = two_shapes();
+    let chance = || Shoot { by_chance: 0.1, ..two_shapes() };
+    let [followed, drawn] = [&all, &chance()].map(|shoot| shoot.by_packets());
+    assert_ne!(followed.0, drawn.0, "chance decides nothing");
+    let found = apart(&followed.0, &drawn.0);
+    assert!(found < 0.01, "{found}");
+    assert!(drawn.1.unresolved <= followed.1.unresolved, "{:?}, {:?}", drawn.1, followed.1);
+    // Without its weak light the picture is plainly another.
+    let cut = Shoot { options: RayOptions { least_weight: 0.1, ..all.options }, ..two_shapes() };
+    assert!(apart(&followed.0, &cut.by_packets().0) > 0.02);
+    // In a white world nothing is lost, also where colour absorbs a part.
+    for name in ["diamond", "ruby"] {
+        let [followed, drawn] = [0.0, 0.1].map(|by_chance| {
+            let mut white = two_shapes();
+            (white.by_chance, white.light) = (by_chance, Light { head: 0.0, ..light("white").unwrap() });
+            let own = material(name).unwrap();
+            white.setting.instances.iter_mut().for_each(|stone| stone.material = own.clone());
+            let (picture, rest) = white.by_packets();
+            let mean = picture.pixels.iter().map(colour).sum::<DVec3>() / picture.pixels.len() as f64;
+            (mean, rest.absorbed)
+        });
+        let (off, absorbed) = ((followed.0 - drawn.0).abs().max_element(), (followed.1 - drawn.1).abs());
+        assert!(off < 3e-3 && absorbed < 3e-3, "{name}: {followed:?}, {drawn:?}");
+        assert!(name == "ruby" || (drawn.0.y - 1.0).abs() < 3e-3, "{name}: {drawn:?}");
+    }
+}
+
 #[test]
 fn packets_are_equal_to_the_bit_on_any_number_of_cores() {
-    let shoot = two_stones(1.6);
+    let shoot = Shoot { samples: 2, by_chance: 0.1, ..two_shapes() };
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| shoot.by_packets().0)

@@ -12,11 +12,17 @@ use pulp::{Simd, WithSimd};
 /// and each bounce may multiply them.
 const MOST_SWEPT: f32 = 1e4;
 
+/// The least luck of a ray: with less, it would be followed until nothing is left.
+const LEAST_LUCK: f32 = 1e-9;
+
 /// The passage of rays through one body, from where they enter until too little light is left.
 pub(super) struct Passage<'a, P> {
     pub surface: &'a P,
     pub rays: &'a [EnteringRay],
     pub options: RayOptions,
+    /// The weight below which light goes on by chance, and counts for more where it does; 0 where all light is followed until
+    /// no more than the least weight of the options is left.
+    pub threshold: f32,
     /// Takes the light that leaves.
     pub leaving: &'a mut Vec<SingleRay>,
     /// Takes what does not leave.
@@ -31,7 +37,10 @@ impl<P: PacketSurface> WithSimd for Passage<'_, P> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) {
-        let inner = enter(simd, self.surface, self.rays, self.options.polarised, self.leaving);
+        let mut inner = enter(simd, self.surface, self.rays, self.options.polarised, self.leaving);
+        for (ray, entering) in inner.iter_mut().zip(self.rays) {
+            self.draw(ray, entering.luck);
+        }
         let absorbs = self.rays.iter().any(|ray| !ray.medium.is_clear());
         let mut lanes = InnerRays::dark(simd);
         let mut occupants: [Occupant; MOST_LANES] = [None; MOST_LANES];
@@ -52,20 +61,33 @@ impl<P: PacketSurface> WithSimd for Passage<'_, P> {
             if is_empty {
                 break;
             }
-            let before = [lanes.weight(), lanes.absorbed];
-            self.bounce(simd, &mut lanes, &occupants, absorbs);
+            let factor = lanes.factor();
+            let before = [lanes.weight() * factor, lanes.absorbed];
+            self.bounce(simd, (&mut lanes, factor), &occupants, absorbs);
             self.end(&mut lanes, &mut occupants, before);
         }
     }
 }
 
 impl<P: PacketSurface> Passage<'_, P> {
+    /// Sets with how little light a ray ends. Light of less than the threshold is followed only as far as one number says
+    /// (`ChainRoulette` in `trace/ray`).
+    #[inline(always)]
+    fn draw(&self, ray: &mut InnerRay, luck: f32) {
+        if self.threshold > 0.0 {
+            ray.threshold = self.threshold.min(ray.ray.light.weight());
+            ray.least = luck.max(LEAST_LUCK) * ray.threshold;
+        } else {
+            ray.least = self.options.least_weight as f32;
+        }
+    }
+
     /// Returns the occupant that a ray becomes; `None` where it has too little light to be followed.
     #[inline(always)]
-    fn admitted(&mut self, InnerRay { ray, .. }: &InnerRay) -> Occupant {
+    fn admitted(&mut self, InnerRay { ray, least, .. }: &InnerRay) -> Occupant {
         let &SingleRay { light, travelled: Travelled { bounces, .. }, tag, .. } = ray;
         let weight = light.weight();
-        if weight > self.options.least_weight as f32 && bounces < self.options.most_bounces {
+        if weight > *least && bounces < self.options.most_bounces {
             return Some((tag, bounces));
         }
         self.losses.push(PacketLoss { absorbed: 0.0, unresolved: weight, tag });
@@ -77,7 +99,7 @@ impl<P: PacketSurface> Passage<'_, P> {
     fn bounce<S: Simd>(
         &mut self,
         simd: S,
-        rays: &mut InnerRays<S>,
+        (rays, factor): (&mut InnerRays<S>, Lanes<S>),
         occupants: &[Occupant; MOST_LANES],
         absorbs: bool,
     ) {
@@ -91,7 +113,7 @@ impl<P: PacketSurface> Passage<'_, P> {
             of_normal = Some(-self.surface.turned(simd, point, rays.shift));
         }
         if absorbs {
-            absorb(rays);
+            absorb(rays, factor);
         }
         let surface = Reflection::of(cos_i, rays.index);
         if self.options.polarised {
@@ -118,13 +140,14 @@ impl<P: PacketSurface> Passage<'_, P> {
                 && rays.path.lane(lane).is_finite()
             {
                 let (left, path) = (rays.left.lane(lane), rays.path.lane(lane));
+                let counts = left * factor.lane(lane);
                 self.leaving.push(SingleRay {
                     origin: point.lane(lane),
                     direction: outward.lane(lane),
                     sweep: swept.lane(lane),
                     shift: rays.shift.lane(lane),
                     s: rays.s.lane(lane),
-                    light: passed.lane(lane).times(left),
+                    light: passed.lane(lane).times(counts),
                     travelled: Travelled { left, path, bounces: bounces + 1 },
                     tag,
                 });
@@ -140,8 +163,8 @@ impl<P: PacketSurface> Passage<'_, P> {
         rays.origin = point;
     }
 
-    /// Counts the bounce, and empties the lanes of rays that end. `before` is the light before the bounce, and what of it
-    /// was absorbed until then.
+    /// Counts the bounce, and empties the lanes of rays that end. `before` is the light before the bounce, as it counts, and
+    /// what was absorbed until then.
     #[inline(always)]
     fn end<S: Simd>(
         &mut self,
@@ -150,20 +173,24 @@ impl<P: PacketSurface> Passage<'_, P> {
         before: [Lanes<S>; 2],
     ) {
         let weights = rays.weight();
+        let factors = rays.factor();
         for (lane, occupant) in occupants[..S::F32_LANES].iter_mut().enumerate() {
             let Some((tag, bounces)) = occupant else { continue };
             *bounces += 1;
             let (weight, absorbed) = (weights.lane(lane), rays.absorbed.lane(lane));
             // Rounding may let a ray slip out of the body at an edge. It is then nowhere, and what is left of it unresolved.
             let has_slipped = !rays.path.lane(lane).is_finite() || !(weight + absorbed).is_finite();
-            if !has_slipped
-                && weight > self.options.least_weight as f32
-                && *bounces < self.options.most_bounces
-            {
+            let is_caught = weight <= rays.least.lane(lane);
+            if !has_slipped && !is_caught && *bounces < self.options.most_bounces {
                 continue;
             }
-            let [unresolved, absorbed] =
-                if has_slipped { before.map(|light| light.lane(lane)) } else { [weight, absorbed] };
+            let [unresolved, absorbed] = if has_slipped {
+                before.map(|light| light.lane(lane))
+            } else if is_caught && rays.threshold.lane(lane) > 0.0 {
+                [0.0, absorbed]
+            } else {
+                [weight * factors.lane(lane), absorbed]
+            };
             self.losses.push(PacketLoss { absorbed, unresolved, tag: *tag });
             rays.set_lane(lane, &InnerRay::DARK);
             *occupant = None;
@@ -171,16 +198,16 @@ impl<P: PacketSurface> Passage<'_, P> {
     }
 }
 
-/// Takes out the light that is absorbed on the way.
+/// Takes out the light that is absorbed on the way; it counts by this factor.
 #[inline(always)]
-fn absorb<S: Simd>(rays: &mut InnerRays<S>) {
+fn absorb<S: Simd>(rays: &mut InnerRays<S>, factor: Lanes<S>) {
     let mut after = rays.left;
     for lane in 0..S::F32_LANES {
         let [o, e] = [rays.absorption[0].lane(lane), rays.absorption[1].lane(lane)];
         let path = rays.path.lane(lane);
         after.set_lane(lane, 0.5 * ((-o * path).exp() + (-e * path).exp()));
     }
-    rays.absorbed = rays.absorbed + rays.light.weight() * (rays.left - after);
+    rays.absorbed = rays.absorbed + rays.light.weight() * (rays.left - after) * factor;
     rays.left = after;
 }
 
@@ -238,13 +265,14 @@ mod tests {
             let down = SingleRay { direction: Vec3::NEG_Z, ..InnerRay::DARK.ray };
             let ray = SingleRay { light: PacketLight::<f32>::unpolarised(1.0), ..down };
             let met = SingleHit { distance: 1.0, normal: Vec3::Z };
-            let rays = [EnteringRay { ray, met, medium }; 3];
+            let rays = [EnteringRay { ray, met, medium, luck: 0.0 }; 3];
             let options = RayOptions { polarised, ..RayOptions::default() };
             let (mut leaving, mut losses) = (vec![], vec![]);
             let passage = Passage {
                 surface: &OpenSlab,
                 rays: &rays,
                 options,
+                threshold: 0.0,
                 leaving: &mut leaving,
                 losses: &mut losses,
             };

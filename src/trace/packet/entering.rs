@@ -29,7 +29,7 @@ pub(super) fn enter<S: Simd, P: PacketSurface>(
             let light = inside.lane(lane);
             let (direction, sweep) = (inward.lane(lane), swept.lane(lane));
             let ray = SingleRay { origin: point, direction, sweep, shift, s, light, ..*ray };
-            inner.push(InnerRay { ray, medium: *medium });
+            inner.push(InnerRay { ray, medium: *medium, ..InnerRay::DARK });
         }
     }
     inner
@@ -80,7 +80,7 @@ impl<S: Simd> Arrivals<S> {
             index: one,
             spread: zero,
         };
-        for (lane, EnteringRay { ray, met, medium }) in rays.iter().enumerate() {
+        for (lane, EnteringRay { ray, met, medium, .. }) in rays.iter().enumerate() {
             all.origin.set_lane(lane, ray.origin);
             all.direction.set_lane(lane, ray.direction);
             all.sweep.set_lane(lane, ray.sweep);

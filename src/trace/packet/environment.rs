@@ -1,14 +1,18 @@
 //! Looks the light around the bodies up for many rays at once, in single precision: the twin of `Environment::radiance` in
 //! `src/trace/environment.rs` and of `shaders/environment.wgsl`.
 
+use super::backplate::{PacketBackplate, by_channel};
 use super::lanes::{Lanes, Vectors};
+use super::rays::SingleRay;
 use crate::trace::environment::{Environment, EnvironmentMap, HEAD_EDGE, STILL, TEXEL_ANGLE, wrapped};
 use glam::{DVec4, IVec2, Vec2, Vec3, Vec4};
 use pulp::{Simd, WithSimd};
 
-/// Light that has left all bodies and meets no backplate.
+/// Light that has left all bodies.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LookUpRay {
+    /// Where the light left the last body, in the world.
+    pub origin: Vec3,
     /// The direction in the middle of the wavelengths that the ray stands for.
     pub direction: Vec3,
     /// The change of that direction over these wavelengths.
@@ -17,7 +21,21 @@ pub(super) struct LookUpRay {
     pub tag: u32,
 }
 
-/// The environment without its backplate, in single precision.
+impl LookUpRay {
+    /// Returns the look-up of light that has left all bodies on a ray of the world.
+    pub fn of(ray: &SingleRay, weight: f32, tag: u32) -> Self {
+        Self { origin: ray.origin, direction: ray.direction, sweep: ray.sweep, weight, tag }
+    }
+}
+
+/// A ray from the eye as it would go on without any body: a point near the middle of the world, and the unit direction.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StraightRay {
+    pub near: Vec3,
+    pub direction: Vec3,
+}
+
+/// The environment in single precision.
 #[derive(Clone)]
 pub(super) struct PacketEnvironment<'a> {
     map: &'a EnvironmentMap,
@@ -28,6 +46,7 @@ pub(super) struct PacketEnvironment<'a> {
     eye: Vec3,
     /// The cosine of the half angle of the observer's head; `None` without a head.
     head: Option<f32>,
+    backplate: Option<PacketBackplate<'a>>,
 }
 
 #[derive(Clone, Copy)]
@@ -41,6 +60,11 @@ struct Lamp {
 pub(super) struct LookUp<'a> {
     pub environment: &'a PacketEnvironment<'a>,
     pub rays: &'a [LookUpRay],
+    /// The straight ray of each pixel. The pixel of a ray is its tag, divided by the number of bands.
+    pub straight: &'a [StraightRay],
+    pub bands: usize,
+    /// The share of refraction's turning of light that is followed; see [`SamplePass::mixed`](crate::trace::sampling::SamplePass::mixed).
+    pub strength: f32,
     pub light: &'a mut [DVec4],
 }
 
@@ -58,6 +82,7 @@ impl<'a> PacketEnvironment<'a> {
             lamps: lamps.collect(),
             eye: environment.eye.toward.as_vec3(),
             head: (environment.head > 0.0).then(|| environment.head.cos() as f32),
+            backplate: PacketBackplate::of(environment),
         }
     }
 
@@ -104,34 +129,91 @@ impl WithSimd for LookUp<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Self { environment, rays, light } = self;
-        for chunk in rays.chunks(S::F32_LANES) {
-            let mut direction = Vectors::splat(simd, Vec3::Z);
-            let mut sweep = Vectors::splat(simd, Vec3::ZERO);
-            for (lane, ray) in chunk.iter().enumerate() {
-                direction.set_lane(lane, ray.direction);
-                sweep.set_lane(lane, ray.sweep);
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        for chunk in self.rays.chunks(S::F32_LANES) {
+            let mut ray = LookUpLanes {
+                origin: Vectors::splat(simd, Vec3::ZERO),
+                direction: Vectors::splat(simd, Vec3::Z),
+                sweep: Vectors::splat(simd, Vec3::ZERO),
+            };
+            for (lane, one) in chunk.iter().enumerate() {
+                ray.origin.set_lane(lane, one.origin);
+                ray.direction.set_lane(lane, one.direction);
+                ray.sweep.set_lane(lane, one.sweep);
             }
-            let own =
-                Swept { direction: environment.own(simd, direction), sweep: environment.own(simd, sweep) };
-            let swept = own.sweep.length_squared().sqrt();
-            let lamps = own.lamps(simd, &environment.lamps);
-            let (x, y) = octahedral(own.direction);
-            let texels =
-                swept * Lanes::splat(simd, (f64::from(environment.map.side as u32) / TEXEL_ANGLE) as f32);
-            let clear = environment.beside_the_head(simd, direction, swept);
-            for (lane, ray) in chunk.iter().enumerate() {
-                let at = Vec2::new(x.lane(lane), y.lane(lane));
-                let lit = Vec4::new(
-                    lamps[0].lane(lane),
-                    lamps[1].lane(lane),
-                    lamps[2].lane(lane),
-                    lamps[3].lane(lane),
-                );
-                let seen = (environment.at(at, texels.lane(lane)) + lit) * (clear.lane(lane) * ray.weight);
-                light[ray.tag as usize] += seen.as_dvec4();
+            if self.strength < 1.0 {
+                ray = self.mixed(simd, chunk, ray);
             }
+            self.look_up(simd, chunk, ray);
+        }
+    }
+}
+
+/// Rays that are looked up, one in each lane.
+#[derive(Clone, Copy)]
+struct LookUpLanes<S: Simd> {
+    origin: Vectors<S>,
+    direction: Vectors<S>,
+    sweep: Vectors<S>,
+}
+
+impl LookUp<'_> {
+    /// Returns the rays on which light is looked up below full strength: the twin of `SamplePass::mixed`.
+    #[inline(always)]
+    fn mixed<S: Simd>(&self, simd: S, chunk: &[LookUpRay], own: LookUpLanes<S>) -> LookUpLanes<S> {
+        let (mut near, mut straight) = (own.origin, own.direction);
+        for (lane, ray) in chunk.iter().enumerate() {
+            let StraightRay { near: from, direction } = self.straight[ray.tag as usize / self.bands];
+            near.set_lane(lane, from);
+            straight.set_lane(lane, direction);
+        }
+        let strength = Lanes::splat(simd, self.strength);
+        let beside = near + straight * (own.origin - near).dot(straight);
+        let between = straight + (own.direction - straight) * strength;
+        let per = strength.all(1.0) / between.length_squared().sqrt();
+        let goes_on = own.direction.dot(straight).is_positive();
+        LookUpLanes {
+            origin: goes_on.select_vectors(beside + (own.origin - beside) * strength, own.origin),
+            direction: goes_on.select_vectors(between * per, own.direction),
+            sweep: goes_on.select_vectors(own.sweep * (strength * per), own.sweep),
+        }
+    }
+
+    /// Adds the light of rays: what they see of the backplate, and of the light around for the rest of their wavelengths.
+    #[inline(always)]
+    fn look_up<S: Simd>(&mut self, simd: S, chunk: &[LookUpRay], ray: LookUpLanes<S>) {
+        let mut beside = Lanes::splat(simd, 1.0);
+        if let Some(backplate) = &self.environment.backplate {
+            let seen = backplate.seen(simd, ray.origin, ray.direction, ray.sweep);
+            beside = beside - seen.share;
+            for (lane, one) in chunk.iter().enumerate() {
+                let light = by_channel(seen.light[lane]) * (seen.share.lane(lane) * one.weight);
+                self.light[one.tag as usize] += light.as_dvec4();
+            }
+            if !beside.is_positive().any() {
+                return;
+            }
+        }
+        let environment = self.environment;
+        let own = Swept {
+            direction: environment.own(simd, ray.direction),
+            sweep: environment.own(simd, ray.sweep),
+        };
+        let swept = own.sweep.length_squared().sqrt();
+        let lamps = own.lamps(simd, &environment.lamps);
+        let (x, y) = octahedral(own.direction);
+        let texels =
+            swept * Lanes::splat(simd, (f64::from(environment.map.side as u32) / TEXEL_ANGLE) as f32);
+        let clear = environment.beside_the_head(simd, ray.direction, swept) * beside;
+        for (lane, one) in chunk.iter().enumerate() {
+            if clear.lane(lane) <= 0.0 {
+                continue;
+            }
+            let at = Vec2::new(x.lane(lane), y.lane(lane));
+            let lit =
+                Vec4::new(lamps[0].lane(lane), lamps[1].lane(lane), lamps[2].lane(lane), lamps[3].lane(lane));
+            let seen = (environment.at(at, texels.lane(lane)) + lit) * (clear.lane(lane) * one.weight);
+            self.light[one.tag as usize] += seen.as_dvec4();
         }
     }
 }

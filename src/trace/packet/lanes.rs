@@ -122,6 +122,12 @@ impl<S: Simd> Mask<S> {
     pub fn select(self, yes: Lanes<S>, no: Lanes<S>) -> Lanes<S> {
         Lanes { values: self.simd.select_f32s(self.mask, yes.values, no.values), ..yes }
     }
+
+    /// Returns `yes` in the lanes of the mask, else `no`.
+    #[inline(always)]
+    pub fn select_vectors(self, yes: Vectors<S>, no: Vectors<S>) -> Vectors<S> {
+        Vectors([self.select(yes[0], no[0]), self.select(yes[1], no[1]), self.select(yes[2], no[2])])
+    }
 }
 
 /// Implements an operator between numbers of the same lane, and between those of every lane and one number.

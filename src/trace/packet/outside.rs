@@ -9,7 +9,7 @@ use super::rays::{EnteringRay, PacketLoss, SingleHit, SingleRay};
 use crate::math::{Ball, Pose, SolidRef};
 use crate::scene::Instance;
 use crate::trace::ray::RayOptions;
-use glam::{DVec3, Quat, Vec3};
+use glam::{DVec3, Mat3, Vec3};
 use pulp::{Arch, Simd, WithSimd};
 use std::sync::Arc;
 
@@ -30,7 +30,18 @@ pub(super) struct PacketInstance {
     single: SinglePose,
     /// A ball around the body, in the world.
     ball: Ball,
+    single_ball: SingleBall,
 }
+
+/// A [`Ball`] in single precision.
+#[derive(Clone, Copy)]
+struct SingleBall {
+    middle: Vec3,
+    radius: f32,
+}
+
+/// A part of a squared distance that is more than single precision may lose of it.
+const ROUNDING: f32 = 2e-6;
 
 /// How many times its own radius a body may be away from the middle of the world: a rounding of its place is then less than a
 /// part in ten thousand of its radius.
@@ -43,13 +54,13 @@ const ROUND_BALL: f64 = 1.01;
 #[derive(Clone, Copy)]
 struct SinglePose {
     at: Vec3,
-    turn: Quat,
+    turn: Mat3,
     scale: f32,
 }
 
 impl From<Pose> for SinglePose {
     fn from(pose: Pose) -> Self {
-        Self { at: pose.at.as_vec3(), turn: pose.turn.as_quat(), scale: pose.scale as f32 }
+        Self { at: pose.at.as_vec3(), turn: Mat3::from_quat(pose.turn.as_quat()), scale: pose.scale as f32 }
     }
 }
 
@@ -75,14 +86,25 @@ impl PacketInstance {
             if ball.middle.length() > FARTHEST * ball.radius {
                 return None;
             }
-            all.push(Self { solid, branches, pose, single: pose.into(), ball });
+            let single_ball =
+                SingleBall { middle: ball.middle.as_vec3(), radius: ball.radius as f32 * (1.0 + ROUNDING) };
+            all.push(Self { solid, branches, pose, single: pose.into(), ball, single_ball });
         }
         Some(all)
     }
 
     /// Whether a ray of the world may meet the body; `has_left` says that it has just left it.
     pub fn may_meet(&self, ray: &SingleRay, has_left: bool) -> bool {
-        (!has_left || self.branches) && self.ball.is_met(ray.origin.as_dvec3(), ray.direction.as_dvec3())
+        (!has_left || self.branches) && self.may_reach(ray)
+    }
+
+    /// Whether a ray of the world runs through the ball around the body, or may do so but for rounding.
+    #[inline]
+    fn may_reach(&self, ray: &SingleRay) -> bool {
+        let SingleBall { middle, radius } = self.single_ball;
+        let away = middle - ray.origin;
+        let (along, square) = (away.dot(ray.direction), away.length_squared());
+        along > -radius && square * (1.0 - ROUNDING) - along * along < radius * radius
     }
 
     /// Returns the length in the world of the unit of the body's frame.
@@ -110,7 +132,7 @@ impl PacketInstance {
     /// Carries a ray of the world into the frame of the body.
     pub fn arriving(&self, ray: &SingleRay) -> SingleRay {
         let SinglePose { at, turn, scale } = self.single;
-        let back = turn.inverse();
+        let back = turn.transpose();
         SingleRay {
             origin: back * (ray.origin - at) / scale,
             direction: back * ray.direction,
@@ -147,16 +169,16 @@ impl PacketInstance {
         &self,
         arch: Arch,
         rays: &[EnteringRay],
-        options: RayOptions,
+        (options, threshold): (RayOptions, f32),
     ) -> (Vec<SingleRay>, Vec<PacketLoss>) {
         let (mut outer, mut lost) = (vec![], vec![]);
         let (leaving, losses) = (&mut outer, &mut lost);
         match &self.solid {
             PacketSolid::Planes(planes) => {
-                arch.dispatch(Passage { surface: &**planes, rays, options, leaving, losses });
+                arch.dispatch(Passage { surface: &**planes, rays, options, threshold, leaving, losses });
             }
             PacketSolid::Glass(shape) => {
-                arch.dispatch(Passage { surface: shape, rays, options, leaving, losses });
+                arch.dispatch(Passage { surface: shape, rays, options, threshold, leaving, losses });
             }
         }
         (outer, lost)

@@ -61,6 +61,9 @@ pub(super) struct EnteringRay {
     pub met: SingleHit,
     /// The body's medium.
     pub medium: PacketMedium,
+    /// The number, from 0 to below 1, that decides how far the ray's light is followed inside the body where it goes on by
+    /// chance.
+    pub luck: f32,
 }
 
 /// A ray inside a body, in the frame of the body, where it has just entered.
@@ -68,6 +71,10 @@ pub(super) struct EnteringRay {
 pub(super) struct InnerRay {
     pub ray: SingleRay,
     pub medium: PacketMedium,
+    /// The weight below which the light goes on by chance; 0 where all of it is followed.
+    pub threshold: f32,
+    /// The weight at which the ray ends.
+    pub least: f32,
 }
 
 /// The part of a ray's light that did not leave the body.
@@ -97,6 +104,10 @@ pub(super) struct InnerRays<S: Simd> {
     pub path: Lanes<S>,
     /// The light that was absorbed.
     pub absorbed: Lanes<S>,
+    /// The weight below which the light goes on by chance; 0 where all of it is followed.
+    pub threshold: Lanes<S>,
+    /// The weight at which each ray ends.
+    pub least: Lanes<S>,
 }
 
 impl PacketLight<f32> {
@@ -174,6 +185,8 @@ impl InnerRay {
             tag: 0,
         },
         medium: PacketMedium { index: 1.0, spread: 0.0, absorption: [0.0; 2] },
+        threshold: 0.0,
+        least: 0.0,
     };
 }
 
@@ -196,6 +209,8 @@ impl<S: Simd> InnerRays<S> {
             left: zero,
             path: zero,
             absorbed: zero,
+            threshold: zero,
+            least: zero,
         };
         for lane in 0..S::F32_LANES {
             lanes.set_lane(lane, &InnerRay::DARK);
@@ -205,7 +220,7 @@ impl<S: Simd> InnerRays<S> {
 
     /// Puts a ray that has just entered into a lane.
     #[inline(always)]
-    pub fn set_lane(&mut self, lane: usize, InnerRay { ray, medium }: &InnerRay) {
+    pub fn set_lane(&mut self, lane: usize, &InnerRay { ref ray, medium, threshold, least }: &InnerRay) {
         let Travelled { left, path, .. } = ray.travelled;
         self.origin.set_lane(lane, ray.origin);
         self.direction.set_lane(lane, ray.direction);
@@ -221,10 +236,19 @@ impl<S: Simd> InnerRays<S> {
         self.left.set_lane(lane, left);
         self.path.set_lane(lane, path);
         self.absorbed.set_lane(lane, 0.0);
+        self.threshold.set_lane(lane, threshold);
+        self.least.set_lane(lane, least);
     }
 
     #[inline(always)]
     pub fn weight(&self) -> Lanes<S> {
         self.light.weight() * self.left
+    }
+
+    /// Returns the factor by which light counts that has come this far: below the threshold, only a part of such rays has.
+    #[inline(always)]
+    pub fn factor(&self) -> Lanes<S> {
+        let one = self.left.all(1.0);
+        (self.threshold / self.weight().max(self.left.all(f32::MIN_POSITIVE))).max(one)
     }
 }

@@ -1,9 +1,10 @@
 //! What pixels see of a scene under light, by packets of rays.
 
-use super::environment::{LookUp, LookUpRay, PacketEnvironment};
+use super::environment::{LookUp, LookUpRay, PacketEnvironment, StraightRay};
 use super::optics::PacketLight;
 use super::outside::PacketInstance;
 use super::rays::{EnteringRay, PacketMedium, SingleHit, SingleRay, Travelled};
+use crate::trace::ray::RayOptions;
 use crate::trace::sampling::{LitScene, RadiancePixel, SamplePass, colour};
 use glam::{DVec3, DVec4, Vec3};
 use pulp::Arch;
@@ -21,13 +22,21 @@ pub(in crate::trace) struct PacketTracer<'a> {
 /// would enter once more is unresolved.
 const MOST_PASSAGES: usize = 1000;
 
-/// A ray from the eye: a point and the unit direction in which it runs.
-type EyeRay = (DVec3, DVec3);
+/// A ray from the eye through a pixel.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::trace) struct EyeRay {
+    /// Column and row of the pixel.
+    pub pixel: [u32; 2],
+    pub origin: DVec3,
+    /// The unit direction in which the ray runs.
+    pub direction: DVec3,
+}
 
 /// Some pixels that are being traced, each with one ray from the eye.
 struct Pixels<'a> {
     pass: &'a SamplePass,
     eye_rays: &'a [EyeRay],
+    straight: Vec<StraightRay>,
     /// The light of each pixel and band: the pixel's number times the number of bands, and the band.
     light: Vec<DVec4>,
     lit: Vec<RadiancePixel>,
@@ -67,18 +76,19 @@ impl<'a> PacketTracer<'a> {
         let mut pixels = Pixels {
             pass,
             eye_rays,
+            straight: eye_rays.iter().map(EyeRay::straight).collect(),
             light: vec![DVec4::ZERO; eye_rays.len() * bands],
             lit: vec![RadiancePixel::default(); eye_rays.len()],
             media: pass.media.iter().map(|m| m.iter().map(PacketMedium::new).collect()).collect(),
         };
         let mut queues = self.seen_first(&mut pixels);
-        for _ in 0..MOST_PASSAGES {
+        for passage in 1..=MOST_PASSAGES as u64 {
             if queues.iter().all(Vec::is_empty) {
                 break;
             }
             let mut next = vec![vec![]; self.instances.len()];
             for (body, queue) in queues.iter().enumerate().filter(|(_, queue)| !queue.is_empty()) {
-                self.pass_through(body, queue, &mut pixels, &mut next);
+                self.pass_through((body, queue), passage, &mut pixels, &mut next);
             }
             queues = next;
         }
@@ -93,9 +103,11 @@ impl<'a> PacketTracer<'a> {
     fn seen_first(&self, pixels: &mut Pixels) -> Vec<Vec<EnteringRay>> {
         let mut queues = vec![vec![]; self.instances.len()];
         let bands = pixels.pass.responses.len();
-        let rays: Vec<SingleRay> = (0..).zip(pixels.eye_rays).map(|(tag, ray)| eye_ray(*ray, tag)).collect();
-        let seen =
-            |instance: &PacketInstance, _, place: usize| instance.seen(&rays[place], pixels.eye_rays[place]);
+        let rays: Vec<SingleRay> = (0..).zip(pixels.eye_rays).map(|(tag, ray)| eye_ray(ray, tag)).collect();
+        let seen = |instance: &PacketInstance, _, place: usize| {
+            let EyeRay { origin, direction, .. } = pixels.eye_rays[place];
+            instance.seen(&rays[place], (origin, direction))
+        };
         let first = self.first(rays.len(), seen);
         for (pixel, first) in first.into_iter().enumerate() {
             let backdrop = self.lit_scene.environment.backdrop;
@@ -106,16 +118,12 @@ impl<'a> PacketTracer<'a> {
                 Some(FirstHit { body, ray, met, .. }) => {
                     // The ray meets the body at the same point in all wavelengths.
                     let tags = (pixel * bands) as u32..;
-                    queues[body].extend(
-                        pixels.media[body].iter().zip(tags).map(|(&medium, tag)| EnteringRay {
-                            ray: SingleRay { tag, ..ray },
-                            met,
-                            medium,
-                        }),
-                    );
+                    queues[body].extend(pixels.media[body].iter().zip(tags).map(|(&medium, tag)| {
+                        EnteringRay { ray: SingleRay { tag, ..ray }, met, medium, luck: pixels.luck(tag, 0) }
+                    }));
                 }
                 None if backdrop => {
-                    let (origin, direction) = pixels.eye_rays[pixel];
+                    let EyeRay { origin, direction, .. } = pixels.eye_rays[pixel];
                     let seen = self.lit_scene.environment.radiance(origin, direction, DVec3::ZERO);
                     pixels.lit[pixel].colour = colour(&pixels.pass.whole, seen);
                 }
@@ -152,16 +160,18 @@ impl<'a> PacketTracer<'a> {
         first
     }
 
-    /// Follows rays through one body. Light that meets a body next is put into `next`; all else is looked up.
+    /// Follows rays through one body, which is the passage of this number of their light. Light that meets a body next is put
+    /// into `next`; all else is looked up.
     fn pass_through(
         &self,
-        body: usize,
-        queue: &[EnteringRay],
+        (body, queue): (usize, &[EnteringRay]),
+        passage: u64,
         pixels: &mut Pixels,
         next: &mut [Vec<EnteringRay>],
     ) {
         let instance = &self.instances[body];
-        let (mut leaving, losses) = instance.passage(self.arch, queue, self.lit_scene.options);
+        let threshold = pixels.threshold(self.lit_scene.options);
+        let (mut leaving, losses) = instance.passage(self.arch, queue, (self.lit_scene.options, threshold));
         let bands = pixels.pass.responses.len();
         for loss in losses {
             let lit = &mut pixels.lit[loss.tag as usize / bands];
@@ -169,56 +179,105 @@ impl<'a> PacketTracer<'a> {
             lit.unresolved += f64::from(loss.unresolved);
         }
         leaving.iter_mut().for_each(|ray| *ray = instance.departing(ray));
+        let from = Departure { body, passage };
+        if passage > 1 {
+            self.go_on(from, &leaving, pixels, next);
+            return;
+        }
+        // The glare of rays from the eye comes first, band by band, and goes the same way in all bands.
+        let (glare, rest) = leaving.split_at(queue.len());
+        let rest = [self.shared(from, glare, pixels), rest.to_vec()].concat();
+        self.go_on(from, &rest, pixels, next);
+    }
+
+    /// Adds the light of the first glare of pixels, looked up once for all bands of each, and returns what meets another body.
+    fn shared(&self, from: Departure, glare: &[SingleRay], pixels: &mut Pixels) -> Vec<SingleRay> {
+        let bands = pixels.pass.responses.len();
+        let first = |place: usize| glare[place * bands];
+        let all = glare.len() / bands;
+        let onward = |instance: &PacketInstance, other, place: usize| {
+            let ray = first(place);
+            instance.may_meet(&ray, other == from.body).then(|| (instance.arriving(&ray), 0.0))
+        };
+        let (mut to_look_up, mut meets) = (vec![], vec![]);
+        for (place, met) in self.first(all, onward).into_iter().enumerate() {
+            let (ray, own) = (first(place), place * bands..(place + 1) * bands);
+            match met {
+                None => to_look_up.push(LookUpRay::of(&ray, 1.0, place as u32)),
+                Some(_) => meets.extend_from_slice(&glare[own]),
+            }
+        }
+        let straight: Vec<_> =
+            (0..all).map(|place| pixels.straight[first(place).tag as usize / bands]).collect();
+        let mut seen = vec![DVec4::ZERO; all];
+        self.look_up(&to_look_up, (&straight, 1), pixels.pass.strength, &mut seen);
+        for ray in to_look_up {
+            let place = ray.tag as usize;
+            for own in &glare[place * bands..(place + 1) * bands] {
+                pixels.light[own.tag as usize] += seen[place] * f64::from(own.light.weight());
+            }
+        }
+        meets
+    }
+
+    /// Puts light that meets a body next into `next`, and looks all else up.
+    fn go_on(
+        &self,
+        from: Departure,
+        leaving: &[SingleRay],
+        pixels: &mut Pixels,
+        next: &mut [Vec<EnteringRay>],
+    ) {
+        let bands = pixels.pass.responses.len();
         let mut to_look_up: Vec<LookUpRay> = Vec::with_capacity(leaving.len());
         let onward = |instance: &PacketInstance, other, place: usize| {
             let ray = &leaving[place];
-            instance.may_meet(ray, other == body).then(|| (instance.arriving(ray), 0.0))
+            instance.may_meet(ray, other == from.body).then(|| (instance.arriving(ray), 0.0))
         };
         for (ray, first) in leaving.iter().zip(self.first(leaving.len(), onward)) {
             let (tag, weight) = (ray.tag as usize, ray.light.weight());
             match first {
-                None => to_look_up.extend(self.looked_up(ray, pixels)),
+                None => to_look_up.push(LookUpRay::of(ray, weight, ray.tag)),
                 Some(FirstHit { body: then, mut ray, met, .. })
                     if f64::from(weight) > self.lit_scene.options.least_weight =>
                 {
-                    if then != body {
+                    // Exits of one ray differ in the number of bounces before them.
+                    let luck = pixels.luck(ray.tag, from.passage << 32 | u64::from(ray.travelled.bounces));
+                    if then != from.body {
                         ray.travelled = Travelled::NONE;
                     }
-                    next[then].push(EnteringRay { ray, met, medium: pixels.media[then][tag % bands] });
+                    let medium = pixels.media[then][tag % bands];
+                    next[then].push(EnteringRay { ray, met, medium, luck });
                 }
                 Some(_) => pixels.lit[tag / bands].unresolved += f64::from(weight),
             }
         }
-        self.arch.dispatch(LookUp {
-            environment: &self.environment,
-            rays: &to_look_up,
-            light: &mut pixels.light,
-        });
+        let strength = pixels.pass.strength;
+        self.look_up(&to_look_up, (&pixels.straight, bands), strength, &mut pixels.light);
     }
 
-    /// Returns for what light that has left all bodies is looked up; `None` where all of it comes from the photograph behind
-    /// them, whose light is added at once.
-    fn looked_up(&self, ray: &SingleRay, pixels: &mut Pixels) -> Option<LookUpRay> {
-        let (tag, weight) = (ray.tag as usize, ray.light.weight());
-        let straight = pixels.eye_rays[tag / pixels.pass.responses.len()];
-        let own = (ray.origin.as_dvec3(), ray.direction.as_dvec3(), ray.sweep.as_dvec3());
-        let (from, direction, sweep) = pixels.pass.mixed(straight, own);
-        let mut beside = 1.0;
-        if let Some(seen) = self.lit_scene.environment.photograph(from, direction, sweep) {
-            pixels.light[tag] += seen.light * f64::from(weight);
-            beside -= seen.share as f32;
-        }
-        let ray = LookUpRay {
-            direction: direction.as_vec3(),
-            sweep: sweep.as_vec3(),
-            weight: weight * beside,
-            tag: ray.tag,
-        };
-        (beside > 0.0).then_some(ray)
+    /// Adds the light that rays see around all bodies, each at its tag; the straight ray of a tag is that of its pixel, of so
+    /// many bands.
+    fn look_up(
+        &self,
+        rays: &[LookUpRay],
+        (straight, bands): (&[StraightRay], usize),
+        strength: f64,
+        light: &mut [DVec4],
+    ) {
+        let (environment, strength) = (&self.environment, strength as f32);
+        self.arch.dispatch(LookUp { environment, rays, straight, bands, strength, light });
     }
 }
 
-fn eye_ray((origin, direction): EyeRay, tag: u32) -> SingleRay {
+/// The body that light has left, and the number of the passage that ended there.
+#[derive(Clone, Copy)]
+struct Departure {
+    body: usize,
+    passage: u64,
+}
+
+fn eye_ray(&EyeRay { origin, direction, .. }: &EyeRay, tag: u32) -> SingleRay {
     let direction = direction.as_vec3();
     SingleRay {
         origin: origin.as_vec3(),
@@ -232,7 +291,33 @@ fn eye_ray((origin, direction): EyeRay, tag: u32) -> SingleRay {
     }
 }
 
+impl EyeRay {
+    /// Returns the ray from near the middle of the world on, where single precision is fine enough.
+    fn straight(&self) -> StraightRay {
+        let near = self.origin - self.direction * self.origin.dot(self.direction);
+        StraightRay { near: near.as_vec3(), direction: self.direction.as_vec3() }
+    }
+}
+
 impl Pixels<'_> {
+    /// Returns the weight below which light goes on by chance; 0 where all light is followed. Light of no more than the least
+    /// weight, which would end there, goes on by chance as well.
+    fn threshold(&self, options: RayOptions) -> f32 {
+        let by_chance = self.pass.by_chance;
+        if by_chance > 0.0 { by_chance.max(options.least_weight) as f32 } else { 0.0 }
+    }
+
+    /// Returns the number that decides how far the light of a ray is followed in a passage; `passage` is 0 for the first one
+    /// and any other number for each further one.
+    fn luck(&self, tag: u32, passage: u64) -> f32 {
+        let bands = self.pass.responses.len();
+        let (pixel, band) = (tag as usize / bands, tag as usize % bands);
+        self.pass.roulette(self.eye_rays[pixel].pixel, band).map_or(0.0, |roulette| {
+            let mut own = if passage == 0 { roulette } else { roulette.beyond(passage) };
+            own.draw() as f32
+        })
+    }
+
     /// Adds the light, as colours, to the sums of the pixels.
     fn add_to(self, sums: &mut [RadiancePixel]) {
         let bands = self.pass.responses.len();

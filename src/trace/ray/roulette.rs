@@ -97,7 +97,7 @@ impl Roulette {
     }
 
     /// Returns the next number, from 0 to below 1.
-    fn draw(&mut self) -> f64 {
+    pub(in crate::trace) fn draw(&mut self) -> f64 {
         let k = self.drawn;
         self.drawn += 1;
         let own = mixed(self.seed.wrapping_add(k as u64));

@@ -3,7 +3,7 @@
 use super::sight::{Met, nearest};
 use super::{Camera, Exit, InstanceTracer, Loss, MeetingRay, Roulette};
 use crate::scene::Medium;
-use crate::trace::packet::PacketTracer;
+use crate::trace::packet::{EyeRay, PacketTracer};
 use crate::trace::sampling::{LitScene, MOST_WAITING, ProgressiveImage, RadiancePixel, SamplePass, colour};
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3, DVec4};
@@ -238,7 +238,12 @@ impl<'a> ByRays<'a> {
         let pixel = |k: usize| [(k % across) as u32, self.rows.start + (k / across) as u32];
         if let RayTracer::Packets(packets) = &self.tracer {
             let numbers = first..first + sums.len();
-            let rays: Vec<_> = numbers.map(|k| self.eye_ray(pass, pixel(k))).collect();
+            let eye_ray = |k: usize| {
+                let pixel = pixel(k);
+                let (origin, direction) = self.eye_ray(pass, pixel);
+                EyeRay { pixel, origin, direction }
+            };
+            let rays: Vec<_> = numbers.map(eye_ray).collect();
             packets.see(pass, &rays, sums);
             return;
         }

@@ -1,0 +1,203 @@
+//! The picture behind the bodies as packets of rays see it, in single precision: the twin of `Backplate::at` in
+//! `src/trace/environment.rs` and of `photo_at` in `shaders/environment.wgsl`.
+
+use super::lanes::{Lanes, MOST_LANES, Vectors};
+use crate::scene::Mipmap;
+use crate::trace::environment::{ALONG, Backplate, Environment};
+use glam::{Vec2, Vec3, Vec4};
+use pulp::Simd;
+
+/// A least stretch across the picture, in pixels, so that no division is by 0.
+const LEAST_STRETCH: f32 = 1e-20;
+
+/// A picture on a plane behind the bodies, with its axes in pixels.
+#[derive(Clone)]
+pub(super) struct PacketBackplate<'a> {
+    picture: &'a Mipmap,
+    /// Width and height of the picture in pixels.
+    size: Vec2,
+    /// The directions across and down the picture, as long as there are pixels in a world unit.
+    across: Vec3,
+    down: Vec3,
+    /// The direction to the eye.
+    toward: Vec3,
+    /// The distance of the plane behind the origin.
+    distance: f32,
+}
+
+/// What rays see of the picture.
+pub(super) struct SeenStretch<S: Simd> {
+    /// The share of the wavelengths of each ray that meets the picture, 0 to 1.
+    pub share: Lanes<S>,
+    /// The mean light of that part: red, green and blue.
+    pub light: [Vec3; MOST_LANES],
+}
+
+/// Rays that run to the plane of the picture, in its pixels.
+struct Projection<S: Simd> {
+    start: [Lanes<S>; 2],
+    way: [Lanes<S>; 2],
+    turn: [Lanes<S>; 2],
+    height: Lanes<S>,
+    speed: Lanes<S>,
+    faster: Lanes<S>,
+}
+
+impl<S: Simd> Projection<S> {
+    /// Returns how quickly the rays approach the plane at a part of their sweep, which runs from -0.5 to 0.5.
+    #[inline(always)]
+    fn speed_at(&self, part: Lanes<S>) -> Lanes<S> {
+        self.speed + self.faster * part
+    }
+
+    /// Returns where the rays meet the picture at a part of their sweep, in pixels from the middle of the first.
+    #[inline(always)]
+    fn place(&self, part: Lanes<S>) -> [Lanes<S>; 2] {
+        let far = self.height / self.speed_at(part).max(part.all(ALONG as f32));
+        [
+            self.start[0] + (self.way[0] + self.turn[0] * part) * far,
+            self.start[1] + (self.way[1] + self.turn[1] * part) * far,
+        ]
+    }
+}
+
+impl<'a> PacketBackplate<'a> {
+    /// Takes over the backplate of an environment; `None` where it has none.
+    pub fn of(environment: &Environment<'a>) -> Option<Self> {
+        let Backplate { picture, distance, width } = environment.backplate?;
+        let (eye, whole) = (&environment.eye, picture.picture());
+        let scale = f64::from(whole.width) / width;
+        Some(Self {
+            picture,
+            size: Vec2::new(whole.width as f32, whole.height as f32),
+            across: (eye.right * scale).as_vec3(),
+            down: (eye.up * -scale).as_vec3(),
+            toward: eye.toward.as_vec3(),
+            distance: distance as f32,
+        })
+    }
+
+    /// Returns what rays of the world see of the picture: the mean over the sweep of each.
+    #[inline(always)]
+    pub fn seen<S: Simd>(
+        &self,
+        simd: S,
+        from: Vectors<S>,
+        direction: Vectors<S>,
+        sweep: Vectors<S>,
+    ) -> SeenStretch<S> {
+        let (zero, one, half) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 1.0), Lanes::splat(simd, 0.5));
+        let along = one.all(ALONG as f32);
+        let rays = self.projected(simd, from, direction, sweep);
+        // The part of the sweep that runs toward the plane.
+        let (low, high) = (rays.speed_at(-half), rays.speed_at(half));
+        let comes = zero.less(rays.height) & along.less(low.max(high));
+        let (first, last) = (meets(along, low, high) - half, half - meets(along, high, low));
+        let (start, end) = (rays.place(first), rays.place(last));
+        let [enters, leaves] = self.inside(&start, &end);
+        // Along the line, places are projected: parts of its length become parts of the sweep.
+        // Where a sweep is wide, rounding may leave nothing of a low speed.
+        let speeds = [rays.speed_at(first).max(along), rays.speed_at(last).max(along)];
+        let begin = first + (last - first) * of_sweep(enters, speeds);
+        let finish = first + (last - first) * of_sweep(leaves, speeds);
+        let (dx, dy) = (end[0] - start[0], end[1] - start[1]);
+        let straight = (dx * dx + dy * dy).sqrt();
+        let stays = straight.at_most(zero);
+        let is_in = comes & enters.at_most(leaves) & straight.less(one.all(f32::INFINITY));
+        let share = is_in.select(stays.select(one, (finish - begin).max(zero).min(one)), zero);
+        let light = self.mean(&rays, &share, [begin, finish], straight * (leaves - enters));
+        SeenStretch { share, light }
+    }
+
+    #[inline(always)]
+    fn projected<S: Simd>(
+        &self,
+        simd: S,
+        from: Vectors<S>,
+        direction: Vectors<S>,
+        sweep: Vectors<S>,
+    ) -> Projection<S> {
+        let (across, down) = (Vectors::splat(simd, self.across), Vectors::splat(simd, self.down));
+        let toward = Vectors::splat(simd, self.toward);
+        let middle = self.size * 0.5 - 0.5;
+        Projection {
+            start: [across.dot(from) + middle.x, down.dot(from) + middle.y],
+            way: [across.dot(direction), down.dot(direction)],
+            turn: [across.dot(sweep), down.dot(sweep)],
+            height: toward.dot(from) + self.distance,
+            speed: -toward.dot(direction),
+            faster: -toward.dot(sweep),
+        }
+    }
+
+    /// Returns the parts, 0 to 1, at which lines enter the picture and leave it; the first is the greater where a line misses.
+    #[inline(always)]
+    fn inside<S: Simd>(&self, start: &[Lanes<S>; 2], end: &[Lanes<S>; 2]) -> [Lanes<S>; 2] {
+        let mut parts = [start[0].all(0.0), start[0].all(1.0)];
+        for axis in 0..2 {
+            let size = self.size[axis];
+            let way = end[axis] - start[axis];
+            let way = way.abs().max(way.all(LEAST_STRETCH)).turned_as(way);
+            let (a, b) = ((-start[axis] - 0.5) / way, (-start[axis] + (size - 0.5)) / way);
+            parts = [parts[0].max(a.min(b)), parts[1].min(a.max(b))];
+        }
+        parts
+    }
+
+    /// Returns the mean light along the stretch of each ray that has a share, as [`Mipmap::along`] does; `lengths` are those of
+    /// the stretches in pixels.
+    #[inline(always)]
+    fn mean<S: Simd>(
+        &self,
+        rays: &Projection<S>,
+        share: &Lanes<S>,
+        [begin, finish]: [Lanes<S>; 2],
+        lengths: Lanes<S>,
+    ) -> [Vec3; MOST_LANES] {
+        let mut light = [Vec3::ZERO; MOST_LANES];
+        let mut levels = [0; MOST_LANES];
+        let (mut per, mut most) = (begin.all(0.0), 0);
+        let mut taps = [0_u32; MOST_LANES];
+        for lane in 0..S::F32_LANES {
+            if !share.lane(lane).is_normal() {
+                continue;
+            }
+            (levels[lane], taps[lane]) = self.picture.taps(lengths.lane(lane));
+            per.set_lane(lane, 1.0 / taps[lane] as f32);
+            most = most.max(taps[lane]);
+        }
+        for tap in 0..most {
+            let part = begin + (finish - begin) * (per * (tap as f32 + 0.5));
+            let [x, y] = rays.place(part);
+            for lane in 0..S::F32_LANES {
+                if tap < taps[lane] {
+                    light[lane] += self.picture.near(levels[lane], Vec2::new(x.lane(lane), y.lane(lane)));
+                }
+            }
+        }
+        for (light, per) in light.iter_mut().zip(per.as_slice()) {
+            *light *= *per;
+        }
+        light
+    }
+}
+
+/// Returns the part of a sweep, from its end of speed `of` toward that of speed `other`, at which rays begin to run toward the
+/// plane; 0 where they do all along.
+#[inline(always)]
+fn meets<S: Simd>(along: Lanes<S>, of: Lanes<S>, other: Lanes<S>) -> Lanes<S> {
+    along.less(of).select(of.all(0.0), (along - of) / (other - of))
+}
+
+/// Returns which part of a sweep a part of its line across the picture is, by the speeds at both ends.
+#[inline(always)]
+fn of_sweep<S: Simd>(line: Lanes<S>, [slow, fast]: [Lanes<S>; 2]) -> Lanes<S> {
+    let (near, far) = (line * slow, (line.all(1.0) - line) * fast);
+    near / (near + far)
+}
+
+/// Returns light by channel: that of a photograph has none of the key illuminant's.
+#[inline(always)]
+pub(super) fn by_channel(light: Vec3) -> Vec4 {
+    Vec4::new(0.0, light.x, light.y, light.z)
+}
