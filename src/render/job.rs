@@ -6,11 +6,12 @@ use super::surroundings::Surroundings;
 use crate::measure::Bounds;
 use crate::optics::Strata;
 use crate::picture::liquid_glass::GlassPane;
-use crate::picture::{Backdrop, Survey};
+use crate::picture::{Backdrop, Linear, Survey, enlarged};
 use crate::scene::{Film, Glare, Medium, Panorama, Scene, Scope, View};
 use crate::trace::beam::BeamOptions;
 use crate::trace::ray::RayOptions;
 use crate::trace::sampling::LitScene;
+use glam::DVec2;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -218,6 +219,14 @@ impl Job {
             Product::RefractionMap(map) => Some(self.lit_scene(&map.surroundings)),
             Product::Scope(_) | Product::LiquidGlass(_) | Product::Figures(_) => None,
         }
+    }
+
+    /// Returns a rough picture of this job in full size, as [`enlarged`] makes it; `None` where the job is no picture under light.
+    /// `film` is the picture's own, and `shift` the place of its rays in its pixels.
+    pub fn enlarged(&self, rough: &Linear, (film, shift): (&Film, DVec2)) -> Option<Linear> {
+        let Product::Light(light) = &self.product else { return None };
+        let white = light.strata(1).response();
+        Some(enlarged(rough, (film, shift), &self.lit_scene(&light.surroundings), &white))
     }
 
     /// Returns the lit scene of a job in these surroundings.

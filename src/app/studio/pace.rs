@@ -8,12 +8,12 @@ use std::time::Duration;
 /// Rays keep pixels no larger than 2 as long as they can, and take fewer bands instead: in a picture of glass that moves,
 /// blocks are seen sooner than colours that are a little off. The last steps are for meshes and many stones.
 const STEPS: [Effort; 10] = [
-    step(5e-3, (1.0, 12), (1.5, 6)),
-    step(1e-2, (1.0, 10), (2.0, 6)),
-    step(2e-2, (1.34, 8), (2.0, 4)),
-    step(3e-2, (1.67, 6), (2.0, 3)),
-    step(5e-2, (2.0, 5), (2.5, 3)),
-    step(8e-2, (3.0, 4), (3.2, 3)),
+    step(5e-3, (1.0, 12), (1.5, 8)),
+    step(1e-2, (1.0, 10), (2.0, 8)),
+    step(2e-2, (1.34, 8), (2.0, 6)),
+    step(3e-2, (1.67, 6), (2.5, 6)),
+    step(5e-2, (2.0, 5), (3.0, 6)),
+    step(8e-2, (3.0, 4), (3.0, 3)),
     step(8e-2, (3.0, 4), (4.0, 3)),
     step(8e-2, (3.0, 4), (5.0, 3)),
     step(8e-2, (3.0, 4), (6.5, 3)),
@@ -30,6 +30,12 @@ const fn step(unresolved: f64, (coarser, bands): (f64, u32), (by_rays, bands_of_
 /// The time that all pictures together should take, at most, so that more than 20 sets of them come in a second. Where they
 /// take longer the next ones are coarser, where they take less than a third of it they are finer.
 const GOAL: Duration = Duration::from_millis(40);
+
+/// The time that they may take where the next step has blocks that are plainly seen: then ten sets in a second do.
+const SLOWEST: Duration = Duration::from_millis(100);
+
+/// The largest blocks, in pixels of the film, that are hardly seen in glass that moves before a sharp background.
+const HARDLY_SEEN: f64 = 3.0;
 
 /// Finds the effort that keeps up with the hand, as an index of `STEPS`.
 #[derive(Debug, Clone, Copy)]
@@ -49,9 +55,14 @@ impl Pace {
 
     /// Adjusts the effort to the time that all pictures took.
     pub fn learn(&mut self, took: Duration) {
-        if took > GOAL {
-            self.0 = (self.0 + 1).min(STEPS.len() - 1);
-        } else if took < GOAL / 3 {
+        let next = (self.0 + 1).min(STEPS.len() - 1);
+        let has_blocks = |step: usize| STEPS[step].grain_of_rays.coarser > HARDLY_SEEN;
+        let longest = if has_blocks(next) { SLOWEST } else { GOAL };
+        // From one step with blocks to the next, the number of pixels is no more than halved.
+        let shortest = if has_blocks(self.0) { SLOWEST / 2 } else { GOAL / 3 };
+        if took > longest {
+            self.0 = next;
+        } else if took < shortest {
             self.0 = self.0.saturating_sub(1);
         }
     }
@@ -65,9 +76,13 @@ mod tests {
     fn slow_pictures_become_coarser_and_quick_ones_finer() {
         let mut pace = Pace::default();
         (0..12).for_each(|_| pace.learn(2 * GOAL));
+        assert_eq!(pace.effort(), STEPS[5], "no blocks where ten pictures a second come without");
+        (0..12).for_each(|_| pace.learn(2 * SLOWEST));
         assert_eq!(pace.effort(), STEPS[9]);
-        pace.learn(GOAL / 2);
+        pace.learn(SLOWEST - GOAL);
         assert_eq!(pace.effort(), STEPS[9]);
+        (0..12).for_each(|_| pace.learn(SLOWEST / 2 - GOAL / 10));
+        assert_eq!(pace.effort(), STEPS[5]);
         (0..12).for_each(|_| pace.learn(GOAL / 4));
         assert_eq!(pace.effort(), STEPS[0]);
     }

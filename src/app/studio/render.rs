@@ -13,7 +13,9 @@ use crate::io::{Failure, Finish, StoredLight, WriteError};
 use crate::render::{Job, Partial, Quality, RenderError, Steps};
 use crate::scene::Mipmap;
 use crate::trace::Watch;
+use crate::trace::sampling::place_in_pixel;
 use egui::ColorImage;
+use glam::DVec2;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -31,12 +33,17 @@ impl ShotTracer {
         };
         let first = moving.and_then(|_| self.trails.get(&slot)).map_or(0, |(trail, _)| trail.count);
         let mut job = self.light_job(shot, effort, first)?;
-        let mut grain = effort.grain;
+        let (mut grain, mut by_rays) = (effort.grain, false);
         if self.renderer.plan(&job).map_err(RenderError::from)?.backend.is_slow() {
             job = self.light_job(shot, &effort.by_rays(), first)?;
-            grain = effort.grain_of_rays;
+            (grain, by_rays) = (effort.grain_of_rays, true);
         }
         job.film = coarser(&shot.film, grain.coarser);
+        // Rough pixels of glass are seen less where outlines and what hangs behind are fine.
+        let is_enlarged = by_rays && !effort.is_refined() && job.film.size != shot.film.size;
+        let fine = is_enlarged.then(|| Job { film: shot.film, ..job.clone() });
+        // A blend of pictures stands for whole pixels, one picture for the places of its rays.
+        let shift = if moving.is_some() { DVec2::splat(0.5) } else { place_in_pixel(first) };
         let Self { renderer, trails, kept, notes, .. } = self;
         renderer.run(&job, watch, &mut |part| {
             let (picture, unresolved, tracer) = match part {
@@ -51,6 +58,8 @@ impl ShotTracer {
                 Moment::of(shot, job.film).lay(trails, (slot, picture), &lit_scene, newest).clone()
             });
             let picture = laid.as_ref().unwrap_or(picture);
+            let large = fine.as_ref().and_then(|fine| fine.enlarged(picture, (&job.film, shift)));
+            let picture = large.as_ref().unwrap_or(picture);
             if effort.is_refined() {
                 let light = TracedLight::Render { picture: picture.clone(), unresolved, tracer };
                 kept.insert(slot, (shot.clone(), light));
