@@ -5,6 +5,7 @@
 //! city is gathered over the elevations from which the waves send it to the eye.
 
 use super::noise::{Table, band, fractal, noise, ramp, random};
+use super::waves::{WaterPoint, Waves, swells};
 use glam::{DMat2, DVec2, DVec3};
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
@@ -71,17 +72,16 @@ const DEPTHS: [Depth; 4] = [
     },
 ];
 
-/// Height of the eye above the water in metres; it sets how far apart waves seem.
-const EYE: f64 = 4.0;
-const FINEST: f64 = 0.20;
-const COARSER: f64 = 2.3;
-const SLOPES: [f64; 6] = [0.024, 0.030, 0.030, 0.022, 0.015, 0.009];
-const CALM: f64 = 0.012;
-
-/// How each octave of the waves is turned, and drawn out along its crests.
-static SWELLS: LazyLock<[DMat2; 6]> = LazyLock::new(|| {
-    let drawn_out = DMat2::from_diagonal(DVec2::new(1.0, 0.7));
-    std::array::from_fn(|k| drawn_out * DMat2::from_angle(0.8 * k as f64 + 0.3))
+/// The water.
+static WATER: LazyLock<Waves<6>> = LazyLock::new(|| Waves {
+    eye: 4.0,
+    finest: 0.20,
+    coarser: 2.3,
+    slopes: [0.024, 0.030, 0.030, 0.022, 0.015, 0.009],
+    swells: swells(DMat2::IDENTITY, 0.7, (0.3, 0.8)),
+    calm: 0.012,
+    hidden_from: 1.2,
+    longest: 40.0,
 });
 
 /// The number of lamps around the shore.
@@ -400,29 +400,9 @@ fn reflected(azimuth: f64, up: f64, spread: f64) -> DVec3 {
     at(k).lerp(at(k + 1), f)
 }
 
-fn waves(p: DVec2, along: f64) -> (DVec2, f64) {
-    let (mut slope, mut hidden, mut length) = (DVec2::ZERO, CALM * CALM, FINEST);
-    for (k, (strength, swell)) in SLOPES.into_iter().zip(SWELLS.iter()).enumerate() {
-        let seen = 1.0 - ramp(0.35, 1.2, along / length);
-        if seen > 0.0 {
-            let (_, g) = noise(*swell * p / (0.5 * length), 60 + k as u32);
-            slope += swell.transpose() * g * (1.5 * strength * seen);
-        }
-        hidden += strength * strength * (1.0 - seen * seen);
-        length *= COARSER;
-    }
-    (slope, hidden)
-}
-
 /// Returns the water with the city in it.
 fn water(d: DVec3, footprint: f64) -> DVec3 {
-    let down = (-d.z).max(0.25 * footprint).max(1e-4);
-    let distance = EYE / down;
-    let (slope, hidden) =
-        waves(d.truncate() * distance, footprint * distance * (1.0 / down).min(40.0).sqrt());
-    let normal = DVec3::new(-slope.x, -slope.y, 1.0) / (1.0 + slope.length_squared()).sqrt();
-    let facing = normal.dot(-d).max(0.0);
-    let mut out = d + 2.0 * facing * normal;
+    let WaterPoint { hidden, facing, mirrored: mut out, .. } = WATER.met(d, footprint);
     out.z = out.z.abs();
     let spread = hidden.sqrt();
     let flat = out.truncate().length().max(1e-9);

@@ -9,6 +9,7 @@ mod drawing;
 mod noise;
 mod room;
 mod sunset;
+mod waves;
 
 use super::panorama::Panorama;
 use drawing::drawn;

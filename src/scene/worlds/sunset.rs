@@ -6,6 +6,7 @@
 //! shape; the finer ones add to the spread of slopes.
 
 use super::noise::{Table, curve, fractal, noise, ramp};
+use super::waves::{WaterPoint, Waves, swells};
 use glam::{DMat2, DVec2, DVec3};
 use std::sync::LazyLock;
 
@@ -37,14 +38,7 @@ const AWAY: [DVec3; 7] = [
     DVec3::new(0.013, 0.030, 0.10),
 ];
 
-/// Height of the eye above the water, in metres.
-const EYE: f64 = 5.0;
-/// The octaves of the waves: the finest length in metres, the factor from one to the next, and the slope of each.
-const FINEST: f64 = 0.22;
-const COARSER: f64 = 2.1;
-const SLOPES: [f64; 8] = [0.040, 0.046, 0.050, 0.046, 0.036, 0.026, 0.018, 0.012];
-/// The spread of slopes that no footprint resolves.
-const CALM: f64 = 0.022;
+/// The light that comes from within the water.
 const WATER: DVec3 = DVec3::new(0.004, 0.017, 0.030);
 
 /// The direction to the sun.
@@ -53,11 +47,16 @@ static SUN: LazyLock<DVec3> = LazyLock::new(|| {
     DVec3::new(cos_e * cos_a, cos_e * sin_a, sin_e)
 });
 
-/// How each octave of the waves is turned, and drawn out along its crests.
-static SWELLS: LazyLock<[DMat2; 8]> = LazyLock::new(|| {
-    let wind = DMat2::from_cols(DVec2::new(0.96, 0.28), DVec2::new(-0.28, 0.96));
-    let drawn_out = DMat2::from_diagonal(DVec2::new(1.0, 0.6));
-    std::array::from_fn(|k| drawn_out * wind * DMat2::from_angle(0.9 * k as f64 + 0.4))
+/// The water.
+static WAVES: LazyLock<Waves<8>> = LazyLock::new(|| Waves {
+    eye: 5.0,
+    finest: 0.22,
+    coarser: 2.1,
+    slopes: [0.040, 0.046, 0.050, 0.046, 0.036, 0.026, 0.018, 0.012],
+    swells: swells(DMat2::from_cols(DVec2::new(0.96, 0.28), DVec2::new(-0.28, 0.96)), 0.6, (0.4, 0.9)),
+    calm: 0.022,
+    hidden_from: 1.1,
+    longest: 60.0,
 });
 
 /// Returns the radiance from a unit direction, averaged over a footprint in radians.
@@ -186,36 +185,13 @@ fn hills(d: DVec3, footprint: f64, behind: DVec3, from_sun: f64) -> DVec3 {
     })
 }
 
-/// Returns the slope of the waves at a point of the water, and the variance of those that are finer than the footprint
-/// there (along the view and across it).
-fn waves(p: DVec2, along: f64) -> (DVec2, f64) {
-    let (mut slope, mut hidden) = (DVec2::ZERO, CALM * CALM);
-    let mut length = FINEST;
-    for (k, (strength, swell)) in SLOPES.into_iter().zip(SWELLS.iter()).enumerate() {
-        let seen = 1.0 - ramp(0.35, 1.1, along / length);
-        if seen > 0.0 {
-            let (_, g) = noise(*swell * p / (0.5 * length), 60 + k as u32);
-            slope += swell.transpose() * g * (1.5 * strength * seen);
-        }
-        hidden += strength * strength * (1.0 - seen * seen);
-        length *= COARSER;
-    }
-    (slope, hidden)
-}
-
 /// Returns the water: the sky and the sun in its waves.
 fn water(d: DVec3, footprint: f64) -> DVec3 {
-    let down = (-d.z).max(0.25 * footprint).max(1e-4);
-    let distance = EYE / down;
-    let p = d.truncate() * distance;
-    let (slope, hidden) = waves(p, footprint * distance * (1.0 / down).min(60.0).sqrt());
-    let normal = DVec3::new(-slope.x, -slope.y, 1.0) / (1.0 + slope.length_squared()).sqrt();
-    let facing = normal.dot(-d).max(0.0);
+    let WaterPoint { distance, slope, hidden, facing, mut mirrored } = WAVES.met(d, footprint);
     // Rough water is seen by the sides of waves that face the eye.
     let spread = hidden.sqrt();
     let facing = (facing * facing + 0.6 * hidden).sqrt().min(1.0);
     let fresnel = 0.02 + 0.98 * (1.0 - facing).powi(5);
-    let mut mirrored = d + 2.0 * facing * normal;
     mirrored.z = mirrored.z.abs() + 0.7 * spread;
     let mirrored = mirrored / mirrored.length();
     let seen = MIRRORED.at(around(mirrored), mirrored.z.max(0.0).sqrt());

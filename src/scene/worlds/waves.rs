@@ -1,0 +1,77 @@
+//! Water with waves: octaves of smooth noise. Waves wider than the footprint of a look have their shape; the finer ones add
+//! to the spread of slopes.
+
+use super::noise::{noise, ramp};
+use glam::{DMat2, DVec2, DVec3};
+
+/// The seed of the first octave's noise.
+const SEED: u32 = 60;
+
+/// Water with `N` octaves of waves, seen from a height above it.
+pub(super) struct Waves<const N: usize> {
+    /// Height of the eye above the water in metres; it sets how far apart waves seem.
+    pub eye: f64,
+    /// The length of the finest waves in metres.
+    pub finest: f64,
+    /// The factor from one length to the next.
+    pub coarser: f64,
+    /// The slope of each octave.
+    pub slopes: [f64; N],
+    /// How each octave is turned, and drawn out along its crests.
+    pub swells: [DMat2; N],
+    /// The spread of slopes that no footprint resolves.
+    pub calm: f64,
+    /// The footprint, as a part of their length, from which on waves have no shape.
+    pub hidden_from: f64,
+    /// How much longer than wide a footprint on the water counts at most.
+    pub longest: f64,
+}
+
+/// What a look meets on the water.
+pub(super) struct WaterPoint {
+    /// The distance to it in metres.
+    pub distance: f64,
+    /// The slope of the waves that have a shape.
+    pub slope: DVec2,
+    /// The variance of the slopes of those that are finer than the footprint, along the view and across it.
+    pub hidden: f64,
+    /// The cosine between the look and the normal, 0 where the water faces away.
+    pub facing: f64,
+    /// The direction in which the look is reflected, of length 1.
+    pub mirrored: DVec3,
+}
+
+/// Returns how each of `N` octaves is turned: by `step` from one to the next, from `first` on, in radians. Waves are as many
+/// times as long along their crests as 1 is of `drawn_out`, in the axes of `wind`.
+pub(super) fn swells<const N: usize>(wind: DMat2, drawn_out: f64, (first, step): (f64, f64)) -> [DMat2; N] {
+    let drawn_out = DMat2::from_diagonal(DVec2::new(1.0, drawn_out));
+    std::array::from_fn(|k| drawn_out * wind * DMat2::from_angle(step * k as f64 + first))
+}
+
+impl<const N: usize> Waves<N> {
+    /// Returns what a look down in a unit direction meets; the footprint is in radians.
+    pub fn met(&self, d: DVec3, footprint: f64) -> WaterPoint {
+        let down = (-d.z).max(0.25 * footprint).max(1e-4);
+        let distance = self.eye / down;
+        let along = footprint * distance * (1.0 / down).min(self.longest).sqrt();
+        let (slope, hidden) = self.slope(d.truncate() * distance, along);
+        let normal = DVec3::new(-slope.x, -slope.y, 1.0) / (1.0 + slope.length_squared()).sqrt();
+        let facing = normal.dot(-d).max(0.0);
+        WaterPoint { distance, slope, hidden, facing, mirrored: d + 2.0 * facing * normal }
+    }
+
+    /// Returns the slope at a point of the water, and the variance of the slopes that are finer than a length.
+    fn slope(&self, p: DVec2, along: f64) -> (DVec2, f64) {
+        let (mut slope, mut hidden, mut length) = (DVec2::ZERO, self.calm * self.calm, self.finest);
+        for (k, (strength, swell)) in self.slopes.into_iter().zip(&self.swells).enumerate() {
+            let seen = 1.0 - ramp(0.35, self.hidden_from, along / length);
+            if seen > 0.0 {
+                let (_, g) = noise(*swell * p / (0.5 * length), SEED + k as u32);
+                slope += swell.transpose() * g * (1.5 * strength * seen);
+            }
+            hidden += strength * strength * (1.0 - seen * seen);
+            length *= self.coarser;
+        }
+        (slope, hidden)
+    }
+}
