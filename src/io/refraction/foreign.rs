@@ -30,6 +30,8 @@ const BEYOND: f64 = 0.1;
 /// The places of one picture, and what is unusual about it.
 pub(super) struct ForeignPlaces {
     pub places: Vec<SourcePlace>,
+    /// Whether the weights say what light the glass has lost.
+    pub has_weights: bool,
     pub notes: Vec<String>,
     pub warnings: Vec<String>,
 }
@@ -152,7 +154,7 @@ fn of_tiles(seen: Seen) -> Result<ForeignPlaces, Fault> {
         SourcePlace { u: at.x as f32, v: at.y as f32, weight }
     };
     let places = codes.iter().zip(&at).zip(&seen.alpha).map(place).collect();
-    Ok(ForeignPlaces { places, notes: seen.notes, warnings })
+    Ok(ForeignPlaces { places, has_weights: false, notes: seen.notes, warnings })
 }
 
 fn of_gradient(seen: Seen) -> Result<ForeignPlaces, Fault> {
@@ -204,7 +206,7 @@ fn of_gradient(seen: Seen) -> Result<ForeignPlaces, Fault> {
         SourcePlace { u: at.x, v: at.y, weight: (blue * seen.alpha[k]).clamp(0.0, 1.0) }
     };
     let places = (0..at.len()).map(place).collect();
-    Ok(ForeignPlaces { places, notes: seen.notes, warnings })
+    Ok(ForeignPlaces { places, has_weights: true, notes: seen.notes, warnings })
 }
 
 /// What counts as three places in a row that run straight.

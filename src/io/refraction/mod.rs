@@ -7,6 +7,7 @@
 mod codes;
 mod foreign;
 mod mending;
+mod packing;
 mod page;
 mod read;
 mod template;

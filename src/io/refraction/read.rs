@@ -88,21 +88,20 @@ fn foreign_map(
     let (mut bands, mut notes, mut warnings) = (vec![], vec![], vec![]);
     for (k, (path, codes)) in pictures.iter().zip(all).enumerate() {
         let label = path.display();
-        let found = foreign::places(codes, template).map_err(|fault| fault.in_file(&label))?;
+        let mut found = foreign::places(codes, template).map_err(|fault| fault.in_file(&label))?;
+        if let Some(layer) = layer.as_ref().filter(|_| !found.has_weights) {
+            // What the layer hides does not come from the background.
+            found
+                .places
+                .iter_mut()
+                .zip(&layer.pixels)
+                .for_each(|(place, light)| place.weight *= 1.0 - light[3]);
+        }
         notes.extend(found.notes.into_iter().map(|note| format!("{label}: {note}")));
         warnings.extend(found.warnings.into_iter().map(|warning| format!("{label}: {warning}")));
         let one = DMat3::from_diagonal(DVec3::AXES[k]);
         let (nm, response) = if all.len() == 1 { (ALL, DMat3::IDENTITY) } else { (COLOURS[k], one) };
         bands.push(MapBand { nm, response, places: found.places });
-    }
-    if let Some(layer) = &layer {
-        // What the layer hides does not come from the background.
-        for band in &mut bands {
-            band.places
-                .iter_mut()
-                .zip(&layer.pixels)
-                .for_each(|(place, light)| place.weight *= 1.0 - light[3]);
-        }
     }
     let mut pixels = covers(&bands);
     let light = layer.into_iter().flat_map(|layer| layer.pixels);
