@@ -84,6 +84,14 @@ fn loaded(size: [u32; 2], colours: &[[f64; 3]], bits: u32) -> Result<LoadedMap, 
     files::read(&[path], None, None).map_err(|e| e.to_string())
 }
 
+/// Returns why a foreign picture is refused.
+fn refused(size: [u32; 2], colours: &[[f64; 3]], bits: u32) -> String {
+    match loaded(size, colours, bits) {
+        Err(error) => error,
+        Ok(found) => panic!("it is read, with {:?} and {:?}", found.warnings, found.notes),
+    }
+}
+
 fn shoot(size: [u32; 2]) -> Shoot {
     Shoot { size, both_sides: true, ..Shoot::of(brilliant(), diamond()) }
 }
@@ -191,7 +199,7 @@ fn borders_of_tiles_that_antialiasing_damaged_are_mended_and_counted() {
         100.0 * before,
         100.0 * after
     );
-    assert!(before > 0.08 && after < 0.25 * before, "{before}, {after}");
+    assert!(before > 0.08 && after < 0.4 * before, "{before}, {after}");
     // A map that is not antialiased is left as it is, even one full of small facets.
     let (map, _) = shoot([160, 120]).map();
     let colours = rendered(&map, &template, false);
@@ -236,14 +244,14 @@ fn what_is_no_map_is_an_error_and_a_tone_curve_is_named() {
     let colours: Vec<[f64; 3]> =
         photo.pixels.iter().map(|p| p.map(|c| encoded_from_linear(c.into()))).collect();
     for bits in [8, 16] {
-        let error = loaded(size, &colours, bits).unwrap_err();
+        let error = refused(size, &colours, bits);
         assert!(error.contains("foreign.png: this is no map"), "{bits}: {error}");
     }
     let (map, _) = shoot([160, 120]).map();
     let curved = |kind, loses| -> Vec<[f64; 3]> {
         rendered(&map, &template(kind), loses).iter().map(|c| c.map(encoded_from_linear)).collect()
     };
-    let error = loaded(map.size, &curved(Template::Tiles, false), 8).unwrap_err();
+    let error = refused(map.size, &curved(Template::Tiles, false), 8);
     assert!(error.contains("a tone curve has changed its numbers"), "{error}");
     let found = loaded(map.size, &curved(Template::Gradient, false), 16).unwrap();
     assert!(found.warnings.iter().any(|w| w.contains("a tone curve seems")), "{:?}", found.warnings);

@@ -123,21 +123,22 @@ fn of_tiles(seen: Seen) -> Result<ForeignPlaces, Fault> {
         let place = |colour: [f32; 3]| (tiles::place(code(colour)), code(colour)[2]);
         seen.colours.iter().map(|colour| colour.map(place)).collect()
     };
-    let (found, all) = straight.count(&decoded(|part| part), seen.width);
-    if all >= FEWEST && (found as f64) < STRAIGHT * all as f64 {
-        let undone =
-            [linear_from_encoded, encoded_from_linear].map(|c| straight.count(&decoded(c), seen.width));
-        let is_curved =
-            |&(found, all): &(usize, usize)| found >= FEWEST && found as f64 >= STRAIGHT * all as f64;
-        return Err(if undone.iter().any(is_curved) {
-            "a tone curve has changed its numbers, which destroys tiles: read the template as Non-Color (Raw) data and \
-             render with the view transform Raw, or use the gradient of 16 bits"
-                .into()
-        } else {
-            "this is no map in tiles: its places run nowhere straight from tile to tile. Render the tiled template \
-             unlit, unfiltered and by the view transform Raw, or say --coding gradient if it is that one"
-                .into()
-        });
+    let share = |curve| {
+        let (found, all) = straight.count(&decoded(curve), seen.width);
+        if all < FEWEST { 1.0 } else { found as f64 / all as f64 }
+    };
+    let own = share(|part| part);
+    if own < 1.0
+        && share(linear_from_encoded).max(share(encoded_from_linear)) > STRAIGHT.max(STRAIGHTER * own)
+    {
+        return Err("a tone curve has changed its numbers, which destroys tiles: read the template as Non-Color (Raw) data \
+                    and render with the view transform Raw, or use the gradient of 16 bits"
+            .into());
+    }
+    if own < STRAIGHT {
+        return Err("this is no map in tiles: its places run nowhere straight from tile to tile. Render the tiled template \
+                    unlit, unfiltered and by the view transform Raw, or say --coding gradient if it is that one"
+            .into());
     }
     let mut codes: Vec<_> = seen.colours.iter().map(|colour| colour.as_ref().map(bytes)).collect();
     let mut at: Vec<DVec2> = codes.iter().map(|code| code.map_or(DVec2::ZERO, tiles::place)).collect();

@@ -11,13 +11,17 @@ const STEP: f64 = 16.0 / 255.0 / 255.0;
 const NEAR: f64 = 12.0 / 255.0;
 
 /// The part of the way between its neighbours, besides three steps, by which an intact place is off their middle at most.
-const BENT: f64 = 0.15;
+const BENT: f64 = 0.08;
 
-/// The part of the borders that is damaged in every antialiased picture. Below it, what looks damaged is the map's own.
-const DAMAGED: f64 = 0.02;
+/// The number of damaged pixels for each intact border from which on a picture is antialiased. There nearly every border is
+/// damaged; in a map of many small facets up to a tenth looks so.
+const DAMAGED: f64 = 0.25;
 
 /// How far, in codes, a mixture of two places is off the straight line between their codes at most.
-const OFF: f64 = 3.0;
+const OFF: f64 = 6.0;
+
+/// The directions to neighbours; the opposite ones follow.
+const AROUND: [(isize, isize); 4] = [(1, 0), (0, 1), (1, 1), (1, -1)];
 
 /// The number of pixels that were mended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -26,6 +30,16 @@ pub(super) struct Mended {
     pub borders: usize,
     /// Pixels on edges of the picture's surfaces, which took the place of the nearer neighbour.
     pub edges: usize,
+}
+
+/// What two pixels tell of one between them.
+struct Between {
+    /// How far apart their places are.
+    way: f64,
+    /// The place that the one between should have.
+    middle: DVec2,
+    /// Whether it has this place.
+    is_intact: bool,
 }
 
 /// The codes and places of a picture.
@@ -69,47 +83,49 @@ impl Picture<'_> {
         self.codes.get(found).copied().flatten().map(|_| found)
     }
 
-    /// Returns where a pixel should be that mixes the tiles of its neighbours; `None` for an intact one.
+    /// Returns where a pixel should be that mixes the tiles of its neighbours; `None` for an intact one. The nearest
+    /// neighbours on both sides that tell decide: farther ones bend more.
     fn on_border(&self, k: usize) -> Option<DVec2> {
-        let own = self.codes[k]?;
-        let mut best: Option<(f64, DVec2)> = None;
-        for direction in [(1, 0), (0, 1), (1, 1), (1, -1)] {
-            for (back, on) in [(1, 1), (1, 2), (2, 1), (2, 2)] {
-                let ends = (self.beside(k, direction, -back), self.beside(k, direction, on));
-                let (Some(a), Some(b)) = ends else { continue };
-                let (Some(first), Some(last)) = (self.codes[a], self.codes[b]) else { continue };
-                let way = distance(self.places[a], self.places[b]);
-                let is_between = (0..3).all(|c| {
-                    let (low, high) = (first[c].min(last[c]), first[c].max(last[c]));
-                    (low.saturating_sub(2)..=high.saturating_add(2)).contains(&own[c])
-                });
-                if first[2] == last[2] || way > NEAR || !is_between {
-                    continue;
-                }
-                let middle = self.places[a].lerp(self.places[b], back as f64 / (back + on) as f64);
-                // Farther neighbours decide only where nearer ones do not.
-                let worth = way + NEAR * (back + on) as f64;
-                if distance(self.places[k], middle) <= 3.0 * STEP + BENT * way {
-                    return None;
-                }
-                if best.is_none_or(|(least, _)| worth < least) {
-                    best = Some((worth, middle));
-                }
+        for (back, on) in [(1, 1), (1, 2), (2, 1), (2, 2)] {
+            let told = AROUND.into_iter().filter_map(|direction| {
+                let (a, b) = (self.beside(k, direction, -back)?, self.beside(k, direction, on)?);
+                self.between(k, a, b, back as f64 / (back + on) as f64)
+            });
+            let told: Vec<Between> = told.collect();
+            if told.iter().any(|between| between.is_intact) {
+                return None;
+            }
+            if let Some(nearest) = told.into_iter().min_by(|a, b| a.way.total_cmp(&b.way)) {
+                return Some(nearest.middle);
             }
         }
-        best.map(|(_, middle)| middle)
+        None
+    }
+
+    /// Returns what two pixels on both sides tell of the one between; `None` where they are of one tile, or not of one
+    /// surface, or the pixel's code is no mixture of theirs.
+    fn between(&self, k: usize, a: usize, b: usize, part: f64) -> Option<Between> {
+        let (own, first, last) = (self.codes[k]?, self.codes[a]?, self.codes[b]?);
+        let way = distance(self.places[a], self.places[b]);
+        let is_mixture = (0..3).all(|c| {
+            let (low, high) = (first[c].min(last[c]), first[c].max(last[c]));
+            (low.saturating_sub(2)..=high.saturating_add(2)).contains(&own[c])
+        });
+        let middle = self.places[a].lerp(self.places[b], part);
+        let is_intact = distance(self.places[k], middle) <= 3.0 * STEP + BENT * way;
+        let tells = first[2] != last[2] && way <= NEAR && (is_mixture || is_intact);
+        tells.then_some(Between { way, middle, is_intact })
     }
 
     /// Returns the place of the nearer of two neighbours whose codes a lonely pixel mixes; `None` for other pixels.
     fn on_edge(&self, k: usize) -> Option<DVec2> {
         let own = self.codes[k]?.map(f64::from);
-        let around = [(1, 0), (0, 1), (1, 1), (1, -1)];
         let is_near =
             |at: Option<usize>| at.is_some_and(|at| distance(self.places[at], self.places[k]) < NEAR);
-        if around.iter().any(|&d| is_near(self.beside(k, d, 1)) || is_near(self.beside(k, d, -1))) {
+        if AROUND.iter().any(|&d| is_near(self.beside(k, d, 1)) || is_near(self.beside(k, d, -1))) {
             return None;
         }
-        around.into_iter().find_map(|direction| {
+        AROUND.into_iter().find_map(|direction| {
             let (a, b) = (self.beside(k, direction, -1)?, self.beside(k, direction, 1)?);
             let (first, last) = (self.codes[a]?.map(f64::from), self.codes[b]?.map(f64::from));
             let ways = [0, 1, 2].map(|c| last[c] - first[c]);
