@@ -12,6 +12,7 @@ mod export;
 mod info;
 mod liquid_glass;
 mod lists;
+mod map_files;
 mod measure;
 mod mesh_options;
 mod names;
@@ -19,6 +20,7 @@ mod options;
 mod picture_options;
 mod picturing;
 mod progress;
+mod refraction_import;
 mod refraction_map;
 mod render;
 mod shell;
@@ -89,6 +91,10 @@ enum Command {
     Spin(spin::Spin),
     /// Map where the light behind each pixel comes from, for pages that look up a moving background by the map
     RefractionMap(refraction_map::RefractionMaps),
+    /// Write the gradient that another renderer shows through its glass, to make a refraction map
+    RefractionTemplate(refraction_import::RefractionTemplate),
+    /// Take a picture that another renderer made of the template as a refraction map: page, files and look-up
+    RefractionImport(refraction_import::RefractionImport),
     /// Draw a pane of liquid glass over a background as screens do, and trace the same pane beside it
     LiquidGlass(liquid_glass::LiquidGlass),
     /// Measure the light of one view: what comes from where, with its error
@@ -195,6 +201,8 @@ impl Command {
             Self::Render(render) => render.run(),
             Self::Spin(spin) => spin.run(),
             Self::RefractionMap(maps) => maps.run(),
+            Self::RefractionTemplate(template) => template.run(),
+            Self::RefractionImport(import) => import.run(),
             Self::LiquidGlass(glass) => glass.run(),
             Self::Measure(measure) => measure.run(),
             Self::Info(info) => info.run(),

@@ -3,22 +3,20 @@
 
 use super::batch::{distinct, each_file};
 use super::console::say;
+use super::map_files::{MapFiles, MapKind, folder, kinds_or_usual};
 use super::options::{ViewOptions, number};
 use super::picture_options::{FinishOptions, PictureOptions};
 use super::picturing::{PictureSetup, within};
 use super::progress::WorkProgress;
 use super::specimen::stem;
+use crate::io::Failure;
 use crate::io::background::BackgroundRef;
 use crate::io::export::Event;
-use crate::io::refraction::{
-    self as files, Coding, MOST_MAP_BANDS, MOST_MAP_PIXELS, MOST_MEGABYTES, MOST_PLACES, Page, takes,
-    write_page,
-};
-use crate::io::{Failure, is_standard, write_rgba_png};
-use crate::picture::{Backdrop, Background, Carried, Develop, RefractionMap, Tone, develop, refract};
+use crate::io::refraction::{MOST_MAP_BANDS, MOST_MAP_PIXELS, MOST_PLACES};
+use crate::picture::{Backdrop, Background, Carried};
 use crate::render::{Card, Job, MapProduct, Product, Rendered, Renderer};
 use crate::scene::{Film, View};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use glam::DVec2;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -33,7 +31,7 @@ pub struct RefractionMaps {
     out: PathBuf,
     /// What to write, separated by commas [default: tiled,page, and preview with a photograph]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KIND")]
-    format: Vec<Kind>,
+    format: Vec<MapKind>,
     /// Make one map for each of N bands of wavelengths, 1 to 16, so that the look-up shows a rainbow
     #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_MAP_BANDS)))]
     bands: u32,
@@ -53,29 +51,13 @@ pub struct RefractionMaps {
     picture: PictureOptions,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Kind {
-    /// 8-bit PNG of 16 by 16 tiles, and the diffuse layer
-    Tiled,
-    /// 16-bit PNG: u, v and weight, and the diffuse layer
-    Png16,
-    /// OpenEXR: u, v and weight in 32 bits, and the diffuse layer
-    Exr,
-    /// A web page that refracts a moving background
-    Page,
-    /// The photograph of --background, refracted by the map
-    Preview,
-}
-
 impl RefractionMaps {
     pub fn run(&self) -> Result<(), Failure> {
         let refuse = |message: String| Err(Failure::Usage(message));
         if self.picture.size.iter().any(|&side| side > MOST_MAP_PIXELS) {
             return refuse(format!("--size: a map has {MOST_MAP_PIXELS} pixels each way at most"));
         }
-        if is_standard(&self.out) {
-            return refuse("--out -: several files are written; give a folder".into());
-        }
+        folder(&self.out)?;
         if self.bands * self.places > MOST_MAP_BANDS {
             let all = self.bands * self.places;
             return refuse(format!(
@@ -109,7 +91,7 @@ impl RefractionMaps {
             ));
             studio.strength = 1.0;
         }
-        let kinds = self.kinds(studio.photo.is_some())?;
+        let kinds = kinds_or_usual(&self.format, studio.photo.is_some())?;
         let bar = WorkProgress::new(&studio.assembly.name);
         let rendered = self.trace(&studio, &view, &bar)?;
         let tracer = rendered.backend.description();
@@ -130,17 +112,17 @@ impl RefractionMaps {
             100.0 * single,
             studio.viewpoint.description()
         );
-        self.write(file, &studio, &map, (&kinds, &description, &viewpoint.suffix()), &bar)
-    }
-
-    fn kinds(&self, has_photo: bool) -> Result<Vec<Kind>, Failure> {
-        if self.format.contains(&Kind::Preview) && !has_photo {
-            return Err(Failure::Usage(
-                "--format preview: give a pattern or a photograph by --background".into(),
-            ));
-        }
-        let usual = [Kind::Tiled, Kind::Page].into_iter().chain(has_photo.then_some(Kind::Preview));
-        Ok(if self.format.is_empty() { usual.collect() } else { self.format.clone() })
+        let files = MapFiles {
+            out: &self.out,
+            stem: &format!("{}{}", stem(file), viewpoint.suffix()),
+            kinds: &kinds,
+            title: &studio.assembly.name,
+            description: &description,
+            span: self.span,
+            background: &studio.background,
+            photo: studio.photo.as_ref().map(|photo| photo.picture()),
+        };
+        files.write(&map, &|path| bar.report(Event::Written(path)))
     }
 
     fn trace(&self, studio: &PictureSetup, view: &View, bar: &WorkProgress) -> Result<Rendered, Failure> {
@@ -165,67 +147,5 @@ impl RefractionMaps {
         let job = Job { scene: setting, view: *view, film, product, quality: studio.quality() };
         let mut renderer = Renderer::new(Card::None);
         renderer.run(&job, &bar.watch(), &mut |_| Ok(()))
-    }
-
-    fn write(
-        &self,
-        file: &Path,
-        studio: &PictureSetup,
-        map: &RefractionMap,
-        (kinds, description, suffix): (&[Kind], &str, &str),
-        bar: &WorkProgress,
-    ) -> Result<(), Failure> {
-        let stem = format!("{}{suffix}", stem(file));
-        let written = |path: PathBuf| bar.report(Event::Written(&path));
-        for (kind, coding) in
-            [(Kind::Tiled, Coding::Tiles), (Kind::Png16, Coding::Sixteen), (Kind::Exr, Coding::Float)]
-        {
-            if kinds.contains(&kind) {
-                let paths = files::paths(&self.out, &stem, map.bands.len(), coding);
-                files::write_places(&paths, map, coding, description)?;
-                paths.into_iter().try_for_each(written)?;
-            }
-        }
-        if kinds.iter().any(|kind| matches!(kind, Kind::Tiled | Kind::Png16 | Kind::Exr)) {
-            let path = files::diffuse_path(&self.out, &stem);
-            files::write_diffuse(&path, map, description)?;
-            written(path)?;
-        }
-        if kinds.contains(&Kind::Page) {
-            let path = self.out.join(format!("{stem}-refraction.html"));
-            let background = self.background(studio)?;
-            let ground = studio.background.title();
-            let title = studio.assembly.name.as_str();
-            let background = background.as_deref().map(|bytes| (ground.as_str(), bytes));
-            write_page(&path, map, &Page { title, description, span: self.span, background })?;
-            written(path)?;
-        }
-        if let (true, Some(photo)) = (kinds.contains(&Kind::Preview), &studio.photo) {
-            let path = self.out.join(format!("{stem}-refraction-preview.png"));
-            // The diffuse layer is developed already, and the photograph shows as it is.
-            let manner = Develop { bloom: None, tone: Tone::Linear, ..Develop::default() };
-            let [width, height] = map.size;
-            write_rgba_png(
-                &path,
-                &develop(&refract(map, photo.picture(), DVec2::ZERO), &manner),
-                (width, height),
-                description,
-            )?;
-            written(path)?;
-        }
-        Ok(())
-    }
-
-    /// Returns the bytes of the pattern's or photograph's file for the page. Where the page cannot take them, it returns
-    /// `None` and prints a note.
-    fn background(&self, studio: &PictureSetup) -> Result<Option<Vec<u8>>, Failure> {
-        let Some(bytes) = studio.background.bytes()? else { return Ok(None) };
-        if takes(&bytes) {
-            return Ok(Some(bytes));
-        }
-        say(&format!(
-            "note: the photograph is not put into the page, which takes PNG and JPEG of up to {MOST_MEGABYTES} MiB"
-        ));
-        Ok(None)
     }
 }

@@ -107,7 +107,7 @@ fn raw(path: &Path) -> Result<Raw, Fault> {
 }
 
 /// Refuses sides out of bounds, and more pixels than `bytes` bytes can hold.
-fn check_size(width: u64, height: u64, bytes: u64) -> Result<(), Fault> {
+pub(super) fn check_size(width: u64, height: u64, bytes: u64) -> Result<(), Fault> {
     if width == 0 || height == 0 {
         return Err(format!("{width} by {height} pixels: there is no picture in it").into());
     }

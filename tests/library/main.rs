@@ -16,6 +16,7 @@ mod corpus_gem;
 mod estimates;
 mod fields;
 mod floors;
+mod foreign_maps;
 mod fuzz;
 mod glass;
 mod hues;

@@ -20,18 +20,18 @@ const HALF: f64 = 1.1;
 const DISTANCE: f64 = 2.5;
 
 /// The scene, the view and the background to map.
-struct Shoot {
-    setting: Scene,
-    view: View,
-    size: [u32; 2],
-    light: Light,
-    span: f64,
-    bands: u32,
-    places: u32,
-    both_sides: bool,
+pub(super) struct Shoot {
+    pub(super) setting: Scene,
+    pub(super) view: View,
+    pub(super) size: [u32; 2],
+    pub(super) light: Light,
+    pub(super) span: f64,
+    pub(super) bands: u32,
+    pub(super) places: u32,
+    pub(super) both_sides: bool,
 }
 
-fn boxed(low: DVec3, high: DVec3) -> Polytope {
+pub(super) fn boxed(low: DVec3, high: DVec3) -> Polytope {
     let planes =
         [DVec3::X, DVec3::Y, DVec3::Z].into_iter().zip(low.to_array().into_iter().zip(high.to_array()));
     let both = planes.flat_map(|(normal, (low, high))| {
@@ -40,11 +40,11 @@ fn boxed(low: DVec3, high: DVec3) -> Polytope {
     Polytope::from_planes(&both.collect::<Vec<_>>()).unwrap()
 }
 
-fn glass(index: f64) -> Material {
+pub(super) fn glass(index: f64) -> Material {
     Material::from_index("glass", index).unwrap()
 }
 
-fn diamond() -> Material {
+pub(super) fn diamond() -> Material {
     material("diamond").unwrap().clone()
 }
 
@@ -53,7 +53,7 @@ fn dark() -> Light {
 }
 
 /// Returns a photograph in the pictures' aspect ratio: a picture by the program, which has all sorts of edges and colours.
-fn photo() -> Panorama {
+pub(super) fn photo() -> Panorama {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/images/gallery/ring.png");
     let Panorama { width, height, pixels } = panorama::read_photo(&path).unwrap().panorama;
     // The map does not hold what rays meet outside the map's plane.
@@ -64,7 +64,7 @@ fn photo() -> Panorama {
 }
 
 impl Shoot {
-    fn of(solid: Polytope, material: Material) -> Self {
+    pub(super) fn of(solid: Polytope, material: Material) -> Self {
         Self {
             setting: Scene { instances: vec![Instance::new(solid, material)], unit_mm: 3.0 },
             view: View::default(),
@@ -113,7 +113,7 @@ impl Shoot {
         work(&LitScene { scene: &self.setting, environment, view: &self.view, film: self.film(), options })
     }
 
-    fn map(&self) -> (RefractionMap, Carried) {
+    pub(super) fn map(&self) -> (RefractionMap, Carried) {
         let bands = Strata::of_middles(self.bands, &Illuminant::D65, true);
         let survey = Survey { bands: &bands, places: self.places, shades: &bands, passes: 1 };
         self.with_lit_scene(None, |s| RefractionMap::trace(s, &self.plane(), &survey, &unwatched)).unwrap()
@@ -131,7 +131,7 @@ impl Shoot {
 }
 
 /// Returns the peak signal-to-noise ratio, in dB, between two pictures in eight-bit codes.
-fn psnr(a: &Linear, b: &Linear) -> f64 {
+pub(super) fn psnr(a: &Linear, b: &Linear) -> f64 {
     assert_eq!((a.width, a.height), (b.width, b.height));
     let code = |c: f32| (encoded_from_linear(f64::from(c).clamp(0.0, 1.0)) * 255.0).round();
     let squares = a
@@ -153,7 +153,7 @@ fn written(map: &RefractionMap, coding: Coding) -> RefractionMap {
     maps::read(&paths, &diffuse)
 }
 
-fn brilliant() -> Polytope {
+pub(super) fn brilliant() -> Polytope {
     let (_, path) = common::cut_files().into_iter().find(|(name, _)| name == "modern-ideal").unwrap();
     common::stone(&path).polytope
 }

@@ -5,7 +5,7 @@
 use crate::maps;
 use brillianteer::io::{panorama, refraction};
 use brillianteer::optics::encoded_from_linear;
-use brillianteer::picture::{Linear, refract};
+use brillianteer::picture::{Linear, SourcePlace, refract};
 use glam::DVec2;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -150,4 +150,81 @@ fn the_page_moves_has_its_controls_and_says_when_it_cannot() {
     let without =
         open(&browser, folder.path(), page, &[&["--disable-3d-apis", "--disable-gpu"][..], &dump].concat());
     assert!(without.contains("This browser has no WebGL 2"), "the page is silent without WebGL");
+}
+
+/// Writes what another renderer would make of the gradient by the map of a file in OpenEXR: 16 bits, the nearest pixel of
+/// the template, dark by the weight.
+fn rendered_elsewhere(folder: &Path, map: &refraction::LoadedMap) {
+    const SIDE: f32 = 4096.0;
+    let nearest = |part: f32| ((part * SIDE).floor().min(SIDE - 1.0) + 0.5) / SIDE;
+    let code = |part: f32| ((part * 65_535.0).round() as u16).to_be_bytes();
+    let colour = |place: &SourcePlace| {
+        [nearest(place.u), nearest(place.v), 1.0].map(|part| code(part * place.weight)).into_iter().flatten()
+    };
+    let data: Vec<u8> = map.map.bands[0].places.iter().flat_map(colour).collect();
+    let file = std::fs::File::create(folder.join("foreign.png")).unwrap();
+    let mut encoder = png::Encoder::new(file, map.map.size[0], map.map.size[1]);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Sixteen);
+    encoder.write_header().unwrap().write_image_data(&data).unwrap();
+}
+
+#[test]
+fn the_page_of_a_foreign_map_shows_the_picture_of_the_own_page() {
+    let Some(browser) = browser() else { return };
+    let folder = made("--background photo.png --both-sides --format exr,page");
+    let stem = "modern-ideal";
+    let own = refraction::read(
+        &refraction::paths(folder.path(), stem, 1, refraction::Coding::Float),
+        Some(&refraction::diffuse_path(folder.path(), stem)),
+        None,
+    );
+    rendered_elsewhere(folder.path(), &own.unwrap());
+    let output = Command::new(env!("CARGO_BIN_EXE_brillianteer"))
+        .current_dir(folder.path())
+        .args(["refraction-import", "foreign.png", "--background", "photo.png", "--out", "."])
+        .arg("--diffuse")
+        .arg(refraction::diffuse_path(folder.path(), stem))
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let seen = |page: &str| {
+        let picture = folder.path().join(format!("{page}.png"));
+        let shoot = format!("--screenshot={}", picture.display());
+        let address = format!("{page}-refraction.html#still,0.125,0.25");
+        let more = ["--window-size=400,300", &shoot];
+        open(&browser, folder.path(), &address, &[&SOFTWARE[..], &more].concat());
+        shot(&picture)
+    };
+    let (own, foreign) = (seen(stem), seen("foreign"));
+    let mut mirrored = own.clone();
+    mirrored.chunks_mut(200).for_each(<[_]>::reverse);
+    let (same, other) = (psnr(&own, &foreign), psnr(&mirrored, &foreign));
+    eprintln!("{same:.1} dB; against its mirror image {other:.1} dB");
+    assert!(same >= 40.0 && other < 30.0, "{same} and {other} dB");
+}
+
+#[test]
+fn the_page_measures_its_start_and_its_frames() {
+    let Some(browser) = browser() else { return };
+    let folder = made("");
+    let page = "modern-ideal-refraction.html#timing,20";
+    let shown = open(&browser, folder.path(), page, &[&SOFTWARE[..], &["--dump-dom"]].concat());
+    let (_, after) = shown.split_once("data-timing=\"").expect("the page says how long it took");
+    let text = after.split('"').next().unwrap().replace("&quot;", "\"");
+    let found: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let mut frames: Vec<f64> =
+        found["frames"].as_array().unwrap().iter().map(|ms| ms.as_f64().unwrap()).collect();
+    assert_eq!(frames.len(), 20);
+    frames.sort_by(f64::total_cmp);
+    let first = found["first"].as_f64().unwrap();
+    eprintln!("first picture after {first:.0} ms, a frame in {:.0} ms (median)", frames[10]);
+    assert!(first > 0.0 && frames[0] >= 0.0);
+    let without = open(
+        &browser,
+        folder.path(),
+        "modern-ideal-refraction.html",
+        &[&SOFTWARE[..], &["--dump-dom"]].concat(),
+    );
+    assert!(!without.contains("data-timing="), "a page measures only if it is asked to");
 }

@@ -1,14 +1,23 @@
 //! Writes refraction maps: tiled 8-bit PNG, 16-bit PNG, OpenEXR, the diffuse layer beside them, and a page that shows them.
+//! Writes the template that another renderer makes a map of, and reads such maps and the program's own.
 //!
 //! No map is antialiased, filtered or coded as colour: a look-up takes the nearest pixel, and no program may change the
 //! numbers of a map as if they were light. The diffuse layer is colour: sRGB, not premultiplied, laid over in linear light.
 
+mod codes;
+mod foreign;
+mod mending;
+mod packing;
 mod page;
+mod read;
+mod template;
 #[cfg(test)]
 mod tests;
 mod tiles;
 
 pub use page::{MOST_MEGABYTES, Page, takes, write_page};
+pub use read::{LoadedMap, read};
+pub use template::{Template, write_template};
 pub use tiles::code_of;
 
 use super::atomic::{WriteError, write};
@@ -17,7 +26,8 @@ use super::png_bytes::png;
 use crate::optics::SrgbEncoder;
 use crate::picture::{Linear, MapBand, RefractionMap, SourcePlace};
 use ::png::{BitDepth, ColorType, EncodingError};
-use serde::Serialize;
+use glam::DMat3;
+use serde::{Deserialize, Serialize};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -47,7 +57,7 @@ pub enum Coding {
 }
 
 /// What a file says of a band: its wavelength in nm, and the columns of its response.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 struct About {
     nm: f64,
     response: [[f64; 3]; 3],
@@ -56,6 +66,11 @@ struct About {
 impl About {
     fn of(band: &MapBand) -> Self {
         Self { nm: band.nm, response: band.response.to_cols_array_2d() }
+    }
+
+    /// Makes the band of these places.
+    fn band(&self, places: Vec<SourcePlace>) -> MapBand {
+        MapBand { nm: self.nm, response: DMat3::from_cols_array_2d(&self.response), places }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Writes a web page that refracts a moving background by a map: one file, without network or library.
 
-use super::{Coding, diffuse_png, places_png, write_bytes};
+use super::packing::packed;
+use super::{diffuse_png, write_bytes};
 use crate::io::WriteError;
 use crate::picture::RefractionMap;
 use base64::Engine as _;
@@ -43,16 +44,15 @@ pub fn write_page(path: &Path, map: &RefractionMap, page: &Page) -> Result<(), W
 }
 
 fn html(map: &RefractionMap, page: &Page) -> Result<String, png::EncodingError> {
-    let png = |bytes: Vec<u8>| uri("image/png", &bytes);
-    let bands = map.bands.iter().enumerate().map(|(k, band)| {
-        let tiles = places_png(map, k, Coding::Tiles, page.title)?;
-        Ok(json!({ "response": band.response.to_cols_array(), "tiles": png(tiles) }))
-    });
+    let bands = map.bands.iter().map(|band| json!({ "response": band.response.to_cols_array() }));
+    let packed = packed(map)?.into_iter();
+    let packed = packed.map(|band| json!({ "step": band.step, "remainders": uri("image/png", &band.png) }));
     let data = json!({
         "size": map.size,
         "span": page.span,
-        "bands": bands.collect::<Result<Vec<_>, png::EncodingError>>()?,
-        "diffuse": png(diffuse_png(&map.diffuse, page.title)?),
+        "bands": bands.collect::<Vec<_>>(),
+        "packed": packed.collect::<Vec<_>>(),
+        "diffuse": uri("image/png", &diffuse_png(&map.diffuse, page.title)?),
         "background": page.background.map(|(name, bytes)| json!({ "name": name, "picture": uri(mime(bytes), bytes) })),
     });
     // Without a `<`, nothing in the data can end the script element or begin another.

@@ -33,6 +33,12 @@ pub fn code_of(place: &SourcePlace) -> [u8; 3] {
     if place.weight > 0.0 { code(DVec2::new(f64::from(place.u), f64::from(place.v))) } else { [0; 3] }
 }
 
+/// Returns the place of a code. Codes beyond the border stand for the border.
+pub(super) fn place([red, green, blue]: [u8; 3]) -> DVec2 {
+    let part = |fine: u8, tile: u8| (f64::from(fine) / BYTE + f64::from(tile)) * TILES / BYTE;
+    DVec2::new(part(red, blue >> 4), part(green, blue & 15)).min(DVec2::ONE)
+}
+
 /// Splits one coordinate into its tile and the fine part.
 fn split(at: f64) -> (u8, u8) {
     // NaN counts as 0.

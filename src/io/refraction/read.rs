@@ -1,0 +1,201 @@
+//! Reads refraction maps: the program's own, and pictures that another renderer made of the template.
+
+use super::codes::{self, Codes};
+use super::{About, MOST_MAP_BANDS, Template, foreign, tiles};
+use crate::io::FileError;
+use crate::io::file_error::Fault;
+use crate::optics::linear_from_encoded;
+use crate::picture::{LUMINANCE, Linear, MapBand, RefractionMap, SourcePlace};
+use glam::{DMat3, DVec3};
+use std::path::{Path, PathBuf};
+
+/// The wavelengths that stand for red, green and blue where a picture was made for each, in nm.
+const COLOURS: [f64; 3] = [610.0, 550.0, 465.0];
+
+/// The wavelength that stands for all light, in nm.
+const ALL: f64 = 555.0;
+
+/// A map that was read from files, and what is unusual about them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadedMap {
+    /// The map. Places and weights are numbers of 0 to 1.
+    pub map: RefractionMap,
+    /// What was counted as empty or mended, in words that name the file.
+    pub notes: Vec<String>,
+    /// What makes the map wrong or doubtful, in words that name the file.
+    pub warnings: Vec<String>,
+}
+
+/// Reads a map from its pictures, PNG or OpenEXR.
+///
+/// The program's own files carry a text that says which bands they hold; all files of a map are given in their order. A
+/// picture without this text is foreign: another renderer made it of the `template`, which by default is the tiled one
+/// where channels have 8 bits and the gradient otherwise. One foreign picture is for all light; three are for red, green
+/// and blue. The diffuse layer is a picture with alpha, of the same size; without it, what does not come from the
+/// background is dark.
+///
+/// # Errors
+/// When a file cannot be read or is no map, or the files do not fit together; the error names the file and what to do.
+pub fn read(
+    pictures: &[PathBuf],
+    diffuse: Option<&Path>,
+    template: Option<Template>,
+) -> Result<LoadedMap, FileError> {
+    let fault = |path: &Path, fault: Fault| fault.in_file(path.display());
+    let Some(first) = pictures.first() else {
+        return Err(FileError::new("refraction map", "there is no picture; give at least one"));
+    };
+    let read = |path: &PathBuf| codes::read(path).map_err(|f| fault(path, f));
+    let all = pictures.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    let is_own = all[0].about.is_some();
+    for (path, codes) in pictures.iter().zip(&all) {
+        if codes.size != all[0].size || codes.bits != all[0].bits || codes.about.is_some() != is_own {
+            return Err(fault(
+                path,
+                format!("it is no map of the same kind and size as {}", first.display()).into(),
+            ));
+        }
+    }
+    let has_weights = is_own && all.len() > 1 && all[0].bits == 8;
+    let [width, height] = all[0].size;
+    let size = [width, if has_weights { height / 2 } else { height }];
+    let layer = diffuse.map(|path| diffuse_layer(path, size).map_err(|f| fault(path, f))).transpose()?;
+    if is_own {
+        let bands = own_bands(&all, size, layer.as_ref()).map_err(|f| fault(first, f))?;
+        let diffuse =
+            layer.unwrap_or_else(|| Linear { pixels: covers(&bands), width: size[0], height: size[1] });
+        return Ok(LoadedMap {
+            map: RefractionMap { size, bands, diffuse },
+            notes: vec![],
+            warnings: vec![],
+        });
+    }
+    if ![1, 3].contains(&all.len()) {
+        let problem = "another renderer's map is one picture, or three for red, green and blue";
+        return Err(fault(first, problem.into()));
+    }
+    foreign_map(pictures, &all, layer, template)
+}
+
+/// Makes the map of foreign pictures.
+fn foreign_map(
+    pictures: &[PathBuf],
+    all: &[Codes],
+    layer: Option<Linear>,
+    template: Option<Template>,
+) -> Result<LoadedMap, FileError> {
+    let size = all[0].size;
+    let (mut bands, mut notes, mut warnings) = (vec![], vec![], vec![]);
+    for (k, (path, codes)) in pictures.iter().zip(all).enumerate() {
+        let label = path.display();
+        let mut found = foreign::places(codes, template).map_err(|fault| fault.in_file(&label))?;
+        if let Some(layer) = layer.as_ref().filter(|_| !found.has_weights) {
+            // What the layer hides does not come from the background.
+            found
+                .places
+                .iter_mut()
+                .zip(&layer.pixels)
+                .for_each(|(place, light)| place.weight *= 1.0 - light[3]);
+        }
+        notes.extend(found.notes.into_iter().map(|note| format!("{label}: {note}")));
+        warnings.extend(found.warnings.into_iter().map(|warning| format!("{label}: {warning}")));
+        let one = DMat3::from_diagonal(DVec3::AXES[k]);
+        let (nm, response) = if all.len() == 1 { (ALL, DMat3::IDENTITY) } else { (COLOURS[k], one) };
+        bands.push(MapBand { nm, response, places: found.places });
+    }
+    let mut pixels = covers(&bands);
+    let light = layer.into_iter().flat_map(|layer| layer.pixels);
+    pixels
+        .iter_mut()
+        .zip(light)
+        .for_each(|(pixel, [red, green, blue, _])| *pixel = [red, green, blue, pixel[3]]);
+    let diffuse = Linear { width: size[0], height: size[1], pixels };
+    Ok(LoadedMap { map: RefractionMap { size, bands, diffuse }, notes, warnings })
+}
+
+/// Returns a diffuse layer without light, whose cover is what the bands leave of white light.
+fn covers(bands: &[MapBand]) -> Vec<[f32; 4]> {
+    let luminance = DVec3::from_array(LUMINANCE.map(f64::from));
+    let shares: Vec<f64> = bands.iter().map(|band| (band.response * DVec3::ONE).dot(luminance)).collect();
+    let pixels = bands.first().map_or(0, |band| band.places.len());
+    let seen = |k: usize| -> f64 {
+        bands.iter().zip(&shares).map(|(band, share)| f64::from(band.places[k].weight) * share).sum()
+    };
+    (0..pixels).map(|k| [0.0, 0.0, 0.0, (1.0 - seen(k)).clamp(0.0, 1.0) as f32]).collect()
+}
+
+/// Returns the bands of the program's own files, which hold places and weights as they are.
+fn own_bands(all: &[Codes], size: [u32; 2], layer: Option<&Linear>) -> Result<Vec<MapBand>, Fault> {
+    let part = |value: f32| if value.is_finite() { value.clamp(0.0, 1.0) } else { 0.0 };
+    let mut bands = vec![];
+    for codes in all {
+        let text = codes.about.as_deref().unwrap_or_default();
+        let one = || serde_json::from_str::<About>(text).map(|about| vec![about]);
+        let abouts = serde_json::from_str::<Vec<About>>(text).or_else(|_| one());
+        let abouts =
+            abouts.map_err(|e| format!("the text of its bands cannot be read ({e}); get the file again"))?;
+        if abouts.len() != codes.bands.len() || !abouts.iter().all(is_sane) {
+            return Err("the text of its bands is not that of a map; get the file again".into());
+        }
+        for (about, values) in abouts.iter().zip(&codes.bands) {
+            let places = if codes.bits == 8 {
+                own_tiles(values.split_at(size[0] as usize * size[1] as usize), layer)
+            } else {
+                let place =
+                    |&[u, v, weight]: &[f32; 3]| SourcePlace { u: part(u), v: part(v), weight: part(weight) };
+                values.iter().map(place).collect()
+            };
+            bands.push(about.band(places));
+        }
+    }
+    if bands.len() > MOST_MAP_BANDS as usize {
+        return Err(format!("{} bands: a map has {MOST_MAP_BANDS} at most", bands.len()).into());
+    }
+    Ok(bands)
+}
+
+fn is_sane(about: &About) -> bool {
+    about.nm.is_finite() && about.response.iter().flatten().all(|part| part.is_finite() && part.abs() < 1e3)
+}
+
+/// Returns the places of one of the program's own maps in tiles. The weights are below them, or what the diffuse layer
+/// leaves, or else 1 but for black.
+fn own_tiles((codes, weights): (&[[f32; 3]], &[[f32; 3]]), layer: Option<&Linear>) -> Vec<SourcePlace> {
+    let place = |(k, value): (usize, &[f32; 3])| {
+        let code = foreign::bytes(value);
+        let weight = match (weights.get(k), layer) {
+            (Some([grey, ..]), _) => *grey,
+            (None, Some(layer)) => 1.0 - layer.pixels[k][3],
+            (None, None) => f32::from(u8::from(code != [0; 3])),
+        };
+        let at = tiles::place(code).as_vec2();
+        SourcePlace { u: at.x, v: at.y, weight }
+    };
+    codes.iter().enumerate().map(place).collect()
+}
+
+/// Reads a diffuse layer: PNG in sRGB, not premultiplied; OpenEXR in linear light, premultiplied.
+fn diffuse_layer(path: &Path, size: [u32; 2]) -> Result<Linear, Fault> {
+    let codes = codes::read(path)?;
+    if codes.size != size {
+        let ([width, height], [across, down]) = (codes.size, size);
+        let problem = format!(
+            "the diffuse layer has {width} by {height} pixels, and the map {across} by {down}; render both alike"
+        );
+        return Err(problem.into());
+    }
+    let Some(alpha) = &codes.alpha else {
+        return Err("the diffuse layer has no alpha, which says what it hides; save it as RGBA".into());
+    };
+    let light = |(value, &alpha): (&[f32; 3], &f32)| {
+        let alpha = if alpha.is_finite() { alpha.clamp(0.0, 1.0) } else { 0.0 };
+        let linear = |c: f32| match codes.is_exr {
+            true => c,
+            false => linear_from_encoded(f64::from(c)) as f32 * alpha,
+        };
+        let [red, green, blue] = value.map(|c| if c.is_finite() { linear(c).max(0.0) } else { 0.0 });
+        [red, green, blue, alpha]
+    };
+    let pixels = codes.bands.first().into_iter().flatten().zip(alpha).map(light).collect();
+    Ok(Linear { width: size[0], height: size[1], pixels })
+}
