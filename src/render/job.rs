@@ -208,7 +208,7 @@ impl Job {
     /// Returns the job of a pane of liquid glass, which has no stones and no view.
     pub fn of_pane(pane: PaneProduct, quality: Quality) -> Self {
         let film = Film { size: [pane.background.width, pane.background.height], ..Film::NONE };
-        let scene = Arc::new(Scene { instances: vec![], unit_mm: 1.0 });
+        let scene = Arc::new(Scene { instances: vec![], metals: vec![], unit_mm: 1.0 });
         Self { scene, view: View::default(), film, product: Product::LiquidGlass(pane), quality }
     }
 
@@ -221,10 +221,14 @@ impl Job {
         }
     }
 
-    /// Returns a rough picture of this job in full size, as [`enlarged`] makes it; `None` where the job is no picture under light.
+    /// Returns a rough picture of this job in full size, as [`enlarged`] makes it; `None` where the job is no picture under light, or
+    /// one with metal, whose outlines are not looked for.
     /// `film` is the picture's own, and `shift` the place of its rays in its pixels.
     pub fn enlarged(&self, rough: &Linear, (film, shift): (&Film, DVec2)) -> Option<Linear> {
         let Product::Light(light) = &self.product else { return None };
+        if !self.scene.metals.is_empty() {
+            return None;
+        }
         let white = light.strata(1).response();
         Some(enlarged(rough, (film, shift), &self.lit_scene(&light.surroundings), &white))
     }

@@ -83,7 +83,7 @@ fn several() -> Scene {
         let pose = Pose { at: DVec3::X * x, turn: DQuat::from_rotation_y(0.4), scale: 0.6 };
         Instance { pose, ..Instance::of(&specimen.body, specimen.material.clone(), name) }
     });
-    Scene { instances: all.into(), unit_mm: 3.0 }
+    Scene { instances: all.into(), metals: vec![], unit_mm: 3.0 }
 }
 
 fn several_lit() -> Job {
@@ -376,7 +376,7 @@ fn what_cannot_be_traced_is_said_before_anything_is() {
     let beams = wanting(Job { view: near(8.0), ..alone() }, Wanted::Beams);
     assert_eq!(planned(&beams), Err(Unfit::Perspective));
     assert_eq!(planned(&Job { view: near(0.2), ..alone() }), Err(Unfit::Eye));
-    let nothing = Scene { instances: vec![], unit_mm: 1.0 };
+    let nothing = Scene { instances: vec![], metals: vec![], unit_mm: 1.0 };
     assert_eq!(planned(&job(nothing, figures())), Err(Unfit::NoStone));
     let many = wanting(job(several(), light(Steps::Strips)), Wanted::Beams);
     assert_eq!(planned(&many), Err(Unfit::NotAlone));
@@ -490,4 +490,36 @@ fn a_rough_picture_is_enlarged_with_fine_outlines_and_a_fine_background() {
     let same = fine.enlarged(&true_picture, (&fine.film, DVec2::splat(0.5))).unwrap();
     let most = same.pixels.iter().flatten().zip(true_picture.pixels.iter().flatten());
     assert!(most.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max) < 0.01);
+}
+
+#[test]
+fn metal_is_planned_to_the_processor_with_the_reason_where_a_card_is_wanted() {
+    let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+    let surface = crate::math::ShadedSurface { points, corners: vec![[0, 1, 2]], normals: vec![] };
+    let plate = Arc::new(crate::math::ShadedMesh::new(surface).unwrap());
+    let plate = crate::scene::MetalInstance::new(&plate, crate::optics::Metal::Gold);
+    let scene = Scene { metals: vec![plate.clone()], ..Scene::alone(&specimen("round_brilliant")) };
+    let of = |scene: &Scene, tracer: Wanted| {
+        let mut job = job(scene.clone(), light(Steps::Strips));
+        job.quality.tracer = tracer;
+        Renderer::default().plan(&job)
+    };
+    for wanted in [Wanted::Quickest, Wanted::Rays, Wanted::Card] {
+        let plan = of(&scene, wanted).unwrap();
+        assert_eq!(plan.backend.name(), "ray");
+        let why = plan.no_card.map(|why| why.to_string());
+        assert_eq!(
+            why.as_deref(),
+            (wanted == Wanted::Card).then_some("graphics cards do not reflect metal yet")
+        );
+    }
+    assert!(matches!(of(&scene, Wanted::Beams), Err(Unfit::Metal)));
+    let rough = crate::scene::MetalInstance { roughness: 2.0, ..plate };
+    let error = of(&Scene { metals: vec![rough], ..scene.clone() }, Wanted::Rays).unwrap_err().to_string();
+    assert_eq!(error, "scene.metals[0]: roughness is 2; give a part from 0 to 1");
+    // A job with metal goes through JSON and back.
+    let job = job(scene, light(Steps::Strips));
+    let text = serde_json::to_string(&job).unwrap();
+    assert_eq!(serde_json::from_str::<Job>(&text).unwrap(), job);
+    assert!(text.contains("\"Gold\""));
 }
