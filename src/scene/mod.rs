@@ -10,6 +10,7 @@ mod light;
 mod lights;
 mod medium;
 mod mipmap;
+mod mounting;
 mod overlap;
 mod panorama;
 mod scope;
@@ -29,6 +30,10 @@ pub use light::{Dome, Lamp, LampField, Light, LightError, MOST_LAMPS, PanoramaRe
 pub use lights::{LIGHTS, light};
 pub use medium::Medium;
 pub use mipmap::Mipmap;
+pub use mounting::{
+    ALLOYS, Alloy, MetalPart, Mounting, OuterShape, RING_NUMBERS, Ring, RingError, RingNumber, RingSeat,
+    RingStyle, SeatKind, SetStone,
+};
 pub use overlap::overlapping;
 pub use panorama::{Panorama, PanoramaError};
 pub use scope::{ASET_CONE, Backing, Band, Glare, MOST_BANDS, Scope, ScopeError, elevation_deg};
