@@ -1,16 +1,20 @@
-//! The stones that a picture under light shows: a single stone, or the stones of a scene in their places.
+//! The bodies that a picture under light shows: a single stone, or the stones and the metal of a scene in their places.
 
+use super::console::say;
 use super::specimen::{LoadedSpecimen, asked_material};
 use crate::cut::{MaterialRef, Size};
 use crate::io::background::BackgroundRef;
+use crate::io::mesh::read_shaded;
 use crate::io::mesh_options::MeshOptions;
-use crate::io::scene_file::{self, Entry, SceneFile};
+use crate::io::scene_file::{self, Entry, MetalEntry, SceneFile};
 use crate::io::{Failure, is_standard, library};
+use crate::math::{ShadedMesh, bounds};
 use crate::optics::Material;
-use crate::scene::{Instance, Pose, Projection, Scene, Viewpoint, overlapping};
+use crate::scene::{Instance, MetalInstance, Pose, Projection, Scene, Viewpoint, overlapping};
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 #[cfg(test)]
 mod tests;
@@ -95,7 +99,7 @@ impl Assembly {
         Ok(Self {
             path: specimen.path,
             name: specimen.made.design.name,
-            setting: Scene { instances: vec![stone], unit_mm: 0.5 * diameter_mm },
+            setting: Scene { instances: vec![stone], metals: vec![], unit_mm: 0.5 * diameter_mm },
             places: vec![StonePlace { diameter_mm, at_mm: DVec3::ZERO }],
             light: None,
             background: None,
@@ -127,7 +131,8 @@ impl Assembly {
         let mut members: Vec<Member> = scene.turns().into_iter().map(turned).collect();
         let radii: Vec<f64> = members.iter().map(Member::radius_mm).collect();
         members.iter_mut().zip(scene.places_mm(&radii)).for_each(|(member, at)| member.at_mm = at);
-        let setting = placed(&members);
+        let metals = metals(file, &scene)?;
+        let setting = placed(&members, metals);
         if let Some((a, b)) = overlapping(&setting.instances) {
             let (a, b) = (&members[a].description, &members[b].description);
             return Err(Failure::Input(format!("{path}: {a} and {b} overlap; move one of them away")));
@@ -156,8 +161,8 @@ impl Assembly {
         if viewpoint.projection != Projection::Orthographic {
             return viewpoint;
         }
-        let corners = self.setting.instances.iter().flat_map(|stone| stone.solid().vertices());
-        let reach = corners.map(|corner| corner.truncate().abs().max_element()).fold(0.0, f64::max);
+        let reach =
+            self.setting.vertices().map(|corner| corner.truncate().abs().max_element()).fold(0.0, f64::max);
         let distance = reach / (0.5 * angle).to_radians().tan();
         Viewpoint { projection: Projection::Perspective { distance }, ..viewpoint }
     }
@@ -239,22 +244,66 @@ impl Member<'_> {
     }
 }
 
-/// Builds the world's scene, in which the largest girdle has the radius 1. Several stones, or one that is not at the origin,
-/// are centred on the origin together.
-fn placed(members: &[Member]) -> Scene {
-    let unit_mm = 0.5 * members.iter().map(|m| m.diameter_mm).fold(0.0, f64::max);
+/// Reads the metal of a scene, each file once, and places it in mm.
+fn metals(file: &Path, scene: &SceneFile) -> Result<Vec<MetalInstance>, Failure> {
+    let mut meshes: BTreeMap<String, Arc<ShadedMesh>> = BTreeMap::new();
+    let metal = |(number, entry): (usize, &MetalEntry)| {
+        let mesh = match meshes.get(&entry.mesh) {
+            Some(mesh) => Arc::clone(mesh),
+            None => {
+                let path = file.parent().unwrap_or(Path::new("")).join(&entry.mesh);
+                let (mesh, warnings) = read_shaded(&path).map_err(|error| {
+                    let place = format!("{}:{}: metal {}", file.display(), entry.line, number + 1);
+                    Failure::Input(format!("{place}: mesh: {error}"))
+                })?;
+                warnings.iter().for_each(|w| say(&format!("warning: {}: {w}", path.display())));
+                let mesh = Arc::new(mesh);
+                meshes.insert(entry.mesh.clone(), Arc::clone(&mesh));
+                mesh
+            }
+        };
+        let pose = Pose { at: entry.at_mm, turn: entry.turned(), scale: entry.scale };
+        let label = entry.mesh.clone();
+        Ok(MetalInstance { mesh, pose, metal: entry.metal, roughness: entry.roughness, label })
+    };
+    scene.metals.iter().enumerate().map(metal).collect()
+}
+
+/// Builds the world's scene of stones and of metal, whose poses are in mm. The largest girdle has the radius 1; without stones,
+/// so has the metal. Several bodies, or a stone that is not at the origin, are centred on the origin together.
+fn placed(members: &[Member], metals: Vec<MetalInstance>) -> Scene {
+    let across = |metal: &MetalInstance| {
+        let (low, high) = bounds(metal.vertices());
+        (high - low).max_element()
+    };
+    let diameters = members.iter().map(|m| m.diameter_mm);
+    let unit_mm = match members.is_empty() {
+        true => 0.5 * metals.iter().map(across).fold(0.0, f64::max),
+        false => 0.5 * diameters.fold(0.0, f64::max),
+    };
     let place = |m: &Member| {
         let stone = Instance::of(&m.specimen.body, m.material.clone(), &m.specimen.design.name);
         let scale = 0.5 * m.diameter_mm / unit_mm;
         stone.moved(&Pose { at: m.at_mm / unit_mm, turn: m.turn, scale })
     };
+    let to_world = Pose { scale: 1.0 / unit_mm, ..Pose::STILL };
     let stones: Vec<Instance> = members.iter().map(place).collect();
+    let scene = Scene {
+        instances: stones,
+        metals: metals.into_iter().map(|metal| metal.moved(&to_world)).collect(),
+        unit_mm,
+    };
     // Pictures are centred on the origin.
-    let bounds = stones.iter().map(|s| s.solid().bounds());
+    let boxes = scene.instances.iter().map(|stone| stone.solid().bounds());
+    let boxes = boxes.chain(scene.metals.iter().map(|metal| bounds(metal.vertices())));
     let (low, high) =
-        bounds.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), (a, b)| (l.min(a), h.max(b)));
-    let shift =
-        if members.len() > 1 || members[0].at_mm != DVec3::ZERO { -(low + high) / 2.0 } else { DVec3::ZERO };
+        boxes.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), (a, b)| (l.min(a), h.max(b)));
+    let stays = scene.metals.is_empty() && members.len() == 1 && members[0].at_mm == DVec3::ZERO;
+    let shift = if stays { DVec3::ZERO } else { -(low + high) / 2.0 };
     let centred = Pose { at: shift, ..Pose::STILL };
-    Scene { instances: stones.into_iter().map(|s| s.moved(&centred)).collect(), unit_mm }
+    Scene {
+        instances: scene.instances.into_iter().map(|stone| stone.moved(&centred)).collect(),
+        metals: scene.metals.into_iter().map(|metal| metal.moved(&centred)).collect(),
+        unit_mm,
+    }
 }

@@ -188,9 +188,8 @@ impl<'a> PictureSetup<'a> {
     /// # Errors
     /// [`Failure::Input`] where the eye of a perspective is not in front of all stones.
     pub fn pixel(&self, setting: &Scene, view: &View) -> Result<f64, Failure> {
-        let stones = &setting.instances;
         let camera = Camera::reaching(view, setting.reach());
-        let Some(extent) = camera.extent(stones.iter().flat_map(|s| s.solid().vertices())) else {
+        let Some(extent) = camera.extent(setting.vertices()) else {
             let message = "the eye of the perspective is not in front of all of it; move it farther off by --perspective";
             return Err(Failure::Input(format!("{}: {message}", self.assembly.path)));
         };

@@ -9,6 +9,7 @@ use super::text;
 use super::toml_format::check_format;
 use super::toml_text::TomlText;
 use crate::cut::{MaterialRef, Size};
+use crate::optics::Metal;
 use crate::scene::{LIGHTS, Layout, MOST_STONES, light};
 use form::SceneForm;
 use glam::{DQuat, DVec3};
@@ -16,6 +17,7 @@ use std::path::{Path, PathBuf};
 use toml::de::DeTable;
 
 mod form;
+mod metal_form;
 
 #[cfg(test)]
 mod tests;
@@ -51,8 +53,33 @@ pub struct SceneFile {
     pub angle_of_view: Option<f64>,
     /// The exposure, in stops.
     pub exposure: f64,
-    /// The kinds of stones, at least one; with their counts they are at most [`MOST_STONES`] stones.
+    /// The kinds of stones; with their counts they are at most [`MOST_STONES`] stones. There are none only where there is metal.
     pub stones: Vec<Entry>,
+    /// The bodies of metal.
+    pub metals: Vec<MetalEntry>,
+}
+
+/// A body of metal in a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MetalEntry {
+    /// The path of its mesh from the scene's folder.
+    pub mesh: String,
+    /// The metal.
+    pub metal: Metal,
+    /// How rough its surface is, 0 to 1.
+    pub roughness: f64,
+    /// The length of the file's unit, in mm.
+    pub scale: f64,
+    /// The turn about its own z axis, in degrees.
+    pub turn: f64,
+    /// The angle by which its z axis leans toward `azimuth`, in degrees.
+    pub tilt: f64,
+    /// The direction in which it leans, in degrees from +x toward +y.
+    pub azimuth: f64,
+    /// The place of the file's origin, in mm; in a layout, from the middle of the layout.
+    pub at_mm: DVec3,
+    /// The line of the file where the entry begins, from 1.
+    pub line: usize,
 }
 
 /// A kind of stone in a scene, and how often it stands there.
@@ -124,11 +151,22 @@ impl Entry {
     /// Returns the rotation from the cut's frame to the world's: first about the stone's axis, by `more` degrees beyond its
     /// own turn, then leaning toward its azimuth.
     pub fn turned(&self, more: f64) -> DQuat {
-        let azimuth = self.azimuth.to_radians();
-        let axis = DVec3::new(-azimuth.sin(), azimuth.cos(), 0.0);
-        let turn = DQuat::from_rotation_z((self.turn + more).to_radians());
-        DQuat::from_axis_angle(axis, self.tilt.to_radians()) * turn
+        leaning(self.turn + more, self.tilt, self.azimuth)
     }
+}
+
+impl MetalEntry {
+    /// Returns the rotation from the mesh's frame to the world's.
+    pub fn turned(&self) -> DQuat {
+        leaning(self.turn, self.tilt, self.azimuth)
+    }
+}
+
+/// Returns the rotation that turns about z and then leans z toward an azimuth, all in degrees.
+fn leaning(turn: f64, tilt: f64, azimuth: f64) -> DQuat {
+    let azimuth = azimuth.to_radians();
+    let axis = DVec3::new(-azimuth.sin(), azimuth.cos(), 0.0);
+    DQuat::from_axis_angle(axis, tilt.to_radians()) * DQuat::from_rotation_z(turn.to_radians())
 }
 
 /// Reads a scene file.
@@ -164,10 +202,13 @@ pub fn is_scene(path: &Path) -> bool {
 }
 
 fn is_meant_as_scene(text: &str) -> bool {
-    const KEYS: [&str; 4] = ["stone", "layout", "light", "gap_mm"];
+    const KEYS: [&str; 5] = ["stone", "metal", "layout", "light", "gap_mm"];
     match DeTable::parse(text) {
         Ok(table) => KEYS.iter().any(|&key| table.get_ref().contains_key(key)),
-        Err(_) => text.lines().any(|line| line.trim_start().starts_with("[[stone]]")),
+        Err(_) => {
+            let begins = |line: &str| ["[[stone]]", "[[metal]]"].iter().any(|key| line.starts_with(key));
+            text.lines().map(str::trim_start).any(begins)
+        }
     }
 }
 

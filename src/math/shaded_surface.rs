@@ -3,10 +3,11 @@
 
 use super::Pose;
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Triangles over points with normals.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ShadedSurface {
     /// The points. At a crease several points with different normals share one place.
     pub points: Vec<DVec3>,

@@ -13,6 +13,8 @@ mod gems;
 mod glasses;
 pub mod illuminant;
 pub mod material;
+pub mod metal;
+pub mod microfacets;
 pub mod observer;
 pub mod snell;
 pub mod strata;
@@ -24,6 +26,8 @@ pub use dispersion::{Dispersion, DispersionError, VISIBLE_NM, line};
 pub use fresnel::{Fresnel, fresnel, reflectance};
 pub use illuminant::{DAYLIGHT_KELVIN, Illuminant, IlluminantError};
 pub use material::{Material, UnknownMaterial, material, materials};
+pub use metal::{Metal, metal_reflectance};
+pub use microfacets::{RoughMetal, Roughness, Scattered};
 pub use observer::{D65_WHITE, OBSERVER_NM, SRGB_FROM_XYZ, adaptation, matching, seen};
 pub use snell::{
     brewster_angle, cos_transmitted, critical_angle, reflect, reflected_change, refract, refracted_change,

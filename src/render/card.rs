@@ -66,6 +66,13 @@ impl Card {
 #[error("{0}")]
 pub struct NoCard(String);
 
+impl NoCard {
+    /// Returns why scenes that hold metal are never traced by a card.
+    pub fn metal() -> Self {
+        Self("graphics cards do not reflect metal yet".to_owned())
+    }
+}
+
 impl Backend {
     /// Returns the short name that figures use: `beam`, `ray` or `gpu`.
     pub fn name(&self) -> &'static str {

@@ -78,6 +78,14 @@ pub enum JobError {
         /// What is wrong with the stone.
         error: Box<JobError>,
     },
+    /// A body of metal is at fault.
+    #[error("scene.metals[{place}]: {error}")]
+    Metal {
+        /// The place of the body among the metals, from 0.
+        place: usize,
+        /// What is wrong with it.
+        error: OutOfRange,
+    },
     /// The law of dispersion of a material gives no index.
     #[error("material.dispersion: {0}")]
     Dispersion(#[from] DispersionError),
@@ -242,6 +250,11 @@ fn check_film(film: &Film, keys: &FilmKeys) -> Result<(), OutOfRange> {
 
 fn check_scene(scene: &Scene) -> Result<(), JobError> {
     positive("scene.unit_mm", scene.unit_mm)?;
+    for (place, metal) in scene.metals.iter().enumerate() {
+        let of_metal = |error: OutOfRange| JobError::Metal { place, error };
+        check_pose(&metal.pose).map_err(of_metal)?;
+        share("roughness", metal.roughness).map_err(of_metal)?;
+    }
     let mut checked = None;
     for (place, instance) in scene.instances.iter().enumerate() {
         let of_instance = |error| JobError::Instance { place, error: Box::new(error) };

@@ -207,7 +207,7 @@ impl Job {
     /// Returns the job of a pane of liquid glass, which has no stones and no view.
     pub fn of_pane(pane: PaneProduct, quality: Quality) -> Self {
         let film = Film { size: [pane.background.width, pane.background.height], ..Film::NONE };
-        let scene = Arc::new(Scene { instances: vec![], unit_mm: 1.0 });
+        let scene = Arc::new(Scene { instances: vec![], metals: vec![], unit_mm: 1.0 });
         Self { scene, view: View::default(), film, product: Product::LiquidGlass(pane), quality }
     }
 

@@ -34,6 +34,8 @@ pub struct Demands {
     pub against_beams: Option<Unfit>,
     /// How much quicker a graphics card is than exact beams.
     pub card: CardWorth,
+    /// Why rays on the processor do what a card is wanted for; `None` where a card can do it, or it is refused.
+    pub no_card: Option<NoCard>,
 }
 
 /// How much quicker a graphics card is than the processor for a piece of work.
@@ -65,6 +67,11 @@ pub enum Unfit {
     /// The stone is not convex or has no flat facets.
     #[error(transparent)]
     NotConvex(#[from] NotConvex),
+    /// The scene holds metal, which exact beams and refraction maps know nothing of.
+    #[error(
+        "only rays in pictures under light reflect metal: trace by rays, and make no refraction map of it"
+    )]
+    Metal,
     /// There are several bodies, a body that is not convex, a perspective, or a backplate.
     #[error(
         "exact beams are for one convex stone, parallel rays and no world, pattern or photograph behind: trace by rays"
@@ -101,8 +108,9 @@ impl Demands {
         match &job.product {
             Product::Light(light) => Ok(Self::of_light(job, light)),
             Product::Scope(_) | Product::Figures(_) => Self::of_scope(job.stone()?, &job.view),
+            Product::RefractionMap(_) if !job.scene.metals.is_empty() => Err(Unfit::Metal),
             Product::RefractionMap(_) | Product::LiquidGlass(_) => {
-                Ok(Self { against_beams: Some(Unfit::ManyPaths), card: CardWorth::Nothing })
+                Ok(Self { against_beams: Some(Unfit::ManyPaths), card: CardWorth::Nothing, no_card: None })
             }
         }
     }
@@ -116,13 +124,17 @@ impl Demands {
             SolidRef::Convex(_) => None,
             SolidRef::Triangles(_) | SolidRef::Smooth(_) => Some(NotConvex.into()),
         };
-        Ok(Self { against_beams, card: CardWorth::Little })
+        Ok(Self { against_beams, card: CardWorth::Little, no_card: None })
     }
 
     fn of_light(job: &Job, light: &LightProduct) -> Self {
         let is_alone = matches!(&*job.scene.instances, [only] if only.body.stone().is_ok());
         let has_backplate = light.surroundings.backplate.is_some();
         let fits = is_alone && !has_backplate && job.view.projection == Projection::Orthographic;
+        if !job.scene.metals.is_empty() {
+            let no_card = Some(NoCard::metal());
+            return Self { against_beams: Some(Unfit::Metal), card: CardWorth::Nothing, no_card };
+        }
         let against_beams = match fits {
             _ if light.strength < 1.0 => Some(Unfit::Mixture),
             _ if job.quality.rays.most_bounces < USUAL_BOUNCES => Some(Unfit::FewBounces),
@@ -132,7 +144,7 @@ impl Demands {
         // A card is set up anew for each picture, which takes longer than a glance by beams.
         let card =
             if matches!(light.steps, Steps::Glance { .. }) { CardWorth::Little } else { CardWorth::Much };
-        Self { against_beams, card }
+        Self { against_beams, card, no_card: None }
     }
 }
 
@@ -141,6 +153,9 @@ impl Demands {
 /// # Errors
 /// [`Unfit`] where exact beams are wanted and do not fit, or a card for what is never done by one.
 pub fn plan(demands: &Demands, wanted: Wanted, card: &Card) -> Result<Plan, Unfit> {
+    if let (Wanted::Card, Some(why)) = (wanted, &demands.no_card) {
+        return Ok(Plan { backend: Backend::Rays, no_card: Some(why.clone()) });
+    }
     let mut no_card = None;
     let by_processor = || if demands.against_beams.is_none() { Backend::Beams } else { Backend::Rays };
     let backend = match (wanted, &demands.against_beams, demands.card) {
@@ -170,16 +185,16 @@ mod tests {
     #[test]
     fn a_card_is_refused_where_it_is_never_used() {
         let against_beams = Some(Unfit::ManyPaths);
-        let paths = Demands { against_beams: against_beams.clone(), card: CardWorth::Nothing };
+        let paths = Demands { against_beams: against_beams.clone(), card: CardWorth::Nothing, no_card: None };
         assert_eq!([Wanted::Quickest, Wanted::Rays].map(|w| tracer(&paths, w)), [Ok("ray"), Ok("ray")]);
         assert_eq!(tracer(&paths, Wanted::Card), Err(Unfit::ManyPaths));
-        let little = Demands { against_beams, card: CardWorth::Little };
+        let little = Demands { against_beams, card: CardWorth::Little, no_card: None };
         assert_eq!(tracer(&little, Wanted::Card), Ok("ray"));
     }
 
     #[test]
     fn beams_are_taken_where_they_fit_and_refused_with_the_reason_where_not() {
-        let fit = Demands { against_beams: None, card: CardWorth::Much };
+        let fit = Demands { against_beams: None, card: CardWorth::Much, no_card: None };
         let found = [Wanted::Quickest, Wanted::Beams, Wanted::Rays, Wanted::Card].map(|w| tracer(&fit, w));
         assert_eq!(found, [Ok("beam"), Ok("beam"), Ok("ray"), Ok("ray")]);
         for why in [
@@ -189,7 +204,7 @@ mod tests {
             Unfit::Mixture,
             Unfit::FewBounces,
         ] {
-            let unfit = Demands { against_beams: Some(why.clone()), card: CardWorth::Little };
+            let unfit = Demands { against_beams: Some(why.clone()), card: CardWorth::Little, no_card: None };
             assert_eq!(tracer(&unfit, Wanted::Quickest), Ok("ray"));
             assert_eq!(tracer(&unfit, Wanted::Beams), Err(why));
         }

@@ -83,7 +83,7 @@ fn several() -> Scene {
         let pose = Pose { at: DVec3::X * x, turn: DQuat::from_rotation_y(0.4), scale: 0.6 };
         Instance { pose, ..Instance::of(&specimen.body, specimen.material.clone(), name) }
     });
-    Scene { instances: all.into(), unit_mm: 3.0 }
+    Scene { instances: all.into(), metals: vec![], unit_mm: 3.0 }
 }
 
 fn several_lit() -> Job {
@@ -376,7 +376,7 @@ fn what_cannot_be_traced_is_said_before_anything_is() {
     let beams = wanting(Job { view: near(8.0), ..alone() }, Wanted::Beams);
     assert_eq!(planned(&beams), Err(Unfit::Perspective));
     assert_eq!(planned(&Job { view: near(0.2), ..alone() }), Err(Unfit::Eye));
-    let nothing = Scene { instances: vec![], unit_mm: 1.0 };
+    let nothing = Scene { instances: vec![], metals: vec![], unit_mm: 1.0 };
     assert_eq!(planned(&job(nothing, figures())), Err(Unfit::NoStone));
     let many = wanting(job(several(), light(Steps::Strips)), Wanted::Beams);
     assert_eq!(planned(&many), Err(Unfit::NotAlone));

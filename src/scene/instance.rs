@@ -1,8 +1,9 @@
-//! Stones in one world: bodies that are built once, each carried by its pose, and each of its own material.
+//! Stones and metal in one world: bodies that are built once, each carried by its pose, and each of its own material.
 
-use super::{Body, Medium, Specimen};
+use super::{Body, Medium, MetalInstance, Specimen};
 use crate::math::{Pose, PosedSolid};
 use crate::optics::Material;
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -22,11 +23,14 @@ pub struct Instance {
 /// The most stones that a scene may have.
 pub const MOST_STONES: usize = 256;
 
-/// Stones in one world; no two overlap.
+/// Stones and bodies of metal in one world; no two stones overlap.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Scene {
     /// The stones.
     pub instances: Vec<Instance>,
+    /// The bodies of metal.
+    #[serde(default)]
+    pub metals: Vec<MetalInstance>,
     /// The world's unit in mm: half the girdle diameter of the largest stone.
     pub unit_mm: f64,
 }
@@ -35,12 +39,19 @@ impl Scene {
     /// Returns the scene of one stone, in the stone's frame and unit.
     pub fn alone(specimen: &Specimen) -> Self {
         let stone = Instance::of(&specimen.body, specimen.material.clone(), &specimen.design.name);
-        Self { instances: vec![stone], unit_mm: specimen.unit_mm() }
+        Self { instances: vec![stone], metals: vec![], unit_mm: specimen.unit_mm() }
     }
 
-    /// Returns how far the stones reach from the origin.
+    /// Returns how far the bodies reach from the origin.
     pub fn reach(&self) -> f64 {
-        self.instances.iter().map(|stone| stone.solid().reach()).fold(0.0, f64::max)
+        let stones = self.instances.iter().map(|stone| stone.solid().reach());
+        stones.chain(self.metals.iter().map(MetalInstance::reach)).fold(0.0, f64::max)
+    }
+
+    /// Returns points between which all bodies lie.
+    pub fn vertices(&self) -> impl Iterator<Item = DVec3> + '_ {
+        let stones = self.instances.iter().flat_map(|stone| stone.solid().vertices());
+        stones.chain(self.metals.iter().flat_map(MetalInstance::vertices))
     }
 
     /// Returns the medium of a stone, in the unit of its body. `nm` are the first, the traced and the last wavelength of a

@@ -9,6 +9,7 @@ mod layout;
 mod light;
 mod lights;
 mod medium;
+mod metal_instance;
 mod mipmap;
 mod mounting;
 mod overlap;
@@ -29,6 +30,7 @@ pub use layout::Layout;
 pub use light::{Dome, Lamp, LampField, Light, LightError, MOST_LAMPS, PanoramaRef, SoftBox, toward};
 pub use lights::{LIGHTS, light};
 pub use medium::Medium;
+pub use metal_instance::{MetalInstance, POLISHED};
 pub use mipmap::Mipmap;
 pub use mounting::{
     ALLOYS, Alloy, MetalPart, Mounting, OuterShape, RING_NUMBERS, Ring, RingError, RingNumber, RingSeat,

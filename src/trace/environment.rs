@@ -14,6 +14,7 @@ use drawing::{channels, shine};
 use glam::{DVec2, DVec3, DVec4, IVec2, Vec2Swizzles as _, Vec4Swizzles as _};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use std::f64::consts::{FRAC_1_PI, PI};
 
 /// The side in radians, √(4π), of the one texel of a map of side 1, taken for a square: it covers the whole sphere.
 pub const TEXEL_ANGLE: f64 = 3.544_907_701_811_032;
@@ -272,21 +273,32 @@ impl Environment<'_> {
     /// Returns the radiance, by channel, that arrives along a ray from outside the stones. The ray begins at `from`; `sweep`
     /// is the change of its direction over the wavelengths that it stands for.
     pub fn radiance(&self, from: DVec3, direction: DVec3, sweep: DVec3) -> DVec4 {
+        self.radiance_around(from, direction, (sweep, 0.0))
+    }
+
+    /// Returns the radiance as [`radiance`](Self::radiance) does, of a ray that stands for a square of directions: `spread` is
+    /// its side, in radians. The light is averaged over the sweep or the square, whichever is wider; a photograph is looked
+    /// up along the sweep alone.
+    pub fn radiance_around(&self, from: DVec3, direction: DVec3, (sweep, spread): (DVec3, f64)) -> DVec4 {
         match self.photograph(from, direction, sweep) {
             Some(seen) if seen.share >= 1.0 => seen.light,
-            Some(seen) => seen.light + self.beyond(direction, sweep) * (1.0 - seen.share),
-            None => self.beyond(direction, sweep),
+            Some(seen) => seen.light + self.beyond(direction, sweep, spread) * (1.0 - seen.share),
+            None => self.beyond(direction, sweep, spread),
         }
     }
 
     /// Returns the radiance, by channel, of the light alone.
-    fn beyond(&self, direction: DVec3, sweep: DVec3) -> DVec4 {
+    fn beyond(&self, direction: DVec3, sweep: DVec3, spread: f64) -> DVec4 {
         let own =
             |v: DVec3| DVec3::new(self.basis.right.dot(v), self.basis.up.dot(v), self.basis.toward.dot(v));
         let (d, s, swept) = (own(direction), own(sweep), sweep.length());
         let lamps = self.map.lamps.iter();
-        let lit = lamps.map(|l| l.radiance * share_inside(d - l.toward, s, l.chord_squared)).sum::<DVec4>();
-        let sum = self.map.at(d, swept) + lit;
+        let share = |l: &Disc| match spread > swept {
+            true => share_of_disc(d - l.toward, spread, l.chord_squared),
+            false => share_inside(d - l.toward, s, l.chord_squared),
+        };
+        let lit = lamps.map(|l| l.radiance * share(l)).sum::<DVec4>();
+        let sum = self.map.at(d, swept.max(spread)) + lit;
         if self.head <= 0.0 {
             return sum;
         }
@@ -393,6 +405,27 @@ pub(super) fn share_inside(from_middle: DVec3, sweep: DVec3, chord_squared: f64)
     (((root - b) / a).min(0.5) - ((-root - b) / a).max(-0.5)).max(0.0)
 }
 
+/// Returns the share of a disc of directions that lies inside a lamp: the disc has the area of a square of this side.
+fn share_of_disc(from_middle: DVec3, side: f64, chord_squared: f64) -> f64 {
+    let (own, lamp) = (side * FRAC_1_PI.sqrt(), chord_squared.sqrt());
+    let apart = from_middle.length();
+    if apart >= own + lamp {
+        return 0.0;
+    }
+    let (small, large) = (own.min(lamp), own.max(lamp));
+    let common = if apart <= large - small {
+        PI * small * small
+    } else {
+        // Two segments: of each circle the part beyond the line through both crossings.
+        let segment = |r: f64, other: f64| {
+            let along = ((apart * apart + r * r - other * other) / (2.0 * apart)).clamp(-r, r);
+            r * r * (along / r).acos() - along * (r * r - along * along).max(0.0).sqrt()
+        };
+        segment(own, lamp) + segment(lamp, own)
+    };
+    (common / (side * side)).min(1.0)
+}
+
 /// Returns the place of a direction in the map, 0 to 1.
 fn octahedral(d: DVec3) -> DVec2 {
     let flat = d.truncate() / (d.x.abs() + d.y.abs() + d.z.abs());
@@ -478,6 +511,26 @@ mod tests {
             let counted = (0..100_000).map(inside).sum::<f64>() / 1e5;
             assert!((share_inside(from - lamp, way, chord) - counted).abs() < 2e-4);
         }
+    }
+
+    #[test]
+    fn a_disc_of_directions_gathers_the_part_of_it_that_a_lamp_fills() {
+        for (offset, side, radius) in
+            [(0.0, 0.03, 0.02), (0.01, 0.03, 0.02), (0.03, 0.03, 0.02), (0.0, 0.2, 0.02), (0.01, 0.004, 0.02)]
+        {
+            let own = side * FRAC_1_PI.sqrt();
+            let inside = |k: u32| {
+                let (x, y) = (f64::from(k % 1000), f64::from(k / 1000));
+                let p = (DVec2::new(x, y) + 0.5) / 500.0 - 1.0;
+                let at = p * own + DVec2::X * offset;
+                (p.length() < 1.0).then(|| f64::from(u8::from(at.length() < radius)))
+            };
+            let all: Vec<f64> = (0..1_000_000).filter_map(inside).collect();
+            let counted = all.iter().sum::<f64>() / all.len() as f64;
+            let found = share_of_disc(DVec3::X * offset, side, radius * radius);
+            assert!((found - counted).abs() < 2e-3, "{offset} {side}: {found} {counted}");
+        }
+        assert_eq!(share_of_disc(DVec3::X * 0.05, 0.03, 4e-4), 0.0);
     }
 
     #[test]

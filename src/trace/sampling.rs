@@ -6,11 +6,12 @@ use crate::optics::{Strata, Stratum};
 use crate::scene::{Film, Instance, Medium, Scene, View};
 use crate::trace::ray::{RayOptions, Roulette};
 use glam::{DVec2, DVec3, DVec4};
+use num_complex::Complex64;
 
-/// Stones in one world, the environment around them, and the camera.
+/// Stones and metal in one world, the environment around them, and the camera.
 #[derive(Clone, Copy)]
 pub struct LitScene<'a> {
-    /// The stones.
+    /// The stones and the metal.
     pub scene: &'a Scene,
     /// The environment around the stones.
     pub environment: Environment<'a>,
@@ -29,6 +30,8 @@ pub struct SamplePass {
     pub shift: DVec2,
     /// The media of the stones, in the units of their bodies: stone by stone, band by band.
     pub media: Vec<Vec<Medium>>,
+    /// The complex indices of the bodies of metal: body by body, band by band.
+    pub metals: Vec<Vec<Complex64>>,
     /// For each band, the colour of light of radiance 1 in each of the environment's four channels. A band is the share of a
     /// stratum that the pass stands for.
     pub responses: Vec<[DVec3; 4]>,
@@ -117,6 +120,11 @@ impl Sampling {
         SamplePass {
             shift: place_in_pixel(number),
             media: scene.instances.iter().map(|p| bands.iter().map(|s| medium(p, s)).collect()).collect(),
+            metals: scene
+                .metals
+                .iter()
+                .map(|m| bands.iter().map(|s| m.metal.index(s.at(0.5))).collect())
+                .collect(),
             responses: bands.iter().map(|s| s.response).collect(),
             whole: strata.response(),
             strength: self.strength,

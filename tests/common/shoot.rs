@@ -48,7 +48,7 @@ impl Shoot {
 
     pub fn of_stone(stone: Instance, light: Light) -> Self {
         Self {
-            setting: Scene { instances: vec![stone], unit_mm: 3.25 },
+            setting: Scene { instances: vec![stone], metals: vec![], unit_mm: 3.25 },
             light: Light { head: 0.0, ..light },
             view: View { tilt: 0.2, azimuth: 0.4, ..View::default() },
             wavelengths: 8,

@@ -32,7 +32,7 @@ fn pictures_beyond_the_limits_of_a_card_are_refused_and_do_not_lose_it() {
         let around = GpuEnvironment::new(&gpu, &lit_scene.environment).unwrap();
         let refused =
             |scene: &LitScene, wavelengths| ByCard::new(&gpu, scene, &around, 0..8, wavelengths).err();
-        let nothing = Scene { instances: vec![], unit_mm: 1.0 };
+        let nothing = Scene { instances: vec![], metals: vec![], unit_mm: 1.0 };
         let empty = LitScene { scene: &nothing, ..*lit_scene };
         assert_eq!(refused(&empty, 3), Some(GpuError::NoStones));
         for count in [0, MOST_WAVELENGTHS + 1] {

@@ -306,7 +306,9 @@ fn a_stone_that_is_scaled_absorbs_as_one_of_that_size() {
     let ruby = material("ruby").unwrap().clone();
     let stone = Instance::new(solid(ImplicitForm::Block { size: DVec3::ONE, edge: 0.1 }), ruby);
     let larger = stone.clone().moved(&Pose { scale: 2.5, ..Pose::STILL });
-    let medium = |stone, unit_mm| Scene { instances: vec![], unit_mm }.medium(stone, (500.0, 550.0, 600.0));
+    let medium = |stone, unit_mm| {
+        Scene { instances: vec![], metals: vec![], unit_mm }.medium(stone, (500.0, 550.0, 600.0))
+    };
     assert_eq!(medium(&larger, 2.0), medium(&stone, 5.0));
     assert_ne!(medium(&larger, 2.0), medium(&stone, 2.0));
     assert!((larger.carats(2.0).unwrap() / stone.carats(5.0).unwrap() - 1.0).abs() < 1e-12);

@@ -36,7 +36,7 @@ fn cut(bands: (u32, u32), sampling: Sampling) -> Vec<DVec3> {
     let mut material = Material::from_index("rainbow soap", 1.272).unwrap();
     material.dispersion = Dispersion::Abbe { n_d: 1.272, v_d: 2.0 };
     let stone = Instance::new(Polytope::from_planes(&planes).unwrap(), material);
-    let setting = Scene { instances: vec![stone], unit_mm: 20.0 };
+    let setting = Scene { instances: vec![stone], metals: vec![], unit_mm: 20.0 };
     let slit = BackgroundRef::read("slit", Path::new("")).unwrap().picture().unwrap().unwrap().panorama;
     let slit = Mipmap::new(slit);
     shot(&setting, &slit, bands, sampling)

@@ -26,7 +26,7 @@ impl Shot {
     fn new(polytope: Polytope, material_name: &str, view: View) -> Self {
         let stone = Instance::new(polytope, material(material_name).unwrap().clone());
         let options = RayOptions { polarised: false, most_bounces: 64, least_weight: 1e-4 };
-        Self { setting: Scene { instances: vec![stone], unit_mm: 3.25 }, view, options }
+        Self { setting: Scene { instances: vec![stone], metals: vec![], unit_mm: 3.25 }, view, options }
     }
 
     fn with<T>(&self, work: impl FnOnce(&LitScene) -> T) -> T {

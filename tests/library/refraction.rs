@@ -66,7 +66,7 @@ fn photo() -> Panorama {
 impl Shoot {
     fn of(solid: Polytope, material: Material) -> Self {
         Self {
-            setting: Scene { instances: vec![Instance::new(solid, material)], unit_mm: 3.0 },
+            setting: Scene { instances: vec![Instance::new(solid, material)], metals: vec![], unit_mm: 3.0 },
             view: View::default(),
             size: [96, 72],
             light: dark(),

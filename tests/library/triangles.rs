@@ -32,7 +32,7 @@ fn view() -> View {
 
 /// Does work with a lit scene of stones in one world.
 fn taken<T>(stones: Vec<Instance>, light: &Light, work: impl FnOnce(&LitScene) -> T) -> T {
-    let setting = Scene { instances: stones, unit_mm: 3.25 };
+    let setting = Scene { instances: stones, metals: vec![], unit_mm: 3.25 };
     let (sky, view) = (EnvironmentMap::new(light, None), view());
     let environment = Environment {
         map: &sky,

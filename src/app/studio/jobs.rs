@@ -66,7 +66,7 @@ impl Shot {
         let placed =
             |pose: &Pose| Instance::of(&self.specimen.body, self.specimen.material.clone(), "").moved(pose);
         let instances = self.copies.iter().map(placed).collect();
-        Arc::new(Scene { instances, unit_mm: self.specimen.unit_mm() })
+        Arc::new(Scene { instances, metals: vec![], unit_mm: self.specimen.unit_mm() })
     }
 
     fn surroundings(&self, behind: Option<Arc<Mipmap>>) -> Surroundings {

@@ -46,6 +46,7 @@ impl SceneOut {
                 .iter()
                 .map(|pose| Entry::placed(&cut, pose.turn, (pose.at - middle) * unit_mm))
                 .collect(),
+            metals: vec![],
         };
         Self { paths, scene: scene_file::write(&scene), cut: cut_file::write(design) }
     }

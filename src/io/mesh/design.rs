@@ -22,7 +22,7 @@ const USUAL: &str = "diamond";
 /// When the mesh makes no stone; the error has the path and the place.
 pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<ImportedDesign, FileError> {
     let label = path.display().to_string();
-    let MeshFile { format, surface, hint, statement, warnings, name } =
+    let MeshFile { format, surface, hint, statement, warnings, name, .. } =
         file::parse(bytes, &label, path.parent())?;
     let mended = surface.mend().map_err(|error| FileError::new(&label, error))?;
     let name = Some(name).filter(|name| is_printable(name)).unwrap_or_else(|| "stone".to_owned());

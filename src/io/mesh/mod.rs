@@ -10,13 +10,15 @@
 //! 4. `design` makes a stone of the facets ([`cut::from_mesh`](crate::cut::from_mesh)), or of the triangles where the solid is
 //!    not convex, and collects notes and warnings.
 //!
-//! `export` writes stones as meshes.
+//! `export` writes stones as meshes. `metal` reads meshes of opaque bodies, which need not be closed.
 
 mod design;
 mod export;
 mod file;
+mod metal;
 mod place;
 
 pub use design::read;
 pub use export::{FINENESS, Stated, stated_in_stl, write_glb, write_obj, write_ply, write_stl};
 pub use file::{MAX_BYTES, MaterialHint, MeshFile, looks_like, parse};
+pub use metal::read_shaded;

@@ -6,6 +6,7 @@ use super::super::cut_file::values::{Numbers, OneOf, Pairs, TomlTable};
 use super::super::file_error::Fault;
 use super::super::toml_format::FORMAT;
 use super::super::toml_text::line_at;
+use super::metal_form::{MetalForm, metals};
 use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, behind, found, likely, shown};
 use crate::cut::{MaterialRef, Size, SizeError, is_printable};
 use crate::scene::Layout;
@@ -32,7 +33,10 @@ pub(super) struct SceneForm {
     strength: Option<f64>,
     angle_of_view: Option<f64>,
     exposure: Option<f64>,
-    stone: Vec<Spanned<TomlTable<StoneForm>>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stone: Option<Vec<Spanned<TomlTable<StoneForm>>>>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    metal: Vec<Spanned<TomlTable<MetalForm>>>,
 }
 
 /// A table `[[stone]]`.
@@ -88,13 +92,13 @@ impl From<SizeForm> for String {
     }
 }
 
-const DEGREES: RangeInclusive<f64> = -1e6..=1e6;
-const LEANING: RangeInclusive<f64> = -180.0..=180.0;
+pub(super) const DEGREES: RangeInclusive<f64> = -1e6..=1e6;
+pub(super) const LEANING: RangeInclusive<f64> = -180.0..=180.0;
 const GAPS_MM: RangeInclusive<f64> = 0.0..=1000.0;
 const DISTANCES_MM: RangeInclusive<f64> = 0.0..=10_000.0;
 const ANGLES_OF_VIEW: RangeInclusive<f64> = 1.0..=120.0;
 const STOPS: RangeInclusive<f64> = -40.0..=40.0;
-const PLACES_MM: RangeInclusive<f64> = -10_000.0..=10_000.0;
+pub(super) const PLACES_MM: RangeInclusive<f64> = -10_000.0..=10_000.0;
 
 impl SceneForm {
     /// Returns the form in which a scene is written.
@@ -115,7 +119,8 @@ impl SceneForm {
             strength: Some(scene.strength),
             angle_of_view: scene.angle_of_view,
             exposure: (scene.exposure != 0.0).then_some(scene.exposure),
-            stone: scene.stones.iter().map(stone).collect(),
+            stone: (!scene.stones.is_empty()).then(|| scene.stones.iter().map(stone).collect()),
+            metal: scene.metals.iter().map(|m| Spanned::new(0..0, TomlTable(MetalForm::of(m)))).collect(),
         }
     }
 
@@ -151,8 +156,8 @@ impl SceneForm {
         let (exposure, light_turn) = (self.exposure.unwrap_or(0.0), self.light_turn.unwrap_or(0.0));
         within("light_turn", "light_turn", light_turn, DEGREES, "degrees")?;
         within("exposure", "exposure", exposure, STOPS, "stops")?;
-        check_counts(&self.stone)?;
-        let alone = self.stone.len() == 1;
+        let stones = stones(self.stone, !self.metal.is_empty())?;
+        let alone = stones.len() == 1;
         let entry = |(index, stone): (usize, Spanned<TomlTable<StoneForm>>)| {
             let line = line_at(text, stone.span().start);
             let TomlTable(form) = stone.into_inner();
@@ -160,7 +165,8 @@ impl SceneForm {
                 |fault: Fault| fault.within(&format!("stone/{index}/"), &format!("stone {}: ", index + 1));
             form.check_place(layout, alone).and_then(|()| form.entry(line)).map_err(of_stone)
         };
-        let stones = self.stone.into_iter().enumerate().map(entry).collect::<Result<_, _>>()?;
+        let stones = stones.into_iter().enumerate().map(entry).collect::<Result<_, _>>()?;
+        let metals = metals(self.metal, text)?;
         let Self { name, background_distance_mm, angle_of_view, light_upright, .. } = self;
         Ok(SceneFile {
             name,
@@ -175,6 +181,7 @@ impl SceneForm {
             angle_of_view,
             exposure,
             stones,
+            metals,
         })
     }
 }
@@ -186,10 +193,25 @@ fn layout(given: &str) -> Result<Layout, Fault> {
     found.ok_or_else(|| Fault::key("layout", unknown()))
 }
 
-fn check_counts(stones: &[Spanned<TomlTable<StoneForm>>]) -> Result<(), Fault> {
-    if stones.is_empty() {
-        return Err(Fault::key("stone", "stone: the list is empty; give at least one [[stone]]"));
+/// Returns the tables of stones, which may be missing where there is metal.
+fn stones(
+    given: Option<Vec<Spanned<TomlTable<StoneForm>>>>,
+    has_metal: bool,
+) -> Result<Vec<Spanned<TomlTable<StoneForm>>>, Fault> {
+    match given {
+        None if !has_metal => Err(Fault::line(1, "the key `stone` is missing: give at least one [[stone]]")),
+        Some(list) if list.is_empty() && !has_metal => {
+            Err(Fault::key("stone", "stone: the list is empty; give at least one [[stone]]"))
+        }
+        given => {
+            let stones = given.unwrap_or_default();
+            check_counts(&stones)?;
+            Ok(stones)
+        }
     }
+}
+
+fn check_counts(stones: &[Spanned<TomlTable<StoneForm>>]) -> Result<(), Fault> {
     let mut left = MOST_STONES as i64;
     for (index, stone) in stones.iter().enumerate() {
         let TomlTable(StoneForm { count, .. }) = stone.get_ref();
@@ -205,7 +227,13 @@ fn check_counts(stones: &[Spanned<TomlTable<StoneForm>>]) -> Result<(), Fault> {
     Ok(())
 }
 
-fn within(path: &str, key: &str, value: f64, range: RangeInclusive<f64>, unit: &str) -> Result<(), Fault> {
+pub(super) fn within(
+    path: &str,
+    key: &str,
+    value: f64,
+    range: RangeInclusive<f64>,
+    unit: &str,
+) -> Result<(), Fault> {
     if range.contains(&value) {
         return Ok(());
     }

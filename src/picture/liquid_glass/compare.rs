@@ -175,7 +175,7 @@ impl<'a> PaneScene<'a> {
         let centre = (0.5 * (low + high) - whole / 2.0) * up;
         Ok(Self {
             pane,
-            scene: Scene { instances: stones, unit_mm: 1.0 },
+            scene: Scene { instances: stones, metals: vec![], unit_mm: 1.0 },
             size: whole / unit,
             thickness,
             first,

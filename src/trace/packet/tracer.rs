@@ -50,8 +50,11 @@ impl<'a> PacketTracer<'a> {
     /// The number of rays, over all bands, for which a processor's cache has room.
     pub const RAYS_AT_ONCE: usize = 1024;
 
-    /// Prepares the bodies of a scene; `None` where one of them has triangles.
+    /// Prepares the bodies of a scene; `None` where one of them has triangles or is of metal.
     pub fn new(lit_scene: LitScene<'a>) -> Option<Self> {
+        if !lit_scene.scene.metals.is_empty() {
+            return None;
+        }
         let instances = PacketInstance::of_all(&lit_scene.scene.instances)?;
         Some(Self {
             lit_scene,

@@ -87,6 +87,13 @@ impl Roulette {
         Self { seed: mixed(self.seed ^ mixed(exit)), drawn: EVEN, ..*self }
     }
 
+    /// Returns what decides which of the light that leaves a body and meets another goes on; `beyond` is never asked for the
+    /// exit 0.
+    pub(super) fn sieve(&self) -> Sieve {
+        let luck = self.beyond(0).draw();
+        Sieve { threshold: self.threshold, level: Some(luck * self.threshold) }
+    }
+
     /// Draws the numbers of a passage that begins with this light, of which absorption has left a share.
     pub(super) fn passage(&mut self, light: &PathLight, left: f64) -> PassageRoulette {
         let threshold = self.threshold;

@@ -1,5 +1,8 @@
-//! Traces pictures under light by point rays: several stones, and light that goes from one to the next.
+//! Traces pictures under light by point rays: several stones and bodies of metal, and light that goes from one to the next.
 
+use super::lobe_luck::LobeLuck;
+use super::metal_tracer::{MetalHit, MetalTracer, nearest_metal};
+use super::roulette::Sieve;
 use super::sight::{Met, nearest};
 use super::{Camera, Exit, InstanceTracer, Loss, MeetingRay, Roulette};
 use crate::scene::Medium;
@@ -13,14 +16,18 @@ use std::ops::Range;
 /// Rows traced between two calls of the watch.
 const PIECE: usize = 8;
 
-/// A tracer of several stones, each of one medium, and of the light that goes from one to the next.
+/// The most reflections by metal on a ray's way; light that would be reflected once more is unresolved.
+const MOST_REFLECTIONS: u32 = 256;
+
+/// A tracer of several stones, each of one medium, and of metal, and of the light that goes from one to the next.
 #[derive(Clone)]
 pub struct SceneTracer {
     tracers: Vec<InstanceTracer>,
+    metals: Vec<MetalTracer>,
     least_weight: f64,
 }
 
-/// A ray on its way, and the stone that it left.
+/// A ray on its way, and what it left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaitingRay {
     /// The point where it begins.
@@ -31,85 +38,161 @@ pub struct WaitingRay {
     pub sweep: DVec3,
     /// The share of the light from that direction that reaches the eye.
     pub weight: f64,
-    /// By what chance weak light goes on in solids that are not convex; without it, all of it does.
+    /// By what chance weak light goes on in solids that are not convex and to other bodies; without it, all of it does.
     pub roulette: Option<Roulette>,
-    left: Option<usize>,
+    /// The side, in radians, of the square of directions that the ray stands for: rough metal spreads light; 0 for one
+    /// direction.
+    pub spread: f64,
+    left: LeftBody,
     /// The number of bounces inside stones on its way so far.
     bounces: u32,
+    /// The number of reflections by metal on its way so far.
+    reflections: u32,
+    luck: LobeLuck,
+}
+
+/// What a ray has just left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum LeftBody {
+    /// Nothing: it comes from the eye.
+    Eye,
+    Stone(usize),
+    /// A body of metal, and a triangle of it.
+    Metal(usize, u32),
+}
+
+impl LeftBody {
+    fn stone(self) -> Option<usize> {
+        if let Self::Stone(stone) = self { Some(stone) } else { None }
+    }
+
+    fn metal(self) -> Option<(usize, u32)> {
+        if let Self::Metal(metal, triangle) = self { Some((metal, triangle)) } else { None }
+    }
 }
 
 impl WaitingRay {
     /// Returns a ray from the eye.
     pub fn from_eye((origin, direction): (DVec3, DVec3)) -> Self {
-        Self { origin, direction, sweep: DVec3::ZERO, weight: 1.0, roulette: None, left: None, bounces: 0 }
+        Self {
+            origin,
+            direction,
+            sweep: DVec3::ZERO,
+            weight: 1.0,
+            roulette: None,
+            spread: 0.0,
+            left: LeftBody::Eye,
+            bounces: 0,
+            reflections: 0,
+            luck: LobeLuck::default(),
+        }
+    }
+
+    /// Whether metal has reflected it.
+    pub fn is_reflected(&self) -> bool {
+        self.reflections > 0
     }
 }
 
 impl SceneTracer {
-    /// Prepares the stones of a scene; [`made_of`](Self::made_of) gives them their media.
+    /// Prepares the bodies of a scene; [`made_of`](Self::made_of) gives them their media.
     pub fn new(lit_scene: &LitScene) -> Self {
         let (stones, options) = (&lit_scene.scene.instances, lit_scene.options);
         Self {
             tracers: InstanceTracer::of_all(stones, options, |_| Medium::clear(1.0)),
+            metals: MetalTracer::of_all(&lit_scene.scene.metals),
             least_weight: lit_scene.options.least_weight,
         }
     }
 
-    /// Returns the stones with their media in each band of a sample pass.
+    /// Returns the bodies with their media in each band of a sample pass.
     pub fn made_of(&self, pass: &SamplePass) -> Vec<Self> {
         let of_band = |band: usize| {
             let made = |(tracer, media): (&InstanceTracer, &Vec<Medium>)| tracer.made_of(media[band]);
             Self {
                 tracers: self.tracers.iter().zip(&pass.media).map(made).collect(),
+                metals: self
+                    .metals
+                    .iter()
+                    .zip(&pass.metals)
+                    .map(|(m, bands)| m.made_of(bands[band]))
+                    .collect(),
                 least_weight: self.least_weight,
             }
         };
         (0..pass.responses.len()).map(of_band).collect()
     }
 
-    /// Returns the stone that a ray meets first, and where; `None` where it meets none.
+    /// Returns the body that a ray meets first, and where; `None` where it meets none.
     pub fn first(&self, ray: &WaitingRay) -> Option<First> {
-        nearest(&self.tracers, (ray.origin, ray.direction), ray.left).map(First)
+        self.first_body(ray).map(First)
     }
 
-    /// Follows a ray through all stones, from the one that it is known to meet; calls `leave` for each ray that meets no
-    /// stone any more.
+    fn first_body(&self, ray: &WaitingRay) -> Option<FirstBody> {
+        let way = (ray.origin, ray.direction);
+        let stone = nearest(&self.tracers, way, ray.left.stone());
+        let metal = nearest_metal(&self.metals, way, ray.left.metal());
+        match (stone, metal) {
+            (Some(met), Some(hit)) if hit.distance > met.1.1 => Some(FirstBody::Stone(met)),
+            (_, Some(hit)) => Some(FirstBody::Metal(hit)),
+            (met, None) => met.map(FirstBody::Stone),
+        }
+    }
+
+    /// Follows a ray through all bodies, from the one that it is known to meet; calls `leave` for each ray that meets none any
+    /// more.
     pub fn follow(&self, start: &WaitingRay, first: &First, mut leave: impl FnMut(&WaitingRay)) -> Loss {
         let mut waiting = Vec::new();
-        let mut rest = self.through(start, first.0, &mut waiting, &mut leave);
-        while let Some(ray) = waiting.pop() {
-            match self.first(&ray) {
-                Some(first) => {
-                    let more = self.through(&ray, first.0, &mut waiting, &mut leave);
-                    rest = rest.and(&more);
-                }
-                None => leave(&ray),
-            }
+        let mut rest = self.onward(start, first.0, &mut waiting, &mut leave);
+        while let Some((ray, first)) = waiting.pop() {
+            let more = self.onward(&ray, first, &mut waiting, &mut leave);
+            rest = rest.and(&more);
         }
         rest
     }
 
-    /// Follows a ray through one stone; exits that meet other stones are put into `waiting`.
+    /// Follows a ray through the body that it meets; light that meets another body then is put into `waiting`.
+    fn onward(
+        &self,
+        ray: &WaitingRay,
+        first: FirstBody,
+        waiting: &mut Vec<(WaitingRay, FirstBody)>,
+        leave: impl FnMut(&WaitingRay),
+    ) -> Loss {
+        match first {
+            FirstBody::Stone(met) => self.through(ray, met, waiting, leave),
+            FirstBody::Metal(hit) => self.reflect(ray, &hit, waiting, leave),
+        }
+    }
+
+    /// Follows a ray through one stone.
     fn through(
         &self,
         ray: &WaitingRay,
         (stone, met): Met,
-        waiting: &mut Vec<WaitingRay>,
+        waiting: &mut Vec<(WaitingRay, FirstBody)>,
         mut leave: impl FnMut(&WaitingRay),
     ) -> Loss {
         let (mut unseen, mut number, before) = (0.0, 0, ray.bounces);
+        let mut sieve = ray.roulette.map(|roulette| roulette.sieve());
         let exits = |exit: Exit| {
             let Exit { point: origin, direction, sweep, weight, .. } = exit;
-            let bounces = before + exit.bounce;
             number += 1;
-            let roulette = ray.roulette.map(|roulette| roulette.beyond(number));
-            let ray = WaitingRay { origin, direction, sweep, weight, roulette, left: Some(stone), bounces };
-            if !self.meets_any(&ray) {
-                leave(&ray);
-            } else if waiting.len() < MOST_WAITING && weight > self.least_weight {
-                waiting.push(ray);
-            } else {
-                unseen += weight;
+            let ray = WaitingRay {
+                origin,
+                direction,
+                sweep,
+                weight,
+                roulette: ray.roulette.map(|roulette| roulette.beyond(number)),
+                spread: 0.0,
+                left: LeftBody::Stone(stone),
+                bounces: before + exit.bounce,
+                reflections: ray.reflections,
+                luck: ray.luck.beyond(number),
+            };
+            match self.first_body(&ray) {
+                Some(first) => unseen += self.wait(ray, first, sieve.as_mut(), waiting),
+                None => leave(&ray),
             }
         };
         let &WaitingRay { origin, direction, sweep, weight, roulette, .. } = ray;
@@ -119,28 +202,89 @@ impl SceneTracer {
         Loss { unresolved: rest.unresolved + unseen, bounces: before + rest.bounces, ..rest }
     }
 
-    /// Whether a ray meets a stone other than the one that it left.
-    fn meets_any(&self, ray: &WaitingRay) -> bool {
-        self.others(ray.left, (ray.origin, ray.direction)).next().is_some()
+    /// Reflects a ray at metal.
+    fn reflect(
+        &self,
+        ray: &WaitingRay,
+        hit: &MetalHit,
+        waiting: &mut Vec<(WaitingRay, FirstBody)>,
+        mut leave: impl FnMut(&WaitingRay),
+    ) -> Loss {
+        let lost = |absorbed: f64, unresolved: f64| Loss { absorbed, unresolved, bounces: ray.bounces };
+        if ray.reflections == MOST_REFLECTIONS {
+            return lost(0.0, ray.weight);
+        }
+        let (luck, later) = ray.luck.draw();
+        let way = (ray.origin, ray.direction, ray.sweep);
+        let Some(found) = self.metals[hit.metal].reflect(way, hit, luck) else {
+            return lost(ray.weight, 0.0);
+        };
+        let next = WaitingRay {
+            origin: found.point,
+            direction: found.direction,
+            sweep: found.sweep,
+            weight: ray.weight * found.weight,
+            roulette: ray.roulette.map(|roulette| roulette.beyond(1)),
+            spread: found.spread,
+            left: LeftBody::Metal(hit.metal, hit.triangle),
+            bounces: ray.bounces,
+            reflections: ray.reflections + 1,
+            luck: later,
+        };
+        let absorbed = ray.weight - next.weight;
+        let Some(first) = self.first_body(&next) else {
+            leave(&next);
+            return lost(absorbed, 0.0);
+        };
+        let mut sieve = ray.roulette.map(|roulette| roulette.sieve());
+        lost(absorbed, self.wait(next, first, sieve.as_mut(), waiting))
     }
 
-    /// Whether light that has left a stone meets another at less than this distance.
+    /// Puts light that meets another body into `waiting`, weak light by chance where there is roulette, and returns what is not
+    /// followed.
+    fn wait(
+        &self,
+        mut ray: WaitingRay,
+        first: FirstBody,
+        sieve: Option<&mut Sieve>,
+        waiting: &mut Vec<(WaitingRay, FirstBody)>,
+    ) -> f64 {
+        let has_room = waiting.len() < MOST_WAITING;
+        match sieve {
+            Some(sieve) => {
+                let Some(weight) = sieve.pass(ray.weight) else { return 0.0 };
+                ray.weight = weight;
+            }
+            None if ray.weight <= self.least_weight => return ray.weight,
+            None => {}
+        }
+        if !has_room {
+            return ray.weight;
+        }
+        waiting.push((ray, first));
+        0.0
+    }
+
+    /// Whether light that has left a stone meets another body at less than this distance.
     fn meets_before(&self, exit: &Exit, left: usize, distance: f64) -> bool {
-        self.others(Some(left), (exit.point, exit.direction)).any(|other| other < distance)
-    }
-
-    /// Returns the distances at which a ray meets stones other than the one that it left.
-    fn others(&self, left: Option<usize>, way: (DVec3, DVec3)) -> impl Iterator<Item = f64> {
-        let near = move |&(k, tracer): &(usize, &InstanceTracer)| Some(k) != left && tracer.is_near(way);
-        let met =
-            move |(_, tracer): (_, &InstanceTracer)| tracer.meet(way.0, way.1).map(|(_, distance)| distance);
-        self.tracers.iter().enumerate().filter(near).filter_map(met)
+        let way = (exit.point, exit.direction);
+        let near = |&(k, tracer): &(usize, &InstanceTracer)| k != left && tracer.is_near(way);
+        let met = |(_, tracer): (_, &InstanceTracer)| tracer.meet(way.0, way.1).map(|(_, distance)| distance);
+        self.tracers.iter().enumerate().filter(near).filter_map(met).any(|other| other < distance)
+            || nearest_metal(&self.metals, way, None).is_some_and(|hit| hit.distance < distance)
     }
 }
 
-/// The stone that a ray meets first, and where.
+/// The body that a ray meets first, and where.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct First(Met);
+pub struct First(FirstBody);
+
+/// A stone, or a body of metal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum FirstBody {
+    Stone(Met),
+    Metal(MetalHit),
+}
 
 /// What follows the rays of a picture under light.
 enum RayTracer<'a> {
@@ -165,7 +309,7 @@ impl<'a> ByRays<'a> {
     pub const MOST_ROWS: u32 = 256;
 
     /// Prepares some rows of a picture: by packets of rays in single precision where these can follow light through all
-    /// bodies, else by single rays in double precision. Triangles, and bodies a thousand times their size away from the
+    /// bodies, else by single rays in double precision. Metal, triangles, and bodies a thousand times their size away from the
     /// middle of the world, need the latter.
     pub fn new(lit_scene: LitScene<'a>, rows: Range<u32>) -> Self {
         match PacketTracer::new(lit_scene) {
@@ -194,7 +338,8 @@ impl<'a> ByRays<'a> {
     fn see(&self, bands: &[SceneTracer], pass: &SamplePass, pixel: [u32; 2]) -> RadiancePixel {
         let straight = self.eye_ray(pass, pixel);
         let mut start = WaitingRay::from_eye(straight);
-        // The ray meets the first stone at the same point in all wavelengths.
+        start.luck = LobeLuck::new(pixel, pass.number);
+        // The ray meets the first body at the same point in all wavelengths.
         let first = bands.first().and_then(|tracer| tracer.first(&start));
         let is_seen = first.is_some() || self.lit_scene.environment.backdrop;
         let mut lit = RadiancePixel { cover: f64::from(u8::from(is_seen)), ..RadiancePixel::default() };
@@ -222,8 +367,10 @@ impl<'a> ByRays<'a> {
     /// Returns the environment's light along a ray that has left all stones; `straight` is the ray from the eye that it goes
     /// back to.
     fn arriving(&self, ray: &WaitingRay, straight: (DVec3, DVec3), pass: &SamplePass) -> DVec4 {
-        let (from, direction, sweep) = pass.mixed(straight, (ray.origin, ray.direction, ray.sweep));
-        self.lit_scene.environment.radiance(from, direction, sweep) * ray.weight
+        let own = (ray.origin, ray.direction, ray.sweep);
+        // Only refraction is mixed with the straight way.
+        let (from, direction, sweep) = if ray.is_reflected() { own } else { pass.mixed(straight, own) };
+        self.lit_scene.environment.radiance_around(from, direction, (sweep, ray.spread)) * ray.weight
     }
 
     /// Returns the ray of a pixel, given by column and row.

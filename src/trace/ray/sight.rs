@@ -1,5 +1,6 @@
 //! Finds what is seen first at a point of a picture.
 
+use super::metal_tracer::{MetalTracer, nearest_metal};
 use super::{Camera, InstanceTracer};
 use crate::optics::line;
 use crate::trace::sampling::LitScene;
@@ -15,6 +16,8 @@ pub struct SceneProbe<'a> {
     pub camera: Camera,
     /// The stones, in the scene's order.
     pub tracers: Vec<InstanceTracer>,
+    /// The metal, which may hide stones.
+    metals: Vec<MetalTracer>,
 }
 
 /// A ray from the eye that meets a stone.
@@ -41,23 +44,30 @@ impl<'a> SceneProbe<'a> {
             lit_scene: *lit_scene,
             camera: Camera::reaching(lit_scene.view, lit_scene.scene.reach()),
             tracers: InstanceTracer::of_all(&scene.instances, lit_scene.options, medium),
+            metals: MetalTracer::of_all(&scene.metals),
         }
     }
 
     /// Returns the ray through a point of the picture, in pixels to the right of its left border and below its upper one;
-    /// `None` where it meets no stone.
+    /// `None` where it meets no stone, or metal before that.
     pub fn through(&self, x: f64, y: f64) -> Option<ProbeRay> {
         let at = self.lit_scene.film.image_from_pixels(DVec2::new(x, y));
         let (origin, direction) = self.camera.ray(at);
         let (stone, (facet, distance)) = nearest(&self.tracers, (origin, direction), None)?;
+        let metal = nearest_metal(&self.metals, (origin, direction), None);
+        if metal.is_some_and(|hit| hit.distance <= distance) {
+            return None;
+        }
         Some(ProbeRay { origin, direction, stone, facet: facet as u32, distance })
     }
 
-    /// Whether a point of a stone's surface is hidden from the eye, by another stone or, where it is not convex, by the
+    /// Whether a point of a stone's surface is hidden from the eye, by another body or, where it is not convex, by the
     /// stone itself.
     pub fn is_hidden(&self, stone: usize, point: DVec3) -> bool {
         let way = (point, self.camera.toward_eye(point));
-        nearest(&self.tracers, way, Some(stone)).is_some() || self.tracers[stone].hides_itself(way)
+        nearest(&self.tracers, way, Some(stone)).is_some()
+            || nearest_metal(&self.metals, way, None).is_some()
+            || self.tracers[stone].hides_itself(way)
     }
 }
 

@@ -77,6 +77,7 @@ const ROOMS: [Room; 7] = [
             "looks_like",
             "parse",
             "read",
+            "read_shaded",
             "stated_in_stl",
             "write_glb",
             "write_obj",

@@ -18,8 +18,9 @@ mod stl_file;
 #[cfg(test)]
 mod tests;
 
-use crate::io::file_error::FileError;
+use crate::io::file_error::{Fault, FileError};
 use crate::math::Surface;
+use glam::DVec3;
 use std::path::Path;
 
 pub use hint::MaterialHint;
@@ -37,6 +38,9 @@ pub struct MeshFile {
     pub format: MeshFormat,
     /// All triangles; the surface's groups are the file's meshes, objects or groups, with their names.
     pub surface: Surface,
+    /// The normals of the surface's corners, of any length, 0 where the file gives none; empty where it gives none at all.
+    /// Of OBJ they are read by [`parse_shaded`] alone.
+    pub normals: Vec<DVec3>,
     /// What the file says of its material.
     pub hint: Option<MaterialHint>,
     /// What the file states of its stone, where this program wrote it.
@@ -53,6 +57,24 @@ pub struct MeshFile {
 /// # Errors
 /// When the content is no mesh that can be read; the error has the place.
 pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshFile, FileError> {
+    parse_by(bytes, label, folder, obj_file::read)
+}
+
+/// Reads the content of a mesh file as [`parse`] does, with the normals of corners: corners of an OBJ that have several
+/// normals are doubled.
+///
+/// # Errors
+/// As for [`parse`]; normals that cannot be read are left out.
+pub fn parse_shaded(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshFile, FileError> {
+    parse_by(bytes, label, folder, obj_file::read_shaded)
+}
+
+fn parse_by(
+    bytes: Vec<u8>,
+    label: &str,
+    folder: Option<&Path>,
+    read_obj: fn(&[u8]) -> Result<ParsedMesh, Fault>,
+) -> Result<MeshFile, FileError> {
     if bytes.is_empty() {
         return Err(FileError::new(label, "the file is empty"));
     }
@@ -65,12 +87,12 @@ pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshF
     };
     let read = match format {
         MeshFormat::Glb | MeshFormat::Gltf => gltf_file::read(&bytes, folder),
-        MeshFormat::Obj => obj_file::read(&bytes),
+        MeshFormat::Obj => read_obj(&bytes),
         MeshFormat::StlBinary => stl_file::read_binary(bytes),
         MeshFormat::StlText => stl_file::read_text(&bytes),
         MeshFormat::Ply => ply_file::read(&bytes),
     };
-    let ParsedMesh { surface, hint, mut warnings, name, said } =
+    let ParsedMesh { surface, normals, hint, mut warnings, name, said } =
         read.and_then(limits::checked).map_err(|fault| fault.in_file(label))?;
     let stem = Path::new(label).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let printable = |name: &String| crate::cut::is_printable(name);
@@ -84,5 +106,5 @@ pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshF
             None
         }
     });
-    Ok(MeshFile { format, surface, hint, statement, warnings, name })
+    Ok(MeshFile { format, surface, normals, hint, statement, warnings, name })
 }

@@ -1,5 +1,5 @@
-//! Reads Wavefront OBJ, by tobj in f64. tobj gets corners, faces, objects and groups, but no lines, normals and materials:
-//! nothing of those is used, and faults in them are no reason to refuse a stone.
+//! Reads Wavefront OBJ, by tobj in f64. tobj gets corners, faces, objects and groups, but no lines and materials, and normals
+//! only for opaque bodies: nothing of those is used else, and faults in them are no reason to refuse a mesh.
 
 use super::limits;
 use super::lines::Lines;
@@ -14,22 +14,33 @@ use tobj::{LoadError, LoadOptions, Model};
 const NAMELESS: [&str; 2] = ["unnamed_object", "default"];
 
 pub(super) fn read(bytes: &[u8]) -> Result<ParsedMesh, Fault> {
+    read_by(bytes, Odd::default())
+}
+
+/// Reads a mesh with its normals, or without them where they cannot be read.
+pub(super) fn read_shaded(bytes: &[u8]) -> Result<ParsedMesh, Fault> {
+    let shaded = read_by(bytes, Odd { keeps_normals: true, ..Odd::default() });
+    shaded.or_else(|_| read(bytes))
+}
+
+fn read_by(bytes: &[u8], mut odd: Odd) -> Result<ParsedMesh, Fault> {
     let corners = bytes.split(|b| *b == b'\n').filter(|l| l.trim_ascii_start().starts_with(b"v ")).count();
     limits::count(corners, 0)?;
-    let mut odd = Odd::default();
     let (mut lines, line) = Lines::new(bytes, |line, out: &mut Vec<u8>| odd.hand_on(line, out));
     let options =
         LoadOptions { single_index: true, triangulate: true, ignore_points: true, ignore_lines: true };
     let loaded = tobj::load_obj_buf(&mut lines, &options, |_| Err(LoadError::OpenFileFailed));
     let models = loaded.map_err(|error| fault(&error, line.get(), bytes))?.0;
     drop(lines);
-    let mut surface = Surface::default();
+    let (mut surface, mut normals) = (Surface::default(), vec![]);
     for model in models {
         limits::count(surface.vertices.len() + model.mesh.positions.len() / 3, surface.triangles.len())?;
+        normals.extend(model.mesh.normals.as_chunks().0.iter().map(|&n: &[f64; 3]| DVec3::from(n)));
         surface.append(part(model));
+        normals.resize(surface.vertices.len(), DVec3::ZERO);
     }
     let (name, said) = (odd.object.take(), odd.said.take());
-    Ok(ParsedMesh { surface, warnings: odd.warnings(), name, said, hint: None })
+    Ok(ParsedMesh { surface, normals, warnings: odd.warnings(), name, said, hint: None })
 }
 
 fn part(model: Model) -> Surface {
@@ -42,6 +53,7 @@ fn part(model: Model) -> Surface {
 /// A filter of lines for tobj, and what is unusual about those that it keeps back.
 #[derive(Default)]
 struct Odd {
+    keeps_normals: bool,
     continues: bool,
     curves: usize,
     short: usize,
@@ -61,7 +73,7 @@ impl Odd {
         let continued = std::mem::replace(&mut self.continues, more);
         let (key, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
         match key {
-            _ if continued => out.extend(corners(text).as_bytes()),
+            _ if continued => out.extend(self.corners(text).as_bytes()),
             "v" => {
                 // Only three numbers: a weight would be 1, and a colour is not used.
                 out.extend(b"v ");
@@ -70,8 +82,9 @@ impl Odd {
             "f" if rest.split_whitespace().count() < 3 && !more => self.short += 1,
             "f" => {
                 out.extend(b"f ");
-                out.extend(corners(rest).as_bytes());
+                out.extend(self.corners(rest).as_bytes());
             }
+            "vn" if self.keeps_normals => out.extend(text.as_bytes()),
             "o" | "g" => {
                 if key == "o" && self.object.is_none() {
                     self.object = Some(rest.trim().to_owned());
@@ -84,6 +97,19 @@ impl Odd {
         out.push(if more { b' ' } else { b'\n' });
     }
 
+    /// Returns the corners of a face without their texture coordinates, and without their normals where these are not kept.
+    fn corners(&self, text: &str) -> String {
+        let corner = |corner: &str| {
+            let mut parts = corner.split('/');
+            let (place, normal) = (parts.next().unwrap_or_default(), parts.nth(1).unwrap_or_default());
+            match self.keeps_normals && !normal.is_empty() {
+                true => format!("{place}//{normal} "),
+                false => format!("{place} "),
+            }
+        };
+        text.split_whitespace().map(corner).collect()
+    }
+
     fn warnings(&self) -> Vec<String> {
         let left_out = |count: usize, what: &str| (count > 0).then(|| format!("{count} {what} left out"));
         let all = [
@@ -92,11 +118,6 @@ impl Odd {
         ];
         all.into_iter().flatten().collect()
     }
-}
-
-/// Returns the corners of a face without their normals and texture coordinates.
-fn corners(text: &str) -> String {
-    text.split_whitespace().flat_map(|c| [c.split('/').next().unwrap_or_default(), " "]).collect()
 }
 
 fn fault(error: &LoadError, line: usize, bytes: &[u8]) -> Fault {

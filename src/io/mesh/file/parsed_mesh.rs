@@ -2,11 +2,14 @@
 
 use super::hint::MaterialHint;
 use crate::math::Surface;
+use glam::DVec3;
 
 /// What the reader of a format returns, which does not yet have its file's name.
 #[derive(Default)]
 pub(super) struct ParsedMesh {
     pub surface: Surface,
+    /// The normals of the surface's corners, 0 where the file gives none; empty where it gives none at all.
+    pub normals: Vec<DVec3>,
     pub hint: Option<MaterialHint>,
     pub warnings: Vec<String>,
     pub name: Option<String>,

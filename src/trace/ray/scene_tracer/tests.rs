@@ -19,6 +19,7 @@ fn bounces(stones: &[Instance], most_bounces: u32) -> u32 {
     let medium = |stone: &Instance| Medium::clear(stone.material.index(550.0));
     let tracer = SceneTracer {
         tracers: InstanceTracer::of_all(stones, options, medium),
+        metals: vec![],
         least_weight: options.least_weight,
     };
     let start = WaitingRay::from_eye((DVec3::new(0.1, 0.2, 9.0), DVec3::NEG_Z));

@@ -96,6 +96,7 @@ impl Gatherer<'_> {
         let unreadable = || Fault::whole("its corners cannot be read");
         let at = |p: [f32; 3]| placed.transform_point3(DVec3::from_array(p.map(f64::from)));
         let vertices: Vec<DVec3> = reader.read_positions().ok_or_else(unreadable)?.map(at).collect();
+        let normals = self.normals(primitive, placed);
         let order: Vec<u32> = match primitive.indices() {
             Some(_) => reader.read_indices().ok_or_else(unreadable)?.into_u32().collect(),
             None => (0..vertices.len() as u32).collect(),
@@ -110,8 +111,22 @@ impl Gatherer<'_> {
             *self.materials.entry(index).or_default() += triangles.len();
         }
         let name = text_of(primitive.extras(), FACET).unwrap_or_else(|| name.to_owned());
+        self.mesh.normals.extend(normals);
         self.mesh.surface.append(Surface { names: vec![name], ..Surface::new(vertices, triangles) });
+        self.mesh.normals.resize(self.mesh.surface.vertices.len(), DVec3::ZERO);
         Ok(())
+    }
+
+    /// Returns the normals of a primitive's corners; none where they cannot be read.
+    fn normals(&self, primitive: &Primitive<'_>, placed: DAffine3) -> Vec<DVec3> {
+        let reader = primitive.reader(|buffer| self.data.get(buffer.index()).map(Vec::as_slice));
+        let is_sound = |accessor: &gltf::Accessor<'_>| {
+            buffers::check(accessor, &[DataType::F32], Dimensions::Vec3, self.data).is_ok()
+        };
+        let turn = placed.matrix3.inverse().transpose();
+        let corners = primitive.get(&Semantic::Positions).map_or(0, |positions| positions.count());
+        let given = primitive.get(&Semantic::Normals).filter(is_sound).and_then(|_| reader.read_normals());
+        given.into_iter().flatten().take(corners).map(|n| turn * DVec3::from(n.map(f64::from))).collect()
     }
 
     fn finish(mut self, document: &Document) -> Result<ParsedMesh, Fault> {

@@ -1,0 +1,193 @@
+//! Rough metal: a surface of microscopic mirrors, whose slopes are spread by the law of Trowbridge and Reitz (GGX).
+//!
+//! Light that the mirrors reflect once follows B. Walter et al., *Microfacet Models for Refraction through Rough Surfaces*,
+//! EGSR 2007, with Smith's masking and shadowing correlated by height (E. Heitz, *Understanding the Masking-Shadowing Function
+//! in Microfacet-Based BRDFs*, JCGT 3 (2), 2014). Its directions are sampled by E. Heitz, *Sampling the GGX Distribution of
+//! Visible Normals*, JCGT 7 (4), 2018. Light that the mirrors reflect more than once, which that model loses, is given back by
+//! C. Kulla and A. Conty, *Revisiting Physically Based Shading at Imageworks*, SIGGRAPH courses 2017, so that a surface that
+//! absorbs nothing loses nothing, and two directions can be exchanged. The numbers are derived from these models without their
+//! authors' code.
+//!
+//! Directions are in a frame whose z is the surface's normal, have length 1, and point away from the surface.
+
+use super::metal::metal_reflectance;
+use glam::DVec3;
+use num_complex::Complex64;
+use std::f64::consts::{FRAC_1_PI, TAU};
+use std::sync::Arc;
+
+/// The roughness below which a surface is a mirror: its reflections are spread over less than 1/500 degree.
+const MIRROR: f64 = 0.004;
+
+/// The number of steps in the table of what one reflection returns.
+const STEPS: usize = 48;
+
+/// The number of slopes along both axes, over which a value of that table is averaged.
+const SLOPES: usize = 48;
+
+/// The number of angles over which reflectances are averaged.
+const ANGLES: usize = 32;
+
+/// A rough surface, whatever its metal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Roughness {
+    /// The width of the law of slopes: the square of the roughness; 0 for a mirror.
+    alpha: f64,
+    /// The share of light that mirrors which absorb nothing send out at their first reflection, for cosines (k / STEPS)².
+    once: Vec<f64>,
+    /// The mean of `once` over even light from all sides.
+    once_mean: f64,
+}
+
+/// A rough surface of a metal at one wavelength.
+#[derive(Debug, Clone)]
+pub struct RoughMetal {
+    roughness: Arc<Roughness>,
+    index: Complex64,
+    /// The part of the light reflected several times that the metal does not absorb.
+    again: f64,
+}
+
+/// Light that a rough surface has reflected.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scattered {
+    /// The direction that it comes from, or goes to.
+    pub direction: DVec3,
+    /// The factor by which the light from there counts.
+    pub weight: f64,
+    /// The density with which this direction is drawn, per steradian; infinite for a mirror.
+    pub density: f64,
+}
+
+impl Roughness {
+    /// Makes a surface of this roughness, 0 (a mirror) to 1: the square root of the law's width, as in most programs.
+    pub fn new(roughness: f64) -> Self {
+        let roughness = roughness.clamp(0.0, 1.0);
+        let alpha = if roughness < MIRROR { 0.0 } else { roughness * roughness };
+        let mut surface = Self { alpha, once: vec![1.0; STEPS + 1], once_mean: 1.0 };
+        if alpha > 0.0 {
+            surface.once = (0..=STEPS).map(|k| once(alpha, (k as f64 / STEPS as f64).powi(2))).collect();
+            let even = |k: usize| ((k as f64 + 0.5) / 512.0).sqrt();
+            surface.once_mean = (0..512).map(|k| surface.once(even(k))).sum::<f64>() / 512.0;
+        }
+        surface
+    }
+
+    /// Returns the share of light that leaves at the first reflection, towards this cosine.
+    fn once(&self, cos: f64) -> f64 {
+        let at = cos.clamp(0.0, 1.0).sqrt() * STEPS as f64;
+        let step = (at as usize).min(STEPS - 1);
+        self.once[step] + (self.once[step + 1] - self.once[step]) * (at - step as f64)
+    }
+
+    /// Returns this surface made of a metal with this complex index.
+    pub fn of_metal(self: &Arc<Self>, index: Complex64) -> RoughMetal {
+        let even = |k: usize| ((k as f64 + 0.5) / ANGLES as f64).sqrt();
+        let mean = (0..ANGLES).map(|k| unpolarised(even(k), index)).sum::<f64>() / ANGLES as f64;
+        // Each further reflection absorbs anew (Kulla and Conty, page 29).
+        let again =
+            mean * mean * self.once_mean / (1.0 - mean * (1.0 - self.once_mean)).max(f64::MIN_POSITIVE);
+        RoughMetal { roughness: Arc::clone(self), index, again }
+    }
+}
+
+impl RoughMetal {
+    /// Draws a direction from which light comes that is reflected to `out`, by three numbers from 0 to below 1; `None` where
+    /// the light that is drawn is lost.
+    pub fn sample(&self, out: DVec3, luck: [f64; 3]) -> Option<Scattered> {
+        let Roughness { alpha, once_mean, .. } = *self.roughness;
+        if alpha == 0.0 {
+            let direction = DVec3::new(-out.x, -out.y, out.z);
+            let weight = unpolarised(out.z, self.index);
+            return Some(Scattered { direction, weight, density: f64::INFINITY });
+        }
+        let first = self.roughness.once(out.z);
+        if luck[2] >= first {
+            let direction = even_direction(luck);
+            let weight = self.again * (1.0 - self.roughness.once(direction.z)) / (1.0 - once_mean);
+            return Some(Scattered { direction, weight, density: (1.0 - first) * direction.z * FRAC_1_PI });
+        }
+        let middle = visible_normal(alpha, out, [luck[0], luck[1]]);
+        let cos = out.dot(middle);
+        let direction = middle * (2.0 * cos) - out;
+        if direction.z <= 0.0 {
+            return None;
+        }
+        let (own, other) = (1.0 + hidden(alpha, out.z), hidden(alpha, direction.z));
+        let weight = unpolarised(cos, self.index) * own / ((own + other) * first);
+        let density = first * slopes(alpha, middle.z) / (4.0 * out.z * own);
+        Some(Scattered { direction, weight, density })
+    }
+
+    /// Returns the light reflected to `out`, per light from `from`, per steradian, and per cosine of `from`; not for mirrors.
+    pub fn value(&self, out: DVec3, from: DVec3) -> f64 {
+        let Roughness { alpha, once_mean, .. } = *self.roughness;
+        let middle = (out + from) / (out + from).length();
+        let both = 1.0 + hidden(alpha, out.z) + hidden(alpha, from.z);
+        let single = unpolarised(out.dot(middle), self.index) * slopes(alpha, middle.z)
+            / (4.0 * out.z * from.z * both);
+        let [a, b] = [out, from].map(|way| 1.0 - self.roughness.once(way.z));
+        single + self.again * a * b * FRAC_1_PI / (1.0 - once_mean)
+    }
+}
+
+/// Returns the share of unpolarised light that a metal reflects.
+fn unpolarised(cos_i: f64, index: Complex64) -> f64 {
+    let [s, p] = metal_reflectance(cos_i, index);
+    0.5 * (s + p)
+}
+
+/// Returns the share of light that leaves at the first reflection, averaged over the slopes that are seen from a cosine.
+fn once(alpha: f64, cos: f64) -> f64 {
+    let cos = cos.max(1e-4);
+    let out = DVec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
+    let returned = |k: usize| {
+        let [i, j] = [k % SLOPES, k / SLOPES].map(|i| (i as f64 + 0.5) / SLOPES as f64);
+        let middle = visible_normal(alpha, out, [i, j]);
+        let from = middle * (2.0 * out.dot(middle)) - out;
+        let own = hidden(alpha, cos);
+        if from.z > 0.0 { (1.0 + own) / (1.0 + own + hidden(alpha, from.z)) } else { 0.0 }
+    };
+    (0..SLOPES * SLOPES).map(returned).sum::<f64>() / (SLOPES * SLOPES) as f64
+}
+
+/// Returns the density of normals of this cosine (Walter et al. 2007, eq. 33).
+fn slopes(alpha: f64, cos: f64) -> f64 {
+    let square = alpha * alpha;
+    let fall = cos * cos * (square - 1.0) + 1.0;
+    square * FRAC_1_PI / (fall * fall)
+}
+
+/// Returns Smith's function Λ: the hidden over the seen area of mirrors, from a cosine (Heitz 2014, eq. 72).
+fn hidden(alpha: f64, cos: f64) -> f64 {
+    let square = (cos * cos).max(1e-16);
+    0.5 * ((1.0 + alpha * alpha * (1.0 - square) / square).sqrt() - 1.0)
+}
+
+/// Returns a normal among those that are seen from a direction, by two numbers: the half sphere that the stretched mirrors
+/// become is seen as two half discs (Heitz 2018, section 3).
+fn visible_normal(alpha: f64, out: DVec3, [u, v]: [f64; 2]) -> DVec3 {
+    let stretched = unit(DVec3::new(alpha * out.x, alpha * out.y, out.z));
+    let flat = stretched.truncate().length_squared();
+    let across = if flat > 0.0 { DVec3::new(-stretched.y, stretched.x, 0.0) / flat.sqrt() } else { DVec3::X };
+    let up = stretched.cross(across);
+    let (sin, cos) = (TAU * v).sin_cos();
+    let (x, y) = (u.sqrt() * cos, u.sqrt() * sin);
+    let seen = 0.5 * (1.0 + stretched.z);
+    let y = (1.0 - seen) * (1.0 - x * x).max(0.0).sqrt() + seen * y;
+    let normal = across * x + up * y + stretched * (1.0 - x * x - y * y).max(0.0).sqrt();
+    unit(DVec3::new(alpha * normal.x, alpha * normal.y, normal.z.max(1e-9)))
+}
+
+/// Returns a direction that is drawn by its cosine.
+fn even_direction([u, v, _]: [f64; 3]) -> DVec3 {
+    let (sin, cos) = (TAU * v).sin_cos();
+    DVec3::new(u.sqrt() * cos, u.sqrt() * sin, (1.0 - u).max(1e-12).sqrt())
+}
+
+fn unit(vector: DVec3) -> DVec3 {
+    vector / vector.length()
+}
+
+#[cfg(test)]
+mod tests;

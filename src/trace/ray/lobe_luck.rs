@@ -1,0 +1,72 @@
+//! The numbers that decide by which of its microscopic mirrors a metal reflects a ray: the same in all bands of wavelengths, so
+//! that chance makes no colours.
+
+use crate::math::random_bits::{mixed, unit};
+
+/// The step of each number from one sample pass to the next, in units of 2^-64: √7 - 2, √6 - 2 and (√21 - 3)/2. They are
+/// chosen like the roulette's steps, and no sum of whole multiples of all of them is a whole number.
+const STEPS: [u64; 3] = [0xa54f_f53a_5f1d_36f1, 0x7311_c281_2425_cfa0, 0xca91_d722_a3d0_a666];
+
+/// What is different from the seeds of the roulette.
+const SALT: u64 = 0x6d65_7461_6c6c_7563;
+
+/// The luck of one path.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct LobeLuck {
+    /// What is different in each pixel, and on each way from it.
+    seed: u64,
+    /// The number of the sample pass.
+    number: u64,
+    /// Whether metal has reflected the path before: then numbers are drawn at random, else spread evenly over the passes.
+    is_later: bool,
+}
+
+impl LobeLuck {
+    /// Returns the luck of a pixel's ray in a sample pass.
+    pub fn new([x, y]: [u32; 2], number: u32) -> Self {
+        let pixel = mixed(u64::from(x) << 32 | u64::from(y));
+        Self { seed: mixed(pixel ^ SALT), number: number.into(), is_later: false }
+    }
+
+    /// Returns the luck of light that leaves a stone by its exit of this number.
+    pub fn beyond(&self, exit: u64) -> Self {
+        Self { seed: mixed(self.seed ^ mixed(exit)), ..*self }
+    }
+
+    /// Returns three numbers from 0 to below 1, and the luck after them.
+    pub fn draw(&self) -> ([f64; 3], Self) {
+        let number = |k: usize| {
+            let own = mixed(self.seed.wrapping_add(k as u64));
+            unit(match self.is_later {
+                false => own.wrapping_add(STEPS[k].wrapping_mul(self.number)),
+                true => mixed(own ^ mixed(self.number)),
+            })
+        };
+        let later = Self { seed: mixed(self.seed ^ SALT), is_later: true, ..*self };
+        ([number(0), number(1), number(2)], later)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_numbers_of_a_pixel_fill_the_cube_evenly_and_later_ones_at_random() {
+        let rays = 512;
+        // The number of the eight halves' boxes: evenly filled, each box holds 64.
+        let boxes = |later: bool| {
+            let mut counts = [0_i32; 64];
+            for number in 0..rays {
+                let (first, next) = LobeLuck::new([3, 8], number).draw();
+                let numbers = if later { next.draw().0 } else { first };
+                let [a, b, c] = numbers.map(|x| (4.0 * x) as usize);
+                counts[16 * a + 4 * b + c] += 1;
+            }
+            let mean = rays as i32 / 64;
+            counts.iter().map(|count| (count - mean).pow(2)).sum::<i32>()
+        };
+        // At random, each count is off by its root.
+        assert!(boxes(false) < 200 && boxes(true) > 250, "{} {}", boxes(false), boxes(true));
+    }
+}

@@ -1,0 +1,188 @@
+//! Reflects rays at bodies of metal.
+
+use crate::math::{Ball, Pose, ShadedMesh, SurfaceNormals};
+use crate::optics::{RoughMetal, Roughness};
+use crate::scene::MetalInstance;
+use glam::DVec3;
+use num_complex::Complex64;
+use std::sync::Arc;
+
+/// The share of its steepness above the surface, and the greatest sine, to which a mirror image is lifted that smooth normals
+/// would send below the surface.
+const LIFT: (f64, f64) = (0.9, 0.01);
+
+/// The least sine at which light leaves the true surface.
+const LEAST_SINE: f64 = 1e-6;
+
+/// The number of equal parts of what is reflected, of which one look-up of the environment stands for one: the usual number
+/// of passes. It widens a highlight by less than a percent.
+const PARTS: f64 = 64.0;
+
+/// A body of metal, and what a band of wavelengths meets there.
+#[derive(Debug, Clone)]
+pub(super) struct MetalTracer {
+    mesh: Arc<ShadedMesh>,
+    pose: Pose,
+    /// A ball around the body, in the world.
+    ball: Ball,
+    roughness: Arc<Roughness>,
+    finish: RoughMetal,
+}
+
+/// The body of metal that a ray meets, the triangle, and the distance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct MetalHit {
+    pub metal: usize,
+    pub triangle: u32,
+    pub distance: f64,
+}
+
+/// A ray that metal has reflected.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct MetalReflection {
+    pub point: DVec3,
+    pub direction: DVec3,
+    pub sweep: DVec3,
+    /// The factor by which the light from there counts.
+    pub weight: f64,
+    /// The side, in radians, of the square of directions for which this one stands; 0 for one direction.
+    pub spread: f64,
+}
+
+impl MetalTracer {
+    /// Prepares the bodies of a scene; [`made_of`](Self::made_of) gives them their indices.
+    pub fn of_all(metals: &[MetalInstance]) -> Vec<Self> {
+        let of = |metal: &MetalInstance| {
+            let Ball { middle, radius } = metal.mesh.ball();
+            let roughness = Arc::new(Roughness::new(metal.roughness));
+            Self {
+                mesh: Arc::clone(&metal.mesh),
+                pose: metal.pose,
+                // A little larger than it must be, for rounding.
+                ball: Ball {
+                    middle: metal.pose.place(middle),
+                    radius: radius * metal.pose.scale * (1.0 + 1e-5),
+                },
+                finish: roughness.of_metal(Complex64::ONE),
+                roughness,
+            }
+        };
+        metals.iter().map(of).collect()
+    }
+
+    /// Returns the same body at a wavelength at which the metal has this index.
+    pub fn made_of(&self, index: Complex64) -> Self {
+        Self { finish: self.roughness.of_metal(index), ..self.clone() }
+    }
+
+    /// Returns the triangle and the distance at which a ray meets the body; `left` is the triangle that it has just left.
+    fn meet(&self, origin: DVec3, direction: DVec3, left: Option<u32>) -> Option<(u32, f64)> {
+        if !self.ball.is_met(origin, direction) {
+            return None;
+        }
+        let (origin, direction) = (self.pose.unplace(origin), self.pose.turn.inverse() * direction);
+        let hit = self.mesh.meet(origin, direction, left)?;
+        Some((hit.triangle, hit.distance * self.pose.scale))
+    }
+
+    /// Reflects a ray by a direction that is drawn by three numbers; `None` where what was drawn is lost.
+    pub fn reflect(
+        &self,
+        (origin, direction, sweep): (DVec3, DVec3, DVec3),
+        hit: &MetalHit,
+        luck: [f64; 3],
+    ) -> Option<MetalReflection> {
+        let point = origin + direction * hit.distance;
+        let SurfaceNormals { flat, shading } = self.mesh.normals(hit.triangle, self.pose.unplace(point));
+        let [flat, shading] = [flat, shading].map(|normal| self.pose.turn * normal);
+        let out = -direction;
+        let (flat, shading) = if flat.dot(out) < 0.0 { (-flat, -shading) } else { (flat, shading) };
+        let up = bent(shading, flat, out);
+        let (right, ahead) = up.any_orthonormal_pair();
+        let own = DVec3::new(right.dot(out), ahead.dot(out), up.dot(out).max(LEAST_SINE));
+        let found = self.finish.sample(own / own.length(), luck)?;
+        let own = found.direction;
+        let toward = above(right * own.x + ahead * own.y + up * own.z, flat);
+        let middle = (toward + out).normalize_or(up);
+        let spread = (1.0 / found.density).min(4.0 * std::f64::consts::PI) / PARTS;
+        Some(MetalReflection {
+            point,
+            direction: toward,
+            sweep: sweep - middle * (2.0 * sweep.dot(middle)),
+            weight: found.weight,
+            spread: spread.sqrt(),
+        })
+    }
+}
+
+/// Returns the body of metal that a ray meets first; `left` is the body, and the triangle of it, that it has just left.
+pub(super) fn nearest_metal(
+    metals: &[MetalTracer],
+    (origin, direction): (DVec3, DVec3),
+    left: Option<(usize, u32)>,
+) -> Option<MetalHit> {
+    let hit = |(metal, tracer): (usize, &MetalTracer)| {
+        let own = left.filter(|(left, _)| *left == metal).map(|(_, triangle)| triangle);
+        let (triangle, distance) = tracer.meet(origin, direction, own)?;
+        Some(MetalHit { metal, triangle, distance })
+    };
+    metals.iter().enumerate().filter_map(hit).min_by(|a, b| a.distance.total_cmp(&b.distance))
+}
+
+/// Returns the normal of a smooth surface, turned toward the true normal as far as the mirror image along it must be to leave
+/// the true surface (A. Keller et al., *The Iray Light Transport Simulation and Rendering System*, 2017, appendix A.3).
+fn bent(shading: DVec3, flat: DVec3, out: DVec3) -> DVec3 {
+    let image = shading * (2.0 * shading.dot(out)) - out;
+    let least = (LIFT.0 * flat.dot(out)).min(LIFT.1);
+    let lacking = least - image.dot(flat);
+    if lacking <= 0.0 {
+        return shading;
+    }
+    let lifted = (image + flat * lacking).normalize_or(flat);
+    (out + lifted).normalize_or(flat)
+}
+
+/// Returns a direction as it is where it leaves the true surface, else its mirror image in that surface: what rough metal
+/// sends there is not lost.
+fn above(direction: DVec3, flat: DVec3) -> DVec3 {
+    let sine = direction.dot(flat);
+    let lifted = direction + flat * (sine.abs().max(LEAST_SINE) - sine);
+    if sine >= LEAST_SINE { direction } else { lifted.normalize_or(flat) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bent_normal_mirrors_above_the_surface_and_is_kept_where_that_is_so_anyway() {
+        let flat = DVec3::Z;
+        let mut kept = [0; 2];
+        for k in 0..2000 {
+            let (a, b) = (f64::from(k) * 0.618_034 % 1.0, f64::from(k) * 0.754_878 % 1.0);
+            let (lean, low) = (1.2 * a, 1.57 * b);
+            let shading = DVec3::new(
+                lean.sin() * (f64::from(k) * 0.3).cos(),
+                lean.sin() * (f64::from(k) * 0.3).sin(),
+                lean.cos(),
+            );
+            let out = DVec3::new(low.sin(), 0.0, low.cos());
+            let up = bent(shading, flat, out);
+            let image = |up: DVec3| up * (2.0 * up.dot(out)) - out;
+            assert!((up.length() - 1.0).abs() < 1e-12 && up.dot(out) > 0.0);
+            let is_above = image(shading).dot(flat) >= LIFT.1;
+            assert!(image(up).dot(flat) > 0.0, "{k}: {}", image(up).dot(flat));
+            assert!(!is_above || up == shading);
+            kept[usize::from(up == shading)] += 1;
+        }
+        assert!(kept.iter().all(|&count| count > 100), "{kept:?}");
+    }
+
+    #[test]
+    fn what_would_go_below_the_surface_is_mirrored_up() {
+        let below = DVec3::new(0.6, 0.0, -0.8);
+        assert!(above(below, DVec3::Z).distance(DVec3::new(0.6, 0.0, 0.8)) < 1e-12);
+        assert_eq!(above(-below, DVec3::Z), -below);
+        assert!(above(DVec3::X, DVec3::Z).z > 0.0);
+    }
+}
