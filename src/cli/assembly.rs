@@ -10,11 +10,15 @@ use crate::io::scene_file::{self, Entry, MetalEntry, SceneFile};
 use crate::io::{Failure, is_standard, library};
 use crate::math::{ShadedMesh, bounds};
 use crate::optics::Material;
-use crate::scene::{Instance, MetalInstance, Pose, Projection, Scene, Viewpoint, overlapping};
+use crate::scene::{
+    Instance, MOST_STONES, MetalInstance, Mounting, Pose, Projection, Scene, Viewpoint, overlapping,
+};
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+mod ring;
 
 #[cfg(test)]
 mod tests;
@@ -46,6 +50,8 @@ pub struct Assembly {
     pub light_turn: f64,
     /// Whether the light's axis points up in the picture, and not to the eye.
     pub light_upright: bool,
+    /// The mounting of the scene's ring, in mm.
+    pub mounting: Option<Mounting>,
 }
 
 /// The size and place of a stone.
@@ -109,6 +115,7 @@ impl Assembly {
             exposure: 0.0,
             light_turn: 0.0,
             light_upright: false,
+            mounting: None,
         })
     }
 
@@ -131,7 +138,22 @@ impl Assembly {
         let mut members: Vec<Member> = scene.turns().into_iter().map(turned).collect();
         let radii: Vec<f64> = members.iter().map(Member::radius_mm).collect();
         members.iter_mut().zip(scene.places_mm(&radii)).for_each(|(member, at)| member.at_mm = at);
-        let metals = metals(file, &scene)?;
+        let mut metals = metals(file, &scene)?;
+        let mounting = match &scene.ring {
+            Some(entry) => {
+                let ring = ring::ring(file, entry, &specimens, (material, size))?;
+                members.extend(ring.stones);
+                metals.push(ring.metal);
+                Some(ring.mounting)
+            }
+            None => None,
+        };
+        if members.len() > MOST_STONES {
+            let count = members.len();
+            return Err(Failure::Input(format!(
+                "{path}: {count} stones are too many, at most {MOST_STONES}"
+            )));
+        }
         let setting = placed(&members, metals);
         if let Some((a, b)) = overlapping(&setting.instances) {
             let (a, b) = (&members[a].description, &members[b].description);
@@ -152,6 +174,7 @@ impl Assembly {
             exposure: scene.exposure,
             light_turn: scene.light_turn,
             light_upright: scene.light_upright,
+            mounting,
         })
     }
 
@@ -190,15 +213,23 @@ fn specimens(
     mesh: MeshOptions,
 ) -> Result<BTreeMap<String, LoadedSpecimen>, Failure> {
     let mut specimens = BTreeMap::new();
+    let failed = |failure: Failure, place: &dyn Fn(&str) -> Failure| match failure {
+        Failure::Input(message) => place(&message),
+        other => other,
+    };
     for (number, entry) in scene.stones.iter().enumerate() {
-        if specimens.contains_key(&entry.cut) {
-            continue;
+        if !specimens.contains_key(&entry.cut) {
+            let at = |message: &str| at_entry(file, number, entry, &format!("cut: {message}"));
+            let specimen = specimen(file, &entry.cut, mesh).map_err(|failure| failed(failure, &at))?;
+            specimens.insert(entry.cut.clone(), specimen);
         }
-        let specimen = specimen(file, &entry.cut, mesh).map_err(|failure| match failure {
-            Failure::Input(message) => at_entry(file, number, entry, &format!("cut: {message}")),
-            other => other,
-        })?;
-        specimens.insert(entry.cut.clone(), specimen);
+    }
+    for (key, cut, line) in scene.ring.iter().flat_map(ring::cuts) {
+        if !specimens.contains_key(cut) {
+            let at = |message: &str| ring::at_ring(file, line, &format!("{key}: {message}"));
+            let specimen = specimen(file, cut, mesh).map_err(|failure| failed(failure, &at))?;
+            specimens.insert(cut.to_owned(), specimen);
+        }
     }
     Ok(specimens)
 }

@@ -10,7 +10,7 @@ use super::toml_format::check_format;
 use super::toml_text::TomlText;
 use crate::cut::{MaterialRef, Size};
 use crate::optics::Metal;
-use crate::scene::{LIGHTS, Layout, MOST_STONES, light};
+use crate::scene::{LIGHTS, Layout, MOST_STONES, Ring, light};
 use form::SceneForm;
 use glam::{DQuat, DVec3};
 use std::path::{Path, PathBuf};
@@ -18,6 +18,7 @@ use toml::de::DeTable;
 
 mod form;
 mod metal_form;
+mod ring_form;
 
 #[cfg(test)]
 mod tests;
@@ -53,10 +54,43 @@ pub struct SceneFile {
     pub angle_of_view: Option<f64>,
     /// The exposure, in stops.
     pub exposure: f64,
-    /// The kinds of stones; with their counts they are at most [`MOST_STONES`] stones. There are none only where there is metal.
+    /// The kinds of stones; with their counts they are at most [`MOST_STONES`] stones. There are none only where there is metal or a ring.
     pub stones: Vec<Entry>,
     /// The bodies of metal.
     pub metals: Vec<MetalEntry>,
+    /// The ring that the program makes.
+    pub ring: Option<RingEntry>,
+}
+
+/// A ring of the program's own making in a scene, with its stones.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RingEntry {
+    /// The ring's numbers, checked.
+    pub ring: Ring,
+    /// The metal.
+    pub metal: Metal,
+    /// How rough its surface is, 0 to 1.
+    pub roughness: f64,
+    /// The cut of the main stone, as in [`Entry::cut`], where the style has one.
+    pub stone: Option<String>,
+    /// The main stone's material, checked; `None` for the cut file's.
+    pub material: Option<MaterialRef>,
+    /// The main stone's size; `None` for the cut file's.
+    pub size: Option<Size>,
+    /// The cut of the small stones, where the style has them.
+    pub small_stone: Option<String>,
+    /// The small stones' material, checked; `None` for the cut file's.
+    pub small_material: Option<MaterialRef>,
+    /// The turn about the head's axis, in degrees.
+    pub turn: f64,
+    /// The angle by which the head's axis leans toward `azimuth`, in degrees.
+    pub tilt: f64,
+    /// The direction in which the head leans, in degrees from +x toward +y.
+    pub azimuth: f64,
+    /// The middle of the finger's hole, in mm; in a layout, from the middle of the layout.
+    pub at_mm: DVec3,
+    /// The line of the file where the table begins, from 1.
+    pub line: usize,
 }
 
 /// A body of metal in a scene.
@@ -162,6 +196,13 @@ impl MetalEntry {
     }
 }
 
+impl RingEntry {
+    /// Returns the rotation from the ring's frame, whose head lies in the direction +z, to the world's.
+    pub fn turned(&self) -> DQuat {
+        leaning(self.turn, self.tilt, self.azimuth)
+    }
+}
+
 /// Returns the rotation that turns about z and then leans z toward an azimuth, all in degrees.
 fn leaning(turn: f64, tilt: f64, azimuth: f64) -> DQuat {
     let azimuth = azimuth.to_radians();
@@ -202,11 +243,12 @@ pub fn is_scene(path: &Path) -> bool {
 }
 
 fn is_meant_as_scene(text: &str) -> bool {
-    const KEYS: [&str; 5] = ["stone", "metal", "layout", "light", "gap_mm"];
+    const KEYS: [&str; 6] = ["stone", "metal", "ring", "layout", "light", "gap_mm"];
     match DeTable::parse(text) {
         Ok(table) => KEYS.iter().any(|&key| table.get_ref().contains_key(key)),
         Err(_) => {
-            let begins = |line: &str| ["[[stone]]", "[[metal]]"].iter().any(|key| line.starts_with(key));
+            let begins =
+                |line: &str| ["[[stone]]", "[[metal]]", "[ring]"].iter().any(|key| line.starts_with(key));
             text.lines().map(str::trim_start).any(begins)
         }
     }

@@ -7,6 +7,7 @@ use super::super::file_error::Fault;
 use super::super::toml_format::FORMAT;
 use super::super::toml_text::line_at;
 use super::metal_form::{MetalForm, metals};
+use super::ring_form::{RingForm, ring};
 use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, behind, found, likely, shown};
 use crate::cut::{MaterialRef, Size, SizeError, is_printable};
 use crate::scene::Layout;
@@ -37,6 +38,8 @@ pub(super) struct SceneForm {
     stone: Option<Vec<Spanned<TomlTable<StoneForm>>>>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     metal: Vec<Spanned<TomlTable<MetalForm>>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ring: Option<Spanned<TomlTable<RingForm>>>,
 }
 
 /// A table `[[stone]]`.
@@ -68,7 +71,7 @@ fn is_alone(count: &i64) -> bool {
 /// A size, written as text with its unit.
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(try_from = "OneOf<Pairs>", into = "String")]
-struct SizeForm(Size);
+pub(super) struct SizeForm(pub Size);
 
 impl TryFrom<OneOf<Pairs>> for SizeForm {
     type Error = Fault;
@@ -121,6 +124,7 @@ impl SceneForm {
             exposure: (scene.exposure != 0.0).then_some(scene.exposure),
             stone: (!scene.stones.is_empty()).then(|| scene.stones.iter().map(stone).collect()),
             metal: scene.metals.iter().map(|m| Spanned::new(0..0, TomlTable(MetalForm::of(m)))).collect(),
+            ring: scene.ring.as_ref().map(|ring| Spanned::new(0..0, TomlTable(RingForm::of(ring)))),
         }
     }
 
@@ -156,7 +160,7 @@ impl SceneForm {
         let (exposure, light_turn) = (self.exposure.unwrap_or(0.0), self.light_turn.unwrap_or(0.0));
         within("light_turn", "light_turn", light_turn, DEGREES, "degrees")?;
         within("exposure", "exposure", exposure, STOPS, "stops")?;
-        let stones = stones(self.stone, !self.metal.is_empty())?;
+        let stones = stones(self.stone, !self.metal.is_empty() || self.ring.is_some())?;
         let alone = stones.len() == 1;
         let entry = |(index, stone): (usize, Spanned<TomlTable<StoneForm>>)| {
             let line = line_at(text, stone.span().start);
@@ -167,6 +171,7 @@ impl SceneForm {
         };
         let stones = stones.into_iter().enumerate().map(entry).collect::<Result<_, _>>()?;
         let metals = metals(self.metal, text)?;
+        let ring = self.ring.map(|form| ring(form, text)).transpose()?;
         let Self { name, background_distance_mm, angle_of_view, light_upright, .. } = self;
         Ok(SceneFile {
             name,
@@ -182,6 +187,7 @@ impl SceneForm {
             exposure,
             stones,
             metals,
+            ring,
         })
     }
 }
@@ -295,7 +301,7 @@ impl StoneForm {
     }
 }
 
-fn material(form: MaterialForm) -> Result<MaterialRef, Fault> {
+pub(super) fn material(form: MaterialForm) -> Result<MaterialRef, Fault> {
     let material = form.material()?;
     material.check().map_err(|error| Fault::key(path_of(&error, &material), error))?;
     Ok(material)

@@ -51,15 +51,8 @@ impl MetalForm {
     }
 
     fn entry(self, line: usize) -> Result<MetalEntry, Fault> {
-        let found = Metal::NAMES.iter().find(|(name, _)| *name == self.metal);
-        let names = Metal::NAMES.map(|(name, _)| name);
-        let unknown = || format!("metal: '{}' is unknown{}", shown(&self.metal), likely(&self.metal, &names));
-        let &(_, metal) = found.ok_or_else(|| Fault::key("metal", unknown()))?;
-        let (roughness, scale) = (self.roughness.unwrap_or(POLISHED), self.scale.unwrap_or(1.0));
-        if !ROUGHNESSES.contains(&roughness) {
-            let message = format!("roughness: {roughness} must be from 0, a mirror, to 1");
-            return Err(Fault::key("roughness", message));
-        }
+        let (metal, roughness) = (metal(&self.metal)?, roughness(self.roughness)?);
+        let scale = self.scale.unwrap_or(1.0);
         within("scale", "scale", scale, SCALES, "mm for a unit of the file")?;
         within("turn", "turn", self.turn, DEGREES, "degrees")?;
         within("tilt", "tilt", self.tilt, LEANING, "degrees")?;
@@ -71,6 +64,23 @@ impl MetalForm {
         let Self { mesh, turn, tilt, azimuth, .. } = self;
         Ok(MetalEntry { mesh, metal, roughness, scale, turn, tilt, azimuth, at_mm, line })
     }
+}
+
+/// Returns the metal of a name.
+pub(super) fn metal(given: &str) -> Result<Metal, Fault> {
+    let found = Metal::NAMES.iter().find(|(name, _)| *name == given).map(|(_, metal)| *metal);
+    let names = Metal::NAMES.map(|(name, _)| name);
+    let unknown = || format!("metal: '{}' is unknown{}", shown(given), likely(given, &names));
+    found.ok_or_else(|| Fault::key("metal", unknown()))
+}
+
+/// Returns the roughness of a metal, checked; that of a polished one where none is given.
+pub(super) fn roughness(given: Option<f64>) -> Result<f64, Fault> {
+    let roughness = given.unwrap_or(POLISHED);
+    if ROUGHNESSES.contains(&roughness) {
+        return Ok(roughness);
+    }
+    Err(Fault::key("roughness", format!("roughness: {roughness} must be from 0, a mirror, to 1")))
 }
 
 /// Returns the bodies of metal that the tables of a text describe.

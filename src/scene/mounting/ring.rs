@@ -62,6 +62,16 @@ pub enum OuterShape {
     Flat,
 }
 
+impl OuterShape {
+    /// The shapes by name.
+    pub const NAMES: [(&str, Self); 2] = [("d", Self::D), ("flat", Self::Flat)];
+
+    /// Returns the shape's name.
+    pub fn name(self) -> &'static str {
+        Self::NAMES.into_iter().find(|(_, shape)| *shape == self).map_or("", |(name, _)| name)
+    }
+}
+
 /// A ring as numbers; [`RING_NUMBERS`] has their ranges and meanings.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]

@@ -1,0 +1,104 @@
+//! The stones and the metal of a scene's ring.
+
+use super::{Member, diameter_mm};
+use crate::cli::specimen::LoadedSpecimen;
+use crate::cut::{MaterialRef, Size};
+use crate::io::Failure;
+use crate::io::scene_file::RingEntry;
+use crate::math::{NotConvex, ShadedMesh};
+use crate::optics::Material;
+use crate::scene::{MetalInstance, Mounting, Pose, RingSeat, SeatKind, SetStone};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A ring in mm.
+pub(super) struct RingParts<'a> {
+    /// The stones in their seats.
+    pub stones: Vec<Member<'a>>,
+    /// All metal as one body.
+    pub metal: MetalInstance,
+    /// What the ring is made of, in its own frame.
+    pub mounting: Mounting,
+}
+
+/// A stone that a ring holds: its specimen, material and diameter in mm.
+struct Gem<'a> {
+    specimen: &'a LoadedSpecimen,
+    material: Material,
+    diameter_mm: f64,
+}
+
+/// Returns the cuts of a ring's stones, each with its key and the line of the ring.
+pub(super) fn cuts(entry: &RingEntry) -> impl Iterator<Item = (&'static str, &str, usize)> {
+    let cuts = [("stone", &entry.stone), ("small_stone", &entry.small_stone)];
+    cuts.into_iter().filter_map(|(key, cut)| Some((key, cut.as_deref()?, entry.line)))
+}
+
+/// Makes the ring of a scene. `material` replaces that of every stone, and `size` that of the main stone.
+pub(super) fn ring<'a>(
+    file: &Path,
+    entry: &RingEntry,
+    specimens: &'a BTreeMap<String, LoadedSpecimen>,
+    (material, size): (Option<&Material>, Option<Size>),
+) -> Result<RingParts<'a>, Failure> {
+    let refused = |message: String| at_ring(file, entry.line, &message);
+    let gem = |cut: &Option<String>, own: &Option<MaterialRef>, size: Option<Size>| {
+        let specimen = cut.as_ref().and_then(|cut| specimens.get(cut));
+        specimen.map(|specimen| Gem::new(specimen, material, own.as_ref(), size)).transpose().map_err(refused)
+    };
+    let across = Some(Size::Millimetres(entry.ring.small_diameter_mm));
+    let main = gem(&entry.stone, &entry.material, size.or(entry.size))?;
+    let small = gem(&entry.small_stone, &entry.small_material, across)?;
+    let set = |key: &str, gem: &Option<Gem<'a>>| {
+        let set = gem.as_ref().map(Gem::set).transpose();
+        set.map_err(|error| refused(format!("{key}: {error}")))
+    };
+    let (stone, small_stone) = (set("stone", &main)?, set("small_stone", &small)?);
+    let mounting = entry.ring.mounting(stone.as_ref(), small_stone.as_ref());
+    let mounting = mounting.map_err(|error| refused(error.to_string()))?;
+    let pose = Pose { at: entry.at_mm, turn: entry.turned(), scale: 1.0 };
+    let member = |seat: &RingSeat| {
+        let (gem, kind) = match seat.kind {
+            SeatKind::Main => (&main, "stone"),
+            SeatKind::Small => (&small, "small_stone"),
+        };
+        let Gem { specimen, material, diameter_mm } = gem.as_ref()?;
+        let Pose { at, turn, .. } = pose.after(&seat.pose);
+        let description = format!("{kind} of the ring");
+        let (material, diameter_mm) = (material.clone(), *diameter_mm);
+        Some(Member { specimen, material, diameter_mm, turn, at_mm: at, description })
+    };
+    let stones = mounting.seats.iter().filter_map(member).collect();
+    let mesh = ShadedMesh::new(mounting.surface()).map_err(|error| refused(error.to_string()))?;
+    let label = format!("{} ring", entry.ring.style.name());
+    let (metal, roughness) = (entry.metal, entry.roughness);
+    let metal = MetalInstance { mesh: Arc::new(mesh), pose, metal, roughness, label };
+    Ok(RingParts { stones, metal, mounting })
+}
+
+impl<'a> Gem<'a> {
+    /// Takes the material that is asked for, else the ring's own, else the cut file's.
+    fn new(
+        specimen: &'a LoadedSpecimen,
+        asked: Option<&Material>,
+        own: Option<&MaterialRef>,
+        size: Option<Size>,
+    ) -> Result<Self, String> {
+        let of_ring = || own.map_or(Ok(specimen.material.clone()), MaterialRef::material);
+        let material = asked.cloned().map_or_else(of_ring, Ok).map_err(|error| error.to_string())?;
+        let diameter_mm = diameter_mm(specimen, &material, size)?;
+        Ok(Self { specimen, material, diameter_mm })
+    }
+
+    /// Returns the stone as rings take it.
+    fn set(&self) -> Result<SetStone<'a>, NotConvex> {
+        let shape = &self.specimen.stone()?.polytope;
+        Ok(SetStone { shape, diameter_mm: self.diameter_mm })
+    }
+}
+
+/// Returns the failure of a scene's ring.
+pub(super) fn at_ring(file: &Path, line: usize, message: &str) -> Failure {
+    Failure::Input(format!("{}:{line}: ring: {message}", file.display()))
+}
