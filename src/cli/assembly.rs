@@ -9,7 +9,7 @@ use crate::io::mesh_options::MeshOptions;
 use crate::io::scene_file::{self, Entry, MetalEntry, SceneFile};
 use crate::io::{Failure, is_standard, library};
 use crate::math::{ShadedMesh, bounds};
-use crate::optics::Material;
+use crate::optics::{Material, Metal};
 use crate::scene::{
     Instance, MOST_STONES, MetalInstance, Mounting, Pose, Projection, Scene, Viewpoint, overlapping,
 };
@@ -50,8 +50,17 @@ pub struct Assembly {
     pub light_turn: f64,
     /// Whether the light's axis points up in the picture, and not to the eye.
     pub light_upright: bool,
-    /// The mounting of the scene's ring, in mm.
-    pub mounting: Option<Mounting>,
+    /// The scene's ring.
+    pub ring: Option<MadeRing>,
+}
+
+/// A ring that was made for a scene.
+#[derive(Debug)]
+pub struct MadeRing {
+    /// The metal.
+    pub metal: Metal,
+    /// What the ring is made of, in its own frame, in mm.
+    pub mounting: Mounting,
 }
 
 /// The size and place of a stone.
@@ -115,7 +124,7 @@ impl Assembly {
             exposure: 0.0,
             light_turn: 0.0,
             light_upright: false,
-            mounting: None,
+            ring: None,
         })
     }
 
@@ -139,12 +148,12 @@ impl Assembly {
         let radii: Vec<f64> = members.iter().map(Member::radius_mm).collect();
         members.iter_mut().zip(scene.places_mm(&radii)).for_each(|(member, at)| member.at_mm = at);
         let mut metals = metals(file, &scene)?;
-        let mounting = match &scene.ring {
+        let ring = match &scene.ring {
             Some(entry) => {
-                let ring = ring::ring(file, entry, &specimens, (material, size))?;
-                members.extend(ring.stones);
-                metals.push(ring.metal);
-                Some(ring.mounting)
+                let parts = ring::ring(file, entry, &specimens, (material, size))?;
+                members.extend(parts.stones);
+                metals.push(parts.metal);
+                Some(MadeRing { metal: entry.metal, mounting: parts.mounting })
             }
             None => None,
         };
@@ -174,7 +183,7 @@ impl Assembly {
             exposure: scene.exposure,
             light_turn: scene.light_turn,
             light_upright: scene.light_upright,
-            mounting,
+            ring,
         })
     }
 

@@ -154,3 +154,74 @@ fn named<T: Copy>(key: &str, given: &str, known: &[(&'static str, T)]) -> Result
     let found = known.iter().find(|(name, _)| *name == given).map(|(_, meant)| *meant);
     found.ok_or_else(|| Fault::key(key, unknown()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{is_meant_as_scene, parse, write};
+    use super::*;
+    use crate::cut::Size;
+    use crate::optics::Metal;
+    use glam::DQuat;
+
+    const HALO: &str = "format = 1\nname = \"Ring\"\n[ring]\nstyle = \"halo\"\nmetal = \"gold\"\n\
+                        stone = \"tolkowsky\"\nsize = \"6.5mm\"\nsmall_stone = \"modern-ideal\"\n\
+                        small_material = \"ruby\"\nwidth_mm = 2\noutside = \"flat\"\ntilt = 50\nazimuth = 90\n";
+
+    #[test]
+    fn a_ring_is_read_as_written_and_numbers_left_out_are_the_usual_ones() {
+        let scene = parse(HALO, "x.toml", None).unwrap();
+        assert!(scene.stones.is_empty() && scene.metals.is_empty() && is_meant_as_scene(HALO));
+        let ring = scene.ring.as_ref().unwrap();
+        let usual = Ring::default();
+        let numbers = Ring { style: RingStyle::Halo, outside: OuterShape::Flat, width_mm: 2.0, ..usual };
+        assert_eq!((&ring.ring, ring.metal, ring.roughness), (&numbers, Metal::Gold, 0.1));
+        assert_eq!((ring.stone.as_deref(), ring.size), (Some("tolkowsky"), Some(Size::Millimetres(6.5))));
+        assert_eq!((ring.material.is_none(), ring.small_material.is_some(), ring.line), (true, true, 3));
+        // The head leans toward +y.
+        let head = ring.turned() * DVec3::Z;
+        assert!(head.distance(DQuat::from_rotation_x(-50_f64.to_radians()) * DVec3::Z) < 1e-12, "{head}");
+        let again = parse(&write(&scene), "again.toml", None).unwrap().ring.unwrap();
+        assert_eq!(RingEntry { line: 3, ..again }, *ring);
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_ring_is_said_with_line_and_key() {
+        for (part, other, message) in [
+            (
+                "\"halo\"",
+                "\"hallo\"",
+                "x.toml:4: ring: style: 'hallo' is unknown; did you mean 'halo'?; known: band",
+            ),
+            (
+                "style = \"halo\"\n",
+                "",
+                "x.toml:3: ring: the key `style` is missing (band, four-prong, six-prong",
+            ),
+            ("\"gold\"", "\"golf\"", "x.toml:5: ring: metal: 'golf' is unknown; did you mean 'gold'?"),
+            ("\"flat\"", "\"round\"", "x.toml:11: ring: outside: 'round' is unknown"),
+            ("width_mm = 2", "width_mm = 20", "x.toml:10: ring: width_mm: 20 must be from 1 to 12 mm"),
+            ("width_mm = 2", "taper = nan", "x.toml:10: ring: taper: NaN must be from 0.4 to 1"),
+            ("width_mm = 2", "comfort_mm = 1.5", "x.toml:10: ring: comfort_mm: the inside rises"),
+            ("width_mm = 2", "widht_mm = 2", "x.toml:10: ring: unknown key `widht_mm`"),
+            ("width_mm = 2", "roughness = 2", "x.toml:10: ring: roughness: 2 must be from 0"),
+            ("width_mm = 2", "at = [0, 1e9, 0]", "x.toml:10: ring: at: 1000000000 must be from"),
+            ("\"ruby\"", "\"rubby\"", "x.toml:9: ring: material: unknown material 'rubby'"),
+            (
+                "\"halo\"",
+                "\"six-prong\"",
+                "x.toml:8: ring: small_stone: a ring of style 'six-prong' has no place",
+            ),
+            ("stone = \"tolkowsky\"\n", "", "x.toml:3: ring: stone: a ring of style 'halo' holds a stone"),
+            ("tilt = 50", "tilt = 181", "x.toml:12: ring: tilt: 181 must be from -180 to 180 degrees"),
+        ] {
+            assert!(HALO.contains(part), "{part}");
+            let text = HALO.replacen(part, other, 1);
+            let error = parse(&text, "x.toml", None).unwrap_err().to_string();
+            assert!(error.starts_with(message), "{error}\ninstead of\n{message}");
+        }
+        let idle = HALO.replace("\"halo\"", "\"eternity\"").replace("stone = \"tolkowsky\"\nsize", "size");
+        let idle = idle.replacen("small_small_", "small_", 1);
+        let error = parse(&idle, "x.toml", None).unwrap_err().to_string();
+        assert!(error.starts_with("x.toml:6: ring: size: there is no stone for it"), "{error}");
+    }
+}

@@ -2,23 +2,35 @@
 
 use super::Mounting;
 use crate::math::bounds;
+use crate::optics::Metal;
 use glam::DVec2;
 
 /// An alloy of jewellery.
 pub struct Alloy {
     /// Its name.
     pub name: &'static str,
+    /// The metal that its surface shows; white gold is plated with rhodium.
+    pub metal: Metal,
     /// Its density, in g/cm³.
     pub density: f64,
 }
 
-/// Alloys by name. Densities are those of usual compositions, which differ by a few percent between makers.
-pub const ALLOYS: [Alloy; 4] = [
-    Alloy { name: "18 k yellow gold", density: 15.5 },
-    Alloy { name: "14 k yellow gold", density: 13.1 },
-    Alloy { name: "platinum 950", density: 20.7 },
-    Alloy { name: "sterling silver", density: 10.4 },
+/// Alloys by name. The densities are those of a caster's table (Stuller, "Where to find gravity of materials", 2012); alloys
+/// of other makers differ by a few percent.
+pub const ALLOYS: [Alloy; 5] = [
+    Alloy { name: "18 k yellow gold", metal: Metal::Gold, density: 15.58 },
+    Alloy { name: "14 k yellow gold", metal: Metal::Gold, density: 13.07 },
+    Alloy { name: "18 k white gold", metal: Metal::Rhodium, density: 14.64 },
+    Alloy { name: "platinum-cobalt", metal: Metal::Platinum, density: 20.8 },
+    Alloy { name: "sterling silver", metal: Metal::Silver, density: 10.4 },
 ];
+
+impl Alloy {
+    /// Returns the weight of a volume, in grams.
+    pub fn grams(&self, volume_mm3: f64) -> f64 {
+        volume_mm3 * self.density / 1000.0
+    }
+}
 
 /// The distance between the lines along which metal is measured, in mm.
 const LINE_MM: f64 = 0.02;
@@ -47,11 +59,6 @@ impl Mounting {
             }
         }
         crossings.iter_mut().map(|line| inside(line)).sum::<f64>() * LINE_MM * LINE_MM
-    }
-
-    /// Returns the weight of the metal in grams, of a density in g/cm³.
-    pub fn grams(&self, density: f64) -> f64 {
-        self.volume_mm3() * density / 1000.0
     }
 }
 
