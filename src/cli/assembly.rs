@@ -102,6 +102,11 @@ impl Assembly {
         }
     }
 
+    /// Assembles a scene that comes with the program.
+    pub fn of_library(name: &str, scene: SceneFile) -> Result<Self, Failure> {
+        Self::of_scene(Path::new(name), scene, None, (None, MeshOptions::default()))
+    }
+
     fn of_stone(
         specimen: LoadedSpecimen,
         material: Option<Material>,

@@ -4,21 +4,24 @@
 
 use super::background::BackgroundRef;
 use super::file_error::{Fault, FileError};
-use super::nearest;
 use super::text;
 use super::toml_format::check_format;
 use super::toml_text::TomlText;
 use crate::cut::{MaterialRef, Size};
 use crate::optics::Metal;
-use crate::scene::{LIGHTS, Layout, MOST_STONES, Ring, light};
+use crate::scene::{LIGHTS, Layout, MOST_STONES, light};
 use form::SceneForm;
 use glam::{DQuat, DVec3};
+pub use ring_entry::RingEntry;
+use shared::{leaning, likely, shown};
 use std::path::{Path, PathBuf};
 use toml::de::DeTable;
 
 mod form;
 mod metal_form;
+mod ring_entry;
 mod ring_form;
+mod shared;
 
 #[cfg(test)]
 mod tests;
@@ -60,37 +63,6 @@ pub struct SceneFile {
     pub metals: Vec<MetalEntry>,
     /// The ring that the program makes.
     pub ring: Option<RingEntry>,
-}
-
-/// A ring of the program's own making in a scene, with its stones.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RingEntry {
-    /// The ring's numbers, checked.
-    pub ring: Ring,
-    /// The metal.
-    pub metal: Metal,
-    /// How rough its surface is, 0 to 1.
-    pub roughness: f64,
-    /// The cut of the main stone, as in [`Entry::cut`], where the style has one.
-    pub stone: Option<String>,
-    /// The main stone's material, checked; `None` for the cut file's.
-    pub material: Option<MaterialRef>,
-    /// The main stone's size; `None` for the cut file's.
-    pub size: Option<Size>,
-    /// The cut of the small stones, where the style has them.
-    pub small_stone: Option<String>,
-    /// The small stones' material, checked; `None` for the cut file's.
-    pub small_material: Option<MaterialRef>,
-    /// The turn about the head's axis, in degrees.
-    pub turn: f64,
-    /// The angle by which the head's axis leans toward `azimuth`, in degrees.
-    pub tilt: f64,
-    /// The direction in which the head leans, in degrees from +x toward +y.
-    pub azimuth: f64,
-    /// The middle of the finger's hole, in mm; in a layout, from the middle of the layout.
-    pub at_mm: DVec3,
-    /// The line of the file where the table begins, from 1.
-    pub line: usize,
 }
 
 /// A body of metal in a scene.
@@ -196,20 +168,6 @@ impl MetalEntry {
     }
 }
 
-impl RingEntry {
-    /// Returns the rotation from the ring's frame, whose head lies in the direction +z, to the world's.
-    pub fn turned(&self) -> DQuat {
-        leaning(self.turn, self.tilt, self.azimuth)
-    }
-}
-
-/// Returns the rotation that turns about z and then leans z toward an azimuth, all in degrees.
-fn leaning(turn: f64, tilt: f64, azimuth: f64) -> DQuat {
-    let azimuth = azimuth.to_radians();
-    let axis = DVec3::new(-azimuth.sin(), azimuth.cos(), 0.0);
-    DQuat::from_axis_angle(axis, tilt.to_radians()) * DQuat::from_rotation_z(turn.to_radians())
-}
-
 /// Reads a scene file.
 ///
 /// # Errors
@@ -277,15 +235,4 @@ fn found(given: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
     }
     let what = "is neither a light of the program nor a file beside this one";
     Err(Fault::key("light", format!("light: '{}' {what}{}", shown(given), likely(given, &LIGHTS))))
-}
-
-/// Returns the hint at the known name that is most like an unknown one, and the list of all known names.
-fn likely(asked: &str, known: &[&str]) -> String {
-    let meant = nearest(asked, known).map_or(String::new(), |name| format!("; did you mean '{name}'?"));
-    format!("{meant}; known: {}", known.join(", "))
-}
-
-/// Returns as much of a text as a person reads.
-fn shown(text: &str) -> String {
-    text.chars().take(80).collect()
 }

@@ -1,15 +1,16 @@
 //! The keys of a scene file, in the order in which they are written, and what they may be.
 
 use super::super::background::BackgroundRef;
-use super::super::cut_file::material_form::{MaterialForm, path_of};
-use super::super::cut_file::values::{Numbers, OneOf, Pairs, TomlTable};
+use super::super::cut_file::material_form::MaterialForm;
+use super::super::cut_file::values::{Numbers, TomlTable};
 use super::super::file_error::Fault;
 use super::super::toml_format::FORMAT;
 use super::super::toml_text::line_at;
 use super::metal_form::{MetalForm, metals};
 use super::ring_form::{RingForm, ring};
-use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, behind, found, likely, shown};
-use crate::cut::{MaterialRef, Size, SizeError, is_printable};
+use super::shared::{DEGREES, LEANING, PLACES_MM, SizeForm, likely, material, shown, within};
+use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, behind, found};
+use crate::cut::is_printable;
 use crate::scene::Layout;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -68,41 +69,10 @@ fn is_alone(count: &i64) -> bool {
     *count <= 1
 }
 
-/// A size, written as text with its unit.
-#[derive(Clone, Serialize, Deserialize)]
-#[serde(try_from = "OneOf<Pairs>", into = "String")]
-pub(super) struct SizeForm(pub Size);
-
-impl TryFrom<OneOf<Pairs>> for SizeForm {
-    type Error = Fault;
-
-    fn try_from(form: OneOf<Pairs>) -> Result<Self, Fault> {
-        let text = match form {
-            OneOf::Text(text) => text,
-            // The number goes on without a unit, which the size's own parser refuses.
-            OneOf::Number(number) => number.to_string(),
-            OneOf::Rest(_) => {
-                return Err("a list is not a size; write a number and mm or ct in quotes".into());
-            }
-        };
-        text.parse().map(Self).map_err(|error: SizeError| Fault::whole(error))
-    }
-}
-
-impl From<SizeForm> for String {
-    fn from(SizeForm(size): SizeForm) -> Self {
-        size.to_string()
-    }
-}
-
-pub(super) const DEGREES: RangeInclusive<f64> = -1e6..=1e6;
-pub(super) const LEANING: RangeInclusive<f64> = -180.0..=180.0;
 const GAPS_MM: RangeInclusive<f64> = 0.0..=1000.0;
 const DISTANCES_MM: RangeInclusive<f64> = 0.0..=10_000.0;
 const ANGLES_OF_VIEW: RangeInclusive<f64> = 1.0..=120.0;
 const STOPS: RangeInclusive<f64> = -40.0..=40.0;
-pub(super) const PLACES_MM: RangeInclusive<f64> = -10_000.0..=10_000.0;
-
 impl SceneForm {
     /// Returns the form in which a scene is written.
     pub fn of(scene: &SceneFile) -> Self {
@@ -233,20 +203,6 @@ fn check_counts(stones: &[Spanned<TomlTable<StoneForm>>]) -> Result<(), Fault> {
     Ok(())
 }
 
-pub(super) fn within(
-    path: &str,
-    key: &str,
-    value: f64,
-    range: RangeInclusive<f64>,
-    unit: &str,
-) -> Result<(), Fault> {
-    if range.contains(&value) {
-        return Ok(());
-    }
-    let (least, most) = range.into_inner();
-    Err(Fault::key(path, format!("{key}: {value} must be from {least} to {most} {unit}")))
-}
-
 impl StoneForm {
     fn of(entry: &Entry, is_placed: bool) -> Self {
         Self {
@@ -299,10 +255,4 @@ impl StoneForm {
             line,
         })
     }
-}
-
-pub(super) fn material(form: MaterialForm) -> Result<MaterialRef, Fault> {
-    let material = form.material()?;
-    material.check().map_err(|error| Fault::key(path_of(&error, &material), error))?;
-    Ok(material)
 }

@@ -3,10 +3,8 @@
 use super::super::cut_file::values::{Numbers, TomlTable};
 use super::super::file_error::Fault;
 use super::super::toml_text::line_at;
-use super::form::{DEGREES, LEANING, PLACES_MM, within};
-use super::{MetalEntry, likely, shown};
-use crate::optics::Metal;
-use crate::scene::POLISHED;
+use super::MetalEntry;
+use super::shared::{DEGREES, LEANING, PLACES_MM, metal, roughness, within};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
@@ -15,7 +13,6 @@ use toml::Spanned;
 /// The most bodies of metal that a scene may have.
 const MOST_METALS: usize = 256;
 
-const ROUGHNESSES: RangeInclusive<f64> = 0.0..=1.0;
 const SCALES: RangeInclusive<f64> = 1e-6..=1e6;
 
 /// A table `[[metal]]`.
@@ -64,23 +61,6 @@ impl MetalForm {
         let Self { mesh, turn, tilt, azimuth, .. } = self;
         Ok(MetalEntry { mesh, metal, roughness, scale, turn, tilt, azimuth, at_mm, line })
     }
-}
-
-/// Returns the metal of a name.
-pub(super) fn metal(given: &str) -> Result<Metal, Fault> {
-    let found = Metal::NAMES.iter().find(|(name, _)| *name == given).map(|(_, metal)| *metal);
-    let names = Metal::NAMES.map(|(name, _)| name);
-    let unknown = || format!("metal: '{}' is unknown{}", shown(given), likely(given, &names));
-    found.ok_or_else(|| Fault::key("metal", unknown()))
-}
-
-/// Returns the roughness of a metal, checked; that of a polished one where none is given.
-pub(super) fn roughness(given: Option<f64>) -> Result<f64, Fault> {
-    let roughness = given.unwrap_or(POLISHED);
-    if ROUGHNESSES.contains(&roughness) {
-        return Ok(roughness);
-    }
-    Err(Fault::key("roughness", format!("roughness: {roughness} must be from 0, a mirror, to 1")))
 }
 
 /// Returns the bodies of metal that the tables of a text describe.

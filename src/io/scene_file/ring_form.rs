@@ -4,9 +4,10 @@ use super::super::cut_file::material_form::MaterialForm;
 use super::super::cut_file::values::{Numbers, TomlTable};
 use super::super::file_error::Fault;
 use super::super::toml_text::line_at;
-use super::form::{DEGREES, LEANING, PLACES_MM, SizeForm, material, within};
-use super::metal_form::{metal, roughness};
-use super::{RingEntry, likely, shown};
+use super::ring_entry::RingEntry;
+use super::shared::{
+    DEGREES, LEANING, PLACES_MM, SizeForm, likely, material, metal, roughness, shown, within,
+};
 use crate::scene::{OuterShape, Ring, RingStyle};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};

@@ -8,6 +8,7 @@ mod error;
 mod gem;
 mod halo;
 mod head;
+mod making;
 mod numbers;
 mod path;
 mod ring;

@@ -3,7 +3,7 @@
 use super::band::band;
 use super::gem::MountedStone;
 use super::head::{apart, prongs, station};
-use super::ring::TOUCHING_MM;
+use super::making::TOUCHING_MM;
 use super::rod::{Station, rod};
 use super::skin::CHORD_MM;
 use super::*;
