@@ -9,12 +9,16 @@ use crate::io::mesh_options::MeshOptions;
 use crate::io::scene_file::{self, Entry, MetalEntry, SceneFile};
 use crate::io::{Failure, is_standard, library};
 use crate::math::{ShadedMesh, bounds};
-use crate::optics::Material;
-use crate::scene::{Instance, MetalInstance, Pose, Projection, Scene, Viewpoint, overlapping};
+use crate::optics::{Material, Metal};
+use crate::scene::{
+    Instance, MOST_STONES, MetalInstance, Mounting, Pose, Projection, Scene, Viewpoint, overlapping,
+};
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+mod ring;
 
 #[cfg(test)]
 mod tests;
@@ -46,6 +50,17 @@ pub struct Assembly {
     pub light_turn: f64,
     /// Whether the light's axis points up in the picture, and not to the eye.
     pub light_upright: bool,
+    /// The scene's ring.
+    pub ring: Option<MadeRing>,
+}
+
+/// A ring that was made for a scene.
+#[derive(Debug)]
+pub struct MadeRing {
+    /// The metal.
+    pub metal: Metal,
+    /// What the ring is made of, in its own frame, in mm.
+    pub mounting: Mounting,
 }
 
 /// The size and place of a stone.
@@ -87,6 +102,11 @@ impl Assembly {
         }
     }
 
+    /// Assembles a scene that comes with the program.
+    pub fn of_library(name: &str, scene: SceneFile) -> Result<Self, Failure> {
+        Self::of_scene(Path::new(name), scene, None, (None, MeshOptions::default()))
+    }
+
     fn of_stone(
         specimen: LoadedSpecimen,
         material: Option<Material>,
@@ -109,6 +129,7 @@ impl Assembly {
             exposure: 0.0,
             light_turn: 0.0,
             light_upright: false,
+            ring: None,
         })
     }
 
@@ -131,7 +152,22 @@ impl Assembly {
         let mut members: Vec<Member> = scene.turns().into_iter().map(turned).collect();
         let radii: Vec<f64> = members.iter().map(Member::radius_mm).collect();
         members.iter_mut().zip(scene.places_mm(&radii)).for_each(|(member, at)| member.at_mm = at);
-        let metals = metals(file, &scene)?;
+        let mut metals = metals(file, &scene)?;
+        let ring = match &scene.ring {
+            Some(entry) => {
+                let parts = ring::ring(file, entry, &specimens, (material, size))?;
+                members.extend(parts.stones);
+                metals.push(parts.metal);
+                Some(MadeRing { metal: entry.metal, mounting: parts.mounting })
+            }
+            None => None,
+        };
+        if members.len() > MOST_STONES {
+            let count = members.len();
+            return Err(Failure::Input(format!(
+                "{path}: {count} stones are too many, at most {MOST_STONES}"
+            )));
+        }
         let setting = placed(&members, metals);
         if let Some((a, b)) = overlapping(&setting.instances) {
             let (a, b) = (&members[a].description, &members[b].description);
@@ -152,6 +188,7 @@ impl Assembly {
             exposure: scene.exposure,
             light_turn: scene.light_turn,
             light_upright: scene.light_upright,
+            ring,
         })
     }
 
@@ -190,15 +227,23 @@ fn specimens(
     mesh: MeshOptions,
 ) -> Result<BTreeMap<String, LoadedSpecimen>, Failure> {
     let mut specimens = BTreeMap::new();
+    let failed = |failure: Failure, place: &dyn Fn(&str) -> Failure| match failure {
+        Failure::Input(message) => place(&message),
+        other => other,
+    };
     for (number, entry) in scene.stones.iter().enumerate() {
-        if specimens.contains_key(&entry.cut) {
-            continue;
+        if !specimens.contains_key(&entry.cut) {
+            let at = |message: &str| at_entry(file, number, entry, &format!("cut: {message}"));
+            let specimen = specimen(file, &entry.cut, mesh).map_err(|failure| failed(failure, &at))?;
+            specimens.insert(entry.cut.clone(), specimen);
         }
-        let specimen = specimen(file, &entry.cut, mesh).map_err(|failure| match failure {
-            Failure::Input(message) => at_entry(file, number, entry, &format!("cut: {message}")),
-            other => other,
-        })?;
-        specimens.insert(entry.cut.clone(), specimen);
+    }
+    for (key, cut, line) in scene.ring.iter().flat_map(ring::cuts) {
+        if !specimens.contains_key(cut) {
+            let at = |message: &str| ring::at_ring(file, line, &format!("{key}: {message}"));
+            let specimen = specimen(file, cut, mesh).map_err(|failure| failed(failure, &at))?;
+            specimens.insert(cut.to_owned(), specimen);
+        }
     }
     Ok(specimens)
 }

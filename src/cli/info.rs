@@ -1,6 +1,6 @@
 //! `info`: prints a stone's geometry, proportions and weight, or the stones of a scene.
 
-use super::assembly::Assembly;
+use super::assembly::{Assembly, MadeRing};
 use super::batch::each_file;
 use super::console::{json, print};
 use super::mesh_options::MeshArguments;
@@ -10,7 +10,7 @@ use crate::cut::{AlongAxes, Cut, ProportionReport, Spread, Unit};
 use crate::io::Failure;
 use crate::io::STANDARD;
 use crate::math::{Facet, Polytope};
-use crate::scene::Body;
+use crate::scene::{ALLOYS, Alloy, Body};
 use clap::Args;
 use glam::DVec2;
 use serde_json::{Value, json};
@@ -84,6 +84,7 @@ fn scene_json(assembly: &Assembly) -> Value {
         "light": assembly.light,
         "unit_mm": assembly.setting.unit_mm,
         "carats": assembly.carats(),
+        "ring": assembly.ring.as_ref().map(ring_json),
         "stones": stones.collect::<Vec<_>>(),
         "metals": metals.collect::<Vec<_>>(),
     })
@@ -95,6 +96,7 @@ fn scene_table(assembly: &Assembly) -> String {
         let _ = writeln!(text, "  {:<28}{}", "light", light.display());
     }
     let _ = writeln!(text, "  {:<28}{}", "weight", weight(assembly.carats()));
+    assembly.ring.iter().for_each(|ring| ring_rows(ring, &mut text));
     let _ = write!(text, "\n  {:<20}{:<20}{:>8}{:>12}", "cut", "material", "mm", "weight");
     let _ = write!(text, "{:>9}{:>9}{:>9}", "x mm", "y mm", "z mm");
     for (stone, place) in assembly.setting.instances.iter().zip(&assembly.places) {
@@ -110,6 +112,39 @@ fn scene_table(assembly: &Assembly) -> String {
         let _ = write!(text, "\n  {mesh:<20}{name:<20}roughness {roughness}");
     }
     text
+}
+
+fn ring_json(ring: &MadeRing) -> Value {
+    let mounting = &ring.mounting;
+    let volume_mm3 = mounting.volume_mm3();
+    let alloys = alloys(ring).map(|alloy| (alloy.name.to_owned(), json!(alloy.grams(volume_mm3))));
+    json!({
+        "metal": ring.metal.name(),
+        "volume_mm3": volume_mm3,
+        "grams": alloys.collect::<serde_json::Map<_, _>>(),
+        "culet_height_mm": mounting.culet_height_mm,
+        "small_gap_mm": mounting.small_gap_mm,
+    })
+}
+
+fn ring_rows(ring: &MadeRing, text: &mut String) {
+    let mounting = &ring.mounting;
+    let volume_mm3 = mounting.volume_mm3();
+    let _ = writeln!(text, "  {:<28}{volume_mm3:.1} mm³", "metal of the ring");
+    for alloy in alloys(ring) {
+        let _ = writeln!(text, "  {:<28}{:.2} g", format!("in {}", alloy.name), alloy.grams(volume_mm3));
+    }
+    if let Some(height) = mounting.culet_height_mm {
+        let _ = writeln!(text, "  {:<28}{height:.2} mm", "culet above the finger");
+    }
+    if let Some(gap) = mounting.small_gap_mm {
+        let _ = writeln!(text, "  {:<28}{gap:.2} mm", "gap between small stones");
+    }
+}
+
+/// Returns the alloys of which a ring of this metal may be made.
+fn alloys(ring: &MadeRing) -> impl Iterator<Item = &'static Alloy> {
+    ALLOYS.iter().filter(|alloy| alloy.metal == ring.metal)
 }
 
 /// Returns the first line of a table: the file and the name of the stone or scene in it, only once where they are equal.

@@ -1,5 +1,6 @@
 //! `materials`, `cuts`, `scenes`, `scopes`, `lights`: lists of what the program knows by name.
 
+use super::assembly::Assembly;
 use super::console::{json, print};
 use crate::io::library::{CUTS, SCENES, cut, scene};
 use crate::io::{Failure, cut_file, light_file, lighting, scene_file, scope_file};
@@ -93,7 +94,13 @@ impl Scenes {
         let mut rows = vec![];
         for (name, text) in SCENES {
             let scene = scene_file::parse(text, name, None)?;
-            rows.push((name, scene.stones.iter().map(|s| s.count).sum::<usize>(), scene.name));
+            let title = scene.name.clone();
+            // Only a ring that was made says how many stones it holds.
+            let stones = match scene.ring {
+                Some(_) => Assembly::of_library(name, scene)?.places.len(),
+                None => scene.stones.iter().map(|s| s.count).sum(),
+            };
+            rows.push((name, stones, title));
         }
         if self.json {
             let entry = |(name, stones, title)| json!({ "name": name, "title": title, "stones": stones });

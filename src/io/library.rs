@@ -23,7 +23,7 @@ pub fn cut(name: &str) -> Option<&'static str> {
 }
 
 /// The scenes that come with the program: the name of each, and the text of its file in `scenes/`.
-pub const SCENES: [(&str, &str); 8] = [
+pub const SCENES: [(&str, &str); 12] = [
     ("trilogy", include_str!("../../scenes/trilogy.toml")),
     ("ring", include_str!("../../scenes/ring.toml")),
     ("parcel", include_str!("../../scenes/parcel.toml")),
@@ -32,6 +32,10 @@ pub const SCENES: [(&str, &str); 8] = [
     ("rotating-cube", include_str!("../../scenes/rotating-cube.toml")),
     ("wavy-plate", include_str!("../../scenes/wavy-plate.toml")),
     ("free-diamond", include_str!("../../scenes/free-diamond.toml")),
+    ("solitaire", include_str!("../../scenes/solitaire.toml")),
+    ("four-prong", include_str!("../../scenes/four-prong.toml")),
+    ("halo-ring", include_str!("../../scenes/halo-ring.toml")),
+    ("eternity", include_str!("../../scenes/eternity.toml")),
 ];
 
 /// Returns the text of a scene file that comes with the program, by its name; capitals do not matter.

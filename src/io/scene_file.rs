@@ -4,7 +4,6 @@
 
 use super::background::BackgroundRef;
 use super::file_error::{Fault, FileError};
-use super::nearest;
 use super::text;
 use super::toml_format::check_format;
 use super::toml_text::TomlText;
@@ -13,11 +12,16 @@ use crate::optics::Metal;
 use crate::scene::{LIGHTS, Layout, MOST_STONES, light};
 use form::SceneForm;
 use glam::{DQuat, DVec3};
+pub use ring_entry::RingEntry;
+use shared::{leaning, likely, shown};
 use std::path::{Path, PathBuf};
 use toml::de::DeTable;
 
 mod form;
 mod metal_form;
+mod ring_entry;
+mod ring_form;
+mod shared;
 
 #[cfg(test)]
 mod tests;
@@ -53,10 +57,12 @@ pub struct SceneFile {
     pub angle_of_view: Option<f64>,
     /// The exposure, in stops.
     pub exposure: f64,
-    /// The kinds of stones; with their counts they are at most [`MOST_STONES`] stones. There are none only where there is metal.
+    /// The kinds of stones; with their counts they are at most [`MOST_STONES`] stones. There are none only where there is metal or a ring.
     pub stones: Vec<Entry>,
     /// The bodies of metal.
     pub metals: Vec<MetalEntry>,
+    /// The ring that the program makes.
+    pub ring: Option<RingEntry>,
 }
 
 /// A body of metal in a scene.
@@ -162,13 +168,6 @@ impl MetalEntry {
     }
 }
 
-/// Returns the rotation that turns about z and then leans z toward an azimuth, all in degrees.
-fn leaning(turn: f64, tilt: f64, azimuth: f64) -> DQuat {
-    let azimuth = azimuth.to_radians();
-    let axis = DVec3::new(-azimuth.sin(), azimuth.cos(), 0.0);
-    DQuat::from_axis_angle(axis, tilt.to_radians()) * DQuat::from_rotation_z(turn.to_radians())
-}
-
 /// Reads a scene file.
 ///
 /// # Errors
@@ -202,11 +201,12 @@ pub fn is_scene(path: &Path) -> bool {
 }
 
 fn is_meant_as_scene(text: &str) -> bool {
-    const KEYS: [&str; 5] = ["stone", "metal", "layout", "light", "gap_mm"];
+    const KEYS: [&str; 6] = ["stone", "metal", "ring", "layout", "light", "gap_mm"];
     match DeTable::parse(text) {
         Ok(table) => KEYS.iter().any(|&key| table.get_ref().contains_key(key)),
         Err(_) => {
-            let begins = |line: &str| ["[[stone]]", "[[metal]]"].iter().any(|key| line.starts_with(key));
+            let begins =
+                |line: &str| ["[[stone]]", "[[metal]]", "[ring]"].iter().any(|key| line.starts_with(key));
             text.lines().map(str::trim_start).any(begins)
         }
     }
@@ -235,15 +235,4 @@ fn found(given: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
     }
     let what = "is neither a light of the program nor a file beside this one";
     Err(Fault::key("light", format!("light: '{}' {what}{}", shown(given), likely(given, &LIGHTS))))
-}
-
-/// Returns the hint at the known name that is most like an unknown one, and the list of all known names.
-fn likely(asked: &str, known: &[&str]) -> String {
-    let meant = nearest(asked, known).map_or(String::new(), |name| format!("; did you mean '{name}'?"));
-    format!("{meant}; known: {}", known.join(", "))
-}
-
-/// Returns as much of a text as a person reads.
-fn shown(text: &str) -> String {
-    text.chars().take(80).collect()
 }

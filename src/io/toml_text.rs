@@ -10,7 +10,7 @@ use toml::de::{DeString, DeTable, DeValue, Deserializer, Error};
 
 /// The meanings of keys, for someone who left a key out or wrote something else. Those of proportions are in their
 /// families' tables.
-const MEANINGS: [(&str, &str); 53] = [
+const MEANINGS: [(&str, &str); 55] = [
     ("name", "what it is called"),
     ("material", "a material's name, an index, or a table of its own"),
     ("diameter_mm", "girdle diameter in mm"),
@@ -32,6 +32,8 @@ const MEANINGS: [(&str, &str); 53] = [
     ("light_turn", "degrees about the light's axis"),
     ("light_upright", "true or false"),
     ("layout", "row, ring or parcel"),
+    ("style", "band, four-prong, six-prong, halo or eternity"),
+    ("metal", "gold, platinum, silver or rhodium"),
     ("gap_mm", "mm between the girdles of a layout"),
     ("strength", "of refraction, 0 to 1; 1 is physics"),
     ("angle_of_view", "degrees of a perspective"),

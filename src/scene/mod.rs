@@ -11,6 +11,7 @@ mod lights;
 mod medium;
 mod metal_instance;
 mod mipmap;
+mod mounting;
 mod overlap;
 mod panorama;
 mod scope;
@@ -31,6 +32,10 @@ pub use lights::{LIGHTS, light};
 pub use medium::Medium;
 pub use metal_instance::{MetalInstance, POLISHED};
 pub use mipmap::Mipmap;
+pub use mounting::{
+    ALLOYS, Alloy, MetalPart, Mounting, OuterShape, RING_NUMBERS, Ring, RingError, RingNumber, RingSeat,
+    RingStyle, SeatKind, SetStone,
+};
 pub use overlap::overlapping;
 pub use panorama::{Panorama, PanoramaError};
 pub use scope::{ASET_CONE, Backing, Band, Glare, MOST_BANDS, Scope, ScopeError, elevation_deg};

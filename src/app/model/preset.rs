@@ -62,7 +62,13 @@ impl Preset {
     }
 
     fn new(scene: SceneFile, label: &str, folder: Option<&Path>) -> Result<Self, FileError> {
-        let first = &scene.stones[0];
+        let has_metal = scene.ring.is_some() || !scene.metals.is_empty();
+        let Some(first) = scene.stones.first().filter(|_| !has_metal) else {
+            let problem = format!(
+                "the editor opens only scenes without metal; draw this one by `brillianteer render {label}`"
+            );
+            return Err(FileError::new(label, problem));
+        };
         let kind = |e: &Entry| (e.cut.clone(), e.material.clone(), e.size);
         let count: usize = scene.stones.iter().map(|e| e.count).sum();
         if scene.stones.iter().any(|e| kind(e) != kind(first)) || count > MOST_COPIES {

@@ -47,6 +47,7 @@ impl SceneOut {
                 .map(|pose| Entry::placed(&cut, pose.turn, (pose.at - middle) * unit_mm))
                 .collect(),
             metals: vec![],
+            ring: None,
         };
         Self { paths, scene: scene_file::write(&scene), cut: cut_file::write(design) }
     }

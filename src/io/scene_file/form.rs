@@ -1,14 +1,16 @@
 //! The keys of a scene file, in the order in which they are written, and what they may be.
 
 use super::super::background::BackgroundRef;
-use super::super::cut_file::material_form::{MaterialForm, path_of};
-use super::super::cut_file::values::{Numbers, OneOf, Pairs, TomlTable};
+use super::super::cut_file::material_form::MaterialForm;
+use super::super::cut_file::values::{Numbers, TomlTable};
 use super::super::file_error::Fault;
 use super::super::toml_format::FORMAT;
 use super::super::toml_text::line_at;
 use super::metal_form::{MetalForm, metals};
-use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, behind, found, likely, shown};
-use crate::cut::{MaterialRef, Size, SizeError, is_printable};
+use super::ring_form::{RingForm, ring};
+use super::shared::{DEGREES, LEANING, PLACES_MM, SizeForm, likely, material, shown, within};
+use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, behind, found};
+use crate::cut::is_printable;
 use crate::scene::Layout;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -37,6 +39,8 @@ pub(super) struct SceneForm {
     stone: Option<Vec<Spanned<TomlTable<StoneForm>>>>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     metal: Vec<Spanned<TomlTable<MetalForm>>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ring: Option<Spanned<TomlTable<RingForm>>>,
 }
 
 /// A table `[[stone]]`.
@@ -65,41 +69,10 @@ fn is_alone(count: &i64) -> bool {
     *count <= 1
 }
 
-/// A size, written as text with its unit.
-#[derive(Clone, Serialize, Deserialize)]
-#[serde(try_from = "OneOf<Pairs>", into = "String")]
-struct SizeForm(Size);
-
-impl TryFrom<OneOf<Pairs>> for SizeForm {
-    type Error = Fault;
-
-    fn try_from(form: OneOf<Pairs>) -> Result<Self, Fault> {
-        let text = match form {
-            OneOf::Text(text) => text,
-            // The number goes on without a unit, which the size's own parser refuses.
-            OneOf::Number(number) => number.to_string(),
-            OneOf::Rest(_) => {
-                return Err("a list is not a size; write a number and mm or ct in quotes".into());
-            }
-        };
-        text.parse().map(Self).map_err(|error: SizeError| Fault::whole(error))
-    }
-}
-
-impl From<SizeForm> for String {
-    fn from(SizeForm(size): SizeForm) -> Self {
-        size.to_string()
-    }
-}
-
-pub(super) const DEGREES: RangeInclusive<f64> = -1e6..=1e6;
-pub(super) const LEANING: RangeInclusive<f64> = -180.0..=180.0;
 const GAPS_MM: RangeInclusive<f64> = 0.0..=1000.0;
 const DISTANCES_MM: RangeInclusive<f64> = 0.0..=10_000.0;
 const ANGLES_OF_VIEW: RangeInclusive<f64> = 1.0..=120.0;
 const STOPS: RangeInclusive<f64> = -40.0..=40.0;
-pub(super) const PLACES_MM: RangeInclusive<f64> = -10_000.0..=10_000.0;
-
 impl SceneForm {
     /// Returns the form in which a scene is written.
     pub fn of(scene: &SceneFile) -> Self {
@@ -121,6 +94,7 @@ impl SceneForm {
             exposure: (scene.exposure != 0.0).then_some(scene.exposure),
             stone: (!scene.stones.is_empty()).then(|| scene.stones.iter().map(stone).collect()),
             metal: scene.metals.iter().map(|m| Spanned::new(0..0, TomlTable(MetalForm::of(m)))).collect(),
+            ring: scene.ring.as_ref().map(|ring| Spanned::new(0..0, TomlTable(RingForm::of(ring)))),
         }
     }
 
@@ -156,7 +130,7 @@ impl SceneForm {
         let (exposure, light_turn) = (self.exposure.unwrap_or(0.0), self.light_turn.unwrap_or(0.0));
         within("light_turn", "light_turn", light_turn, DEGREES, "degrees")?;
         within("exposure", "exposure", exposure, STOPS, "stops")?;
-        let stones = stones(self.stone, !self.metal.is_empty())?;
+        let stones = stones(self.stone, !self.metal.is_empty() || self.ring.is_some())?;
         let alone = stones.len() == 1;
         let entry = |(index, stone): (usize, Spanned<TomlTable<StoneForm>>)| {
             let line = line_at(text, stone.span().start);
@@ -167,6 +141,7 @@ impl SceneForm {
         };
         let stones = stones.into_iter().enumerate().map(entry).collect::<Result<_, _>>()?;
         let metals = metals(self.metal, text)?;
+        let ring = self.ring.map(|form| ring(form, text)).transpose()?;
         let Self { name, background_distance_mm, angle_of_view, light_upright, .. } = self;
         Ok(SceneFile {
             name,
@@ -182,6 +157,7 @@ impl SceneForm {
             exposure,
             stones,
             metals,
+            ring,
         })
     }
 }
@@ -225,20 +201,6 @@ fn check_counts(stones: &[Spanned<TomlTable<StoneForm>>]) -> Result<(), Fault> {
         left -= count;
     }
     Ok(())
-}
-
-pub(super) fn within(
-    path: &str,
-    key: &str,
-    value: f64,
-    range: RangeInclusive<f64>,
-    unit: &str,
-) -> Result<(), Fault> {
-    if range.contains(&value) {
-        return Ok(());
-    }
-    let (least, most) = range.into_inner();
-    Err(Fault::key(path, format!("{key}: {value} must be from {least} to {most} {unit}")))
 }
 
 impl StoneForm {
@@ -293,10 +255,4 @@ impl StoneForm {
             line,
         })
     }
-}
-
-fn material(form: MaterialForm) -> Result<MaterialRef, Fault> {
-    let material = form.material()?;
-    material.check().map_err(|error| Fault::key(path_of(&error, &material), error))?;
-    Ok(material)
 }

@@ -3,10 +3,8 @@
 use super::super::cut_file::values::{Numbers, TomlTable};
 use super::super::file_error::Fault;
 use super::super::toml_text::line_at;
-use super::form::{DEGREES, LEANING, PLACES_MM, within};
-use super::{MetalEntry, likely, shown};
-use crate::optics::Metal;
-use crate::scene::POLISHED;
+use super::MetalEntry;
+use super::shared::{DEGREES, LEANING, PLACES_MM, metal, roughness, within};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
@@ -15,7 +13,6 @@ use toml::Spanned;
 /// The most bodies of metal that a scene may have.
 const MOST_METALS: usize = 256;
 
-const ROUGHNESSES: RangeInclusive<f64> = 0.0..=1.0;
 const SCALES: RangeInclusive<f64> = 1e-6..=1e6;
 
 /// A table `[[metal]]`.
@@ -51,15 +48,8 @@ impl MetalForm {
     }
 
     fn entry(self, line: usize) -> Result<MetalEntry, Fault> {
-        let found = Metal::NAMES.iter().find(|(name, _)| *name == self.metal);
-        let names = Metal::NAMES.map(|(name, _)| name);
-        let unknown = || format!("metal: '{}' is unknown{}", shown(&self.metal), likely(&self.metal, &names));
-        let &(_, metal) = found.ok_or_else(|| Fault::key("metal", unknown()))?;
-        let (roughness, scale) = (self.roughness.unwrap_or(POLISHED), self.scale.unwrap_or(1.0));
-        if !ROUGHNESSES.contains(&roughness) {
-            let message = format!("roughness: {roughness} must be from 0, a mirror, to 1");
-            return Err(Fault::key("roughness", message));
-        }
+        let (metal, roughness) = (metal(&self.metal)?, roughness(self.roughness)?);
+        let scale = self.scale.unwrap_or(1.0);
         within("scale", "scale", scale, SCALES, "mm for a unit of the file")?;
         within("turn", "turn", self.turn, DEGREES, "degrees")?;
         within("tilt", "tilt", self.tilt, LEANING, "degrees")?;

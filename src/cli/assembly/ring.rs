@@ -1,0 +1,171 @@
+//! The stones and the metal of a scene's ring.
+
+use super::{Member, diameter_mm};
+use crate::cli::specimen::LoadedSpecimen;
+use crate::cut::{MaterialRef, Size};
+use crate::io::Failure;
+use crate::io::scene_file::RingEntry;
+use crate::math::{NotConvex, ShadedMesh};
+use crate::optics::Material;
+use crate::scene::{MetalInstance, Mounting, Pose, RingSeat, SeatKind, SetStone};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A ring in mm.
+pub(super) struct RingParts<'a> {
+    /// The stones in their seats.
+    pub stones: Vec<Member<'a>>,
+    /// All metal as one body.
+    pub metal: MetalInstance,
+    /// What the ring is made of, in its own frame.
+    pub mounting: Mounting,
+}
+
+/// A stone that a ring holds: its specimen, material and diameter in mm.
+struct Gem<'a> {
+    specimen: &'a LoadedSpecimen,
+    material: Material,
+    diameter_mm: f64,
+}
+
+/// Returns the cuts of a ring's stones, each with its key and the line of the ring.
+pub(super) fn cuts(entry: &RingEntry) -> impl Iterator<Item = (&'static str, &str, usize)> {
+    let cuts = [("stone", &entry.stone), ("small_stone", &entry.small_stone)];
+    cuts.into_iter().filter_map(|(key, cut)| Some((key, cut.as_deref()?, entry.line)))
+}
+
+/// Makes the ring of a scene. `material` replaces that of every stone, and `size` that of the main stone.
+pub(super) fn ring<'a>(
+    file: &Path,
+    entry: &RingEntry,
+    specimens: &'a BTreeMap<String, LoadedSpecimen>,
+    (material, size): (Option<&Material>, Option<Size>),
+) -> Result<RingParts<'a>, Failure> {
+    let refused = |message: String| at_ring(file, entry.line, &message);
+    let gem = |cut: &Option<String>, own: &Option<MaterialRef>, size: Option<Size>| {
+        let specimen = cut.as_ref().and_then(|cut| specimens.get(cut));
+        specimen.map(|specimen| Gem::new(specimen, material, own.as_ref(), size)).transpose().map_err(refused)
+    };
+    let across = Some(Size::Millimetres(entry.ring.small_diameter_mm));
+    let main = gem(&entry.stone, &entry.material, size.or(entry.size))?;
+    let small = gem(&entry.small_stone, &entry.small_material, across)?;
+    let set = |key: &str, gem: &Option<Gem<'a>>| {
+        let set = gem.as_ref().map(Gem::set).transpose();
+        set.map_err(|error| refused(format!("{key}: {error}")))
+    };
+    let (stone, small_stone) = (set("stone", &main)?, set("small_stone", &small)?);
+    let mounting = entry.ring.mounting(stone.as_ref(), small_stone.as_ref());
+    let mounting = mounting.map_err(|error| refused(error.to_string()))?;
+    let pose = Pose { at: entry.at_mm, turn: entry.turned(), scale: 1.0 };
+    let member = |seat: &RingSeat| {
+        let (gem, kind) = match seat.kind {
+            SeatKind::Main => (&main, "stone"),
+            SeatKind::Small => (&small, "small_stone"),
+        };
+        let Gem { specimen, material, diameter_mm } = gem.as_ref()?;
+        let Pose { at, turn, .. } = pose.after(&seat.pose);
+        let description = format!("{kind} of the ring");
+        let (material, diameter_mm) = (material.clone(), *diameter_mm);
+        Some(Member { specimen, material, diameter_mm, turn, at_mm: at, description })
+    };
+    let stones = mounting.seats.iter().filter_map(member).collect();
+    let mesh = ShadedMesh::new(mounting.surface()).map_err(|error| refused(error.to_string()))?;
+    let label = format!("{} ring", entry.ring.style.name());
+    let (metal, roughness) = (entry.metal, entry.roughness);
+    let metal = MetalInstance { mesh: Arc::new(mesh), pose, metal, roughness, label };
+    Ok(RingParts { stones, metal, mounting })
+}
+
+impl<'a> Gem<'a> {
+    /// Takes the material that is asked for, else the ring's own, else the cut file's.
+    fn new(
+        specimen: &'a LoadedSpecimen,
+        asked: Option<&Material>,
+        own: Option<&MaterialRef>,
+        size: Option<Size>,
+    ) -> Result<Self, String> {
+        let of_ring = || own.map_or(Ok(specimen.material.clone()), MaterialRef::material);
+        let material = asked.cloned().map_or_else(of_ring, Ok).map_err(|error| error.to_string())?;
+        let diameter_mm = diameter_mm(specimen, &material, size)?;
+        Ok(Self { specimen, material, diameter_mm })
+    }
+
+    /// Returns the stone as rings take it.
+    fn set(&self) -> Result<SetStone<'a>, NotConvex> {
+        let shape = &self.specimen.stone()?.polytope;
+        Ok(SetStone { shape, diameter_mm: self.diameter_mm })
+    }
+}
+
+/// Returns the failure of a scene's ring.
+pub(super) fn at_ring(file: &Path, line: usize, message: &str) -> Failure {
+    Failure::Input(format!("{}:{line}: ring: {message}", file.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Assembly;
+    use super::*;
+    use crate::io::mesh_options::MeshOptions;
+    use glam::DVec3;
+
+    #[test]
+    fn rings_that_come_with_the_program_hold_their_stones_and_are_centred() {
+        for (name, stones, across) in
+            [("solitaire", 1, 16.5), ("four-prong", 1, 17.3), ("halo-ring", 17, 16.5), ("eternity", 27, 17.3)]
+        {
+            let ring = Assembly::load(Path::new(name), None, None, MeshOptions::default()).unwrap();
+            assert_eq!((ring.setting.instances.len(), ring.setting.metals.len()), (stones, 1), "{name}");
+            assert_eq!(ring.places.len(), stones, "{name}");
+            let metal = &ring.setting.metals[0];
+            // The finger's hole keeps its size in the world's unit.
+            let pose = metal.pose;
+            let from_axis = |point: &DVec3| {
+                let own = (pose.turn.inverse() * (*point - pose.at)) * ring.setting.unit_mm;
+                own.x.hypot(own.z)
+            };
+            let hole = metal.vertices().map(|point| from_axis(&point)).fold(f64::INFINITY, f64::min);
+            assert!((2.0 * hole - across).abs() < 0.01, "{name}: {hole}");
+            // Seats in the world are the mounting's, carried there.
+            let mounting = &ring.ring.as_ref().unwrap().mounting;
+            for (seat, stone) in mounting.seats.iter().zip(&ring.setting.instances) {
+                let carried = pose.after(&seat.pose);
+                assert!(carried.at.distance(stone.pose.at) < 1e-9, "{name}");
+                assert!((carried.scale - stone.pose.scale).abs() < 1e-9, "{name}");
+            }
+            let corners = metal
+                .vertices()
+                .chain(ring.setting.instances.iter().flat_map(|s| s.solid().vertices().collect::<Vec<_>>()));
+            let (low, high) = crate::math::bounds(corners);
+            assert!((low + high).length() < 1e-9, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_ring_takes_another_material_and_size_and_says_what_does_not_fit() {
+        let ruby =
+            Assembly::load(Path::new("halo-ring"), Some("ruby"), "7mm".parse().ok(), MeshOptions::default());
+        let ruby = ruby.unwrap();
+        assert!(ruby.setting.instances.iter().all(|stone| stone.material.name == "ruby"));
+        assert_eq!((ruby.places[0].diameter_mm, ruby.places[1].diameter_mm), (7.0, 1.5));
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("x.toml");
+        for (stone, message) in [
+            ("stone = \"pill\"", "x.toml:3: ring: stone: "),
+            ("stone = \"tolkowskj\"", "x.toml:3: ring: stone: "),
+            (
+                "stone = \"tolkowsky\"\nsize = \"2mm\"",
+                "x.toml:3: ring: prong_diameter_mm: neighbouring prongs come too near",
+            ),
+        ] {
+            let ring = format!("[ring]\nstyle = \"six-prong\"\nmetal = \"gold\"\n{stone}\n");
+            std::fs::write(&path, format!("format = 1\nname = \"x\"\n{ring}")).unwrap();
+            let Err(Failure::Input(text)) = Assembly::load(&path, None, None, MeshOptions::default()) else {
+                panic!("no input error")
+            };
+            let text = text.replace(&path.display().to_string(), "x.toml");
+            assert!(text.starts_with(message), "{text}\ninstead of\n{message}");
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! What the tables of a scene file share: sizes, ranges, names and rotations.
+
+use super::super::cut_file::material_form::{MaterialForm, path_of};
+use super::super::cut_file::values::{OneOf, Pairs};
+use super::super::file_error::Fault;
+use super::super::nearest;
+use crate::cut::{MaterialRef, Size, SizeError};
+use crate::optics::Metal;
+use crate::scene::POLISHED;
+use glam::{DQuat, DVec3};
+use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
+
+pub(super) const DEGREES: RangeInclusive<f64> = -1e6..=1e6;
+pub(super) const LEANING: RangeInclusive<f64> = -180.0..=180.0;
+pub(super) const PLACES_MM: RangeInclusive<f64> = -10_000.0..=10_000.0;
+const ROUGHNESSES: RangeInclusive<f64> = 0.0..=1.0;
+
+/// A size, written as text with its unit.
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(try_from = "OneOf<Pairs>", into = "String")]
+pub(super) struct SizeForm(pub Size);
+
+impl TryFrom<OneOf<Pairs>> for SizeForm {
+    type Error = Fault;
+
+    fn try_from(form: OneOf<Pairs>) -> Result<Self, Fault> {
+        let text = match form {
+            OneOf::Text(text) => text,
+            // The number goes on without a unit, which the size's own parser refuses.
+            OneOf::Number(number) => number.to_string(),
+            OneOf::Rest(_) => {
+                return Err("a list is not a size; write a number and mm or ct in quotes".into());
+            }
+        };
+        text.parse().map(Self).map_err(|error: SizeError| Fault::whole(error))
+    }
+}
+
+impl From<SizeForm> for String {
+    fn from(SizeForm(size): SizeForm) -> Self {
+        size.to_string()
+    }
+}
+
+/// Checks that the value of a key at a path lies in a range.
+pub(super) fn within(
+    path: &str,
+    key: &str,
+    value: f64,
+    range: RangeInclusive<f64>,
+    unit: &str,
+) -> Result<(), Fault> {
+    if range.contains(&value) {
+        return Ok(());
+    }
+    let (least, most) = range.into_inner();
+    Err(Fault::key(path, format!("{key}: {value} must be from {least} to {most} {unit}")))
+}
+
+/// Returns the material that a form describes, checked.
+pub(super) fn material(form: MaterialForm) -> Result<MaterialRef, Fault> {
+    let material = form.material()?;
+    material.check().map_err(|error| Fault::key(path_of(&error, &material), error))?;
+    Ok(material)
+}
+
+/// Returns the metal of a name.
+pub(super) fn metal(given: &str) -> Result<Metal, Fault> {
+    let found = Metal::NAMES.iter().find(|(name, _)| *name == given).map(|(_, metal)| *metal);
+    let names = Metal::NAMES.map(|(name, _)| name);
+    let unknown = || format!("metal: '{}' is unknown{}", shown(given), likely(given, &names));
+    found.ok_or_else(|| Fault::key("metal", unknown()))
+}
+
+/// Returns the roughness of a metal, checked; that of a polished one where none is given.
+pub(super) fn roughness(given: Option<f64>) -> Result<f64, Fault> {
+    let roughness = given.unwrap_or(POLISHED);
+    if ROUGHNESSES.contains(&roughness) {
+        return Ok(roughness);
+    }
+    Err(Fault::key("roughness", format!("roughness: {roughness} must be from 0, a mirror, to 1")))
+}
+
+/// Returns the hint at the known name that is most like an unknown one, and the list of all known names.
+pub(super) fn likely(asked: &str, known: &[&str]) -> String {
+    let meant = nearest(asked, known).map_or(String::new(), |name| format!("; did you mean '{name}'?"));
+    format!("{meant}; known: {}", known.join(", "))
+}
+
+/// Returns as much of a text as a person reads.
+pub(super) fn shown(text: &str) -> String {
+    text.chars().take(80).collect()
+}
+
+/// Returns the rotation that turns about z and then leans z toward an azimuth, all in degrees.
+pub(super) fn leaning(turn: f64, tilt: f64, azimuth: f64) -> DQuat {
+    let azimuth = azimuth.to_radians();
+    let axis = DVec3::new(-azimuth.sin(), azimuth.cos(), 0.0);
+    DQuat::from_axis_angle(axis, tilt.to_radians()) * DQuat::from_rotation_z(turn.to_radians())
+}

@@ -1,0 +1,92 @@
+//! The reasons why a ring cannot be made, each with the number at fault and by how much.
+
+use super::RingStyle;
+
+/// The reason why a ring cannot be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RingError {
+    /// A number lies outside its range, or is not finite.
+    #[error("{key}: {value} must be from {least} to {most}{}{unit}", if unit.is_empty() { "" } else { " " })]
+    OutOfRange {
+        /// The key of the number.
+        key: &'static str,
+        /// The value as given.
+        value: f64,
+        /// The least value.
+        least: f64,
+        /// The greatest value.
+        most: f64,
+        /// The unit.
+        unit: &'static str,
+    },
+    /// The style holds a stone that is not given.
+    #[error("stone: a ring of style '{}' holds a stone; give its cut", style.name())]
+    NoStone {
+        /// The style.
+        style: RingStyle,
+    },
+    /// The style holds small stones, whose cut is not given.
+    #[error("small_stone: a ring of style '{}' holds small stones; give their cut", style.name())]
+    NoSmallStone {
+        /// The style.
+        style: RingStyle,
+    },
+    /// A stone is given that the style has no place for.
+    #[error("{key}: a ring of style '{}' has no place for it; leave it out", style.name())]
+    NoPlace {
+        /// The key of the stone.
+        key: &'static str,
+        /// The style.
+        style: RingStyle,
+    },
+    /// The stone's axis, the line through the origin of its frame along z, does not run through it.
+    #[error("{key}: the axis of its frame does not run through the stone; prongs cannot be placed around it")]
+    OffAxis {
+        /// The key of the stone.
+        key: &'static str,
+    },
+    /// A part is larger than the room that it has.
+    #[error("{key}: {what} by {by_mm:.3} mm; {change}")]
+    NoRoom {
+        /// The key of the number to be changed.
+        key: &'static str,
+        /// What collides with what.
+        what: &'static str,
+        /// By how much, in mm.
+        by_mm: f64,
+        /// What to change.
+        change: &'static str,
+    },
+    /// Metal would lie inside a stone.
+    #[error("{part} would run into a stone by {by_mm:.3} mm; raise culet_gap_mm or change the diameters")]
+    InsideStone {
+        /// The part of the ring.
+        part: &'static str,
+        /// By how much, in mm.
+        by_mm: f64,
+    },
+    /// There are more stones than a scene may have.
+    #[error("small_diameter_mm: {count} small stones are too many, at most {most}; raise it")]
+    TooMany {
+        /// The number of small stones.
+        count: usize,
+        /// The most that are possible.
+        most: usize,
+    },
+}
+
+impl RingError {
+    /// Returns the key of the number or stone at fault.
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::OutOfRange { key, .. }
+            | Self::NoPlace { key, .. }
+            | Self::OffAxis { key }
+            | Self::NoRoom { key, .. } => key,
+            Self::NoStone { .. } => "stone",
+            Self::NoSmallStone { .. } => "small_stone",
+            Self::InsideStone { .. } => "culet_gap_mm",
+            Self::TooMany { .. } => "small_diameter_mm",
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Makes the metal of a ring and the places of its stones, and checks that both fit.
+
+use super::gem::{MountedStone, SetStone};
+use super::{MetalPart, Mounting, RING_NUMBERS, Ring, RingError, band, halo, head, row};
+use glam::DVec3;
+
+/// Metal may reach into a stone by this much, in mm: triangles are flat where the surface that they stand for is not.
+pub(super) const TOUCHING_MM: f64 = 0.02;
+
+impl Ring {
+    /// Makes the metal and the places of the stones: `stone` is the main stone, `small` one of the small stones, whose
+    /// diameter is `small_diameter_mm`.
+    ///
+    /// # Errors
+    /// A number out of its range, a stone too many or too few, or parts that do not fit one another, by how much.
+    pub fn mounting(
+        &self,
+        stone: Option<&SetStone>,
+        small: Option<&SetStone>,
+    ) -> Result<Mounting, RingError> {
+        self.check(stone.is_some(), small.is_some())?;
+        let mut mounting = Mounting::default();
+        mounting.metal.push(MetalPart { name: "band", surface: band::band(self) });
+        let mut mounted = vec![];
+        match (stone, small) {
+            (None, None) => {}
+            (Some(stone), None) => mounted = head::head(self, stone, &mut mounting)?,
+            (Some(stone), Some(small)) => mounted = halo::halo(self, stone, small, &mut mounting)?,
+            (None, Some(small)) => mounted = row::eternity(self, small, &mut mounting)?,
+        }
+        mounting.check(&mounted)?;
+        Ok(mounting)
+    }
+
+    /// Checks the numbers, and whether the stones are given that the style holds, and no others.
+    ///
+    /// # Errors
+    /// The first thing at fault.
+    pub fn check(&self, has_stone: bool, has_small: bool) -> Result<(), RingError> {
+        let style = self.style;
+        RING_NUMBERS.iter().try_for_each(|number| number.check(self))?;
+        let rise = self.comfort_mm - 0.6 * self.thickness_mm;
+        if rise > 0.0 {
+            return Err(RingError::NoRoom {
+                key: "comfort_mm",
+                what: "the inside rises through more than 60 percent of thickness_mm,",
+                by_mm: rise,
+                change: "lower it or raise thickness_mm",
+            });
+        }
+        match (style.prongs() > 0, has_stone, style.has_small(), has_small) {
+            (true, false, ..) => Err(RingError::NoStone { style }),
+            (false, true, ..) => Err(RingError::NoPlace { key: "stone", style }),
+            (_, _, true, false) => Err(RingError::NoSmallStone { style }),
+            (_, _, false, true) => Err(RingError::NoPlace { key: "small_stone", style }),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Mounting {
+    /// Checks that no metal lies inside a stone.
+    fn check(&self, stones: &[MountedStone]) -> Result<(), RingError> {
+        let depth = |point| stones.iter().map(|stone: &MountedStone| stone.depth(point)).fold(0.0, f64::max);
+        for part in &self.metal {
+            let surface = &part.surface;
+            let middles = (0..surface.corners.len()).map(|k| surface.triangle(k).iter().sum::<DVec3>() / 3.0);
+            let by_mm = middles.chain(surface.points.iter().copied()).map(depth).fold(0.0, f64::max);
+            if by_mm > TOUCHING_MM {
+                return Err(RingError::InsideStone { part: part.name, by_mm });
+            }
+        }
+        Ok(())
+    }
+}
