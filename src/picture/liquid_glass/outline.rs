@@ -8,11 +8,11 @@
 use glam::{DVec2, DVec3};
 
 /// The least width of the rim, as a part of half of the shorter side. With narrower rims panes look flat.
-const RIM: f64 = 0.8;
+const RIM: f64 = 0.5;
 
 /// The share of the square in the ramps of a pane that has straight sides: with less its middle is flatter, with more its
 /// sides bulge.
-const ROUND: f64 = 0.35;
+const ROUND: f64 = 0.12;
 
 /// The length of a straight side below which its ramp turns into a pure square, as a part of half of the shorter side. So
 /// a circle is exactly a circle.
