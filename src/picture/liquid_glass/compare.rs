@@ -12,9 +12,7 @@ pub use cost::{Cost, Shifts};
 use super::parts::thickness;
 use super::{GlassPane, laid, pane as approximated, plain};
 use crate::math::{ImplicitForm, ImplicitSurface, ImplicitSurfaceError, Pose};
-use crate::optics::{
-    Dispersion, DispersionError, Illuminant, Material, Strata, encoded_from_linear,
-};
+use crate::optics::{Dispersion, DispersionError, Illuminant, Material, Strata, encoded_from_linear};
 use crate::picture::{Backdrop, Linear, RefractionMap, Survey, spectral};
 use crate::scene::{Dome, Film, Instance, Lamp, Light, Mipmap, Panorama, Scene, View};
 use crate::trace::environment::{Backplate, Environment, EnvironmentMap};
@@ -84,8 +82,9 @@ pub enum PaneError {
 pub fn surroundings(pane: &GlassPane) -> Light {
     let pane = pane.effective();
     let part = pane.light / 100.0;
-    let colour = (pane.tint.w > 0.0)
-        .then(|| pane.light_colour().to_array().map(|part| (255.0 * encoded_from_linear(part)).round() as u8));
+    let colour = (pane.tint.w > 0.0).then(|| {
+        pane.light_colour().to_array().map(|part| (255.0 * encoded_from_linear(part)).round() as u8)
+    });
     let sky = Dome { from: -90.0, to: 90.0, soft: 0.0, radiance: 0.3 * part, end: None, colour };
     let lamp = Lamp {
         azimuth: pane.light_from.azimuth,

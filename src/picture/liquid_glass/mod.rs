@@ -15,11 +15,15 @@
 mod compare;
 mod frost;
 mod lighting;
+#[cfg(feature = "gpu")]
+mod on_card;
 mod outline;
 mod parts;
 mod prepared;
 
 pub use compare::{Comparison, Cost, PaneError, PaneLighting, Shifts, compare, surroundings, traced};
+#[cfg(feature = "gpu")]
+pub use on_card::PanesOnCard;
 pub use prepared::{PreparedPane, SeenThrough};
 
 use super::{Linear, NameError};

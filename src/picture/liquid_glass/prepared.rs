@@ -65,7 +65,7 @@ impl PaneArea {
     }
 
     /// Returns the first pixel, counted from that of the pane's corner.
-    fn from_corner(&self) -> [i64; 2] {
+    fn start(&self) -> [i64; 2] {
         [0, 1].map(|axis| i64::from(self.first[axis]) - self.corner[axis])
     }
 }
@@ -94,7 +94,7 @@ impl PreparedPane {
     /// Whether this is what a pane needs that may have moved by whole pixels, or that is in another light.
     pub fn suits(&self, pane: &GlassPane, size: [u32; 2]) -> bool {
         let area = PaneArea::new(pane, size);
-        let place = |area: &PaneArea| (area.from_corner(), area.count);
+        let place = |area: &PaneArea| (area.start(), area.count);
         size == self.size && place(&area) == place(&self.area) && shape_of(pane) == self.shape
     }
 
@@ -173,7 +173,7 @@ fn laid(pixel: &mut [f32; 4], [r, g, b]: [f32; 3], cover: f32) {
 
 impl PaneRow {
     fn new(pane: &GlassPane, area: &PaneArea, row: u32, place: DVec2) -> Self {
-        let [left, top] = area.from_corner();
+        let [left, top] = area.start();
         let (outline, unit) = (pane.outline(), pane.unit());
         let mut to = Self::default();
         for x in 0..area.count[0] {
@@ -255,17 +255,18 @@ struct Ground<'a> {
     size: [i32; 2],
 }
 
-/// The four pixels around a place, and how far it is from the first to the others.
-struct Around {
-    four: [usize; 4],
+/// The pixels around a place: two in each of two rows, and how far the place is from the first to the others.
+struct Around<'a> {
+    high: [&'a [f32; 3]; 2],
+    low: [&'a [f32; 3]; 2],
     part: [f32; 2],
 }
 
-impl Ground<'_> {
+impl<'a> Ground<'a> {
     /// Returns the pixels around a place that is some pixels from the middle of a pixel. Beyond the edge the edge's own
     /// count.
     #[inline(always)]
-    fn around(&self, at: [i32; 2], by: [f32; 2]) -> Around {
+    fn around(&self, at: [i32; 2], by: [f32; 2]) -> Around<'a> {
         let base = [by[0].floor(), by[1].floor()];
         let [width, height] = self.size;
         let (x, y) = (at[0].saturating_add(base[0] as i32), at[1].saturating_add(base[1] as i32));
@@ -273,13 +274,18 @@ impl Ground<'_> {
         if x >= 0 && y >= 0 && x < width - 1 && y < height - 1 {
             let first = y as usize * width as usize + x as usize;
             let below = first + width as usize;
-            return Around { four: [first, first + 1, below, below + 1], part };
+            if let ([a, b, ..], [c, d, ..]) = (&self.pixels[first..], &self.pixels[below..]) {
+                return Around { high: [a, b], low: [c, d], part };
+            }
         }
         let (last, lowest) = (width - 1, height - 1);
         let (left, right) = (x.clamp(0, last) as usize, x.saturating_add(1).clamp(0, last) as usize);
         let high = y.clamp(0, lowest) as usize * width as usize;
         let low = y.saturating_add(1).clamp(0, lowest) as usize * width as usize;
-        Around { four: [high + left, high + right, low + left, low + right], part }
+        let pixels = self.pixels;
+        let (high, low) =
+            ([&pixels[high + left], &pixels[high + right]], [&pixels[low + left], &pixels[low + right]]);
+        Around { high, low, part }
     }
 
     /// Returns one channel of the mean of what is seen around a place.
@@ -287,11 +293,9 @@ impl Ground<'_> {
     fn channel(&self, at: [i32; 2], by: [f32; 2], channel: usize, blur: f32, taps: &[FrostTap]) -> f32 {
         let mut sum = 0.0;
         for tap in taps {
-            let Around { four: [a, b, c, d], part } =
+            let Around { high: [a, b], low: [c, d], part } =
                 self.around(at, [by[0] + tap.at[0] * blur, by[1] + tap.at[1] * blur]);
-            let pixels = self.pixels;
-            let four = [pixels[a][channel], pixels[b][channel], pixels[c][channel], pixels[d][channel]];
-            sum += tap.weight * mixed(four, part);
+            sum += tap.weight * mixed([a[channel], b[channel], c[channel], d[channel]], part);
         }
         sum
     }
@@ -301,9 +305,8 @@ impl Ground<'_> {
     fn colour(&self, at: [i32; 2], by: [f32; 2], blur: f32, taps: &[FrostTap]) -> [f32; 3] {
         let mut sum = [0.0; 3];
         for tap in taps {
-            let Around { four: [a, b, c, d], part } =
+            let Around { high: [a, b], low: [c, d], part } =
                 self.around(at, [by[0] + tap.at[0] * blur, by[1] + tap.at[1] * blur]);
-            let (a, b, c, d) = (self.pixels[a], self.pixels[b], self.pixels[c], self.pixels[d]);
             for channel in 0..3 {
                 sum[channel] += tap.weight * mixed([a[channel], b[channel], c[channel], d[channel]], part);
             }

@@ -8,7 +8,7 @@ use pulp::Arch;
 
 mod smoothness;
 
-const SIZE: [u32; 2] = [72, 56];
+pub const SIZE: [u32; 2] = [72, 56];
 
 /// Returns a pattern with edges and colours in both directions; with `symmetric`, left and right are mirror images.
 pub fn pattern(symmetric: bool) -> Panorama {
@@ -122,7 +122,8 @@ fn the_formulas_are_those_of_the_specification() {
 #[test]
 fn the_light_is_diffuse_light_shine_and_a_rim_and_comes_from_where_it_is_set() {
     let from_above = full();
-    let close = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-6, "{found}, not {expected}");
+    let close =
+        |found: f64, expected: f64| assert!((found - expected).abs() < 1e-6, "{found}, not {expected}");
     // Flat, toward the eye: N·L = 0.8; H = (0, -0.6, 1.8)/√3.6, N·H = √0.9, its 32nd power is 0.9¹⁶; no rim.
     close(brightness(&from_above, DVec3::Z), 0.24 + 0.5 * 0.9_f64.powi(16));
     // Level, away from the light: only the rim is left.
@@ -214,7 +215,8 @@ fn the_samples_of_frost_have_the_moments_of_a_gaussian() {
         let parts = taps.iter().map(|tap| tap.weight * tap.at[0].powi(x) * tap.at[1].powi(y));
         parts.sum::<f32>()
     };
-    for (x, y, expected) in [(0, 0, 1.0), (1, 0, 0.0), (2, 0, 1.0), (0, 2, 1.0), (3, 0, 0.0), (4, 0, 3.0), (0, 4, 3.0)]
+    for (x, y, expected) in
+        [(0, 0, 1.0), (1, 0, 0.0), (2, 0, 1.0), (0, 2, 1.0), (3, 0, 0.0), (4, 0, 3.0), (0, 4, 3.0)]
     {
         for taps in [&FIVE[..], &THREE[..]] {
             assert!((moment(taps, x, y) - expected).abs() < 1e-5, "{x} {y}");

@@ -42,7 +42,8 @@ fn jump(half: DVec2, normal: &dyn Fn(DVec2) -> DVec3, step: f64) -> f64 {
         let past = line.perp() * (0.011 * f64::from(k % 10));
         let count = (0.8 / step) as i32;
         let inside = (-count / 2..count / 2).map(|t| past + line * (step * f64::from(t)));
-        let points: Vec<DVec2> = inside.filter(|at| from_arcs(half, 0.5 * half.min_element(), *at) < -0.06).collect();
+        let points: Vec<DVec2> =
+            inside.filter(|at| from_arcs(half, 0.5 * half.min_element(), *at) < -0.06).collect();
         for three in points.windows(3).filter(|w| (w[2] - w[0]).length() < 2.5 * step) {
             let [a, b, c] = [normal(three[0]), normal(three[1]), normal(three[2])];
             greatest = greatest.max(((c - b) - (b - a)).length() / step);
@@ -131,7 +132,9 @@ fn the_outline_has_the_corners_that_are_asked_for() {
         let corner = half - (1.0 - std::f64::consts::FRAC_1_SQRT_2) * radius;
         assert!(outline.distance(corner).abs() < 1e-9, "it meets the arc on the corner's diagonal");
         // The law can fail: another radius lies elsewhere.
-        assert!(outline.distance(half - (1.0 - std::f64::consts::FRAC_1_SQRT_2) * (radius + 0.05)).abs() > 0.01);
+        assert!(
+            outline.distance(half - (1.0 - std::f64::consts::FRAC_1_SQRT_2) * (radius + 0.05)).abs() > 0.01
+        );
     }
     let circle = PaneOutline::new(DVec2::splat(0.5), 0.5);
     for k in 0..90 {
