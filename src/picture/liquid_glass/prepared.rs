@@ -6,7 +6,7 @@ use super::parts::RED_AND_BLUE;
 use super::{GlassPane, LightFrom, PaneQuality};
 use crate::picture::Linear;
 use crate::scene::Panorama;
-use glam::{DVec2, DVec4};
+use glam::{DVec2, DVec4, Vec4};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
@@ -109,10 +109,14 @@ impl PreparedPane {
         let mut colours = vec![[0.0; 3]; across * down];
         let taps: &[FrostTap] = if self.shape.quality == PaneQuality::High { &FIVE } else { &THREE };
         let (is_dispersed, arch) = (self.shape.dispersion > 0.0, Arch::new());
+        let planes = match self.shape.frost > 0.0 && is_dispersed && taps.len() == FIVE.len() {
+            true => planes(background),
+            false => Default::default(),
+        };
         let lines = colours.par_chunks_mut(across.max(1)).zip(&self.rows).enumerate();
         lines.for_each(|(y, (to, row))| {
             let start = [self.area.first[0], self.area.first[1] + y as u32];
-            arch.dispatch(LookThrough { row, start, background, is_dispersed, taps, to });
+            arch.dispatch(LookThrough { row, start, background, planes: &planes, is_dispersed, taps, to });
         });
         SeenThrough { colours }
     }
@@ -207,12 +211,20 @@ impl PaneRow {
     }
 }
 
+/// Returns red, green and blue of a picture, each of all pixels.
+fn planes(picture: &Panorama) -> [Vec<f32>; 3] {
+    let channel = |channel: usize| picture.pixels.iter().map(|pixel| pixel[channel]).collect();
+    let ((red, green), blue) = rayon::join(|| rayon::join(|| channel(0), || channel(1)), || channel(2));
+    [red, green, blue]
+}
+
 /// Looks a row of pixels up in the background.
 struct LookThrough<'a> {
     row: &'a PaneRow,
     /// The first pixel of the row in the picture.
     start: [u32; 2],
     background: &'a Panorama,
+    planes: &'a [Vec<f32>; 3],
     is_dispersed: bool,
     taps: &'a [FrostTap],
     to: &'a mut [[f32; 3]],
@@ -223,15 +235,19 @@ impl WithSimd for LookThrough<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { row, start: [left, y], background, is_dispersed, taps, to } = self;
-        let ground =
-            Ground { pixels: &background.pixels, size: [background.width as i32, background.height as i32] };
+        let Self { row, start: [left, y], background, planes, is_dispersed, taps, to } = self;
+        let ground = Ground {
+            pixels: &background.pixels,
+            planes,
+            size: [background.width as i32, background.height as i32],
+        };
         for (k, to) in to.iter_mut().enumerate() {
             if row.cover[k] <= 0.0 {
                 continue;
             }
             let at = [left as i32 + k as i32, y as i32];
             let (shift, blur) = ([row.shift[0][k], row.shift[1][k]], row.blur[k]);
+            let is_five = blur > 0.0 && taps.len() == FIVE.len();
             let taps = if blur > 0.0 { taps } else { &CLEAR };
             if !is_dispersed {
                 *to = ground.colour(at, shift, blur, taps);
@@ -241,7 +257,11 @@ impl WithSimd for LookThrough<'_> {
             let parts = [RED_AND_BLUE[0] as f32, 0.0, RED_AND_BLUE[1] as f32];
             for (channel, part) in parts.into_iter().enumerate() {
                 let by = [shift[0] + apart[0] * part, shift[1] + apart[1] * part];
-                to[channel] = ground.channel(at, by, channel, blur, taps);
+                let five = if is_five { ground.five(at, by, channel, blur) } else { None };
+                to[channel] = match five {
+                    Some(mean) => mean,
+                    None => ground.channel(at, by, channel, blur, taps),
+                };
             }
         }
     }
@@ -251,8 +271,28 @@ impl WithSimd for LookThrough<'_> {
 /// instructions that the processor has.
 struct Ground<'a> {
     pixels: &'a [[f32; 3]],
+    /// Red, green and blue, each of all pixels; empty where they are not needed.
+    planes: &'a [Vec<f32>; 3],
     /// Width and height in pixels.
     size: [i32; 2],
+}
+
+/// The weights of four columns or rows, of which the second is the last before a place: in the place, and in the mean of two
+/// places beside it.
+struct BesideAndOn {
+    on: Vec4,
+    beside: Vec4,
+}
+
+impl BesideAndOn {
+    #[inline(always)]
+    fn new(part: f32, reach: f32) -> Self {
+        let from_place = Vec4::new(-1.0, 0.0, 1.0, 2.0) - part;
+        let on = (Vec4::ONE - from_place.abs()).max(Vec4::ZERO);
+        let after = (Vec4::ONE - (from_place - reach).abs()).max(Vec4::ZERO);
+        let before = (Vec4::ONE - (from_place + reach).abs()).max(Vec4::ZERO);
+        Self { on, beside: 0.5 * (after + before) }
+    }
 }
 
 /// The pixels around a place: two in each of two rows, and how far the place is from the first to the others.
@@ -288,6 +328,36 @@ impl<'a> Ground<'a> {
         Around { high, low, part }
     }
 
+    /// Returns one channel of the mean of the five samples of frost around a place, where all of them lie within a pixel of
+    /// it and inside the picture; else `None`.
+    ///
+    /// With a the interpolation's weights of four columns or rows in the middle and b the mean of those at both samples
+    /// beside it, the samples add up to ((a + b) a' + a b') / 3: four pixels at a time, and not twenty one by one.
+    #[inline(always)]
+    fn five(&self, at: [i32; 2], by: [f32; 2], channel: usize, blur: f32) -> Option<f32> {
+        let reach = blur * FIVE[1].at[0];
+        let base = [by[0].floor(), by[1].floor()];
+        let x = at[0].saturating_add(base[0] as i32).saturating_sub(1);
+        let y = at[1].saturating_add(base[1] as i32).saturating_sub(1);
+        let [width, height] = self.size;
+        if reach > 1.0 || x < 0 || y < 0 || x >= width - 3 || y >= height - 3 {
+            return None;
+        }
+        let columns = BesideAndOn::new(by[0] - base[0], reach);
+        let rows = BesideAndOn::new(by[1] - base[1], reach);
+        let (on, beside) = (rows.on.to_array(), rows.beside.to_array());
+        let plane = &self.planes[channel];
+        let mut first = y as usize * width as usize + x as usize;
+        let (mut high, mut low) = (Vec4::ZERO, Vec4::ZERO);
+        for row in 0..4 {
+            let four = Vec4::from_slice(&plane[first..first + 4]);
+            high += four * on[row];
+            low += four * beside[row];
+            first += width as usize;
+        }
+        Some((high.dot(columns.on + columns.beside) + low.dot(columns.on)) / 3.0)
+    }
+
     /// Returns one channel of the mean of what is seen around a place.
     #[inline(always)]
     fn channel(&self, at: [i32; 2], by: [f32; 2], channel: usize, blur: f32, taps: &[FrostTap]) -> f32 {
@@ -319,4 +389,13 @@ impl<'a> Ground<'a> {
 fn mixed([a, b, c, d]: [f32; 4], [across, down]: [f32; 2]) -> f32 {
     let (high, low) = (a + (b - a) * across, c + (d - c) * across);
     high + (low - high) * down
+}
+
+#[cfg(test)]
+impl SeenThrough {
+    /// Returns the greatest difference from what is seen through another pane of the same size.
+    pub(super) fn apart(&self, other: &Self) -> f32 {
+        let pairs = self.colours.iter().flatten().zip(other.colours.iter().flatten());
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+    }
 }

@@ -227,6 +227,17 @@ fn the_samples_of_frost_have_the_moments_of_a_gaussian() {
 }
 
 #[test]
+fn five_samples_are_the_same_one_by_one_and_together() {
+    let (background, pane) = (pattern(false), GlassPane { frost: 100.0, ..full() });
+    // In grey the channels of an undispersed pane, which takes samples one by one, are those of a dispersed one.
+    let grey = Panorama { pixels: background.pixels.iter().map(|p| [p[0]; 3]).collect(), ..background };
+    let seen = |dispersion| PreparedPane::new(&GlassPane { dispersion, ..pane }, SIZE).through(&grey);
+    let (one_by_one, together) = (seen(0.0), seen(1e-9));
+    assert!(one_by_one.apart(&together) < 1e-5, "{}", one_by_one.apart(&together));
+    assert!(one_by_one.apart(&seen(30.0)) > 0.01);
+}
+
+#[test]
 fn a_tint_colours_the_light_as_far_as_it_covers_it() {
     let dark = even([0.0; 3]);
     let tinted = |tint| pane(&GlassPane { tint, light: 60.0, ..none() }, &dark, 1);
