@@ -6,8 +6,8 @@
 //!
 //! A pixel is drawn in these steps: `outline` finds its place on the dome over the pane; `parts` gives the shifts of
 //! refraction, depth and dispersion there; `frost` spreads the look-up; `lighting` adds the light of the surface, which the
-//! tint colours. `look_up` reads the background; `prepared` keeps what of this depends on the pane's shape alone, so that a moving light or background costs
-//! little. `on_card` does the same on a graphics card, by `shaders/liquid_glass.wgsl`.
+//! tint colours. `look_up` reads the background; `prepared` keeps what of this depends on the pane's shape alone, so that a
+//! moving light or background costs little. `on_card` does the same on a graphics card, by `shaders/liquid_glass.wgsl`.
 //!
 //! Lengths are parts of the pane's shorter side, measured from the pane's middle, x to the right and y down. A pixel
 //! shows the background at a shifted place, so a shift toward the middle makes the background look larger.

@@ -187,7 +187,8 @@ impl PaneRow {
             let (shift, apart) = pane.shifts_on(&dome);
             to.cover.push(pane.cover(pixel + 0.5) as f32);
             for axis in 0..2 {
-                to.shift[axis].push(shift[axis] as f32);
+                // Look-ups begin in the pixel's middle.
+                to.shift[axis].push((shift[axis] + place[axis] - 0.5) as f32);
                 to.apart[axis].push(apart[axis] as f32);
             }
             to.blur.push((blur(own, &dome, pane.frost) * unit) as f32);
