@@ -1,12 +1,28 @@
 //! The pane of liquid glass over the background of a view: its settings, as they are kept, and its place in a picture.
 
 use crate::optics::linear_from_encoded;
-use crate::picture::liquid_glass::{GlassPane, PaneQuality};
+use crate::picture::liquid_glass::{GlassPane, LightFrom, PaneQuality};
 use glam::{DVec2, DVec4};
 use serde::{Deserialize, Serialize};
 
 /// The least side of the pane, pixels.
 const LEAST: f64 = 8.0;
+
+/// How far the light of a pane turns in a second, degrees.
+const TURN: f64 = 60.0;
+
+/// What moves the light of a pane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LightMotion {
+    /// The light stays where it is set.
+    #[default]
+    Fixed,
+    /// The light follows the pointer over the view.
+    Pointer,
+    /// The light goes round as time runs.
+    Time,
+}
 
 /// The settings of the pane of liquid glass, as they are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -28,7 +44,11 @@ pub struct Liquid {
     pub frost: f64,
     /// The strength of the light, 0 to 100.
     pub light: f64,
-    /// The base colour of the pane in sRGB, and how much of it covers what is behind.
+    /// What moves the light.
+    pub light_motion: LightMotion,
+    /// Where the light comes from.
+    pub light_from: LightFrom,
+    /// The base colour of the pane in sRGB, and how far it colours the light.
     pub tint: [u8; 4],
     /// How much of the effect is drawn.
     pub quality: PaneQuality,
@@ -47,6 +67,8 @@ impl Default for Liquid {
             dispersion: 100.0,
             frost: 0.0,
             light: 30.0,
+            light_motion: LightMotion::Fixed,
+            light_from: LightFrom::default(),
             tint: [0; 4],
             quality: PaneQuality::High,
             gap: 0.02,
@@ -69,10 +91,27 @@ impl Liquid {
             dispersion: self.dispersion,
             frost: self.frost,
             light: self.light,
+            light_from: self.light_from,
             tint: DVec4::new(red, green, blue, alpha),
             quality: self.quality,
             ..GlassPane::clear(corner, size, radius)
         }
+    }
+
+    /// Turns the light toward a place of a view of this size, in parts of the view: as if a lamp hung there, half of the
+    /// pane's shorter side over it.
+    pub fn light_at(&mut self, place: DVec2, view: DVec2) {
+        let away = (place - self.at) * view;
+        let height = (self.size / 200.0 * view).min_element().max(1.0);
+        let azimuth =
+            if away == DVec2::ZERO { self.light_from.azimuth } else { -away.to_angle().to_degrees() };
+        let height = height.atan2(away.length()).to_degrees();
+        self.light_from = LightFrom { azimuth: azimuth.rem_euclid(360.0), height };
+    }
+
+    /// Lets time run for the light.
+    pub fn turn_light(&mut self, seconds: f64) {
+        self.light_from.azimuth = (self.light_from.azimuth + TURN * seconds).rem_euclid(360.0);
     }
 
     /// Moves the pane by parts of the view, but not out of it.
@@ -85,6 +124,23 @@ impl Liquid {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_light_comes_from_the_pointer_and_goes_round() {
+        let mut liquid = Liquid::default();
+        for (place, azimuth) in
+            [((0.9, 0.5), 0.0), ((0.5, 0.1), 90.0), ((0.1, 0.5), 180.0), ((0.5, 0.9), 270.0)]
+        {
+            liquid.light_at(DVec2::from(place), DVec2::new(400.0, 400.0));
+            assert!((liquid.light_from.azimuth - azimuth).abs() < 1e-9, "{place:?}: {:?}", liquid.light_from);
+            // The lamp is 160 pixels away, and 100 pixels over the pane.
+            assert!((liquid.light_from.height.to_radians().tan() - 100.0 / 160.0).abs() < 1e-9);
+        }
+        liquid.light_at(liquid.at, DVec2::new(400.0, 300.0));
+        assert_eq!(liquid.light_from, LightFrom { azimuth: 270.0, height: 90.0 });
+        liquid.turn_light(2.5);
+        assert!((liquid.light_from.azimuth - 60.0).abs() < 1e-9, "{:?}", liquid.light_from);
+    }
 
     #[test]
     fn a_pane_stays_in_its_picture() {

@@ -1,14 +1,16 @@
 //! `liquid-glass`: draws a pane of glass over a background as screens do, and traces the same pane for comparison.
 
+mod timing;
+
 use super::console::{print, say, written};
 use super::options::number;
 use super::picture_options::film_size;
 use super::picturing::within;
 use super::progress::WorkProgress;
 use crate::io::background::BackgroundRef;
-use crate::io::{Failure, STANDARD, is_standard, write_rgba_png};
+use crate::io::{Failure, STANDARD, is_standard, write_linear_exr, write_rgba_png};
 use crate::optics::linear_from_encoded;
-use crate::picture::liquid_glass::{Cost, GlassPane, PaneQuality, Shifts, pane};
+use crate::picture::liquid_glass::{Cost, GlassPane, LightFrom, PaneQuality, Shifts, layer, pane};
 use crate::picture::{Develop, Linear, Tone, develop};
 use crate::render::{Job, PaneProduct, Quality, Renderer};
 use crate::scene::Panorama;
@@ -63,12 +65,25 @@ pub struct LiquidGlass {
     /// Strength of the light, 0 to 100
     #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 30.0, value_parser = number)]
     light: f64,
-    /// The base colour, with its alpha over the background
+    /// Where the light comes from, degrees: its azimuth counter-clockwise from the right, 90 above, and its height over the
+    /// pane, 0 to 90
+    #[arg(long, allow_hyphen_values = true, value_name = "AZIMUTH,HEIGHT", default_value = "90,53.13", value_parser = light_from)]
+    light_from: LightFrom,
+    /// The base colour; its alpha says how far it colours the light
     #[arg(long, value_name = "#rrggbbaa", default_value = "#00000000", value_parser = tint)]
     tint: DVec4,
     /// high (all effects), medium (frost by three samples, dispersion 30 at most) or low (refraction alone)
     #[arg(long, default_value = "high")]
     quality: PaneQuality,
+    /// Write the pane alone, with alpha, and no background around it
+    #[arg(long)]
+    alone: bool,
+    /// Write liquid-glass.exr as well: linear light, premultiplied by alpha (a PNG's alpha is straight)
+    #[arg(long)]
+    exr: bool,
+    /// Print how long each part takes in each quality, and how far the qualities are apart
+    #[arg(long)]
+    timing: bool,
     /// Trace the same pane as well, and print how far the approximation is from it
     #[arg(long)]
     compare: bool,
@@ -108,6 +123,14 @@ fn geometry(text: &str) -> Result<Geometry, String> {
     Ok(Geometry { size: both(size, 'x').ok_or_else(wrong)?, corner })
 }
 
+fn light_from(text: &str) -> Result<LightFrom, String> {
+    let wrong = || "give azimuth and height in degrees, such as 135,40; the height is 0 to 90".to_owned();
+    let (azimuth, height) = text.split_once(',').ok_or_else(wrong)?;
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite()).ok_or_else(wrong);
+    let (azimuth, height) = (number(azimuth)?, number(height)?);
+    if (0.0..=90.0).contains(&height) { Ok(LightFrom { azimuth, height }) } else { Err(wrong()) }
+}
+
 fn tint(text: &str) -> Result<DVec4, String> {
     let digits =
         text.trim().strip_prefix('#').filter(|d| d.len() == 8 && d.bytes().all(|b| b.is_ascii_hexdigit()));
@@ -128,15 +151,26 @@ impl LiquidGlass {
                 "--out: several files are written: give a folder, not a .{ending}"
             )));
         }
-        if is_standard(&self.out) && self.compare {
+        if is_standard(&self.out) && (self.compare || self.exr || self.timing) {
             return Err(Failure::Usage(
-                "--out -: several files are written; give a folder, or leave out --compare".into(),
+                "--out -: several files or lines are written; give a folder, or leave out --compare, --exr and --timing"
+                    .into(),
             ));
         }
         let (pane_asked, gap) = (self.asked()?, within("gap", self.gap, 1e-3, 100.0)?);
         let background = self.ground()?;
         let description = self.description(&pane_asked);
-        self.write("liquid-glass", &pane(&pane_asked, &background, 1), &description)?;
+        let draw = if self.alone { layer } else { pane };
+        let drawn = draw(&pane_asked, &background, 1);
+        self.write("liquid-glass", &drawn, &description)?;
+        if self.exr {
+            let path = self.out.join("liquid-glass.exr");
+            write_linear_exr(&path, &mut &drawn, &description)?;
+            written(&path)?;
+        }
+        if self.timing {
+            print(&timing::table(&pane_asked, &background))?;
+        }
         if !self.compare {
             return Ok(());
         }
@@ -190,6 +224,7 @@ impl LiquidGlass {
             dispersion: strength("dispersion", self.dispersion)?,
             frost: strength("frost", self.frost)?,
             light: strength("light", self.light)?,
+            light_from: self.light_from,
             tint: self.tint,
             quality: self.quality,
             ..GlassPane::clear(
@@ -212,14 +247,15 @@ impl LiquidGlass {
     }
 
     fn description(&self, pane: &GlassPane) -> String {
-        let GlassPane { size, corner, radius, refraction, depth, dispersion, frost, light, .. } =
-            pane.effective();
+        let GlassPane {
+            size, corner, radius, refraction, depth, dispersion, frost, light, light_from, ..
+        } = pane.effective();
         let quality = format!("{:?}", self.quality).to_lowercase();
         let tint = pane.effective().tint.to_array().map(|part| format!("{part:.3}")).join(" ");
         format!(
             "liquid glass, quality {quality}; pane {}x{}+{}+{}, corners {radius:.1}; refraction {refraction}, depth {depth}, \
-             dispersion {dispersion}, frost {frost}, light {light}; tint {tint}, linear with alpha",
-            size.x, size.y, corner.x, corner.y
+             dispersion {dispersion}, frost {frost}, light {light} from {:.1},{:.1}; tint {tint}, linear with alpha",
+            size.x, size.y, corner.x, corner.y, light_from.azimuth, light_from.height
         )
     }
 

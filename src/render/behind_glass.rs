@@ -20,7 +20,7 @@ impl MapProduct {
 impl PaneProduct {
     pub(super) fn render(&self, passes: u32, watch: Watch) -> Result<Output, RenderError> {
         let around = PaneLighting {
-            map: &EnvironmentMap::new(&surroundings(self.pane.effective().light), None),
+            map: &EnvironmentMap::new(&surroundings(&self.pane), None),
             gap: self.gap,
             strata: &Strata::new(self.wavelengths, passes, &Illuminant::D65, true),
             passes,

@@ -1,6 +1,6 @@
 //! Rows for the pane of liquid glass, which are there while a view shows it.
 
-use crate::app::liquid::Liquid;
+use crate::app::liquid::{LightMotion, Liquid};
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::workspace::Workspace;
 use crate::app::panels::rows::{NUMBER, Row, control_width, named};
@@ -19,10 +19,26 @@ const STRENGTHS: RangeInclusive<f64> = 0.0..=100.0;
 /// The range of the gap between pane and background, in parts of the pane's shorter side.
 const GAPS: RangeInclusive<f64> = 0.001..=1.0;
 
+/// The range of the light's azimuth, degrees.
+const AZIMUTHS: RangeInclusive<f64> = 0.0..=360.0;
+/// The range of the light's height, degrees.
+const HEIGHTS: RangeInclusive<f64> = 0.0..=90.0;
+
+/// What moves the light: the name of each, and its meaning.
+const MOTIONS: [(LightMotion, &str, &str); 3] = [
+    (LightMotion::Fixed, "fixed", "The light stays where the next two rows set it."),
+    (LightMotion::Pointer, "pointer", "The light follows the pointer over the view."),
+    (LightMotion::Time, "time", "The light goes round the pane once in six seconds."),
+];
+
 /// The qualities: the name of each, and what of the effect it draws.
 const QUALITIES: [(PaneQuality, &str, &str); 3] = [
-    (PaneQuality::High, "high", "All effects; frost takes five samples."),
-    (PaneQuality::Medium, "medium", "Frost takes three samples, and dispersion is 30 at most."),
+    (PaneQuality::High, "high", "All effects; frost takes five samples, along both axes."),
+    (
+        PaneQuality::Medium,
+        "medium",
+        "Frost takes three samples, along a diagonal, and dispersion is 30 at most.",
+    ),
     (PaneQuality::Low, "low", "Only refraction: no depth, dispersion, frost, light or tint."),
 ];
 
@@ -67,7 +83,7 @@ pub fn show(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
         ),
         (
             "Frost",
-            "Blurs the background by noise toward the rim. The traced pane is always clear.",
+            "Blurs the background toward the rim, unevenly. The traced pane is always clear.",
             frost,
             STRENGTHS,
             "",
@@ -88,14 +104,52 @@ pub fn show(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
         let row = Row::new("Gap", meaning, GAPS);
         Row { step: 0.001, decimals: 3, speed: 0.002, logarithmic: true, ..row }.show(ui, gap);
     }
+    light_rows(&mut liquid, ui);
     last(&mut liquid, ui);
     actions.push_changed(&workspace.liquid, liquid, ViewAction::Liquid);
+}
+
+/// Draws the rows for where the light comes from.
+fn light_rows(liquid: &mut Liquid, ui: &mut Ui) {
+    ui.horizontal(|ui| {
+        let label = named(ui, "Light follows", "What moves the light of the pane.");
+        let chosen = MOTIONS.iter().find(|(m, ..)| *m == liquid.light_motion).map_or("", |(_, name, _)| name);
+        let width = control_width(ui);
+        let combo =
+            ComboBox::from_id_salt("light motion").selected_text(chosen).width(width).show_ui(ui, |ui| {
+                for (motion, name, meaning) in MOTIONS {
+                    ui.selectable_value(&mut liquid.light_motion, motion, name).on_hover_text(meaning);
+                }
+            });
+        combo.response.labelled_by(label.id);
+    });
+    if liquid.light_motion != LightMotion::Fixed {
+        return;
+    }
+    let from = &mut liquid.light_from;
+    for (name, meaning, value, range) in [
+        (
+            "Light azimuth",
+            "Where the light comes from, counter-clockwise from the right; 90 is above.",
+            &mut from.azimuth,
+            AZIMUTHS,
+        ),
+        (
+            "Light height",
+            "How high over the pane the light is: 0 along it, 90 from the eye.",
+            &mut from.height,
+            HEIGHTS,
+        ),
+    ] {
+        Row { step: 1.0, decimals: 0, speed: 0.5, unit: "°", ..Row::new(name, meaning, range) }
+            .show(ui, value);
+    }
 }
 
 /// Draws the rows for tint and quality.
 fn last(liquid: &mut Liquid, ui: &mut Ui) {
     ui.horizontal(|ui| {
-        let meaning = "The colour of the pane. Its alpha says how much of the background it covers.";
+        let meaning = "The colour of the pane. Its alpha says how far it colours the light.";
         let label = named(ui, "Tint", meaning);
         ui.color_edit_button_srgba_unmultiplied(&mut liquid.tint).labelled_by(label.id);
     });

@@ -5,7 +5,7 @@ use crate::app::studio::{Grade, SPAN, Shot, TakenPicture};
 use crate::io::Failure;
 use crate::io::background::BackgroundRef;
 use crate::picture::filling;
-use crate::picture::liquid_glass::pane;
+use crate::picture::liquid_glass::{GlassPane, PreparedPane, SeenThrough};
 use crate::picture::{Linear, RefractionMap, refract};
 use crate::scene::Panorama;
 use glam::DVec2;
@@ -70,6 +70,10 @@ struct Backgrounds {
     behind: Option<(BackgroundRef, Levels)>,
     /// The background that filled a picture last, in the size of that picture.
     filled: Option<(BackgroundRef, Panorama)>,
+    /// The pane of liquid glass that was drawn last.
+    pane: Option<PreparedPane>,
+    /// What was seen through that pane, of which background, and where the pane's corner was.
+    seen: Option<(BackgroundRef, DVec2, SeenThrough)>,
 }
 
 impl Backgrounds {
@@ -82,10 +86,32 @@ impl Backgrounds {
             None => {
                 let size = request.shot.film.size;
                 let glass = request.shot.liquid.pane(size);
-                (pane(&glass, self.filled(&request.behind, size)?, 1), "arithmetic")
+                (self.liquid_glass(&glass, &request.behind, size)?, "arithmetic")
             }
         };
         Ok(TakenPicture { image: as_screens(&picture), unresolved: None, tracer, map: None })
+    }
+
+    /// Draws a pane of liquid glass. What a change leaves as it was is not computed again: where the light alone moves,
+    /// nothing is looked up, and where the pane is dragged, its shape is kept.
+    fn liquid_glass(
+        &mut self,
+        glass: &GlassPane,
+        behind: &BackgroundRef,
+        size: [u32; 2],
+    ) -> Result<Linear, Failure> {
+        let kept = self.pane.take().filter(|pane| pane.suits(glass, size));
+        let is_seen =
+            |(last, corner, _): &(BackgroundRef, DVec2, _)| last == behind && *corner == glass.corner;
+        let seen = self.seen.take().filter(|seen| kept.is_some() && is_seen(seen));
+        let mut pane = kept.unwrap_or_else(|| PreparedPane::new(glass, size));
+        pane.moved_to(glass);
+        let background = self.filled(behind, size)?;
+        let seen = seen.map_or_else(|| pane.through(background), |(.., seen)| seen);
+        let picture = pane.lit(glass, &seen, Some(background));
+        self.pane = Some(pane);
+        self.seen = Some((behind.clone(), glass.corner, seen));
+        Ok(picture)
     }
 
     /// Returns a background in its own size, with the halved sizes that have been of use so far.

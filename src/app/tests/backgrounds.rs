@@ -153,6 +153,44 @@ fn liquid_glass_is_drawn_and_traced_as_strong_as_it_is_set() {
     assert!(both(&bench) == first);
 }
 
+#[test]
+fn the_light_of_liquid_glass_is_set_by_rows_and_follows_the_pointer_or_time() {
+    let mut bench = Bench::new();
+    bench.show(0, Shows::LiquidGlass);
+    let first = bench.picture(0);
+    bench.type_number("Light azimuth", "200");
+    bench.type_number("Light height", "20");
+    bench.look();
+    let set = bench.picture(0);
+    let from = |bench: &Bench| bench.editor().model.workspace.liquid.light_from;
+    assert!(set != first && (from(&bench).azimuth, from(&bench).height) == (200.0, 20.0));
+    let follow = |bench: &mut Bench, what: &str| {
+        bench.field(egui::Role::ComboBox, "Light follows").scroll_to_me();
+        bench.harness.run_steps(8);
+        bench.field(egui::Role::ComboBox, "Light follows").click();
+        bench.harness.run_steps(4);
+        bench.harness.get_by_label(what).click();
+        bench.harness.run_steps(4);
+    };
+    follow(&mut bench, "pointer");
+    assert!(bench.harness.query_by_label("Light azimuth").is_none(), "the rows set nothing now");
+    let view = bench.harness.get_by_label("Liquid glass picture").rect();
+    for (at, azimuth) in [(view.right_center(), 0.0), (view.center_top(), 90.0)] {
+        bench.harness.hover_at(at + 0.1 * (view.center() - at));
+        bench.settle();
+        let off = (from(&bench).azimuth - azimuth + 180.0).rem_euclid(360.0) - 180.0;
+        assert!(off.abs() < 3.0, "{azimuth}: {:?}", from(&bench));
+    }
+    assert!(bench.picture(0) != set);
+    let begun = from(&bench).azimuth;
+    follow(&mut bench, "time");
+    bench.wait(|editor| (editor.model.workspace.liquid.light_from.azimuth - begun).abs() > 5.0);
+    assert!(bench.harness.try_run().is_err(), "it is drawn again and again");
+    follow(&mut bench, "fixed");
+    bench.settle();
+    assert!(bench.harness.run() <= 3, "nothing moves");
+}
+
 /// Measures how long a look-up takes. This is ignored by default, because measuring takes time:
 /// `cargo test --release --lib backgrounds -- --ignored --nocapture`
 #[test]

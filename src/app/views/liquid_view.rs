@@ -1,11 +1,15 @@
-//! The view of a pane of liquid glass, drawn as screens draw it or traced: the pane is moved by hand.
+//! The view of a pane of liquid glass, drawn as screens draw it or traced: the pane is moved by hand, its light by
+//! the pointer or by time.
 
+use super::clock::step;
 use super::pane_context::{PaneContext, focus};
 use super::view_menu::attend;
 use crate::app::arrows;
+use crate::app::liquid::{LightMotion, Liquid};
 use crate::app::model::action::ViewAction;
+use crate::app::shows::Shows;
 use crate::app::studio::Which;
-use egui::{Modifiers, PointerButton, Rect, Role, Sense, StrokeKind, Ui, WidgetInfo};
+use egui::{Modifiers, PointerButton, Rect, Response, Role, Sense, StrokeKind, Ui, WidgetInfo};
 use glam::DVec2;
 
 /// How far an arrow key moves the pane, in parts of the view.
@@ -28,6 +32,7 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect) {
             liquid.drag(DVec2::new(way.x, -way.y) * STEP);
         }
     }
+    move_light(cx, ui, &response, &mut liquid);
     cx.actions.push_changed(&cx.model.workspace.liquid, liquid, ViewAction::Liquid);
     ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
     if let Some(shown) = cx.shown(Which::Present).filter(|shown| shown.shot.shows == cx.shows) {
@@ -35,4 +40,26 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect) {
     }
     ui.painter().rect_stroke(body, 4.0, focus(ui, &response), StrokeKind::Inside);
     attend(cx, &response, response.hovered() || response.has_focus());
+}
+
+/// Moves the light of the pane to the pointer, or as time runs: then one view alone of all that show the pane asks for
+/// frames.
+fn move_light(cx: &PaneContext, ui: &Ui, response: &Response, liquid: &mut Liquid) {
+    let workspace = &cx.model.workspace;
+    match liquid.light_motion {
+        LightMotion::Fixed => {}
+        LightMotion::Pointer => {
+            let Some(pointer) = response.hover_pos() else { return };
+            let [at, size] = [pointer - response.rect.min, response.rect.size()]
+                .map(|v| DVec2::new(f64::from(v.x), f64::from(v.y)));
+            liquid.light_at(at / size, size);
+        }
+        LightMotion::Time => {
+            let first =
+                workspace.shown().iter().copied().find(|&k| workspace.panes[k].shows == Shows::LiquidGlass);
+            if first == Some(cx.pane) {
+                liquid.turn_light(step(ui.ctx()));
+            }
+        }
+    }
 }

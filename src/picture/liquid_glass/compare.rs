@@ -3,16 +3,16 @@
 //! The body is a slab of glass with the pane's outline and both edges rolled around. It lies a little above the
 //! background and is seen along parallel rays. The strengths mean: depth is the thickness, as in the specification;
 //! refraction is the index, 1 at 0 and 1.5 at 100; dispersion is the Abbe number, 55 at 100. Frost is left out, since
-//! rough surfaces are not traced. The tint is laid over the traced pane as over the drawn one.
+//! rough surfaces are not traced. The tint colours the light around the traced pane, as it colours that of the drawn one.
 
 mod cost;
 
 pub use cost::{Cost, Shifts};
 
-use super::parts::{TOWARD_LIGHT, thickness};
+use super::parts::thickness;
 use super::{GlassPane, laid, pane as approximated, plain};
 use crate::math::{ImplicitForm, ImplicitSurface, ImplicitSurfaceError, Pose};
-use crate::optics::{Dispersion, DispersionError, Illuminant, Material, Strata};
+use crate::optics::{Dispersion, DispersionError, Illuminant, Material, Strata, encoded_from_linear};
 use crate::picture::{Backdrop, Linear, RefractionMap, Survey, spectral};
 use crate::scene::{Dome, Film, Instance, Lamp, Light, Mipmap, Panorama, Scene, View};
 use crate::trace::environment::{Backplate, Environment, EnvironmentMap};
@@ -74,22 +74,25 @@ pub enum PaneError {
     Stopped(#[from] Stopped),
 }
 
-/// Returns the light that a pane's strength of light stands for.
+/// Returns the light that a pane's light and tint stand for.
 ///
 /// It consists of a lamp, which glass shows about as bright and as large as the specification's shine, and an even sky,
 /// which shows at the rim as bright as the specification's rim. Glass has no counterpart of the specification's Lambert
-/// term.
-pub fn surroundings(strength: f64) -> Light {
-    // NaN counts as 0.
-    let part = if strength > 0.0 { strength.min(100.0) / 100.0 } else { 0.0 };
-    let sky = Dome { from: -90.0, to: 90.0, soft: 0.0, radiance: 0.3 * part, end: None, colour: None };
+/// term. The tint colours both as far as it covers them.
+pub fn surroundings(pane: &GlassPane) -> Light {
+    let pane = pane.effective();
+    let part = pane.light / 100.0;
+    let colour = (pane.tint.w > 0.0).then(|| {
+        pane.light_colour().to_array().map(|part| (255.0 * encoded_from_linear(part)).round() as u8)
+    });
+    let sky = Dome { from: -90.0, to: 90.0, soft: 0.0, radiance: 0.3 * part, end: None, colour };
     let lamp = Lamp {
-        azimuth: 90.0,
-        elevation: TOWARD_LIGHT.z.asin().to_degrees(),
+        azimuth: pane.light_from.azimuth,
+        elevation: pane.light_from.height,
         // A mirror turned by an angle turns light by twice that; cos³² is a half at 12 degrees.
         radius: 24.0,
         radiance: 0.5 * part / SQUARE_ON,
-        colour: None,
+        colour,
     };
     Light { name: "pane".into(), dome: vec![sky], lamp: vec![lamp], ..Light::white() }
 }
@@ -230,12 +233,12 @@ impl<'a> PaneScene<'a> {
             spectral::expose(lit_scene, sampled, ByRays::MOST_ROWS, prepare, watch)
         })?;
         let background = background.picture();
-        let (mut picture, tint) = (plain(background), self.pane.effective());
+        let mut picture = plain(background);
         for (k, at, middle) in self.pixels(background.width) {
             let cover = self.pane.cover(middle);
             if cover > 0.0 {
                 let [red, green, blue, _] = piece.pixels[k].map(f64::from);
-                laid(&mut picture.pixels[at], tint.tinted(DVec3::new(red, green, blue)), cover);
+                laid(&mut picture.pixels[at], DVec3::new(red, green, blue), cover);
             }
         }
         Ok(picture)

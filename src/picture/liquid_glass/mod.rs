@@ -5,27 +5,34 @@
 //! specification gives, and what it leaves open and was chosen here. [`compare()`] traces the same pane rightly.
 //!
 //! A pixel is drawn in these steps: `outline` finds its place on the dome over the pane; `parts` gives the shifts of
-//! refraction, depth and dispersion there, and the light that the surface adds; `frost` spreads the look-up; the tint is
-//! laid over what is seen.
+//! refraction, depth and dispersion there; `frost` spreads the look-up; `lighting` adds the light of the surface, which the
+//! tint colours. `look_up` reads the background; `prepared` keeps what of this depends on the pane's shape alone, so that a
+//! moving light or background costs little. `on_card` does the same on a graphics card, by `shaders/liquid_glass.wgsl`.
 //!
 //! Lengths are parts of the pane's shorter side, measured from the pane's middle, x to the right and y down. A pixel
 //! shows the background at a shifted place, so a shift toward the middle makes the background look larger.
 
 mod compare;
 mod frost;
+mod lighting;
+mod look_up;
+#[cfg(feature = "gpu")]
+mod on_card;
 mod outline;
 mod parts;
+mod prepared;
 
 pub use compare::{Comparison, Cost, PaneError, PaneLighting, Shifts, compare, surroundings, traced};
+#[cfg(feature = "gpu")]
+pub use on_card::PanesOnCard;
+pub use prepared::{PreparedPane, SeenThrough};
 
 use super::{Linear, NameError};
 use crate::scene::Panorama;
 use crate::trace::sampling::place_in_pixel;
-use frost::taps;
 use glam::{DVec2, DVec3, DVec4};
-use outline::PaneOutline;
-use parts::{depth, dispersion, light, refraction};
-use rayon::prelude::*;
+use outline::{DomePoint, PaneOutline};
+use parts::{RED_AND_BLUE, depth, dispersion, refraction};
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 
@@ -64,7 +71,10 @@ pub struct GlassPane {
     pub frost: f64,
     /// Strength of the light.
     pub light: f64,
-    /// The base colour in linear sRGB, and how much it covers the background, 0 to 1.
+    /// Where the light comes from.
+    #[serde(default)]
+    pub light_from: LightFrom,
+    /// The base colour in linear sRGB, and how far it colours the light, 0 to 1.
     pub tint: DVec4,
     /// How much of the effect is computed.
     pub quality: PaneQuality,
@@ -82,13 +92,14 @@ impl GlassPane {
             dispersion: 100.0,
             frost: 0.0,
             light: 30.0,
+            light_from: LightFrom::default(),
             tint: DVec4::ZERO,
             quality: PaneQuality::High,
         }
     }
 
-    /// Returns the pane with the strengths that its quality leaves. A strength out of its range counts as the nearer
-    /// end, NaN as 0.
+    /// Returns the pane with the strengths that its quality leaves. A strength, a height or a part of the tint out of its
+    /// range counts as the nearer end, NaN as 0.
     pub fn effective(&self) -> Self {
         let strength = |v: f64| if v > 0.0 { v.min(100.0) } else { 0.0 };
         let high = Self {
@@ -97,6 +108,8 @@ impl GlassPane {
             dispersion: strength(self.dispersion),
             frost: strength(self.frost),
             light: strength(self.light),
+            light_from: self.light_from.checked(),
+            tint: DVec4::from(self.tint.to_array().map(|part| if part > 0.0 { part.min(1.0) } else { 0.0 })),
             ..*self
         };
         match self.quality {
@@ -126,7 +139,7 @@ impl GlassPane {
     /// Returns the pane's outline in the pane's own unit.
     fn outline(&self) -> PaneOutline {
         let unit = self.unit();
-        PaneOutline { half: self.size / (2.0 * unit), radius: self.radius / unit }
+        PaneOutline::new(self.size / (2.0 * unit), self.radius / unit)
     }
 
     /// Converts a place of the picture, in pixels, to the pane's own frame and unit.
@@ -144,34 +157,52 @@ impl GlassPane {
     /// is not included.
     fn shifts(&self, at: DVec2) -> [DVec2; 3] {
         let pane = self.effective();
-        let dome = pane.outline().dome(pane.own(at));
-        let all = refraction(&dome, pane.refraction) + depth(&dome, pane.depth);
-        dispersion(&dome, pane.dispersion).map(|apart| (apart - all) * pane.unit())
+        let (green, apart) = pane.shifts_on(&pane.outline().dome(pane.own(at)));
+        let [red, blue] = RED_AND_BLUE.map(|part| green + apart * part);
+        [red, green, blue]
     }
 
-    /// Returns the colour that the pane shows at a place of the picture, in pixels.
-    fn colour(&self, background: &Panorama, at: DVec2) -> DVec3 {
-        let pane = self.effective();
-        let own = pane.own(at);
-        let dome = pane.outline().dome(own);
-        let count = if self.quality == PaneQuality::High { 5 } else { 3 };
-        let taps = taps(own, &dome, pane.frost, count);
-        let places = pane.shifts(at).map(|shift| at + shift - 0.5);
-        let seen = |&tap: &DVec2| {
-            let look = |place: DVec2| background.between(place + tap * pane.unit());
-            if pane.dispersion == 0.0 {
-                return look(places[1]);
-            }
-            DVec3::new(look(places[0]).x, look(places[1]).y, look(places[2]).z)
-        };
-        let sum: DVec3 = taps.iter().map(seen).sum();
-        pane.tinted(sum / taps.len() as f64) + light(dome.normal, pane.light)
+    /// Returns how far from a point of its dome the pane, whose numbers are within their ranges, looks green light up, and
+    /// how far from there a unit of dispersion is, both in pixels.
+    fn shifts_on(&self, dome: &DomePoint) -> (DVec2, DVec2) {
+        let all = refraction(dome, self.refraction) + depth(dome, self.depth);
+        (-all * self.unit(), dispersion(dome, self.dispersion) * self.unit())
     }
 
-    /// Lays the base colour over a colour.
-    fn tinted(&self, colour: DVec3) -> DVec3 {
-        // Written as a sum, so that without a tint the colour stays the same to the bit.
-        colour + (self.tint.truncate() - colour) * self.tint.w
+    /// Returns the unit direction toward the light; x to the right, y down, z toward the eye.
+    fn toward_light(&self) -> DVec3 {
+        let LightFrom { azimuth, height } = self.light_from;
+        let ((sin, cos), (up, level)) = (azimuth.to_radians().sin_cos(), height.to_radians().sin_cos());
+        DVec3::new(level * cos, -level * sin, up)
+    }
+
+    /// Returns the colour of the light in linear sRGB: white, and the base colour as far as the tint covers it.
+    fn light_colour(&self) -> DVec3 {
+        DVec3::ONE.lerp(self.tint.truncate(), self.tint.w)
+    }
+}
+
+/// Where a pane's light comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LightFrom {
+    /// The azimuth in degrees, counter-clockwise from the right as the pane is seen; 90 is above.
+    pub azimuth: f64,
+    /// The height over the pane in degrees: 0 is along the pane, 90 from the eye.
+    pub height: f64,
+}
+
+impl Default for LightFrom {
+    /// From above; its height has a sine of 0.8.
+    fn default() -> Self {
+        Self { azimuth: 90.0, height: 53.130_102_354_155_98 }
+    }
+}
+
+impl LightFrom {
+    /// Returns the direction with its numbers within their ranges; what is not finite counts as 0.
+    fn checked(self) -> Self {
+        let finite = |v: f64| if v.is_finite() { v } else { 0.0 };
+        Self { azimuth: finite(self.azimuth).rem_euclid(360.0), height: finite(self.height).clamp(0.0, 90.0) }
     }
 }
 
@@ -180,28 +211,28 @@ impl GlassPane {
 /// With `passes` of 1, a pixel shows what is seen at its middle, as on screens; with more, the mean over as many places
 /// in it. A pane without extent, or with corners rounder than half of its shorter side, is not drawn.
 pub fn pane(pane: &GlassPane, background: &Panorama, passes: u32) -> Linear {
-    let shifts: Vec<DVec2> = places(passes);
-    let mut picture = plain(background);
-    if !pane.is_somewhere() {
-        return picture;
-    }
-    let row_length = background.width.max(1) as usize;
-    picture.pixels.par_chunks_mut(row_length).enumerate().for_each(|(y, row)| {
-        for (x, pixel) in row.iter_mut().enumerate() {
-            let corner = DVec2::new(x as f64, y as f64);
-            let cover = pane.cover(corner + 0.5);
-            if cover > 0.0 {
-                let seen: DVec3 = shifts.iter().map(|&at| pane.colour(background, corner + at)).sum();
-                laid(pixel, seen / shifts.len() as f64, cover);
-            }
-        }
-    });
-    picture
+    drawn(pane, background, passes, true)
 }
 
-/// Returns where in a pixel the samples of this many passes stand, 0 to 1; the first stands in the middle.
-fn places(passes: u32) -> Vec<DVec2> {
-    (0..passes.max(1)).map(place_in_pixel).collect()
+/// Draws the pane alone, as a layer over the background that is seen through it: colours are premultiplied by cover, which
+/// is 0 beside the pane. Laid over its background, it gives the same picture as [`pane`].
+pub fn layer(pane: &GlassPane, background: &Panorama, passes: u32) -> Linear {
+    drawn(pane, background, passes, false)
+}
+
+fn drawn(pane: &GlassPane, background: &Panorama, passes: u32, is_over: bool) -> Linear {
+    let size = [background.width, background.height];
+    let (prepared, below) = (PreparedPane::new(pane, size), is_over.then_some(background));
+    if passes <= 1 {
+        return prepared.lit(pane, &prepared.through(background), below);
+    }
+    let mut sums = vec![];
+    for place in (0..passes).map(place_in_pixel) {
+        PreparedPane::at(pane, size, place).add_to(&mut sums, pane, background);
+    }
+    let share = 1.0 / passes as f32;
+    sums.iter_mut().flatten().for_each(|sum| *sum *= share);
+    prepared.composed(&sums, None, below)
 }
 
 /// Returns the background alone.

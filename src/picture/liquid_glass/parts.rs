@@ -2,13 +2,10 @@
 //! 100.
 
 use super::outline::DomePoint;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
-/// Direction toward the light: from above, at 53 degrees of elevation. y points down.
-pub(super) const TOWARD_LIGHT: DVec3 = DVec3::new(0.0, -0.6, 0.8);
-
-/// How far dispersion moves red, green and blue, as parts of its amount.
-const APART: [f64; 3] = [1.1, 0.0, -0.9];
+/// How far dispersion moves red and blue, as parts of its amount; green stays.
+pub(super) const RED_AND_BLUE: [f64; 2] = [1.1, -0.9];
 
 /// Hermite's smooth step from 0 at `from` to 1 at `to`, as in WGSL.
 pub(super) fn smoothstep(from: f64, to: f64, x: f64) -> f64 {
@@ -41,19 +38,7 @@ pub(super) fn depth(dome: &DomePoint, strength: f64) -> DVec2 {
     along * (1.0 - 0.3 * dome.distance)
 }
 
-/// Returns the shifts of dispersion: how far outward red, green and blue are looked up.
-pub(super) fn dispersion(dome: &DomePoint, strength: f64) -> [DVec2; 3] {
-    let amount = dome.distance * 0.003 * strength / 100.0;
-    APART.map(|part| dome.radial * (amount * part))
-}
-
-/// Returns the white light that the surface adds, after J. H. Lambert and J. F. Blinn (1977), with a rim in place of
-/// Fresnel's reflection.
-pub(super) fn light(normal: DVec3, strength: f64) -> f64 {
-    let half = TOWARD_LIGHT + DVec3::Z;
-    let half = half / half.length();
-    let diffuse = normal.dot(TOWARD_LIGHT).max(0.0) * 0.3;
-    let shine = normal.dot(half).max(0.0).powi(32) * 0.5;
-    let rim = (1.0 - normal.z).powi(3) * 0.3;
-    (diffuse + shine + rim) * strength / 100.0
+/// Returns a unit of dispersion: how far outward a colour is looked up whose part of the amount is 1.
+pub(super) fn dispersion(dome: &DomePoint, strength: f64) -> DVec2 {
+    dome.radial * (dome.distance * 0.003 * strength / 100.0)
 }

@@ -1,10 +1,14 @@
 //! Tests of the pane.
 
-use super::outline::DomePoint;
+use super::frost::{FIVE, FrostTap, THREE};
+use super::lighting::{Brightness, Normals, SurfaceLight};
 use super::parts::{falloff, smoothstep};
 use super::*;
+use pulp::Arch;
 
-const SIZE: [u32; 2] = [72, 56];
+mod smoothness;
+
+pub const SIZE: [u32; 2] = [72, 56];
 
 /// Returns a pattern with edges and colours in both directions; with `symmetric`, left and right are mirror images.
 pub fn pattern(symmetric: bool) -> Panorama {
@@ -60,12 +64,11 @@ fn a_pane_without_strength_leaves_the_background_to_the_bit() {
 fn outside_of_the_outline_nothing_changes() {
     let background = pattern(false);
     let (seen, bare) = (pane(&full(), &background, 1), plain(&background));
-    let outline = full().outline();
     let (mut outside, mut changed) = (0, 0);
     for (k, (a, b)) in seen.pixels.iter().zip(&bare.pixels).enumerate() {
         let middle = DVec2::new((k % 72) as f64, (k / 72) as f64) + 0.5;
         // The pane's soft border ends half a pixel outside the outline.
-        if outline.distance(full().own(middle)) * full().unit() >= 0.5 {
+        if full().cover(middle) == 0.0 {
             outside += 1;
             assert!(a == b, "pixel {k}");
         } else {
@@ -76,6 +79,14 @@ fn outside_of_the_outline_nothing_changes() {
     assert!(outside > 1900 && changed > 1600, "{outside} {changed}");
 }
 
+/// Returns how bright the light of a pane makes a normal.
+fn brightness(pane: &GlassPane, normal: DVec3) -> f64 {
+    let normals = Normals(normal.as_vec3().to_array().map(|part| vec![part]));
+    let mut to = [0.0];
+    Arch::new().dispatch(Brightness { light: SurfaceLight::new(pane), normals: &normals, to: &mut to });
+    f64::from(to[0])
+}
+
 #[test]
 fn the_formulas_are_those_of_the_specification() {
     // Refraction begins in the middle and ends on the outline.
@@ -83,61 +94,59 @@ fn the_formulas_are_those_of_the_specification() {
         near(falloff(distance), expected);
     }
     near(smoothstep(0.0, 0.8, 0.2), 0.15625);
-    // Halfway to the right border of a pane 2 by 1: N = (0.5, 0, √0.75).
-    let outline = PaneOutline { half: DVec2::new(1.0, 0.5), radius: 0.25 };
-    let dome = outline.dome(DVec2::new(0.5, 0.0));
-    let expected = (0.5, DVec2::X, DVec3::new(0.5, 0.0, 0.75_f64.sqrt()));
-    assert_eq!((dome.distance, dome.radial, dome.normal), expected);
+    // Halfway to the right border of a disc: the dome is half a ball, so N = (0.5, 0, √0.75).
+    let outline = PaneOutline::new(DVec2::splat(0.5), 0.5);
+    let dome = outline.dome(DVec2::new(0.25, 0.0));
+    near(dome.distance, 0.5);
+    assert!(dome.radial == DVec2::X && dome.normal.abs_diff_eq(DVec3::new(0.5, 0.0, 0.75_f64.sqrt()), 1e-12));
     // smoothstep(0, 0.8, 0.5) = 0.625² (3 - 1.25) = 0.68359375; the shift is 0.5 of 0.015 and of 0.008.
     near(refraction(&dome, 100.0).x, 0.0115 * 0.683_593_75);
     near(refraction(&dome, 40.0).x, 0.4 * 0.0115 * 0.683_593_75);
     // Thickness 0.06: (0.5 0.06 0.1, 0.06 0.05) (1 - 0.15).
-    assert!(depth(&dome, 50.0).abs_diff_eq(DVec2::new(0.002_55, 0.002_55), 1e-15));
-    let [red, green, blue] = dispersion(&dome, 80.0);
-    assert!(red.abs_diff_eq(DVec2::X * 0.0012 * 1.1, 1e-15) && green == DVec2::ZERO);
-    assert!(blue.abs_diff_eq(DVec2::NEG_X * 0.0012 * 0.9, 1e-15));
-    // Flat, toward the eye: N·L = 0.8; H = (0, -0.6, 1.8)/√3.6, N·H = √0.9, its 32nd power is 0.9¹⁶; no rim.
-    near(light(DVec3::Z, 100.0), 0.24 + 0.5 * 0.9_f64.powi(16));
-    // Level, away from the light: only the rim is left.
-    near(light(DVec3::Y, 50.0), 0.15);
-    // All parts together at one place, for a pane of 100 by 50 pixels.
+    assert!(depth(&dome, 50.0).abs_diff_eq(DVec2::new(0.002_55, 0.002_55), 1e-12));
+    assert!(dispersion(&dome, 80.0).abs_diff_eq(DVec2::X * 0.0012, 1e-12));
+    // All parts together at one place, for a disc of 50 pixels.
     let pane = GlassPane {
         refraction: 40.0,
         depth: 50.0,
         dispersion: 80.0,
-        ..GlassPane::clear(DVec2::ZERO, DVec2::new(100.0, 50.0), 12.5)
+        ..GlassPane::clear(DVec2::ZERO, DVec2::splat(50.0), 25.0)
     };
-    let [red, green, _] = pane.shifts(DVec2::new(75.0, 25.0));
+    let [red, green, blue] = pane.shifts(DVec2::new(37.5, 25.0));
     near(green.x, -50.0 * (0.4 * 0.0115 * 0.683_593_75 + 0.002_55));
     near(green.y, -50.0 * 0.002_55);
     near(red.x - green.x, 50.0 * 0.0012 * 1.1);
+    near(blue.x - green.x, -50.0 * 0.0012 * 0.9);
 }
 
 #[test]
-fn the_dome_is_upright_in_the_middle_level_on_the_outline_and_without_a_jump() {
-    for (half, radius) in [((1.7, 0.5), 0.2), ((0.5, 0.9), 0.5), ((0.5, 0.5), 0.5), ((0.8, 0.5), 0.01)] {
-        let outline = PaneOutline { half: DVec2::from(half), radius };
-        assert_eq!(
-            outline.dome(DVec2::ZERO),
-            DomePoint { distance: 0.0, radial: DVec2::ZERO, normal: DVec3::Z }
-        );
-        for k in 0..720 {
-            let way = DVec2::from_angle(f64::from(k).to_radians() / 2.0);
-            let border = way / outline.dome(way * 0.01).distance * 0.01;
-            assert!(outline.distance(border).abs() < 1e-12, "{k}: the outline is at distance 1");
-            for part in [0.1, 0.5, 0.9] {
-                let dome = outline.dome(border * part);
-                near(dome.distance, part);
-                near(dome.normal.length(), 1.0);
-                // The normal is square to the outline there.
-                let outside = outline.distance(border + dome.normal.truncate() / part * 1e-3);
-                assert!((outside - 1e-3).abs() < 1e-9, "{k}: {outside}");
-                let beside = outline.dome(border.rotate(DVec2::from_angle(1e-6)) * part);
-                assert!((beside.normal - dome.normal).length() < 1e-3);
-            }
-        }
-        assert_eq!(outline.dome(DVec2::new(9.0, 9.0)).distance, 1.0);
+fn the_light_is_diffuse_light_shine_and_a_rim_and_comes_from_where_it_is_set() {
+    let from_above = full();
+    let close =
+        |found: f64, expected: f64| assert!((found - expected).abs() < 1e-6, "{found}, not {expected}");
+    // Flat, toward the eye: N·L = 0.8; H = (0, -0.6, 1.8)/√3.6, N·H = √0.9, its 32nd power is 0.9¹⁶; no rim.
+    close(brightness(&from_above, DVec3::Z), 0.24 + 0.5 * 0.9_f64.powi(16));
+    // Level, away from the light: only the rim is left.
+    close(brightness(&from_above, DVec3::Y), 0.3);
+    // Level, toward the light: 0.3 · 0.6 of diffuse light, N·H = 0.6/√3.6, and the rim.
+    close(brightness(&from_above, DVec3::NEG_Y), 0.18 + 0.5 * 0.1_f64.powi(16) + 0.3);
+    let right = GlassPane { light_from: LightFrom { azimuth: 0.0, height: 0.0 }, ..full() };
+    assert!(right.toward_light().abs_diff_eq(DVec3::X, 1e-15));
+    close(brightness(&right, DVec3::X), 0.3 + 0.5 * 0.5_f64.powi(16) + 0.3);
+    close(brightness(&right, DVec3::NEG_X), 0.3);
+    for broken in [f64::NAN, f64::INFINITY] {
+        let light_from = LightFrom { azimuth: broken, height: broken };
+        assert!(GlassPane { light_from, ..full() }.effective().toward_light().abs_diff_eq(DVec3::X, 1e-15));
     }
+    // In the picture the rim is bright on the side of the light, and on the other side where the light is there.
+    let dark = even([0.0; 3]);
+    let sides = |azimuth| {
+        let light_from = LightFrom { azimuth, height: 30.0 };
+        let seen = pane(&GlassPane { light_from, ..full() }, &dark, 1);
+        [12, 59].map(|x| seen.pixels[28 * 72 + x][0])
+    };
+    let [right, left] = [sides(0.0), sides(180.0)];
+    assert!(right[1] > 1.5 * right[0] && left[0] > 1.5 * left[1], "{right:?} {left:?}");
 }
 
 #[test]
@@ -186,36 +195,141 @@ fn frost_is_the_same_every_time_and_keeps_an_even_background() {
     assert!(seen == pane(&frost, &background, 1) && apart(&seen, &plain(&background)) > 0.01);
     let even = even([0.3, 0.5, 0.7]);
     assert!(apart(&pane(&frost, &even, 1), &plain(&even)) < 1e-7);
-    // The noise is spread around 0 within its bounds, without jumps.
+    // The roughness is a mean of noise from 0 to 1 by weights, a third of it, without jumps.
     let places = (0..4000).map(|k| DVec2::new(0.754_877_666_2, 0.569_840_291) * f64::from(k));
-    let values: Vec<f64> = places.clone().map(|at| frost::noise(at.fract(), 0)).collect();
-    assert!(values.iter().all(|v| v.abs() <= 1.0));
+    let values: Vec<f64> = places.clone().map(|at| frost::roughness(at.fract())).collect();
+    assert!(values.iter().all(|v| (0.0..=1.0 / 3.0).contains(v)));
     let mean = values.iter().sum::<f64>() / 4000.0;
-    let deviation = (values.iter().map(|v| v * v).sum::<f64>() / 4000.0).sqrt();
-    assert!(mean.abs() < 0.02 && (0.15..0.5).contains(&deviation), "{mean} {deviation}");
+    let deviation = (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / 4000.0).sqrt();
+    assert!((mean - 1.0 / 6.0).abs() < 0.004 && (0.02..0.08).contains(&deviation), "{mean} {deviation}");
     for at in places {
-        assert!((frost::noise(at, 1) - frost::noise(at + 1e-7, 1)).abs() < 1e-3);
+        assert!((frost::roughness(at) - frost::roughness(at + 1e-7)).abs() < 1e-3);
     }
-    let pane = frost.outline().dome(DVec2::new(0.4, 0.2));
-    let reach = 0.003 * (pane.normal.x + pane.normal.y);
-    for count in [3, 5] {
-        let taps = taps(DVec2::new(0.4, 0.2), &pane, 100.0, count);
-        assert_eq!(taps.len(), count);
-        assert!(taps.iter().all(|t| t.length() <= reach * (1.0 + 2.0_f64.sqrt())));
+    let (at, dome) = (DVec2::new(0.4, 0.2), frost.outline().dome(DVec2::new(0.4, 0.2)));
+    near(frost::blur(at, &dome, 50.0), 0.5 * 0.003 * (dome.normal.x + dome.normal.y) * frost::roughness(at));
+}
+
+#[test]
+fn the_samples_of_frost_have_the_moments_of_a_gaussian() {
+    let moment = |taps: &[FrostTap], x: i32, y: i32| {
+        let parts = taps.iter().map(|tap| tap.weight * tap.at[0].powi(x) * tap.at[1].powi(y));
+        parts.sum::<f32>()
+    };
+    for (x, y, expected) in
+        [(0, 0, 1.0), (1, 0, 0.0), (2, 0, 1.0), (0, 2, 1.0), (3, 0, 0.0), (4, 0, 3.0), (0, 4, 3.0)]
+    {
+        for taps in [&FIVE[..], &THREE[..]] {
+            assert!((moment(taps, x, y) - expected).abs() < 1e-5, "{x} {y}");
+        }
+    }
+    // Three samples blur along the diagonal alone.
+    assert!(moment(&FIVE, 1, 1) == 0.0 && (moment(&THREE, 1, 1) - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn five_samples_are_the_same_one_by_one_and_together() {
+    let (background, pane) = (pattern(false), GlassPane { frost: 100.0, ..full() });
+    // In grey the channels of an undispersed pane, which takes samples one by one, are those of a dispersed one.
+    let grey = Panorama { pixels: background.pixels.iter().map(|p| [p[0]; 3]).collect(), ..background };
+    let seen = |dispersion| PreparedPane::new(&GlassPane { dispersion, ..pane }, SIZE).through(&grey);
+    let (one_by_one, together) = (seen(0.0), seen(1e-9));
+    assert!(one_by_one.apart(&together) < 1e-5, "{}", one_by_one.apart(&together));
+    assert!(one_by_one.apart(&seen(30.0)) > 0.01);
+}
+
+#[test]
+fn a_tint_colours_the_light_as_far_as_it_covers_it() {
+    let dark = even([0.0; 3]);
+    let tinted = |tint| pane(&GlassPane { tint, light: 60.0, ..none() }, &dark, 1);
+    let white = tinted(DVec4::ZERO);
+    let lit = white.pixels.iter().filter(|p| p[0] > 0.05).count();
+    assert!(lit > 1500, "{lit}");
+    for (alpha, [red, green, blue]) in [(0.5, [0.6, 0.8, 1.0]), (1.0, [0.2, 0.6, 1.0])] {
+        let seen = tinted(DVec4::new(0.2, 0.6, 1.0, alpha));
+        for (seen, white) in seen.pixels.iter().zip(&white.pixels) {
+            for (seen, part) in seen.iter().zip([red, green, blue]) {
+                assert!((seen - part * white[0]).abs() < 1e-6, "{seen} {part} {white:?}");
+            }
+        }
+    }
+    // Without light there is nothing to colour.
+    let background = pattern(false);
+    assert!(pane(&GlassPane { tint: DVec4::ONE, ..none() }, &background, 1) == plain(&background));
+}
+
+#[test]
+fn a_layer_is_premultiplied_and_laid_over_its_background_it_is_the_picture() {
+    let background = pattern(false);
+    for passes in [1, 3] {
+        let clear = GlassPane { light: 0.0, frost: 60.0, ..full() };
+        let alone = layer(&clear, &background, passes);
+        // All of the background is at most white, so no colour is brighter than its cover.
+        assert!(alone.pixels.iter().all(|p| p[..3].iter().all(|part| *part <= p[3] + 1e-6)));
+        let partly = alone.pixels.iter().filter(|p| p[3] > 0.01 && p[3] < 0.99).count();
+        let none = alone.pixels.iter().filter(|p| **p == [0.0; 4]).count();
+        assert!(partly > 40 && none > 1900, "{partly} {none}");
+        let lit = full();
+        let (alone, mut laid_over) = (layer(&lit, &background, passes), plain(&background));
+        for (below, above) in laid_over.pixels.iter_mut().zip(&alone.pixels) {
+            below.iter_mut().zip(above).for_each(|(below, part)| *below = part + *below * (1.0 - above[3]));
+        }
+        assert!(apart(&laid_over, &pane(&lit, &background, passes)) < 1e-6);
+        // Colours that were not premultiplied would not add up to the picture.
+        assert!(alone.pixels.iter().any(|p| p[3] > 0.2 && p[3] < 0.8 && p[0] / p[3] - p[0] > 0.05));
     }
 }
 
 #[test]
-fn a_tint_covers_by_its_alpha() {
-    let background = even([0.8, 0.4, 0.2]);
-    let tinted = |tint| pane(&GlassPane { tint, ..none() }, &background, 1);
-    assert!(tinted(DVec4::new(0.1, 0.9, 0.5, 0.0)) == plain(&background));
-    let middle = |picture: Linear| picture.pixels[28 * 72 + 36];
-    let half = middle(tinted(DVec4::new(0.2, 0.6, 1.0, 0.5)));
-    let all = middle(tinted(DVec4::new(0.2, 0.6, 1.0, 1.0)));
-    for (k, (a, b)) in [(0.5, 0.2), (0.5, 0.6), (0.6, 1.0)].into_iter().enumerate() {
-        assert!((half[k] - a).abs() < 1e-6 && (all[k] - b).abs() < 1e-6);
+fn with_passes_a_pixel_is_the_mean_over_places_in_it() {
+    let background = pattern(false);
+    let seen = pane(&none(), &background, 3);
+    let middle = DVec2::new(30.0, 20.0);
+    let own: DVec3 = (0..3).map(|k| background.between(middle + place_in_pixel(k) - 0.5)).sum();
+    let found = seen.pixels[20 * 72 + 30];
+    for (found, own) in found.iter().zip((own / 3.0).to_array()) {
+        assert!((f64::from(*found) - own).abs() < 1e-6, "{found} {own}");
     }
+    assert!(apart(&seen, &plain(&background)) > 0.05);
+}
+
+#[test]
+fn light_adds_the_same_to_every_background() {
+    let dark = even([0.0; 3]);
+    let glow = layer(&GlassPane { light: 80.0, ..none() }, &dark, 1);
+    let (background, lit) = (pattern(false), GlassPane { light: 80.0, ..none() });
+    for (k, (seen, own)) in pane(&lit, &background, 1).pixels.iter().zip(&background.pixels).enumerate() {
+        let alone = glow.pixels[k];
+        for channel in 0..3 {
+            assert!((seen[channel] - own[channel] - alone[channel]).abs() < 1e-6, "pixel {k}");
+        }
+    }
+}
+
+#[test]
+fn a_prepared_pane_serves_other_lights_backgrounds_and_places() {
+    let (first, second) = (pattern(false), pattern(true));
+    let mut prepared = PreparedPane::new(&full(), SIZE);
+    let moved = GlassPane {
+        corner: full().corner + DVec2::new(-3.0, 4.0),
+        light_from: LightFrom { azimuth: 200.0, height: 20.0 },
+        tint: DVec4::new(1.0, 0.5, 0.2, 0.7),
+        light: 20.0,
+        ..full()
+    };
+    assert!(prepared.suits(&moved, SIZE));
+    assert!(prepared.lit(&full(), &prepared.through(&first), Some(&first)) == pane(&full(), &first, 1));
+    prepared.moved_to(&moved);
+    assert!(prepared.lit(&moved, &prepared.through(&second), Some(&second)) == pane(&moved, &second, 1));
+    for other in [
+        GlassPane { frost: 50.0, ..full() },
+        GlassPane { radius: 9.0, ..full() },
+        GlassPane { quality: PaneQuality::Low, ..full() },
+        GlassPane { corner: full().corner + 0.25, ..full() },
+        GlassPane { corner: full().corner - 20.0, ..full() },
+    ] {
+        assert!(!prepared.suits(&other, SIZE), "{other:?}");
+    }
+    assert!(!prepared.suits(&full(), [72, 57]));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Opens a graphics card, and says what can go wrong with one.
 
 use super::shaders::{Pipelines, ShaderTask};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
 /// Why the graphics card cannot do the work; point rays on the processor can do it instead.
@@ -114,6 +114,7 @@ pub struct Gpu {
     pub(super) queue: wgpu::Queue,
     pub(super) scopes: Pipelines,
     pub(super) lights: Pipelines,
+    pub(super) panes: OnceLock<wgpu::ComputePipeline>,
     name: String,
     is_software: bool,
     lanes: u32,
@@ -218,6 +219,7 @@ impl Gpu {
             queue,
             scopes,
             lights,
+            panes: OnceLock::new(),
             name,
             is_software,
             lanes,

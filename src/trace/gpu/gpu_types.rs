@@ -200,6 +200,28 @@ both_sides! {
 }
 
 both_sides! {
+    /// A pane of liquid glass over a picture, in front of a background.
+    PaneData, PANE_DATA_WGSL {
+        /// x, y: pixels across and down; z: samples of the frost, 0 where there is no pane; w: 1 over the background, 0 alone.
+        size: vec4u,
+        /// xy: the pane's middle in pixels; z: its shorter side; w is unused.
+        place: vec4f,
+        /// xy: half the sides in units of the shorter one; zw: where the rim begins.
+        half_level: vec4f,
+        /// xy: the share of the square in the ramps; z: how far the ramps exclude each other; w is unused.
+        round_corner: vec4f,
+        /// x: refraction, 0 to 1; y: thickness; z: dispersion, 0 to 1; w: frost, 0 to 1.
+        strengths: vec4f,
+        /// xyz: unit direction toward the light.
+        toward: vec4f,
+        /// xyz: unit direction between those toward the light and the eye.
+        between: vec4f,
+        /// xyz: the colour of the light.
+        colour: vec4f,
+    }
+}
+
+both_sides! {
     /// A box around triangles, as [`crate::math::BvhNode`].
     BvhNode, BVH_NODE_WGSL {
         /// xyz: least coordinates; w: of a box of boxes, how many nodes after it its second half stands; of a box of

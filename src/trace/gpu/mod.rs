@@ -9,6 +9,7 @@ mod fields;
 mod gpu_types;
 mod light;
 mod limits;
+mod pane;
 mod peak;
 mod pieces;
 mod scope;
@@ -19,9 +20,10 @@ mod throttle;
 mod triangles;
 
 pub use device::{DispatchTotals, Gpu, GpuError};
-pub use gpu_types::ScopePixel;
+pub use gpu_types::{PaneData, ScopePixel};
 pub use light::{ByCard, GpuEnvironment};
 pub use limits::{MOST_BODIES, MOST_BOUNCES, MOST_CARD_BANDS, MOST_TRIANGLES, MOST_WAVELENGTHS};
+pub use pane::PaneStage;
 pub use peak::CardPeak;
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ mod lamps;
 
 use super::Gpu;
 use super::gpu_types;
+use super::pane::pane_source;
 use super::peak::{ARITHMETIC_WGSL, MEMORY_WGSL};
 use super::shaders::{ShaderSurface, ShaderTask, compiled, source};
 use crate::optics::{Fresnel, fresnel, reflect, reflected_change, refract, refracted_change};
@@ -56,8 +57,8 @@ fn every_shader_is_valid_and_its_structs_are_laid_out_as_in_rust() {
 }
 
 #[test]
-fn the_shaders_that_measure_a_card_are_valid() {
-    for text in [ARITHMETIC_WGSL, MEMORY_WGSL] {
+fn the_shaders_that_measure_a_card_or_draw_panes_are_valid() {
+    for text in [ARITHMETIC_WGSL, MEMORY_WGSL, &pane_source()] {
         let module = front::wgsl::parse_str(text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(text)));
         let mut validator =
             valid::Validator::new(valid::ValidationFlags::all(), valid::Capabilities::empty());

@@ -39,7 +39,10 @@ fn liquid_glass_comes_drawn_traced_and_side_by_side_with_what_the_drawing_costs(
         description.contains("quality high; pane 40x30+8+6, corners 9.0; refraction 100"),
         "{description}"
     );
-    assert!(description.contains("frost 50, light 30; tint 0.030 0.117 1.000 0.251"), "{description}");
+    assert!(
+        description.contains("frost 50, light 30 from 90.0,53.1; tint 0.030 0.117 1.000 0.251"),
+        "{description}"
+    );
     let (size, _, description) = png(&desk.at("all/liquid-glass-traced.png"));
     assert_eq!(size, (64, 48));
     assert!(description.contains("traced by rays, gap 0.02, 12 wavelengths in 2 samples"), "{description}");
@@ -62,11 +65,39 @@ fn a_pane_without_strength_is_its_background() {
     let own = DVec3::from([0x33, 0x66, 0x99].map(|code: u8| linear_from_encoded(f64::from(code) / 255.0)));
     assert_eq!((size, pixels.len()), ((32, 32), 32 * 32));
     assert!(pixels.iter().all(|p| *p == own));
+    // A tint colours light alone, of which there is none.
     desk.done(&format!("liquid-glass --background #336699 --size 32 {off} --tint #00000080"));
-    let (_, tinted, _) = png(&desk.at("out/liquid-glass.png"));
-    assert!(tinted != pixels);
-    desk.done(&format!("liquid-glass --background #336699 --size 32 {off} --tint #00000080 --quality low"));
     assert!(png(&desk.at("out/liquid-glass.png")).1 == pixels);
+    let lit = off.replace("--light 0", "--light 50");
+    let drawn = |more: &str| {
+        desk.done(&format!("liquid-glass --background #336699 --size 32 {lit} {more}"));
+        png(&desk.at("out/liquid-glass.png")).1
+    };
+    let white = drawn("");
+    assert!(white != pixels && drawn("--tint #00000080") != white);
+    assert!(drawn("--tint #000000ff") == pixels && drawn("--quality low") == pixels);
+    assert!(
+        drawn("--light-from 270,30") != white && drawn("--light-from -90,30") == drawn("--light-from 270,30")
+    );
+}
+
+#[test]
+fn a_pane_alone_has_alpha_and_its_times_are_told() {
+    let desk = desk();
+    let line = "liquid-glass --background photo.png --size 64x48 --pane 40x30+8+6 --light 0";
+    let printed = desk.done(&format!("{line} --alone --exr --timing"));
+    let lines: Vec<&str> = printed.lines().collect();
+    assert_eq!(lines[..2], ["out/liquid-glass.png", "out/liquid-glass.exr"]);
+    for name in
+        ["shape, once", "dispersion", "frost", "frame, background moves", "high from medium", "high from low"]
+    {
+        assert!(lines.iter().any(|line| line.starts_with(name)), "{name}: {printed}");
+    }
+    let alone = std::fs::read(desk.at("out/liquid-glass.png")).unwrap();
+    // The header's colour type is 6: red, green, blue and alpha.
+    assert_eq!(alone[25], 6);
+    desk.done(line);
+    assert_eq!(std::fs::read(desk.at("out/liquid-glass.png")).unwrap()[25], 2);
 }
 
 #[test]
@@ -95,6 +126,8 @@ fn what_liquid_glass_cannot_be_is_told() {
         ("photo.png --pane 40x30 --radius 16", 2, "--radius 16: give 0 to 15"),
         ("photo.png --refraction 101", 2, "--refraction 101: give 0 to 100"),
         ("photo.png --depth NaN", 2, "--depth NaN: give 0 to 100"),
+        ("photo.png --light-from 20", 2, "azimuth and height"),
+        ("photo.png --light-from 20,91", 2, "the height is 0 to 90"),
         ("photo.png --tint #3060ff", 2, "#3060ff40"),
         ("photo.png --tint #é0é0é0", 2, "#3060ff40"),
         ("photo.png --quality best", 2, "high, medium or low"),

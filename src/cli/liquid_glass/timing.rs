@@ -1,0 +1,114 @@
+//! How long each part of a pane takes to draw, and how far the qualities are apart.
+
+use crate::picture::Linear;
+#[cfg(feature = "gpu")]
+use crate::picture::liquid_glass::PanesOnCard;
+use crate::picture::liquid_glass::{GlassPane, PaneQuality, PreparedPane, pane};
+use crate::scene::Panorama;
+#[cfg(feature = "gpu")]
+use crate::trace::gpu::{Gpu, GpuError};
+use std::time::Instant;
+
+/// The number of timed runs of each part, after one to warm up. The median counts.
+const TIMES: usize = 15;
+
+/// The qualities and their names.
+const QUALITIES: [(PaneQuality, &str); 3] =
+    [(PaneQuality::High, "high"), (PaneQuality::Medium, "medium"), (PaneQuality::Low, "low")];
+
+/// Returns the table of times, in milliseconds: of each part of a frame, and of the shape that is computed once.
+pub fn table(asked: &GlassPane, background: &Panorama) -> String {
+    let mut lines = vec!["time in ms                      high   medium      low".to_owned()];
+    let of = |quality| GlassPane { quality, ..*asked };
+    let columns = QUALITIES.map(|(quality, _)| times(&of(quality), background));
+    for (row, (what, _)) in columns[0].iter().enumerate() {
+        let numbers: String = columns.iter().map(|column| format!("{:9.2}", column[row].1)).collect();
+        lines.push(format!("{what:<27}{numbers}"));
+    }
+    let best = pane(&of(PaneQuality::High), background, 1);
+    for (quality, name) in &QUALITIES[1..] {
+        let (mean, greatest, share) = apart(&best, &pane(&of(*quality), background, 1));
+        lines.push(format!(
+            "{:<27}mean {mean:.3}, greatest {greatest:.1} of 255 in linear light; {:.1} % of the pixels differ by half a \
+             step and more",
+            format!("high from {name}"),
+            100.0 * share
+        ));
+    }
+    #[cfg(feature = "gpu")]
+    lines.push(on_card(asked, background));
+    lines.join("\n")
+}
+
+/// Returns the parts of a frame with the time of each. A part's time is what the look-up takes longer with it.
+fn times(asked: &GlassPane, background: &Panorama) -> Vec<(&'static str, f64)> {
+    let size = [background.width, background.height];
+    let look_up = |pane: &GlassPane| {
+        let prepared = PreparedPane::new(pane, size);
+        median(|| prepared.through(background))
+    };
+    let strengths = asked.effective();
+    let bare = look_up(&GlassPane { dispersion: 0.0, frost: 0.0, ..strengths });
+    let dispersed = look_up(&GlassPane { frost: 0.0, ..strengths });
+    let prepared = PreparedPane::new(asked, size);
+    let all = median(|| prepared.through(background));
+    let seen = prepared.through(background);
+    let unlit = GlassPane { light: 0.0, ..*asked };
+    let composed = median(|| prepared.lit(&unlit, &seen, Some(background)));
+    let lit = median(|| prepared.lit(asked, &seen, Some(background)));
+    vec![
+        ("shape, once", median(|| PreparedPane::new(asked, size))),
+        ("refraction and depth", bare),
+        ("dispersion", dispersed - bare),
+        ("frost", all - dispersed),
+        ("light and tint", lit - composed),
+        ("laying over", composed),
+        ("frame, background moves", all + lit),
+        ("frame, only light moves", lit),
+    ]
+}
+
+/// Returns the median time of some runs, in milliseconds.
+fn median<T>(mut run: impl FnMut() -> T) -> f64 {
+    std::hint::black_box(run());
+    let mut times: Vec<f64> = (0..TIMES)
+        .map(|_| {
+            let start = Instant::now();
+            std::hint::black_box(run());
+            1e3 * start.elapsed().as_secs_f64()
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times[TIMES / 2]
+}
+
+/// Returns the mean and the greatest difference of two pictures in steps of 8 bits, and the share of the pixels that differ by
+/// half a step or more.
+fn apart(a: &Linear, b: &Linear) -> (f64, f64, f64) {
+    let off = |(a, b): (&[f32; 4], &[f32; 4])| {
+        let off = |k: usize| 255.0 * f64::from((a[k].clamp(0.0, 1.0) - b[k].clamp(0.0, 1.0)).abs());
+        off(0).max(off(1)).max(off(2))
+    };
+    let all: Vec<f64> = a.pixels.iter().zip(&b.pixels).map(off).collect();
+    let count = all.len().max(1) as f64;
+    let greatest = all.iter().copied().fold(0.0, f64::max);
+    (all.iter().sum::<f64>() / count, greatest, all.iter().filter(|off| **off >= 0.5).count() as f64 / count)
+}
+
+/// Returns how long the graphics card takes for a frame, and how far its picture is from the processor's, or why not.
+#[cfg(feature = "gpu")]
+fn on_card(asked: &GlassPane, background: &Panorama) -> String {
+    let measured = || {
+        let gpu = Gpu::open()?;
+        let card = PanesOnCard::new(&gpu, background)?;
+        card.draw(asked, true)?;
+        let (_, greatest, _) = apart(&card.read()?, &pane(asked, background, 1));
+        let took = median(|| card.draw(asked, true));
+        Ok::<_, GpuError>(format!(
+            "{took:.2} ms a frame on {}; at most {greatest:.2} of 255 apart",
+            gpu.name()
+        ))
+    };
+    let found = measured().unwrap_or_else(|error| error.to_string());
+    format!("{:<27}{found}", "by shader")
+}
