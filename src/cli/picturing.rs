@@ -30,7 +30,7 @@ const MARGIN: f64 = 0.06;
 /// The default background.
 const BACKGROUND: &str = "#33373d-#0e0f11";
 
-/// The default distance of a pattern or photograph behind the origin, in girdle radii.
+/// The default distance of a world, pattern or photograph behind the origin, in girdle radii.
 const PHOTO_DISTANCE: f64 = 3.0;
 
 /// Everything that a picture needs, loaded once: stones, light, background, tracer and finish.
@@ -42,9 +42,9 @@ pub struct PictureSetup<'a> {
     pub viewpoint: Viewpoint,
     lighting: Arc<Lighting>,
     pub background: BackgroundRef,
-    /// The pattern or photograph behind the stones.
+    /// The world, pattern or photograph behind the stones.
     pub photo: Option<Arc<Mipmap>>,
-    /// The distance of the pattern or photograph behind the origin, in girdle radii.
+    /// The distance of the world, pattern or photograph behind the origin, in girdle radii.
     pub distance: f64,
     /// The strength of refraction, 0 to 1.
     pub strength: f64,
@@ -127,7 +127,7 @@ impl<'a> PictureSetup<'a> {
         Ok(studio)
     }
 
-    /// Returns an error if `--photo-distance` is given without a pattern or photograph to place there.
+    /// Returns an error if `--photo-distance` is given without a world, pattern or photograph to place there.
     pub fn with_what_has_a_distance(self) -> Result<Self, Failure> {
         if self.photo.is_some() || self.options.photo_distance.is_none() {
             return Ok(self);

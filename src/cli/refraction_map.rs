@@ -78,7 +78,7 @@ impl RefractionMaps {
         if studio.photo.is_none() {
             if self.picture.background.is_some() {
                 return Err(Failure::Usage(
-                    "--background: give a pattern or a photograph, or leave it out".into(),
+                    "--background: give a world, a pattern or a photograph, or leave it out".into(),
                 ));
             }
             // The scene's background, and the default, are colours or the light, which a map does not show.

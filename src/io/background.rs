@@ -3,7 +3,7 @@
 
 use super::panorama::{self, LoadedPanorama};
 use super::png_bytes::png;
-use super::text::unreadable;
+use super::text::{nearest, unreadable};
 use super::{FileError, NameOrFileError, rasterize};
 use crate::optics::{encoded_from_linear, linear_from_encoded};
 use crate::picture::filling;
@@ -99,6 +99,10 @@ impl BackgroundRef {
             Err(why) => {
                 let patterns = Pattern::NAMES.map(|(name, _)| name).join(", ");
                 let worlds = World::NAMES.map(|(name, _)| name).join(", ");
+                let known: Vec<&str> = Self::names().collect();
+                let meant =
+                    nearest(text, &known).map_or(String::new(), |name| format!(" (did you mean '{name}'?)"));
+                let why = why.to_string().replacen(": give", &format!("{meant}: give"), 1);
                 let message = format!(
                     "{why}, `light`, a world ({worlds}), a pattern ({patterns}), or a photograph's file"
                 );
@@ -292,6 +296,11 @@ mod tests {
         assert_eq!(read("Light"), Ok(BackgroundRef::Light));
         assert_eq!(read("page"), Ok(BackgroundRef::Pattern(Pattern::Page)));
         assert_eq!(read("Sunset"), Ok(BackgroundRef::World(World::Sunset)));
+        let refused = read("cityy").unwrap_err().to_string();
+        assert!(
+            refused.starts_with("background 'cityy' (did you mean 'city'?): give transparent"),
+            "{refused}"
+        );
         for name in BackgroundRef::names() {
             let known = read(name).unwrap();
             assert_eq!((known.to_string().as_str(), read(&known.to_string())), (name, Ok(known.clone())));

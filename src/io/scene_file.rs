@@ -49,7 +49,7 @@ pub struct SceneFile {
     pub light_upright: bool,
     /// What lies behind the stones.
     pub background: Option<BackgroundRef>,
-    /// How far behind the middle of all stones a pattern or photograph lies, in mm, from 0.
+    /// How far behind the middle of all stones a world, pattern or photograph lies, in mm, from 0.
     pub background_distance_mm: Option<f64>,
     /// How much of its turn light takes where it is refracted, 0 (straight on) to 1 (physics).
     pub strength: f64,

@@ -7,7 +7,7 @@ pub(super) enum Token {
     Number(f64),
     /// Digits, one comma and digits: a number with a decimal comma, or two numbers.
     WithComma(f64),
-    /// Digits, commas and points in another order.
+    /// Digits with commas and points in another order, such as two points.
     Broken,
     /// Anything else.
     Word,
@@ -19,7 +19,7 @@ impl Token {
             return Self::Number(number);
         }
         let is_numeric = |c: char| c.is_ascii_digit() || matches!(c, ',' | '.' | '+' | '-');
-        if !(text.contains(',')
+        if !((text.contains(',') || text.matches('.').count() > 1)
             && text.contains(|c: char| c.is_ascii_digit())
             && text.chars().all(is_numeric))
         {
@@ -55,10 +55,10 @@ mod tests {
         assert_eq!(Token::of("-41.5"), Token::Number(-41.5));
         assert_eq!(Token::of("-41,5"), Token::WithComma(-41.5));
         assert_eq!(Token::of("0,65000"), Token::WithComma(0.65));
-        for broken in ["41,5,2", "41.5,0.65", ",5", "41,", "--1,5", "1,-5", "1.234,5"] {
+        for broken in ["41,5,2", "41.5,0.65", ",5", "41,", "--1,5", "1,-5", "1.234,5", "-42.5.0", "1.2.3"] {
             assert_eq!(Token::of(broken), Token::Broken, "{broken}");
         }
-        for word in ["", ",", "P1,2", "x", "n"] {
+        for word in ["", ",", "..", "P1,2", "1-2", "x", "n"] {
             assert_eq!(Token::of(word), Token::Word, "{word}");
         }
     }

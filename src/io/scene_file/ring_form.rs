@@ -191,7 +191,7 @@ mod tests {
             (
                 "\"halo\"",
                 "\"hallo\"",
-                "x.toml:4: ring: style: 'hallo' is unknown; did you mean 'halo'?; known: band",
+                "x.toml:4: ring: style: 'hallo' is unknown; did you mean 'halo'? known: band",
             ),
             (
                 "style = \"halo\"\n",

@@ -84,8 +84,8 @@ pub(super) fn roughness(given: Option<f64>) -> Result<f64, Fault> {
 
 /// Returns the hint at the known name that is most like an unknown one, and the list of all known names.
 pub(super) fn likely(asked: &str, known: &[&str]) -> String {
-    let meant = nearest(asked, known).map_or(String::new(), |name| format!("; did you mean '{name}'?"));
-    format!("{meant}; known: {}", known.join(", "))
+    let meant = nearest(asked, known).map_or(";".to_owned(), |name| format!("; did you mean '{name}'?"));
+    format!("{meant} known: {}", known.join(", "))
 }
 
 /// Returns as much of a text as a person reads.

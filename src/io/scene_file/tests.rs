@@ -78,7 +78,7 @@ fn what_is_wrong_with_a_scene_is_told_with_line_and_key() {
             "\"stduio\"",
             "x.toml:3: light: 'stduio' is neither a light of the program nor a file",
         ),
-        ("\"row\"", "\"rig\"", "x.toml:4: layout: 'rig' is unknown; did you mean 'ring'?; known: row, ring"),
+        ("\"row\"", "\"rig\"", "x.toml:4: layout: 'rig' is unknown; did you mean 'ring'? known: row, ring"),
         ("\"row\"", "4", "x.toml:4: layout: invalid type: integer `4`, expected text (row, ring or parcel)"),
         ("0.6", "-1", "x.toml:5: gap_mm: -1 must be from 0 to 1000 mm"),
         ("layout = \"row\"\n", "", "x.toml:4: gap_mm: only a layout has gaps"),
@@ -175,7 +175,7 @@ fn metal_is_read_as_written_and_told_with_line_and_key_where_it_is_at_fault() {
         (
             "\"gold\"",
             "\"glod\"",
-            "x.toml:7: metal 1: metal: 'glod' is unknown; did you mean 'gold'?; known: gold, platinum",
+            "x.toml:7: metal 1: metal: 'glod' is unknown; did you mean 'gold'? known: gold, platinum",
         ),
         ("0.25", "1.5", "x.toml:8: metal 1: roughness: 1.5 must be from 0, a mirror, to 1"),
         ("0.25", "nan", "x.toml:8: metal 1: roughness: NaN must be"),
