@@ -75,6 +75,9 @@ fn scene_json(assembly: &Assembly) -> Value {
             "at_mm": place.at_mm.to_array(),
         })
     });
+    let metals = assembly.setting.metals.iter().map(
+        |metal| json!({ "mesh": metal.label, "metal": metal.metal.name(), "roughness": metal.roughness }),
+    );
     json!({
         "file": assembly.path,
         "name": assembly.name,
@@ -83,6 +86,7 @@ fn scene_json(assembly: &Assembly) -> Value {
         "carats": assembly.carats(),
         "ring": assembly.ring.as_ref().map(ring_json),
         "stones": stones.collect::<Vec<_>>(),
+        "metals": metals.collect::<Vec<_>>(),
     })
 }
 
@@ -102,6 +106,10 @@ fn scene_table(assembly: &Assembly) -> String {
         // Rounded first, so that a tiny negative number does not print as -0.000.
         let at = (1e3 * place.at_mm).round() / 1e3 + 0.0;
         let _ = write!(text, "{:>9.3}{:>9.3}{:>9.3}", at.x, at.y, at.z);
+    }
+    for metal in &assembly.setting.metals {
+        let (mesh, name, roughness) = (&metal.label, metal.metal.name(), metal.roughness);
+        let _ = write!(text, "\n  {mesh:<20}{name:<20}roughness {roughness}");
     }
     text
 }

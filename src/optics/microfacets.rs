@@ -20,10 +20,10 @@ use std::sync::Arc;
 const MIRROR: f64 = 0.004;
 
 /// The number of steps in the table of what one reflection returns.
-const STEPS: usize = 48;
+const STEPS: usize = 64;
 
 /// The number of slopes along both axes, over which a value of that table is averaged.
-const SLOPES: usize = 48;
+const SLOPES: usize = 64;
 
 /// The number of angles over which reflectances are averaged.
 const ANGLES: usize = 32;
@@ -35,6 +35,8 @@ pub struct Roughness {
     alpha: f64,
     /// The share of light that mirrors which absorb nothing send out at their first reflection, for cosines (k / STEPS)².
     once: Vec<f64>,
+    /// What that leaves, averaged over even light between the cosines of each step; empty for a mirror.
+    lost: Vec<f64>,
     /// The mean of `once` over even light from all sides.
     once_mean: f64,
 }
@@ -64,11 +66,12 @@ impl Roughness {
     pub fn new(roughness: f64) -> Self {
         let roughness = roughness.clamp(0.0, 1.0);
         let alpha = if roughness < MIRROR { 0.0 } else { roughness * roughness };
-        let mut surface = Self { alpha, once: vec![1.0; STEPS + 1], once_mean: 1.0 };
+        let mut surface = Self { alpha, once: vec![1.0; STEPS + 1], lost: vec![], once_mean: 1.0 };
         if alpha > 0.0 {
             surface.once = (0..=STEPS).map(|k| once(alpha, (k as f64 / STEPS as f64).powi(2))).collect();
-            let even = |k: usize| ((k as f64 + 0.5) / 512.0).sqrt();
-            surface.once_mean = (0..512).map(|k| surface.once(even(k))).sum::<f64>() / 512.0;
+            surface.lost = (0..STEPS).map(|k| surface.lost_in(k)).collect();
+            let light = |k: usize| square_cos(k as f64 + 1.0) - square_cos(k as f64);
+            surface.once_mean = 1.0 - (0..STEPS).map(|k| surface.lost[k] * light(k)).sum::<f64>();
         }
         surface
     }
@@ -78,6 +81,31 @@ impl Roughness {
         let at = cos.clamp(0.0, 1.0).sqrt() * STEPS as f64;
         let step = (at as usize).min(STEPS - 1);
         self.once[step] + (self.once[step + 1] - self.once[step]) * (at - step as f64)
+    }
+
+    /// Returns the share of light that is lost at the first reflection, averaged over even light between the cosines of a step.
+    fn lost_in(&self, step: usize) -> f64 {
+        let [low, high] = [step as f64, step as f64 + 1.0].map(square_cos);
+        let part = |k: u32| 1.0 - self.once((low + (high - low) * (f64::from(k) + 0.5) / 8.0).sqrt());
+        (0..8).map(part).sum::<f64>() / 8.0
+    }
+
+    /// Draws a direction of light that is reflected several times: by its cosine, and by how much is lost there at the first
+    /// reflection. Returns the factor too by which this is not exact.
+    fn several_times(&self, [u, v]: [f64; 2]) -> (DVec3, f64) {
+        let mut left = u * (1.0 - self.once_mean);
+        let mut step = 0;
+        let mass = |step: usize| self.lost[step] * (square_cos(step as f64 + 1.0) - square_cos(step as f64));
+        while step + 1 < STEPS && left >= mass(step) {
+            left -= mass(step);
+            step += 1;
+        }
+        let [low, high] = [step as f64, step as f64 + 1.0].map(square_cos);
+        let square = low + (high - low) * (left / mass(step).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let cos = square.clamp(1e-12, 1.0).sqrt();
+        let (sin, (y, x)) = ((1.0 - cos * cos).max(0.0).sqrt(), (TAU * v).sin_cos());
+        let exact = (1.0 - self.once(cos)) / self.lost[step].max(f64::MIN_POSITIVE);
+        (DVec3::new(sin * x, sin * y, cos), exact)
     }
 
     /// Returns this surface made of a metal with this complex index.
@@ -103,9 +131,10 @@ impl RoughMetal {
         }
         let first = self.roughness.once(out.z);
         if luck[2] >= first {
-            let direction = even_direction(luck);
-            let weight = self.again * (1.0 - self.roughness.once(direction.z)) / (1.0 - once_mean);
-            return Some(Scattered { direction, weight, density: (1.0 - first) * direction.z * FRAC_1_PI });
+            let (direction, exact) = self.roughness.several_times([luck[0], luck[1]]);
+            let even = (1.0 - self.roughness.once(direction.z)) / (1.0 - once_mean);
+            let density = (1.0 - first) * even * direction.z * FRAC_1_PI / exact.max(f64::MIN_POSITIVE);
+            return Some(Scattered { direction, weight: self.again * exact, density });
         }
         let middle = visible_normal(alpha, out, [luck[0], luck[1]]);
         let cos = out.dot(middle);
@@ -143,10 +172,11 @@ fn once(alpha: f64, cos: f64) -> f64 {
     let out = DVec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
     let returned = |k: usize| {
         let [i, j] = [k % SLOPES, k / SLOPES].map(|i| (i as f64 + 0.5) / SLOPES as f64);
-        let middle = visible_normal(alpha, out, [i, j]);
+        // Steep slopes are few and lose most: they are looked at more closely, and count for less.
+        let middle = visible_normal(alpha, out, [1.0 - i * i, j]);
         let from = middle * (2.0 * out.dot(middle)) - out;
         let own = hidden(alpha, cos);
-        if from.z > 0.0 { (1.0 + own) / (1.0 + own + hidden(alpha, from.z)) } else { 0.0 }
+        if from.z > 0.0 { 2.0 * i * (1.0 + own) / (1.0 + own + hidden(alpha, from.z)) } else { 0.0 }
     };
     (0..SLOPES * SLOPES).map(returned).sum::<f64>() / (SLOPES * SLOPES) as f64
 }
@@ -179,10 +209,9 @@ fn visible_normal(alpha: f64, out: DVec3, [u, v]: [f64; 2]) -> DVec3 {
     unit(DVec3::new(alpha * normal.x, alpha * normal.y, normal.z.max(1e-9)))
 }
 
-/// Returns a direction that is drawn by its cosine.
-fn even_direction([u, v, _]: [f64; 3]) -> DVec3 {
-    let (sin, cos) = (TAU * v).sin_cos();
-    DVec3::new(u.sqrt() * cos, u.sqrt() * sin, (1.0 - u).max(1e-12).sqrt())
+/// Returns the square of the cosine at a place of the table.
+fn square_cos(step: f64) -> f64 {
+    (step / STEPS as f64).powi(4)
 }
 
 fn unit(vector: DVec3) -> DVec3 {

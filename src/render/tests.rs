@@ -452,3 +452,35 @@ fn with_few_bounces_rays_leave_the_rest_dark() {
     (wants_beams.quality.rays.most_bounces, wants_beams.quality.tracer) = (6, Wanted::Beams);
     assert_eq!(Renderer::default().plan(&wants_beams).err(), Some(Unfit::FewBounces));
 }
+
+#[test]
+fn metal_is_planned_to_the_processor_with_the_reason_where_a_card_is_wanted() {
+    let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+    let surface = crate::math::ShadedSurface { points, corners: vec![[0, 1, 2]], normals: vec![] };
+    let plate = Arc::new(crate::math::ShadedMesh::new(surface).unwrap());
+    let plate = crate::scene::MetalInstance::new(&plate, crate::optics::Metal::Gold);
+    let scene = Scene { metals: vec![plate.clone()], ..Scene::alone(&specimen("round_brilliant")) };
+    let of = |scene: &Scene, tracer: Wanted| {
+        let mut job = job(scene.clone(), light(Steps::Strips));
+        job.quality.tracer = tracer;
+        Renderer::default().plan(&job)
+    };
+    for wanted in [Wanted::Quickest, Wanted::Rays, Wanted::Card] {
+        let plan = of(&scene, wanted).unwrap();
+        assert_eq!(plan.backend.name(), "ray");
+        let why = plan.no_card.map(|why| why.to_string());
+        assert_eq!(
+            why.as_deref(),
+            (wanted == Wanted::Card).then_some("graphics cards do not reflect metal yet")
+        );
+    }
+    assert!(matches!(of(&scene, Wanted::Beams), Err(Unfit::Metal)));
+    let rough = crate::scene::MetalInstance { roughness: 2.0, ..plate };
+    let error = of(&Scene { metals: vec![rough], ..scene.clone() }, Wanted::Rays).unwrap_err().to_string();
+    assert_eq!(error, "scene.metals[0]: roughness is 2; give a part from 0 to 1");
+    // A job with metal goes through JSON and back.
+    let job = job(scene, light(Steps::Strips));
+    let text = serde_json::to_string(&job).unwrap();
+    assert_eq!(serde_json::from_str::<Job>(&text).unwrap(), job);
+    assert!(text.contains("\"Gold\""));
+}

@@ -129,3 +129,34 @@ fn stones_in_one_anothers_way_and_cuts_that_are_not_there_are_named() {
         "{message}"
     );
 }
+
+#[test]
+fn metal_lies_where_it_is_put_beside_stones_or_alone_and_may_cut_into_them() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("plate.obj"), "v 0 0 0\nv 4 0 0\nv 0 8 0\nf 1 2 3\n").unwrap();
+    let path = folder.path().join("x.toml");
+    let scene = |tables: &str| {
+        std::fs::write(&path, format!("format = 1\nname = \"x\"\n{tables}")).unwrap();
+        Assembly::load(&path, None, None, MeshOptions::default())
+    };
+    let metal = "[[metal]]\nmesh = \"plate.obj\"\nmetal = \"gold\"\nturn = 90\nat = [1, 2, 3]\n";
+    let both = scene(&format!("[[stone]]\ncut = \"tolkowsky\"\nsize = \"6mm\"\n{metal}")).unwrap().setting;
+    assert_eq!((both.unit_mm, both.metals[0].metal), (3.0, crate::optics::Metal::Gold));
+    // Seen from the stone, the corners are in the places of the file.
+    let at =
+        |k: usize| (both.metals[0].vertices().nth(k).unwrap() - both.instances[0].pose.at) * both.unit_mm;
+    assert!(at(0).distance(DVec3::new(1.0, 2.0, 3.0)) < 1e-12);
+    assert!(
+        at(1).distance(DVec3::new(1.0, 6.0, 3.0)) < 1e-12
+            && at(2).distance(DVec3::new(-7.0, 2.0, 3.0)) < 1e-12
+    );
+    let alone = scene(metal).unwrap().setting;
+    assert_eq!((alone.instances.len(), alone.unit_mm), (0, 4.0));
+    let (low, high) = bounds(alone.vertices());
+    assert!((low + high).length() < 1e-12);
+    let error = scene("[[metal]]\nmesh = \"none.obj\"\nmetal = \"gold\"").unwrap_err().to_string();
+    assert!(error.contains("x.toml:3: metal 1: mesh: ") && error.contains("none.obj"), "{error}");
+    // Glass that is open is refused, with the place of its hole.
+    let error = scene("[[stone]]\ncut = \"plate.obj\"").unwrap_err().to_string();
+    assert!(error.contains("the surface is open: 3 edges") && error.contains("(4, 0, 0)"), "{error}");
+}

