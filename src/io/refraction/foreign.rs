@@ -1,7 +1,7 @@
 //! Makes places of a picture that another renderer made of the template, and finds out what became of it on the way.
 
 use super::codes::Codes;
-use super::mending::{self, Mended};
+use super::mending::{self, MendedPixels};
 use super::{Template, tiles};
 use crate::io::file_error::Fault;
 use crate::optics::{encoded_from_linear, linear_from_encoded};
@@ -148,7 +148,7 @@ fn of_tiles(seen: Seen) -> Result<ForeignPlaces, Fault> {
     }
     let mut codes: Vec<_> = seen.colours.iter().map(|colour| colour.as_ref().map(bytes)).collect();
     let mut at: Vec<DVec2> = codes.iter().map(|code| code.map_or(DVec2::ZERO, tiles::place)).collect();
-    let Mended { borders, edges } = mending::mend(&mut codes, &mut at, seen.width);
+    let MendedPixels { borders, edges } = mending::mend(&mut codes, &mut at, seen.width);
     let mut warnings = vec![];
     if borders > 0 {
         warnings.push(format!(
