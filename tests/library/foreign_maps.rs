@@ -187,19 +187,31 @@ fn borders_of_tiles_that_antialiasing_damaged_are_mended_and_counted() {
     let found = loaded(map.size, &damaged, 8).unwrap();
     let [warning] = &found.warnings[..] else { panic!("{:?}", found.warnings) };
     assert!(warning.contains("antialiased"), "{warning}");
-    let mut unmended = map.clone();
-    for (place, colour) in unmended.bands[0].places.iter_mut().zip(&damaged) {
-        let at = maps::place(colour.map(|c| (c * 255.0).round() as u8)).as_vec2();
-        (place.u, place.v) = (at.x, at.y);
-    }
+    let at = |place: &SourcePlace| DVec2::new(place.u.into(), place.v.into());
+    let own = |k: usize| at(&map.bands[0].places[k]);
+    // On edges a mixture of two places has no right one; within a surface it has.
+    let is_within = |&k: &usize| {
+        let (x, y) = (k % 192, k / 192);
+        (1..191).contains(&x)
+            && (1..143).contains(&y)
+            && [k, k - 1, k + 1, k - 192, k + 192]
+                .iter()
+                .all(|&j| map.bands[0].places[j].weight > 0.0 && (own(j) - own(k)).abs().max_element() < 0.03)
+    };
+    let within: Vec<usize> = (0..192 * 144).filter(is_within).collect();
     let bound = 8.0 / 4064.0;
-    let (before, after) = (apart(&map, &unmended, bound).1, apart(&map, &found.map, bound).1);
+    let off = |found: &dyn Fn(usize) -> DVec2| {
+        within.iter().filter(|&&k| (found(k) - own(k)).abs().max_element() > bound).count() as f64
+            / within.len() as f64
+    };
+    let before = off(&|k| maps::place(damaged[k].map(|c| (c * 255.0).round() as u8)));
+    let after = off(&|k| at(&found.map.bands[0].places[k]));
     println!(
         "{:.2} % of the places are damaged, {:.2} % after mending: {warning}",
         100.0 * before,
         100.0 * after
     );
-    assert!(before > 0.08 && after < 0.4 * before, "{before}, {after}");
+    assert!(within.len() > 9000 && before > 0.05 && after < 0.4 * before, "{before}, {after}");
     // A map that is not antialiased is left as it is, even one full of small facets.
     let (map, _) = shoot([160, 120]).map();
     let colours = rendered(&map, &template, false);

@@ -1,7 +1,7 @@
 //! Makes places of a picture that another renderer made of the template, and finds out what became of it on the way.
 
 use super::codes::Codes;
-use super::mending::{self, Mended};
+use super::mending::{self, MendedPixels};
 use super::{Template, tiles};
 use crate::io::file_error::Fault;
 use crate::optics::{encoded_from_linear, linear_from_encoded};
@@ -20,6 +20,12 @@ const FEWEST: usize = 32;
 
 /// The part of triples across tiles that runs straight in any map. Photographs have less than a thousandth.
 const STRAIGHT: f64 = 0.01;
+
+/// The part of neighbouring triples of a gradient that runs straight in any map. Photographs have less.
+const RUNS: f64 = 0.05;
+
+/// So many pixels of a gradient show more than one place; grey pictures do not.
+const MANY: usize = 256;
 
 /// How much straighter places run if a tone curve is undone before it is taken for the cause.
 const STRAIGHTER: f64 = 1.5;
@@ -142,7 +148,7 @@ fn of_tiles(seen: Seen) -> Result<ForeignPlaces, Fault> {
     }
     let mut codes: Vec<_> = seen.colours.iter().map(|colour| colour.as_ref().map(bytes)).collect();
     let mut at: Vec<DVec2> = codes.iter().map(|code| code.map_or(DVec2::ZERO, tiles::place)).collect();
-    let Mended { borders, edges } = mending::mend(&mut codes, &mut at, seen.width);
+    let MendedPixels { borders, edges } = mending::mend(&mut codes, &mut at, seen.width);
     let mut warnings = vec![];
     if borders > 0 {
         warnings.push(format!(
@@ -179,6 +185,14 @@ fn of_gradient(seen: Seen) -> Result<ForeignPlaces, Fault> {
             shown + dark
         )
         .into());
+    }
+    let near = Straight { step: 1, tolerance: 1.2e-3, least: 1e-4, across_tiles: false };
+    let (found, all) = near.count(&at, seen.width);
+    let is_flat = all < FEWEST && shown > MANY;
+    if is_flat || (all >= FEWEST && (found as f64) < RUNS * all as f64) {
+        return Err("this is no map of the gradient: its places run nowhere straight. Render the gradient unlit and by the \
+                    view transform Raw, or say --coding tiled if it is that template"
+            .into());
     }
     let mut warnings = vec![];
     if beyond > 0 {

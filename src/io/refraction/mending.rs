@@ -25,7 +25,7 @@ const AROUND: [(isize, isize); 4] = [(1, 0), (0, 1), (1, 1), (1, -1)];
 
 /// The number of pixels that were mended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct Mended {
+pub(super) struct MendedPixels {
     /// Pixels on borders of tiles, which lie between their neighbours again.
     pub borders: usize,
     /// Pixels on edges of the picture's surfaces, which took the place of the nearer neighbour.
@@ -50,19 +50,19 @@ struct Picture<'a> {
 }
 
 /// Mends an antialiased map in tiles; leaves a map alone that is not antialiased.
-pub(super) fn mend(codes: &mut [Option<[u8; 3]>], places: &mut [DVec2], width: usize) -> Mended {
+pub(super) fn mend(codes: &mut [Option<[u8; 3]>], places: &mut [DVec2], width: usize) -> MendedPixels {
     let picture = Picture { codes, places, width };
     let borders: Vec<(usize, DVec2)> =
         (0..codes.len()).filter_map(|k| Some((k, picture.on_border(k)?))).collect();
     if borders.is_empty() || (borders.len() as f64) < DAMAGED * picture.crossings() as f64 {
-        return Mended::default();
+        return MendedPixels::default();
     }
     let is_mended: std::collections::HashSet<usize> = borders.iter().map(|(k, _)| *k).collect();
     let edges: Vec<(usize, DVec2)> = (0..codes.len())
         .filter(|k| !is_mended.contains(k))
         .filter_map(|k| Some((k, picture.on_edge(k)?)))
         .collect();
-    let count = Mended { borders: borders.len(), edges: edges.len() };
+    let count = MendedPixels { borders: borders.len(), edges: edges.len() };
     for (k, at) in borders.into_iter().chain(edges) {
         places[k] = at;
         codes[k] = Some(tiles::code(at));
