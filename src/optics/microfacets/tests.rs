@@ -74,7 +74,7 @@ fn a_plate_returns_of_even_light_what_fresnel_returns_on_average() {
             assert!((albedo(0.2) - mean).abs() < 8e-3, "{name} {nm}: {} {mean}", albedo(0.2));
             // Light that is reflected several times is absorbed several times.
             let rough = albedo(1.0);
-            assert!(rough < mean + 4e-3 && rough > mean * mean, "{name} {nm}: {rough} {mean}");
+            assert!(rough < mean + 4e-3 && rough > mean.powi(3), "{name} {nm}: {rough} {mean}");
             assert!(mean > 0.9 || rough < mean - 4e-3, "{name} {nm}: {rough} {mean}");
         }
     }
