@@ -36,13 +36,19 @@ pub(super) fn developed(
     let size = [picture.width, picture.height];
     overlaid(shot, &mut rgba, size, watch)?;
     let image = ColorImage::from_rgba_unmultiplied(size.map(|n| n as usize), &rgba);
-    Ok(TakenPicture { image, unresolved: Some(unresolved), tracer, map: None })
+    Ok(TakenPicture { image, unresolved: Some(unresolved), tracer, coarser: 1.0, map: None })
 }
 
 /// Returns a map as a view receives it: developed, with a picture of the codes of its places.
 pub(super) fn map_taken(shot: &Shot, map: RefractionMap) -> TakenPicture {
     let map = map.developed(&Develop { exposure: shot.exposure, bloom: None, ..Develop::default() });
-    TakenPicture { image: codes(&map), unresolved: None, tracer: "point rays", map: Some(Arc::new(map)) }
+    TakenPicture {
+        image: codes(&map),
+        unresolved: None,
+        tracer: "point rays",
+        coarser: 1.0,
+        map: Some(Arc::new(map)),
+    }
 }
 
 /// Returns a picture of the codes of a map's middle band.

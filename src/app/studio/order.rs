@@ -191,6 +191,8 @@ pub struct TakenPicture {
     pub unresolved: Option<f64>,
     /// The name of the tracer.
     pub tracer: &'static str,
+    /// How many times larger than the picture's own pixels those are in which its light was traced, from 1.
+    pub coarser: f64,
     /// The refraction map whose codes the picture shows, for backgrounds to be looked up in.
     pub map: Option<Arc<RefractionMap>>,
 }

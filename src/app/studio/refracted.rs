@@ -55,7 +55,13 @@ impl ShotTracer {
         let job = shot.pane_job(behind.picture(), size, samples > 1, samples);
         let rendered = run(&mut self.renderer, &job, watch)?;
         let tracer = rendered.backend.kind();
-        Ok(TakenPicture { image: as_screens(&rendered.pane()?.0), unresolved: None, tracer, map: None })
+        Ok(TakenPicture {
+            image: as_screens(&rendered.pane()?.0),
+            unresolved: None,
+            tracer,
+            coarser: 1.0,
+            map: None,
+        })
     }
 }
 

@@ -64,7 +64,9 @@ impl ShotTracer {
                 let light = TracedLight::Render { picture: picture.clone(), unresolved, tracer };
                 kept.insert(slot, (shot.clone(), light));
             }
-            each(developed(shot, (picture, effort.is_refined()), (unresolved, tracer), watch)?);
+            let coarser = f64::from(picture.width) / f64::from(job.film.size[0]);
+            let taken = developed(shot, (picture, effort.is_refined()), (unresolved, tracer), watch)?;
+            each(TakenPicture { coarser, ..taken });
             Ok::<_, Failure>(())
         })?;
         Ok(())

@@ -114,7 +114,7 @@ impl ShotTracer {
                 ColorImage::from_rgba_unmultiplied(side, &rgba)
             }
         };
-        Ok(TakenPicture { image, unresolved, tracer, map: None })
+        Ok(TakenPicture { image, unresolved, tracer, coarser: 1.0, map: None })
     }
 }
 
@@ -131,7 +131,7 @@ fn drawing(shot: &Shot) -> Result<TakenPicture, Failure> {
     let (width, height, rgba) =
         rasterize_within(&text, shot.film.size).map_err(|e| Failure::Input(e.to_string()))?;
     let image = ColorImage::from_rgba_unmultiplied([width as usize, height as usize], &rgba);
-    Ok(TakenPicture { image, unresolved: None, tracer: "drawn", map: None })
+    Ok(TakenPicture { image, unresolved: None, tracer: "drawn", coarser: 1.0, map: None })
 }
 
 #[cfg(test)]

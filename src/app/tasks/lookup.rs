@@ -89,7 +89,7 @@ impl Backgrounds {
                 (self.liquid_glass(&glass, &request.behind, size)?, "arithmetic")
             }
         };
-        Ok(TakenPicture { image: as_screens(&picture), unresolved: None, tracer, map: None })
+        Ok(TakenPicture { image: as_screens(&picture), unresolved: None, tracer, coarser: 1.0, map: None })
     }
 
     /// Draws a pane of liquid glass. What a change leaves as it was is not computed again: where the light alone moves,

@@ -44,7 +44,9 @@ impl Gallery {
 
     /// Returns how many times larger than the film's pixels those of the coarsest picture are; 1 where there is none.
     pub fn coarsest(&self) -> f64 {
-        let times = |shown: &Shown| f64::from(shown.shot.film.size[0]) / shown.texture.size()[0] as f64;
+        let times = |shown: &Shown| {
+            f64::from(shown.shot.film.size[0]) / shown.texture.size()[0] as f64 * shown.taken.coarser
+        };
         self.traced.values().map(times).fold(1.0, f64::max)
     }
 
@@ -97,7 +99,7 @@ mod tests {
             |model: &Model| ViewTools::default().orders(model).shot(1, Which::Present, [64, 32]).unwrap();
         let come = |gallery: &mut Gallery, model: &Model, shot: &Shot| {
             let image = ColorImage::filled([2, 1], Color32::BLACK);
-            let taken = TakenPicture { image, unresolved: None, tracer: "", map: None };
+            let taken = TakenPicture { image, unresolved: None, tracer: "", coarser: 1.0, map: None };
             hang(&ctx, &mut gallery.traced, slot, (shot.clone(), Grade::Rough, taken));
             gallery.tidy(model);
             gallery.shown(model, slot).is_some()

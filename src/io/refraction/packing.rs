@@ -238,7 +238,8 @@ mod tests {
             let nm = 400.0 + f64::from(number);
             // Straight lines on many facets, which the wavelength shifts.
             let place = |k: u32| {
-                let facet = f64::from((k / 7) * 7919 % 97) / 200.0;
+                // Facets of seven pixels, each of which shows another place.
+                let facet = f64::from((k / 7).wrapping_mul(0x9e37_79b1) >> 20) / 8192.0;
                 let shift = f64::from(number * number) * 2e-4 * (1.0 + facet);
                 let at = facet + f64::from(k % 120) / 400.0 + shift;
                 SourcePlace { u: at as f32, v: (at * 0.7) as f32, weight: 0.5 }

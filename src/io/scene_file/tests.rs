@@ -116,7 +116,7 @@ fn what_is_wrong_with_a_scene_is_told_with_line_and_key() {
         assert_refused(&with(TRILOGY, part, other), message);
     }
     for (lines, message) in [
-        ("background = \"pages\"", "x.toml:3: background: background 'pages': give"),
+        ("background = \"pages\"", "x.toml:3: background: background 'pages' (did you mean 'page'?): give"),
         ("background = \"none.png\"", "x.toml:3: background: none.png: there is no such file"),
         (
             "background = 3",
