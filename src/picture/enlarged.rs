@@ -3,9 +3,9 @@
 
 use super::Linear;
 use crate::scene::Film;
-use crate::trace::ray::SceneProbe;
+use crate::trace::ray::FirstBodies;
 use crate::trace::sampling::{LitScene, colour};
-use glam::{DMat2, DVec2, DVec3, IVec2};
+use glam::{DAffine2, DMat2, DVec2, DVec3, IVec2};
 use rayon::prelude::*;
 
 /// Which body is seen at a point, by its index in the scene; `None` beside all bodies.
@@ -17,6 +17,19 @@ struct RoughPicture<'a> {
     /// The places of its rays in its pixels, 0 to 1.
     shift: DVec2,
     bodies: Vec<SeenBody>,
+    /// For each pixel, what it and the fifteen pixels from one before it to two after it both ways show, where they show the
+    /// same.
+    agreed: Vec<Option<SeenBody>>,
+}
+
+/// A picture that is being enlarged.
+struct Enlargement<'a> {
+    rough: RoughPicture<'a>,
+    /// From the pixels of the large picture to those of the rough one.
+    rough_from_fine: DAffine2,
+    lit_scene: LitScene<'a>,
+    first: FirstBodies<'a>,
+    white: &'a [DVec3; 4],
 }
 
 /// Returns a rough picture with as many pixels as the film of `lit_scene`, which shows the same. `rough_film` is the film of
@@ -32,43 +45,49 @@ pub fn enlarged(
     lit_scene: &LitScene,
     white: &[DVec3; 4],
 ) -> Linear {
-    let probe = SceneProbe::new(lit_scene);
     let film = lit_scene.film;
-    let fine_from_image = film.pixels_from_image(DMat2::IDENTITY);
-    let rough_from_image = rough_film.pixels_from_image(DMat2::IDENTITY);
-    let body_at = |at: DVec2| probe.through(at.x, at.y).map(|seen| seen.stone as u32);
-    let (across, count) = (rough.width.max(1) as usize, rough.pixels.len());
-    let of_rough = |k: usize| {
-        let at = DVec2::new((k % across) as f64, (k / across) as f64) + shift;
-        body_at(fine_from_image.transform_point2(rough_film.image_from_pixels(at)))
-    };
-    let bodies = (0..count).into_par_iter().map(of_rough).collect();
-    let rough = RoughPicture { picture: rough, shift, bodies };
-    let pixel = |x: u32, y: u32| {
-        let at = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
-        let around = rough.around(rough_from_image.transform_point2(film.image_from_pixels(at)));
-        let body = around.agreed.unwrap_or_else(|| body_at(at));
-        match body {
-            Some(body) => rough.light(&around, body),
-            None => backdrop(lit_scene, &probe, at, white),
-        }
-    };
+    let first = FirstBodies::new(lit_scene);
+    let rough_from_fine =
+        rough_film.pixels_from_image(DMat2::IDENTITY) * film.pixels_from_image(DMat2::IDENTITY).inverse();
+    let fine_from_rough = rough_from_fine.inverse();
+    let across = rough.width.max(1) as usize;
+    let place = |k: usize| DVec2::new((k % across) as f64, (k / across) as f64);
+    let points: Vec<DVec2> =
+        (0..rough.pixels.len()).map(|k| fine_from_rough.transform_point2(place(k) + shift)).collect();
+    let rough = RoughPicture::new(rough, shift, first.at(&points));
+    let enlargement = Enlargement { rough, rough_from_fine, lit_scene: *lit_scene, first, white };
     let [width, height] = film.size;
-    let pixels = (0..height)
-        .into_par_iter()
-        .flat_map_iter(|y| (0..width).map(move |x| (x, y)).map(|(x, y)| pixel(x, y)).collect::<Vec<_>>())
-        .collect();
+    let pixels = (0..height).into_par_iter().flat_map_iter(|y| enlargement.row(y)).collect();
     Linear { width, height, pixels }
 }
 
-/// Returns what is seen behind all bodies at a point of the picture, in pixels.
-fn backdrop(lit_scene: &LitScene, probe: &SceneProbe, at: DVec2, white: &[DVec3; 4]) -> [f32; 4] {
-    if !lit_scene.environment.backdrop {
-        return [0.0; 4];
+impl Enlargement<'_> {
+    /// Returns a row of the large picture.
+    fn row(&self, y: u32) -> Vec<[f32; 4]> {
+        let middle = |x: u32| DVec2::new(f64::from(x), f64::from(y)) + 0.5;
+        let arounds: Vec<Around> = (0..self.lit_scene.film.size[0])
+            .map(|x| self.rough.around(self.rough_from_fine.transform_point2(middle(x))))
+            .collect();
+        let in_doubt = (0..).zip(&arounds).filter(|(_, around)| around.agreed.is_none());
+        let points: Vec<DVec2> = in_doubt.map(|(x, _)| middle(x)).collect();
+        let mut seen = self.first.at(&points).into_iter();
+        let pixel = |(x, around): (u32, &Around)| match around.agreed.or_else(|| seen.next()).flatten() {
+            Some(body) => self.rough.light(around, body),
+            None => self.backdrop(middle(x)),
+        };
+        (0..).zip(&arounds).map(pixel).collect()
     }
-    let (origin, direction) = probe.camera.ray(lit_scene.film.image_from_pixels(at));
-    let light = colour(white, lit_scene.environment.radiance(origin, direction, DVec3::ZERO)).as_vec3();
-    [light.x, light.y, light.z, 1.0]
+
+    /// Returns what is seen behind all bodies at a point of the picture, in pixels.
+    fn backdrop(&self, at: DVec2) -> [f32; 4] {
+        let environment = &self.lit_scene.environment;
+        if !environment.backdrop {
+            return [0.0; 4];
+        }
+        let (origin, direction) = self.first.camera.ray(self.lit_scene.film.image_from_pixels(at));
+        let light = colour(self.white, environment.radiance(origin, direction, DVec3::ZERO)).as_vec3();
+        [light.x, light.y, light.z, 1.0]
+    }
 }
 
 /// The four rough pixels around a point.
@@ -79,7 +98,15 @@ struct Around {
     agreed: Option<SeenBody>,
 }
 
-impl RoughPicture<'_> {
+impl<'a> RoughPicture<'a> {
+    fn new(picture: &'a Linear, shift: DVec2, bodies: Vec<SeenBody>) -> Self {
+        let mut rough = Self { picture, shift, bodies, agreed: vec![] };
+        let width = picture.width.max(1) as i32;
+        let corner = |k: usize| IVec2::new(k as i32 % width, k as i32 / width);
+        rough.agreed = (0..rough.bodies.len()).map(|k| rough.agreed_from(corner(k))).collect();
+        rough
+    }
+
     /// Returns the rough pixels whose rays lie around a point, which is given in rough pixels.
     fn around(&self, at: DVec2) -> Around {
         let from_ray = at - self.shift;
@@ -87,23 +114,24 @@ impl RoughPicture<'_> {
         let part = (from_ray - corner).as_vec2();
         let corner = corner.as_ivec2();
         let steps = [IVec2::ZERO, IVec2::X, IVec2::Y, IVec2::ONE];
-        let shares = [
-            (1.0 - part.x) * (1.0 - part.y),
-            part.x * (1.0 - part.y),
-            (1.0 - part.x) * part.y,
-            part.x * part.y,
-        ];
+        let [left, up] = [1.0 - part.x, 1.0 - part.y];
+        let shares = [left * up, part.x * up, left * part.y, part.x * part.y];
         let pixels = [0, 1, 2, 3].map(|k| (self.number(corner + steps[k]), shares[k]));
-        Around { pixels, agreed: self.agreed(corner) }
+        Around { pixels, agreed: pixels[0].0.and_then(|k| self.agreed[k]) }
     }
 
-    /// Returns the body that the sixteen rough pixels around a point show, if they show the same; `corner` is the upper left of the
-    /// middle four.
-    fn agreed(&self, corner: IVec2) -> Option<SeenBody> {
+    /// Returns the body that the sixteen pixels around the middle of four show, if they show the same; `corner` is the upper
+    /// left of the four.
+    fn agreed_from(&self, corner: IVec2) -> Option<SeenBody> {
         let first = self.bodies[self.number(corner)?];
-        let own = (-1..=2).flat_map(|y| (-1..=2).map(move |x| corner + IVec2::new(x, y)));
-        let mut own = own.map(|at| self.number(at).map(|k| self.bodies[k]));
-        own.all(|body| body == Some(first)).then_some(first)
+        for y in -1..=2 {
+            for x in -1..=2 {
+                if self.bodies[self.number(corner + IVec2::new(x, y))?] != first {
+                    return None;
+                }
+            }
+        }
+        Some(first)
     }
 
     /// Returns the number of a pixel; `None` beside the picture.
@@ -116,21 +144,26 @@ impl RoughPicture<'_> {
     /// Returns the light of a body at a point: of the rough pixels around it that show the body or, where none of these does, of
     /// all around it that show any.
     fn light(&self, around: &Around, body: u32) -> [f32; 4] {
-        let mean = |is_taken: &dyn Fn(SeenBody) -> bool| {
-            let (mut sum, mut all) = ([0.0; 4], 0.0);
-            for (number, share) in around.pixels {
-                let Some(k) = number.filter(|k| is_taken(self.bodies[*k])) else { continue };
-                // Pixels that the point almost touches count even where their share is 0.
-                let share = share + 1e-4;
-                all += share;
-                sum.iter_mut().zip(self.picture.pixels[k]).for_each(|(sum, light)| *sum += share * light);
-            }
-            (all > 0.0).then(|| sum.map(|channel| channel / all))
-        };
-        let [red, green, blue, _] = mean(&|seen| seen == Some(body))
-            .or_else(|| mean(&|seen| seen.is_some()))
-            .or_else(|| mean(&|_| true))
+        let [red, green, blue, cover] = self
+            .mean(around, |seen| seen == Some(body))
+            .or_else(|| self.mean(around, |seen| seen.is_some()))
+            .or_else(|| self.mean(around, |_| true))
             .unwrap_or([0.0; 4]);
-        [red, green, blue, 1.0]
+        // Blends of several pictures may cover a pixel in part; the body covers all of it.
+        let per = if cover > 0.0 { 1.0 / cover } else { 0.0 };
+        [red * per, green * per, blue * per, 1.0]
+    }
+
+    /// Returns the mean of those rough pixels around a point whose body is taken; `None` where none is.
+    fn mean(&self, around: &Around, is_taken: impl Fn(SeenBody) -> bool) -> Option<[f32; 4]> {
+        let (mut sum, mut all) = ([0.0; 4], 0.0);
+        for (number, share) in around.pixels {
+            let Some(k) = number.filter(|k| is_taken(self.bodies[*k])) else { continue };
+            // Pixels that the point almost touches count even where their share is 0.
+            let share = share + 1e-4;
+            all += share;
+            sum.iter_mut().zip(self.picture.pixels[k]).for_each(|(sum, light)| *sum += share * light);
+        }
+        (all > 0.0).then(|| sum.map(|channel| channel / all))
     }
 }

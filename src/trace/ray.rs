@@ -8,6 +8,7 @@
 mod camera;
 mod dispersed_ray;
 mod facets;
+mod first_bodies;
 mod instance_tracer;
 mod light;
 mod lobe_luck;
@@ -23,6 +24,7 @@ mod tree;
 pub use self::camera::Camera;
 use self::dispersed_ray::{Arrival, DispersedRay};
 use self::facets::{FacetSearch, Planes, SmoothFacets, SolidFacets, TriangleFacets, Wavy};
+pub use self::first_bodies::FirstBodies;
 pub use self::instance_tracer::InstanceTracer;
 pub(in crate::trace) use self::light::PathLight;
 use self::light::SplitLight;

@@ -56,8 +56,8 @@ pub struct Sampling {
     /// physics.
     pub strength: f64,
     /// The share of a ray's light below which light goes on by chance alone, counting for more where it does; 0 where all light
-    /// is followed. Packets heed this, and single rays in double precision in solids that are not convex; graphics cards
-    /// follow all light.
+    /// is followed. Packets heed this, and single rays in double precision in solids that are not convex, and between bodies
+    /// and metal; graphics cards follow all light.
     pub by_chance: f64,
 }
 

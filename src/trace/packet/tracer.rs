@@ -22,6 +22,9 @@ pub(in crate::trace) struct PacketTracer<'a> {
 /// would enter once more is unresolved.
 const MOST_PASSAGES: usize = 1000;
 
+/// A bit that no number of an exit has: it marks the number that decides whether weak light enters another body.
+const ENTERS: u64 = 1 << 31;
+
 /// A ray from the eye through a pixel.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::trace) struct EyeRay {
@@ -102,16 +105,26 @@ impl<'a> PacketTracer<'a> {
         pixels.add_to(sums);
     }
 
+    /// Returns the number of the body that each ray from the eye meets first; `None` where it meets none.
+    pub fn first_bodies(&self, eye_rays: &[EyeRay]) -> Vec<Option<u32>> {
+        let first = self.first_from_eye(eye_rays);
+        first.into_iter().map(|hit| hit.map(|hit| hit.body as u32)).collect()
+    }
+
+    fn first_from_eye(&self, eye_rays: &[EyeRay]) -> Vec<Option<FirstHit>> {
+        let rays: Vec<SingleRay> = (0..).zip(eye_rays).map(|(tag, ray)| eye_ray(ray, tag)).collect();
+        let seen = |instance: &PacketInstance, _, place: usize| {
+            let EyeRay { origin, direction, .. } = eye_rays[place];
+            instance.seen(&rays[place], (origin, direction))
+        };
+        self.first(rays.len(), seen)
+    }
+
     /// Returns, body by body, the rays that enter it straight from the eye.
     fn seen_first(&self, pixels: &mut Pixels) -> Vec<Vec<EnteringRay>> {
         let mut queues = vec![vec![]; self.instances.len()];
         let bands = pixels.pass.responses.len();
-        let rays: Vec<SingleRay> = (0..).zip(pixels.eye_rays).map(|(tag, ray)| eye_ray(ray, tag)).collect();
-        let seen = |instance: &PacketInstance, _, place: usize| {
-            let EyeRay { origin, direction, .. } = pixels.eye_rays[place];
-            instance.seen(&rays[place], (origin, direction))
-        };
-        let first = self.first(rays.len(), seen);
+        let first = self.first_from_eye(pixels.eye_rays);
         for (pixel, first) in first.into_iter().enumerate() {
             let backdrop = self.lit_scene.environment.backdrop;
             if first.is_some() || backdrop {
@@ -189,8 +202,9 @@ impl<'a> PacketTracer<'a> {
         }
         // The glare of rays from the eye comes first, band by band, and goes the same way in all bands.
         let (glare, rest) = leaving.split_at(queue.len());
-        let rest = [self.shared(from, glare, pixels), rest.to_vec()].concat();
-        self.go_on(from, &rest, pixels, next);
+        let meets = self.shared(from, glare, pixels);
+        self.go_on(from, &meets, pixels, next);
+        self.go_on(from, rest, pixels, next);
     }
 
     /// Adds the light of the first glare of pixels, looked up once for all bands of each, and returns what meets another body.
@@ -231,7 +245,8 @@ impl<'a> PacketTracer<'a> {
         pixels: &mut Pixels,
         next: &mut [Vec<EnteringRay>],
     ) {
-        let bands = pixels.pass.responses.len();
+        let (bands, options) = (pixels.pass.responses.len(), self.lit_scene.options);
+        let threshold = pixels.threshold(options);
         let mut to_look_up: Vec<LookUpRay> = Vec::with_capacity(leaving.len());
         let onward = |instance: &PacketInstance, other, place: usize| {
             let ray = &leaving[place];
@@ -241,18 +256,26 @@ impl<'a> PacketTracer<'a> {
             let (tag, weight) = (ray.tag as usize, ray.light.weight());
             match first {
                 None => to_look_up.push(LookUpRay::of(ray, weight, ray.tag)),
-                Some(FirstHit { body: then, mut ray, met, .. })
-                    if f64::from(weight) > self.lit_scene.options.least_weight =>
-                {
+                Some(FirstHit { body: then, mut ray, met, .. }) => {
                     // Exits of one ray differ in the number of bounces before them.
-                    let luck = pixels.luck(ray.tag, from.passage << 32 | u64::from(ray.travelled.bounces));
+                    let exit = from.passage << 32 | u64::from(ray.travelled.bounces);
+                    if threshold <= 0.0 && f64::from(weight) <= options.least_weight {
+                        pixels.lit[tag / bands].unresolved += f64::from(weight);
+                        continue;
+                    }
+                    if weight < threshold {
+                        if pixels.luck(ray.tag, exit | ENTERS) * threshold >= weight {
+                            continue;
+                        }
+                        ray.light = ray.light.times(threshold / weight);
+                    }
+                    let luck = pixels.luck(ray.tag, exit);
                     if then != from.body {
                         ray.travelled = Travelled::NONE;
                     }
                     let medium = pixels.media[then][tag % bands];
                     next[then].push(EnteringRay { ray, met, medium, luck });
                 }
-                Some(_) => pixels.lit[tag / bands].unresolved += f64::from(weight),
             }
         }
         let strength = pixels.pass.strength;

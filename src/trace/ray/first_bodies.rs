@@ -1,0 +1,44 @@
+//! Which body is seen first at many points of a picture.
+
+use super::sight::SceneProbe;
+use crate::trace::packet::{EyeRay, PacketTracer};
+use crate::trace::ray::Camera;
+use crate::trace::sampling::LitScene;
+use glam::DVec2;
+use rayon::prelude::*;
+
+/// How many points are looked at together.
+const AT_ONCE: usize = 1024;
+
+/// Finds the bodies that are seen first: by packets where these can be followed, else by single rays.
+pub struct FirstBodies<'a> {
+    lit_scene: LitScene<'a>,
+    /// The camera of the picture.
+    pub camera: Camera,
+    packets: Option<PacketTracer<'a>>,
+    probe: SceneProbe<'a>,
+}
+
+impl<'a> FirstBodies<'a> {
+    /// Prepares the bodies of a scene.
+    pub fn new(lit_scene: &LitScene<'a>) -> Self {
+        let probe = SceneProbe::new(lit_scene);
+        Self { lit_scene: *lit_scene, camera: probe.camera, packets: PacketTracer::new(*lit_scene), probe }
+    }
+
+    /// Returns the index of the body that is seen first at each point, `None` where none is. Points are in pixels to the right of
+    /// the picture's left border and below its upper one.
+    pub fn at(&self, points: &[DVec2]) -> Vec<Option<u32>> {
+        let Some(packets) = &self.packets else {
+            let single = |at: &DVec2| self.probe.through(at.x, at.y).map(|seen| seen.stone as u32);
+            return points.par_iter().map(single).collect();
+        };
+        let eye_ray = |at: &DVec2| {
+            let (origin, direction) = self.camera.ray(self.lit_scene.film.image_from_pixels(*at));
+            EyeRay { pixel: [0; 2], origin, direction }
+        };
+        let together =
+            |points: &[DVec2]| packets.first_bodies(&points.iter().map(eye_ray).collect::<Vec<_>>());
+        points.par_chunks(AT_ONCE).flat_map_iter(together).collect()
+    }
+}
