@@ -127,7 +127,9 @@ fn the_template_through_another_renderer_is_the_programs_own_map() {
         for (own, found) in map.bands[0].places.iter().zip(&found.map.bands[0].places) {
             if is_gradient && own.weight > 0.25 {
                 let far = (own.u - found.u).abs().max((own.v - found.v).abs());
-                assert!(f64::from(far) <= 0.5 / f64::from(SIDE) + 2e-5, "weight {}: {far}", own.weight);
+                // Red and blue are rounded by half a code each, which counts the more the darker the pixel is.
+                let rounding = 1.1 / (65_535.0 * f64::from(own.weight));
+                assert!(f64::from(far) <= 0.5 / f64::from(SIDE) + rounding, "weight {}: {far}", own.weight);
             }
             let weight = if is_gradient { own.weight } else { f32::from(u8::from(own.weight > 0.0)) };
             // The gradient loses places that are nearly dark.
