@@ -58,8 +58,8 @@ impl Pace {
         let next = (self.0 + 1).min(STEPS.len() - 1);
         let has_blocks = |step: usize| STEPS[step].grain_of_rays.coarser > HARDLY_SEEN;
         let longest = if has_blocks(next) { SLOWEST } else { GOAL };
-        // From one step with blocks to the next, the number of pixels is no more than halved.
-        let shortest = if has_blocks(self.0) { SLOWEST / 2 } else { GOAL / 3 };
+        // From one step with blocks to the next there are less than twice as many pixels, and a part of the time is the same.
+        let shortest = if has_blocks(self.0) { SLOWEST * 2 / 3 } else { GOAL / 3 };
         if took > longest {
             self.0 = next;
         } else if took < shortest {
@@ -79,9 +79,9 @@ mod tests {
         assert_eq!(pace.effort(), STEPS[5], "no blocks where ten pictures a second come without");
         (0..12).for_each(|_| pace.learn(2 * SLOWEST));
         assert_eq!(pace.effort(), STEPS[9]);
-        pace.learn(SLOWEST - GOAL);
+        pace.learn(SLOWEST - GOAL / 2);
         assert_eq!(pace.effort(), STEPS[9]);
-        (0..12).for_each(|_| pace.learn(SLOWEST / 2 - GOAL / 10));
+        (0..12).for_each(|_| pace.learn(SLOWEST * 2 / 3 - GOAL / 10));
         assert_eq!(pace.effort(), STEPS[5]);
         (0..12).for_each(|_| pace.learn(GOAL / 4));
         assert_eq!(pace.effort(), STEPS[0]);
