@@ -311,6 +311,28 @@ fn metal_that_two_parts_share_is_weighed_once() {
 }
 
 #[test]
+fn metal_as_long_as_a_metre_is_weighed_row_by_row() {
+    // A rod across the box: lines over the whole box would take many gigabytes.
+    let span = DVec3::new(1000.0, 3.0, 1000.0);
+    let sides = [DVec3::Y, DVec3::new(1.0, 0.0, -1.0)].map(|side| side.normalize_or_zero());
+    let corner = |k: usize| {
+        let signs = [k & 1, k >> 1 & 1].map(|bit| bit as f64 - 0.5);
+        sides[0] * signs[0] + sides[1] * signs[1] + if k > 3 { span } else { DVec3::ZERO }
+    };
+    let points: Vec<DVec3> = (0..8).map(corner).collect();
+    let faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    let triangles: Vec<[u32; 3]> = faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+    let mut surface = ShadedSurface::creased(&points, &triangles, 0.5);
+    if surface.volume() < 0.0 {
+        surface.corners.iter_mut().for_each(|t| t.reverse());
+    }
+    assert_eq!(open(&surface), None);
+    let volume = surface.volume();
+    let mounting = Mounting { metal: vec![MetalPart { name: "rod", surface }], ..Mounting::default() };
+    assert!((mounting.volume_mm3() / volume - 1.0).abs() < 1e-3, "{} {volume}", mounting.volume_mm3());
+}
+
+#[test]
 fn impossible_rings_are_errors_that_name_the_number_and_say_by_how_much() {
     let refused = |ring: &Ring, shape: &Polytope, mm: f64| made(ring, shape, mm).unwrap_err().to_string();
     let stone = brilliant();
