@@ -171,7 +171,7 @@ impl PreparedPane {
 }
 
 /// Lays a colour with this cover over a pixel, premultiplied.
-fn laid(pixel: &mut [f32; 4], [r, g, b]: [f32; 3], cover: f32) {
+pub(super) fn laid(pixel: &mut [f32; 4], [r, g, b]: [f32; 3], cover: f32) {
     // Written as a sum, so that a colour over its own stays the same to the bit.
     pixel.iter_mut().zip([r, g, b, 1.0]).for_each(|(own, new)| *own += (new - *own) * cover);
 }
