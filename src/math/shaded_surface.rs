@@ -94,12 +94,13 @@ fn welded(points: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<DVec3>, Vec<[u32; 3]
     (kept, triangles)
 }
 
-/// Divides the triangles around a point into groups that no crease separates.
+/// Divides the triangles around a point into groups that no crease separates. Those without area join none, because they face
+/// nowhere and would join any two.
 fn smooth_groups(fan: &[usize], triangles: &[[u32; 3]], areas: &[DVec3], least_cos: f64) -> Vec<Vec<usize>> {
     let go_on = |a: usize, b: usize| {
         let shared = triangles[a].iter().filter(|corner| triangles[b].contains(corner)).count();
         let (x, y) = (areas[a], areas[b]);
-        shared > 1 && x.dot(y) >= least_cos * x.length() * y.length()
+        shared > 1 && x != DVec3::ZERO && y != DVec3::ZERO && x.dot(y) >= least_cos * x.length() * y.length()
     };
     let mut left = fan.to_vec();
     let mut groups = vec![];
@@ -149,6 +150,19 @@ mod tests {
         let pose =
             Pose { at: DVec3::X * 100.0, scale: 2.0, ..Pose::turned(glam::DQuat::from_rotation_x(1.0)) };
         assert!((creased.placed(&pose).volume() - 64.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_triangle_without_area_joins_no_faces_across_a_crease() {
+        // Two faces of a right angle, whose edge is cut once on one side: the sliver lies between them.
+        let points = [DVec3::ZERO, DVec3::X * 2.0, DVec3::X, DVec3::Y, DVec3::Z];
+        let triangles = [[0, 1, 3], [0, 2, 1], [0, 4, 2], [2, 4, 1]];
+        let surface = ShadedSurface::creased(&points, &triangles, 0.5);
+        for (number, axis) in [(0, DVec3::Z), (2, DVec3::Y), (3, DVec3::Y)] {
+            for corner in surface.corners[number] {
+                assert_eq!(surface.normals[corner as usize].abs(), axis, "triangle {number}");
+            }
+        }
     }
 
     #[test]

@@ -15,7 +15,7 @@
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
-/// A metal of which settings are made.
+/// A metal of which mountings are made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Metal {
     /// Pure gold.

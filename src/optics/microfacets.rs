@@ -13,8 +13,9 @@
 use super::metal::metal_reflectance;
 use glam::DVec3;
 use num_complex::Complex64;
+use std::collections::VecDeque;
 use std::f64::consts::{FRAC_1_PI, TAU};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The roughness below which a surface is a mirror: its reflections are spread over less than 1/500 degree.
 const MIRROR: f64 = 0.004;
@@ -24,6 +25,9 @@ const STEPS: usize = 64;
 
 /// The number of slopes along both axes, over which a value of that table is averaged.
 const SLOPES: usize = 64;
+
+/// The most surfaces that are kept for the next picture; each has about a hundred numbers.
+const MOST_KEPT: usize = 64;
 
 /// The number of angles over which reflectances are averaged.
 const ANGLES: usize = 32;
@@ -76,6 +80,22 @@ impl Roughness {
         surface
     }
 
+    /// Returns the surface of this roughness, which all threads share: it takes a quarter of a million evaluations, and pictures
+    /// are traced in many strips and passes. The last few are kept.
+    pub fn shared(roughness: f64) -> Arc<Self> {
+        static KEPT: Mutex<VecDeque<(u64, Arc<Roughness>)>> = Mutex::new(VecDeque::new());
+        let bits = roughness.to_bits();
+        // Surfaces are whole before they are kept, so a thread that has panicked leaves none that is wrong.
+        let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, surface)) = kept.iter().find(|(own, _)| *own == bits) {
+            return Arc::clone(surface);
+        }
+        let surface = Arc::new(Self::new(roughness));
+        kept.truncate(MOST_KEPT - 1);
+        kept.push_front((bits, Arc::clone(&surface)));
+        surface
+    }
+
     /// Returns the share of light that leaves at the first reflection, towards this cosine.
     fn once(&self, cos: f64) -> f64 {
         let at = cos.clamp(0.0, 1.0).sqrt() * STEPS as f64;
@@ -90,8 +110,8 @@ impl Roughness {
         (0..8).map(part).sum::<f64>() / 8.0
     }
 
-    /// Draws a direction of light that is reflected several times: by its cosine, and by how much is lost there at the first
-    /// reflection. Returns the factor too by which this is not exact.
+    /// Draws a direction of light that has met several microscopic mirrors, by two numbers from 0 to below 1. The density is
+    /// that of a table, whose steps are even; returned with the direction is the exact density divided by the table's.
     fn several_times(&self, [u, v]: [f64; 2]) -> (DVec3, f64) {
         let mut left = u * (1.0 - self.once_mean);
         let mut step = 0;

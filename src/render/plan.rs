@@ -67,9 +67,9 @@ pub enum Unfit {
     /// The stone is not convex or has no flat facets.
     #[error(transparent)]
     NotConvex(#[from] NotConvex),
-    /// The scene holds metal, which exact beams and refraction maps know nothing of.
+    /// The scene holds metal, which exact beams, scopes, figures and refraction maps know nothing of.
     #[error(
-        "only rays in pictures under light reflect metal: trace by rays, and make no refraction map of it"
+        "only rays in pictures under light reflect metal: trace by rays, and make no scope, figures or refraction map of it"
     )]
     Metal,
     /// There are several bodies, a body that is not convex, a perspective, or a backplate.
@@ -103,12 +103,17 @@ impl Demands {
     /// Returns the demands of a job.
     ///
     /// # Errors
-    /// [`Unfit::NoStone`] and [`Unfit::Eye`] where a scope or figures have no stone, or an eye that cannot see it.
+    /// [`Unfit::NoStone`] and [`Unfit::Eye`] where a scope or figures have no stone, or an eye that cannot see it;
+    /// [`Unfit::Metal`] where metal stands in the scene of anything but a picture under light.
     pub fn of(job: &Job) -> Result<Self, Unfit> {
         match &job.product {
             Product::Light(light) => Ok(Self::of_light(job, light)),
+            Product::Scope(_) | Product::Figures(_) | Product::RefractionMap(_)
+                if !job.scene.metals.is_empty() =>
+            {
+                Err(Unfit::Metal)
+            }
             Product::Scope(_) | Product::Figures(_) => Self::of_scope(job.stone()?, &job.view),
-            Product::RefractionMap(_) if !job.scene.metals.is_empty() => Err(Unfit::Metal),
             Product::RefractionMap(_) | Product::LiquidGlass(_) => {
                 Ok(Self { against_beams: Some(Unfit::ManyPaths), card: CardWorth::Nothing, no_card: None })
             }

@@ -524,3 +524,17 @@ fn metal_is_planned_to_the_processor_with_the_reason_where_a_card_is_wanted() {
     assert_eq!(serde_json::from_str::<Job>(&text).unwrap().scene.metals, job.scene.metals);
     assert!(text.contains("\"Gold\""));
 }
+
+#[test]
+fn scopes_figures_and_maps_refuse_metal_instead_of_leaving_it_out() {
+    let surface = crate::math::ShadedSurface::creased(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]], 0.5);
+    let mesh = Arc::new(crate::math::ShadedMesh::new(surface).unwrap());
+    let plate = crate::scene::MetalInstance::new(&mesh, crate::optics::Metal::Gold);
+    let alone = Scene::alone(&specimen("round_brilliant"));
+    for product in [scope(vec![Reading::Energy]), figures()] {
+        let free = job(alone.clone(), product);
+        assert!(Renderer::default().plan(&free).is_ok());
+        let held = Job { scene: Arc::new(Scene { metals: vec![plate.clone()], ..alone.clone() }), ..free };
+        assert_eq!(Renderer::default().plan(&held).err(), Some(Unfit::Metal));
+    }
+}

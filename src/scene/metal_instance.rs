@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// The roughness of a metal that is polished by hand.
 pub const POLISHED: f64 = 0.1;
 
-/// A body of metal, such as the setting of a stone.
+/// A body of metal, such as the mounting of a stone.
 ///
 /// Its surface reflects on both sides and need not be closed. Metal may touch stones and cut into them: light inside a stone
 /// does not see it there, and light that leaves a stone inside the metal goes to and fro between both until they have

@@ -19,6 +19,10 @@ const EXR: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 /// The most bytes that the decoder of a PNG may ask for besides its pixels.
 const MOST_BYTES: usize = 1 << 26;
 
+/// The most numbers that an OpenEXR may hold, in all its layers and channels, because all are decoded: as many as the
+/// largest map has.
+const MOST_SAMPLES: u64 = 3 * super::MOST_MAP_BANDS as u64 * (MOST_MAP_PIXELS as u64).pow(2);
+
 /// The numbers of a picture.
 pub(super) struct Codes {
     /// The number of pixels across and down.
@@ -62,6 +66,14 @@ fn check(width: u64, height: u64, bytes: u64) -> Result<(), Fault> {
         return Err(format!("{width} by {height} pixels: a map has {most} pixels each way at most").into());
     }
     check_size(width, height, bytes)
+}
+
+/// Returns how many of the numbers that a file may hold are left after a layer.
+fn less_samples(left: u64, pixels: u64, channels: u64) -> Result<u64, Fault> {
+    left.checked_sub(pixels.saturating_mul(channels)).ok_or_else(|| {
+        format!("{pixels} pixels in {channels} channels are too many numbers; save the map's channels alone")
+            .into()
+    })
 }
 
 fn damaged(error: impl std::fmt::Display) -> Fault {
@@ -109,8 +121,11 @@ fn of_png(file: BufReader<File>, bytes: u64) -> Result<Codes, Fault> {
 fn of_exr(mut file: BufReader<File>, bytes: u64) -> Result<Codes, Fault> {
     let meta = MetaData::read_from_buffered(&mut file, false).map_err(damaged)?;
     file.rewind().map_err(damaged)?;
+    let mut left = MOST_SAMPLES;
     for header in &meta.headers {
-        check(header.layer_size.width() as u64, header.layer_size.height() as u64, bytes)?;
+        let [width, height] = [header.layer_size.width(), header.layer_size.height()].map(|side| side as u64);
+        check(width, height, bytes)?;
+        left = less_samples(left, width * height, header.channels.list.len() as u64)?;
     }
     let image = exr::prelude::read()
         .no_deep_data()
@@ -178,4 +193,18 @@ fn channels(layer: &ReadLayer, names: [String; 3], count: usize) -> Option<Vec<[
     };
     let (a, b, c) = (values(&names[0])?, values(&names[1])?, values(&names[2])?);
     Some(a.into_iter().zip(b).zip(c).map(|((a, b), c)| [a, b, c]).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn layers_and_channels_count_together_against_the_most_numbers_of_a_file() {
+        let pixels = u64::from(MOST_MAP_PIXELS).pow(2);
+        let left = less_samples(MOST_SAMPLES, pixels, 47).unwrap();
+        assert_eq!(less_samples(left, pixels, 1).unwrap(), 0);
+        assert!(less_samples(left, pixels, 2).is_err());
+        assert!(less_samples(MOST_SAMPLES, u64::MAX, 1000).is_err());
+    }
 }

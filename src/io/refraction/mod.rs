@@ -56,16 +56,23 @@ pub enum Coding {
     Float,
 }
 
-/// What a file says of a band: its wavelength in nm, and the columns of its response.
+/// What a file says of a band: its wavelength in nm, and the columns of its response. A file of one band says how it lies
+/// among the files of its map too; older ones do not.
 #[derive(Serialize, Deserialize)]
 struct About {
     nm: f64,
     response: [[f64; 3]; 3],
+    /// The number of files of the map, one for each band.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    files: Option<usize>,
+    /// Whether the weights lie below the places.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    weights_below: Option<bool>,
 }
 
 impl About {
     fn of(band: &MapBand) -> Self {
-        Self { nm: band.nm, response: band.response.to_cols_array_2d() }
+        Self { nm: band.nm, response: band.response.to_cols_array_2d(), files: None, weights_below: None }
     }
 
     /// Makes the band of these places.
@@ -152,7 +159,9 @@ fn places_png(
             (BitDepth::Sixteen, parts.flat_map(|part| (code(part, 65_535.0) as u16).to_be_bytes()).collect())
         }
     };
-    let about = serde_json::to_string(&About::of(band)).map_err(io::Error::from)?;
+    let has_weights = coding == Coding::Tiles && map.bands.len() > 1;
+    let about = About { files: Some(map.bands.len()), weights_below: Some(has_weights), ..About::of(band) };
+    let about = serde_json::to_string(&about).map_err(io::Error::from)?;
     let texts = [("Description", description), (ABOUT, &about)];
     png([width, height], (ColorType::Rgb, depth), &data, &texts)
 }

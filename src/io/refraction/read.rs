@@ -45,19 +45,15 @@ pub fn read(
     let Some(first) = pictures.first() else {
         return Err(FileError::new("refraction map", "there is no picture; give at least one"));
     };
-    let read = |path: &PathBuf| codes::read(path).map_err(|f| fault(path, f));
-    let all = pictures.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    let all = all_codes(pictures)?;
     let is_own = all[0].about.is_some();
-    for (path, codes) in pictures.iter().zip(&all) {
-        if codes.size != all[0].size || codes.bits != all[0].bits || codes.about.is_some() != is_own {
-            return Err(fault(
-                path,
-                format!("it is no map of the same kind and size as {}", first.display()).into(),
-            ));
-        }
-    }
-    let has_weights = is_own && all.len() > 1 && all[0].bits == 8;
     let [width, height] = all[0].size;
+    let has_weights = is_own && has_weights_below(pictures, &all)?;
+    if has_weights && !height.is_multiple_of(2) {
+        let problem =
+            format!("{height} rows of pixels are no places with as many weights below; get it again");
+        return Err(fault(first, problem.into()));
+    }
     let size = [width, if has_weights { height / 2 } else { height }];
     let layer = diffuse.map(|path| diffuse_layer(path, size).map_err(|f| fault(path, f))).transpose()?;
     if is_own {
@@ -70,11 +66,61 @@ pub fn read(
             warnings: vec![],
         });
     }
-    if ![1, 3].contains(&all.len()) {
-        let problem = "another renderer's map is one picture, or three for red, green and blue";
-        return Err(fault(first, problem.into()));
-    }
     foreign_map(pictures, &all, layer, template)
+}
+
+/// Reads the pictures of a map. What cannot be a map is refused before more of it is read.
+fn all_codes(pictures: &[PathBuf]) -> Result<Vec<Codes>, FileError> {
+    let mut all: Vec<Codes> = vec![];
+    for path in pictures {
+        let refused = |problem: String| Fault::whole(problem).in_file(path.display());
+        if pictures.len() > MOST_MAP_BANDS as usize {
+            let problem = format!("{} files: a map has {MOST_MAP_BANDS} at most", pictures.len());
+            return Err(refused(problem));
+        }
+        let codes = codes::read(path).map_err(|fault| fault.in_file(path.display()))?;
+        if codes.about.is_none() && ![1, 3].contains(&pictures.len()) {
+            let problem = "another renderer's map is one picture, or three for red, green and blue";
+            return Err(refused(problem.to_owned()));
+        }
+        if codes.is_exr && codes.about.is_some() && pictures.len() > 1 {
+            return Err(refused("this file holds all bands of its map; give it alone".to_owned()));
+        }
+        let is_alike = |first: &Codes| {
+            codes.size == first.size
+                && codes.bits == first.bits
+                && codes.about.is_some() == first.about.is_some()
+        };
+        if !all.first().is_none_or(is_alike) {
+            let first = pictures[0].display();
+            return Err(refused(format!("it is no map of the same kind and size as {first}")));
+        }
+        all.push(codes);
+    }
+    Ok(all)
+}
+
+/// Returns whether the weights of the program's own pictures lie below their places. Where their texts do not say so, they do
+/// in tiles of several bands.
+fn has_weights_below(pictures: &[PathBuf], all: &[Codes]) -> Result<bool, FileError> {
+    let is_tiled = all[0].bits == 8;
+    let usual = is_tiled && all.len() > 1;
+    for (path, codes) in pictures.iter().zip(all).filter(|(_, codes)| !codes.is_exr) {
+        // A text that cannot be read is refused with the bands.
+        let Some(about) = codes.about.as_deref().and_then(|text| serde_json::from_str::<About>(text).ok())
+        else {
+            continue;
+        };
+        let files = about.files.unwrap_or(all.len());
+        if files != all.len() || about.weights_below.unwrap_or(usual) != (is_tiled && files > 1) {
+            let problem = format!(
+                "it is one of {files} files of a map, and {} are given; give all files of one map",
+                all.len()
+            );
+            return Err(Fault::whole(problem).in_file(path.display()));
+        }
+    }
+    Ok(usual)
 }
 
 /// Makes the map of foreign pictures.

@@ -139,3 +139,25 @@ fn maps_that_lack_pixels_are_not_written() {
     );
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
+
+#[test]
+fn files_that_are_not_all_of_one_map_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = |pictures: &[PathBuf]| read(pictures, None, None).map(|_| ()).unwrap_err().to_string();
+    for coding in [Coding::Tiles, Coding::Sixteen] {
+        let [one, other, three] = [("a", 1), ("b", 1), ("c", 3)].map(|(stem, bands)| {
+            let paths = paths(folder.path(), stem, bands, coding);
+            write_places(&paths, &map(bands), coding, "a test").unwrap();
+            paths
+        });
+        assert_eq!(read(&three, None, None).unwrap().map.size, [61, 37]);
+        assert_eq!(read(&one, None, None).unwrap().map.size, [61, 37]);
+        assert!(text(&three[..1]).contains("one of 3 files of a map, and 1 are given"));
+        assert!(text(&three[..2]).contains("one of 3 files of a map, and 2 are given"));
+        let both = [one[0].clone(), other[0].clone()];
+        assert!(text(&both).contains("one of 1 files of a map, and 2 are given"));
+    }
+    // Too many files are refused before any is read.
+    let missing = vec![folder.path().join("missing.png"); 17];
+    assert!(text(&missing).contains("17 files: a map has 16 at most"), "{}", text(&missing));
+}

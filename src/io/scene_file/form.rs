@@ -8,11 +8,10 @@ use super::super::toml_format::FORMAT;
 use super::super::toml_text::line_at;
 use super::metal_form::{MetalForm, metals};
 use super::ring_form::{RingForm, ring};
-use super::shared::{DEGREES, LEANING, PLACES_MM, SizeForm, likely, material, shown, within};
+use super::shared::{DEGREES, SizeForm, likely, material, place_mm, shown, within};
 use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, behind, found};
 use crate::cut::is_printable;
 use crate::scene::Layout;
-use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -235,13 +234,7 @@ impl StoneForm {
     }
 
     fn entry(self, line: usize) -> Result<Entry, Fault> {
-        within("turn", "turn", self.turn, DEGREES, "degrees")?;
-        within("tilt", "tilt", self.tilt, LEANING, "degrees")?;
-        within("azimuth", "azimuth", self.azimuth, DEGREES, "degrees")?;
-        let at_mm = self.at.map_or(DVec3::ZERO, |Numbers(at)| at.into());
-        for (axis, value) in at_mm.to_array().into_iter().enumerate() {
-            within(&format!("at/{axis}"), "at", value, PLACES_MM, "mm")?;
-        }
+        let at_mm = place_mm([self.turn, self.tilt, self.azimuth], self.at)?;
         let material = self.material.map(material).transpose()?;
         Ok(Entry {
             cut: self.cut,

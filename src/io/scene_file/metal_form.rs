@@ -4,8 +4,7 @@ use super::super::cut_file::values::{Numbers, TomlTable};
 use super::super::file_error::Fault;
 use super::super::toml_text::line_at;
 use super::MetalEntry;
-use super::shared::{DEGREES, LEANING, PLACES_MM, metal, roughness, within};
-use glam::DVec3;
+use super::shared::{metal, place_mm, roughness, within};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 use toml::Spanned;
@@ -51,13 +50,7 @@ impl MetalForm {
         let (metal, roughness) = (metal(&self.metal)?, roughness(self.roughness)?);
         let scale = self.scale.unwrap_or(1.0);
         within("scale", "scale", scale, SCALES, "mm for a unit of the file")?;
-        within("turn", "turn", self.turn, DEGREES, "degrees")?;
-        within("tilt", "tilt", self.tilt, LEANING, "degrees")?;
-        within("azimuth", "azimuth", self.azimuth, DEGREES, "degrees")?;
-        let at_mm = self.at.map_or(DVec3::ZERO, |Numbers(at)| at.into());
-        for (axis, value) in at_mm.to_array().into_iter().enumerate() {
-            within(&format!("at/{axis}"), "at", value, PLACES_MM, "mm")?;
-        }
+        let at_mm = place_mm([self.turn, self.tilt, self.azimuth], self.at)?;
         let Self { mesh, turn, tilt, azimuth, .. } = self;
         Ok(MetalEntry { mesh, metal, roughness, scale, turn, tilt, azimuth, at_mm, line })
     }

@@ -5,11 +5,8 @@ use super::super::cut_file::values::{Numbers, TomlTable};
 use super::super::file_error::Fault;
 use super::super::toml_text::line_at;
 use super::ring_entry::RingEntry;
-use super::shared::{
-    DEGREES, LEANING, PLACES_MM, SizeForm, likely, material, metal, roughness, shown, within,
-};
+use super::shared::{SizeForm, likely, material, metal, place_mm, roughness, shown};
 use crate::scene::{OuterShape, Ring, RingStyle};
-use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
@@ -115,13 +112,7 @@ impl RingForm {
         if let Some((key, _)) = idle.into_iter().find(|(_, is_idle)| *is_idle) {
             return Err(Fault::key(key, format!("{key}: there is no stone for it; leave it out")));
         }
-        within("turn", "turn", self.turn, DEGREES, "degrees")?;
-        within("tilt", "tilt", self.tilt, LEANING, "degrees")?;
-        within("azimuth", "azimuth", self.azimuth, DEGREES, "degrees")?;
-        let at_mm = self.at.map_or(DVec3::ZERO, |Numbers(at)| at.into());
-        for (axis, value) in at_mm.to_array().into_iter().enumerate() {
-            within(&format!("at/{axis}"), "at", value, PLACES_MM, "mm")?;
-        }
+        let at_mm = place_mm([self.turn, self.tilt, self.azimuth], self.at)?;
         let small = |fault: Fault| Fault { key: Some("small_material".to_owned()), ..fault };
         Ok(RingEntry {
             ring,
@@ -162,7 +153,7 @@ mod tests {
     use super::*;
     use crate::cut::Size;
     use crate::optics::Metal;
-    use glam::DQuat;
+    use glam::{DQuat, DVec3};
 
     const HALO: &str = "format = 1\nname = \"Ring\"\n[ring]\nstyle = \"halo\"\nmetal = \"gold\"\n\
                         stone = \"tolkowsky\"\nsize = \"6.5mm\"\nsmall_stone = \"modern-ideal\"\n\

@@ -1,7 +1,7 @@
 //! What the tables of a scene file share: sizes, ranges, names and rotations.
 
 use super::super::cut_file::material_form::{MaterialForm, path_of};
-use super::super::cut_file::values::{OneOf, Pairs};
+use super::super::cut_file::values::{Numbers, OneOf, Pairs};
 use super::super::file_error::Fault;
 use super::super::nearest;
 use crate::cut::{MaterialRef, Size, SizeError};
@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
 pub(super) const DEGREES: RangeInclusive<f64> = -1e6..=1e6;
-pub(super) const LEANING: RangeInclusive<f64> = -180.0..=180.0;
-pub(super) const PLACES_MM: RangeInclusive<f64> = -10_000.0..=10_000.0;
+const LEANING: RangeInclusive<f64> = -180.0..=180.0;
+const PLACES_MM: RangeInclusive<f64> = -10_000.0..=10_000.0;
 const ROUGHNESSES: RangeInclusive<f64> = 0.0..=1.0;
 
 /// A size, written as text with its unit.
@@ -56,6 +56,19 @@ pub(super) fn within(
     }
     let (least, most) = range.into_inner();
     Err(Fault::key(path, format!("{key}: {value} must be from {least} to {most} {unit}")))
+}
+
+/// Checks the turn, tilt and azimuth of a body, in degrees, and its place. Returns the place in mm, the origin where none is
+/// given.
+pub(super) fn place_mm([turn, tilt, azimuth]: [f64; 3], at: Option<Numbers<3>>) -> Result<DVec3, Fault> {
+    within("turn", "turn", turn, DEGREES, "degrees")?;
+    within("tilt", "tilt", tilt, LEANING, "degrees")?;
+    within("azimuth", "azimuth", azimuth, DEGREES, "degrees")?;
+    let at_mm = at.map_or(DVec3::ZERO, |Numbers(at)| at.into());
+    for (axis, value) in at_mm.to_array().into_iter().enumerate() {
+        within(&format!("at/{axis}"), "at", value, PLACES_MM, "mm")?;
+    }
+    Ok(at_mm)
 }
 
 /// Returns the material that a form describes, checked.

@@ -130,3 +130,14 @@ fn directions_are_of_length_1_above_the_surface_and_weights_are_bounded() {
         }
     }
 }
+
+#[test]
+fn surfaces_of_one_roughness_are_made_once() {
+    let first = Roughness::shared(0.3217);
+    assert!(Arc::ptr_eq(&first, &Roughness::shared(0.3217)));
+    assert!(!Arc::ptr_eq(&first, &Roughness::shared(0.3218)));
+    assert_eq!((first.once(0.4), first.once_mean), {
+        let own = Roughness::new(0.3217);
+        (own.once(0.4), own.once_mean)
+    });
+}

@@ -10,7 +10,8 @@ mod cost;
 pub use cost::{Cost, Shifts};
 
 use super::parts::thickness;
-use super::{GlassPane, laid, pane as approximated, plain};
+use super::prepared::laid;
+use super::{GlassPane, pane as approximated, plain};
 use crate::math::{ImplicitForm, ImplicitSurface, ImplicitSurfaceError, Pose};
 use crate::optics::{Dispersion, DispersionError, Illuminant, Material, Strata, encoded_from_linear};
 use crate::picture::{Backdrop, Linear, RefractionMap, Survey, spectral};
@@ -20,7 +21,7 @@ use crate::trace::ray::{ByRays, RayOptions};
 use crate::trace::sampling::{LitScene, Sampling};
 use crate::trace::{Stopped, Watch};
 use cost::Sums;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 /// How much the index is above 1 at strength 100.
 const INDEX: f64 = 0.5;
@@ -237,8 +238,8 @@ impl<'a> PaneScene<'a> {
         for (k, at, middle) in self.pixels(background.width) {
             let cover = self.pane.cover(middle);
             if cover > 0.0 {
-                let [red, green, blue, _] = piece.pixels[k].map(f64::from);
-                laid(&mut picture.pixels[at], DVec3::new(red, green, blue), cover);
+                let [red, green, blue, _] = piece.pixels[k];
+                laid(&mut picture.pixels[at], [red, green, blue], cover as f32);
             }
         }
         Ok(picture)

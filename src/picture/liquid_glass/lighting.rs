@@ -37,7 +37,7 @@ pub(super) struct Normals(pub [Vec<f32>; 3]);
 pub(super) struct Brightness<'a> {
     pub light: SurfaceLight,
     pub normals: &'a Normals,
-    /// The answer, of each normal in the first ones.
+    /// The brightness of each normal is written here, in the order of the normals; longer slices keep their rest.
     pub to: &'a mut [f32],
 }
 

@@ -241,13 +241,6 @@ fn plain(background: &Panorama) -> Linear {
     Linear { width: background.width, height: background.height, pixels }.whole()
 }
 
-/// Lays a colour over a pixel with this cover.
-fn laid(pixel: &mut [f32; 4], colour: DVec3, cover: f64) {
-    for (own, new) in pixel.iter_mut().zip(colour.to_array()) {
-        *own = (f64::from(*own) + (new - f64::from(*own)) * cover) as f32;
-    }
-}
-
 impl FromStr for PaneQuality {
     type Err = NameError;
 

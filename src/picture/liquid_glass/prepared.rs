@@ -64,9 +64,9 @@ impl PaneArea {
         Self { first: low.to_array(), count, corner: pane.corner.floor().to_array().map(|x| x as i64) }
     }
 
-    /// Returns the first pixel, counted from that of the pane's corner.
+    /// Returns the first pixel, counted from that of the pane's corner; far off, the farthest number there is.
     fn start(&self) -> [i64; 2] {
-        [0, 1].map(|axis| i64::from(self.first[axis]) - self.corner[axis])
+        [0, 1].map(|axis| i64::from(self.first[axis]).saturating_sub(self.corner[axis]))
     }
 }
 
@@ -91,7 +91,8 @@ impl PreparedPane {
         Self { shape, size, area, rows }
     }
 
-    /// Whether this is what a pane needs that may have moved by whole pixels, or that is in another light.
+    /// Returns whether another pane can be drawn by this one: its shape is the same, it has moved by whole pixels at most and
+    /// covers as many pixels, and the picture has this size. Light and tint may differ.
     pub fn suits(&self, pane: &GlassPane, size: [u32; 2]) -> bool {
         let area = PaneArea::new(pane, size);
         let place = |area: &PaneArea| (area.start(), area.count);
@@ -170,7 +171,7 @@ impl PreparedPane {
 }
 
 /// Lays a colour with this cover over a pixel, premultiplied.
-fn laid(pixel: &mut [f32; 4], [r, g, b]: [f32; 3], cover: f32) {
+pub(super) fn laid(pixel: &mut [f32; 4], [r, g, b]: [f32; 3], cover: f32) {
     // Written as a sum, so that a colour over its own stays the same to the bit.
     pixel.iter_mut().zip([r, g, b, 1.0]).for_each(|(own, new)| *own += (new - *own) * cover);
 }
@@ -218,5 +219,21 @@ impl SeenThrough {
     pub(super) fn apart(&self, other: &Self) -> f32 {
         let pairs = self.colours.iter().flatten().zip(other.colours.iter().flatten());
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pane_infinitely_far_off_has_no_pixels() {
+        let corners = [-1e300, 1e300, f64::NEG_INFINITY, f64::NAN];
+        for x in corners {
+            let pane = GlassPane::clear(DVec2::new(x, 0.0), DVec2::splat(10.0), 2.0);
+            let prepared = PreparedPane::new(&pane, [20; 2]);
+            assert_eq!(prepared.area.count, [0; 2]);
+            assert!(prepared.suits(&pane, [20; 2]) || !x.is_finite());
+        }
     }
 }

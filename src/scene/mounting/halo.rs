@@ -7,6 +7,7 @@ use super::row::{SmallSizes, beads, check_count, collets, seats, sizes};
 use super::turned::{turned, wire};
 use super::{MetalPart, Mounting, Ring, RingError};
 use crate::math::Pose;
+use crate::scene::MOST_STONES;
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
@@ -87,12 +88,13 @@ fn circle(ring: &Ring, stone: &SetStone, sizes: SmallSizes) -> Result<Circle, Ri
             inner: radius - sizes.radius - girdle,
         }
     };
-    // Beyond this number the circle only grows.
-    let most = (PI * (beside + thick) / half) as usize + 2 * prongs;
-    check_count(most)?;
+    // Beyond this number the circle only grows, or holds more stones than a scene may.
+    let most = ((PI * (beside + thick) / half) as usize).min(MOST_STONES) + 2 * prongs;
     let circles = (1..=most / prongs).map(|k| of(k * prongs));
     let best = circles.min_by(|a, b| (a.gap + a.inner).total_cmp(&(b.gap + b.inner)));
-    best.ok_or(RingError::NoSmallStone { style: ring.style })
+    let best = best.ok_or(RingError::NoSmallStone { style: ring.style })?;
+    check_count(best.count)?;
+    Ok(best)
 }
 
 /// Makes the rail under the halo, and a strut from each prong to it.
@@ -127,5 +129,34 @@ fn carry(
         };
         let stations: Vec<Station> = [0.0, 0.25, 0.5, 0.75, 1.0].map(station).to_vec();
         mounting.metal.push(MetalPart { name: "strut", surface: rod(&stations, stones) });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{Plane, Polytope};
+
+    #[test]
+    fn a_halo_holds_as_many_stones_as_a_scene_may() {
+        let sides = DVec3::AXES.into_iter().flat_map(|axis| [Plane::new(axis, 1.0), Plane::new(-axis, 1.0)]);
+        let shape = Polytope::from_planes(&sides.collect::<Vec<_>>()).unwrap();
+        let ring = Ring { style: super::super::RingStyle::Halo, ..Ring::default() };
+        let small = sizes(&SetStone { shape: &shape, diameter_mm: ring.small_diameter_mm }).unwrap();
+        let (mut most, mut refused) = (0, 0);
+        for k in 0..2000 {
+            let stone = SetStone { shape: &shape, diameter_mm: 5.0 + 0.2 * f64::from(k) };
+            match circle(&ring, &stone, small) {
+                Ok(circle) => most = circle.count.max(most),
+                Err(error) => {
+                    assert!(matches!(error, RingError::TooMany { .. }), "{error}");
+                    refused += 1;
+                }
+            }
+        }
+        // The number of small stones is a multiple of that of the prongs; one place is the main stone's.
+        let possible = (MOST_STONES - 1) / ring.style.prongs() * ring.style.prongs();
+        assert_eq!(most, possible);
+        assert!(refused > 100, "{refused}");
     }
 }

@@ -69,7 +69,7 @@ impl OuterShape {
     }
 }
 
-/// A ring as numbers; [`RING_NUMBERS`] has their ranges and meanings.
+/// A ring as numbers; [`RING_NUMBERS`] has their ranges, docs/formats.md their meanings.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ring {

@@ -3,7 +3,7 @@
 use super::Mounting;
 use crate::math::bounds;
 use crate::optics::Metal;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// An alloy of jewellery.
 pub struct Alloy {
@@ -35,61 +35,101 @@ impl Alloy {
 /// The distance between the lines along which metal is measured, in mm.
 const LINE_MM: f64 = 0.02;
 
+/// The most lines along one side of the metal: for larger metal they lie farther apart, so that any size takes its time.
+const MOST_LINES: f64 = 65_536.0;
+
 impl Mounting {
     /// Returns the volume of the metal, in mm³, to about a thousandth of it. Where pieces reach into one another, their common
     /// part counts once.
     ///
-    /// The metal is measured along lines in the direction y, the finger's, a fixed distance apart.
+    /// The metal is measured along lines in the direction y, the finger's, a fixed distance apart. Only the lines of one row
+    /// are kept at a time.
     pub fn volume_mm3(&self) -> f64 {
         let (low, high) = bounds(self.metal.iter().flat_map(|part| part.surface.points.iter().copied()));
-        if !(high - low).is_finite() {
+        let extent = high - low;
+        if !extent.is_finite() {
             return 0.0;
         }
+        let apart = LINE_MM.max(extent.x.max(extent.z) / MOST_LINES);
         // Lines lie off the corners that symmetric rings have on round numbers.
-        let first = DVec2::new(low.x, low.z) + DVec2::new(0.371, 0.417) * LINE_MM;
-        let size = ((DVec2::new(high.x, high.z) - first) / LINE_MM).ceil();
-        let (across, rows) = (size.x.max(1.0) as usize, size.y.max(1.0) as usize);
-        let mut crossings: Vec<Vec<(f64, i32)>> = vec![vec![]; across * rows];
-        for part in &self.metal {
-            for number in 0..part.surface.corners.len() {
-                let triangle = part.surface.triangle(number);
-                let flat = triangle.map(|v| (DVec2::new(v.x, v.z) - first) / LINE_MM);
-                let heights = triangle.map(|v| v.y);
-                cross(flat, heights, across, rows, &mut |at, crossing| crossings[at].push(crossing));
-            }
+        let first = DVec2::new(low.x, low.z) + DVec2::new(0.371, 0.417) * apart;
+        let triangles = self.metal.iter().flat_map(|part| {
+            let surface = &part.surface;
+            (0..surface.corners.len())
+                .filter_map(move |number| RowTriangle::new(surface.triangle(number), first, apart))
+        });
+        let mut triangles: Vec<RowTriangle> = triangles.collect();
+        triangles.sort_by_key(|triangle| triangle.rows[0]);
+        let (mut coming, mut here) = (triangles.into_iter().peekable(), vec![]);
+        let (mut row, mut crossings, mut length) = (0, vec![], 0.0);
+        while let Some(next) = here.first().map(|_| row).or_else(|| coming.peek().map(|t| t.rows[0])) {
+            row = next;
+            here.extend(std::iter::from_fn(|| coming.next_if(|triangle| triangle.rows[0] <= row)));
+            here.iter().for_each(|triangle| triangle.cross(row, &mut crossings));
+            crossings.sort_by(|a, b| a.line.cmp(&b.line).then(a.height.total_cmp(&b.height)));
+            length += crossings.chunk_by(|a, b| a.line == b.line).map(inside).sum::<f64>();
+            crossings.clear();
+            row += 1;
+            here.retain(|triangle| triangle.rows[1] >= row);
         }
-        crossings.iter_mut().map(|line| inside(line)).sum::<f64>() * LINE_MM * LINE_MM
+        length * apart * apart
     }
 }
 
-/// Finds the lines of a grid that a triangle crosses: for each its place in the grid, the height where it does, and 1 where
-/// the triangle faces down, where a line enters the metal, -1 where it leaves.
-fn cross(
-    [a, b, c]: [DVec2; 3],
+/// A place where a line enters the metal or leaves it.
+struct Crossing {
+    /// The line's number in its row.
+    line: i64,
+    /// The height of the place, in mm.
+    height: f64,
+    /// 1 where the triangle faces down, so that the line enters; -1 where it leaves.
+    step: i32,
+}
+
+/// A triangle over the rows of lines, seen along y.
+struct RowTriangle {
+    /// The corners along x and z, in distances of lines from the first.
+    corners: [DVec2; 3],
+    /// The height of each corner, in mm.
     heights: [f64; 3],
-    across: usize,
-    rows: usize,
-    found: &mut impl FnMut(usize, (f64, i32)),
-) {
-    let twice = (b - a).perp_dot(c - a);
-    if twice == 0.0 {
-        return;
+    /// Twice the area, positive for triangles that face down.
+    twice: f64,
+    /// The first and the last row that the triangle reaches.
+    rows: [i64; 2],
+}
+
+impl RowTriangle {
+    /// Returns a triangle over lines that lie `apart`; `None` where none can cross it.
+    fn new(triangle: [DVec3; 3], first: DVec2, apart: f64) -> Option<Self> {
+        let [a, b, c] = triangle.map(|v| (DVec2::new(v.x, v.z) - first) / apart);
+        // In the plane of x and z seen along y, faces turned toward y run clockwise.
+        let twice = (b - a).perp_dot(c - a);
+        let rows = [a.y.min(b.y).min(c.y).ceil().max(0.0), a.y.max(b.y).max(c.y).floor()];
+        let is_crossed = twice != 0.0 && rows[0] <= rows[1];
+        let rows = rows.map(|row| row as i64);
+        is_crossed.then(|| Self { corners: [a, b, c], heights: triangle.map(|v| v.y), twice, rows })
     }
-    let (low, high) = (a.min(b).min(c).ceil(), a.max(b).max(c).floor());
-    let clamped = |value: f64, most: usize| value.clamp(0.0, most as f64 - 1.0) as usize;
-    if high.x < 0.0 || high.y < 0.0 {
-        return;
-    }
-    for y in clamped(low.y, rows)..=clamped(high.y, rows) {
-        for x in clamped(low.x, across)..=clamped(high.x, across) {
-            let at = DVec2::new(x as f64, y as f64);
+
+    /// Adds the crossings of the lines of a row.
+    fn cross(&self, row: i64, crossings: &mut Vec<Crossing>) {
+        let [a, b, c] = self.corners;
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (p, q) in [(a, b), (b, c), (c, a)] {
+            let part = ((row as f64 - p.y) / (q.y - p.y)).clamp(0.0, 1.0);
+            // A level edge gives NaN, and its neighbours its ends.
+            let x = p.x + (q.x - p.x) * part;
+            let is_met = (p.y.min(q.y)..=p.y.max(q.y)).contains(&(row as f64));
+            (low, high) = if is_met { (low.min(x), high.max(x)) } else { (low, high) };
+        }
+        // One line more on each side, because what rounding does to the ends is decided below.
+        for line in (low.floor() as i64).max(0)..=high.ceil() as i64 {
+            let at = DVec2::new(line as f64, row as f64);
             // An edge belongs to one of its two triangles: each computes the same product of it, with the other sign.
             let sides = [(b, c), (c, a), (a, b)].map(|(p, q)| edge(p, q, at));
-            let is_in = |w: f64| (w > 0.0) == (twice > 0.0);
-            if sides.into_iter().all(is_in) {
-                let height = (sides[0] * heights[0] + sides[1] * heights[1] + sides[2] * heights[2]) / twice;
-                // In the plane of x and z seen along y, faces turned toward y run clockwise.
-                found(y * across + x, (height, if twice > 0.0 { 1 } else { -1 }));
+            if sides.into_iter().all(|w| (w > 0.0) == (self.twice > 0.0)) {
+                let height =
+                    sides.iter().zip(self.heights).map(|(w, height)| w * height).sum::<f64>() / self.twice;
+                crossings.push(Crossing { line, height, step: if self.twice > 0.0 { 1 } else { -1 } });
             }
         }
     }
@@ -100,11 +140,10 @@ fn edge(p: DVec2, q: DVec2, at: DVec2) -> f64 {
     if (p.x, p.y) < (q.x, q.y) { (p - at).perp_dot(q - at) } else { -(q - at).perp_dot(p - at) }
 }
 
-/// Returns the length of a line that lies within metal, where each crossing says whether it enters or leaves.
-fn inside(crossings: &mut [(f64, i32)]) -> f64 {
-    crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
+/// Returns the length of a line that lies within metal, of its crossings in the order of their heights.
+fn inside(crossings: &[Crossing]) -> f64 {
     let (mut depth, mut entered, mut length) = (0, 0.0, 0.0);
-    for &mut (height, step) in crossings {
+    for &Crossing { height, step, .. } in crossings {
         if depth == 0 {
             entered = height;
         }

@@ -41,8 +41,9 @@ pub(super) struct WaterPoint {
     pub mirrored: DVec3,
 }
 
-/// Returns how each of `N` octaves is turned: by `step` from one to the next, from `first` on, in radians. Waves are as many
-/// times as long along their crests as 1 is of `drawn_out`, in the axes of `wind`.
+/// Returns for each of `N` octaves the matrix from a place to its waves: octave k is turned by `first + k * step`, in radians.
+/// Then `wind` turns it into the wind's axes, and there the second coordinate is multiplied by `drawn_out`: at 0.5, crests
+/// along it are twice as long.
 pub(super) fn swells<const N: usize>(wind: DMat2, drawn_out: f64, (first, step): (f64, f64)) -> [DMat2; N] {
     let drawn_out = DMat2::from_diagonal(DVec2::new(1.0, drawn_out));
     std::array::from_fn(|k| drawn_out * wind * DMat2::from_angle(step * k as f64 + first))

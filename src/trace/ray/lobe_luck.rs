@@ -7,13 +7,13 @@ use crate::math::random_bits::{mixed, unit};
 /// chosen like the roulette's steps, and no sum of whole multiples of all of them is a whole number.
 const STEPS: [u64; 3] = [0xa54f_f53a_5f1d_36f1, 0x7311_c281_2425_cfa0, 0xca91_d722_a3d0_a666];
 
-/// What is different from the seeds of the roulette.
+/// A constant that keeps the numbers here independent of the roulette's, which are made of the same pixels.
 const SALT: u64 = 0x6d65_7461_6c6c_7563;
 
 /// The luck of one path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct LobeLuck {
-    /// What is different in each pixel, and on each way from it.
+    /// The seed of the numbers, another for each pixel and for each way that the light takes from it.
     seed: u64,
     /// The number of the sample pass.
     number: u64,

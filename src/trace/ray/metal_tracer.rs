@@ -25,8 +25,9 @@ pub(super) struct MetalTracer {
     pose: Pose,
     /// A ball around the body, in the world.
     ball: Ball,
-    roughness: Arc<Roughness>,
-    finish: RoughMetal,
+    roughness: f64,
+    /// What a band of wavelengths meets; `None` before the body has an index.
+    finish: Option<RoughMetal>,
 }
 
 /// The body of metal that a ray meets, the triangle, and the distance.
@@ -52,13 +53,9 @@ pub(super) struct MetalReflection {
 impl MetalTracer {
     /// Prepares the bodies of a scene; [`made_of`](Self::made_of) gives them their indices.
     pub fn of_all(metals: &[MetalInstance]) -> Vec<Self> {
-        let mut all: Vec<Self> = Vec::with_capacity(metals.len());
-        for metal in metals {
+        let tracer = |metal: &MetalInstance| {
             let Ball { middle, radius } = metal.mesh.ball();
-            let twin = metals.iter().zip(&all).find(|(other, _)| other.roughness == metal.roughness);
-            let roughness = twin.map(|(_, twin)| Arc::clone(&twin.roughness));
-            let roughness = roughness.unwrap_or_else(|| Arc::new(Roughness::new(metal.roughness)));
-            all.push(Self {
+            Self {
                 mesh: Arc::clone(&metal.mesh),
                 pose: metal.pose,
                 // A little larger than it must be, for rounding.
@@ -66,16 +63,16 @@ impl MetalTracer {
                     middle: metal.pose.place(middle),
                     radius: radius * metal.pose.scale * (1.0 + 1e-5),
                 },
-                finish: roughness.of_metal(Complex64::ONE),
-                roughness,
-            });
-        }
-        all
+                roughness: metal.roughness,
+                finish: None,
+            }
+        };
+        metals.iter().map(tracer).collect()
     }
 
     /// Returns the same body at a wavelength at which the metal has this index.
     pub fn made_of(&self, index: Complex64) -> Self {
-        Self { finish: self.roughness.of_metal(index), ..self.clone() }
+        Self { finish: Some(Roughness::shared(self.roughness).of_metal(index)), ..self.clone() }
     }
 
     /// Returns the triangle and the distance at which a ray meets the body; `left` is the triangle that it has just left.
@@ -88,7 +85,8 @@ impl MetalTracer {
         Some((hit.triangle, hit.distance * self.pose.scale))
     }
 
-    /// Reflects a ray by a direction that is drawn by three numbers; `None` where what was drawn is lost.
+    /// Reflects a ray by a direction that is drawn by three numbers; `None` where what was drawn is lost, and where the body
+    /// has no index yet.
     pub fn reflect(
         &self,
         (origin, direction, sweep): (DVec3, DVec3, DVec3),
@@ -103,7 +101,7 @@ impl MetalTracer {
         let up = bent(shading, flat, out);
         let (right, ahead) = up.any_orthonormal_pair();
         let own = DVec3::new(right.dot(out), ahead.dot(out), up.dot(out).max(LEAST_SINE));
-        let found = self.finish.sample(own / own.length(), luck)?;
+        let found = self.finish.as_ref()?.sample(own / own.length(), luck)?;
         let own = found.direction;
         let toward = above(right * own.x + ahead * own.y + up * own.z, flat);
         let middle = (toward + out).normalize_or(up);
