@@ -64,10 +64,15 @@ const MOST_SHARES: u32 = 1024;
 const ENOUGH_SHARES: u64 = 32;
 
 impl Strata {
-    /// Divides the visible range as [`strata()`] does, and each of the `count` strata into `shares` parts of equal share,
-    /// but all into no more than 1024 together. With one share every pass stands for whole strata.
+    /// Divides the visible range as [`strata()`] does, and each of the `count` strata into `shares` parts of equal share. Where
+    /// these are more than 1024 together, there are fewer, by a whole number of times or nearly so, so that `shares` passes
+    /// see all alike. With one share every pass stands for whole strata.
     pub fn new(count: u32, shares: u32, key: &Illuminant, adapted: bool) -> Self {
-        let shares = shares.clamp(1, (MOST_SHARES / count.max(1)).max(1));
+        let most = (MOST_SHARES / count.max(1)).max(1);
+        let passes = shares.max(1);
+        let least = passes.div_ceil(most);
+        let times = (least..=2 * least).find(|times| passes.is_multiple_of(*times)).unwrap_or(least);
+        let shares = passes / times;
         let whole = strata(count, key, adapted);
         let all = if shares == 1 { whole.clone() } else { strata(count * shares, key, adapted) };
         // Passes in the order of their places in J. G. van der Corput's sequence (1935), in which any first few are evenly spread.
@@ -225,6 +230,26 @@ mod tests {
 
     fn assert_near(value: DVec3, expected: DVec3, within: f64) {
         assert!(value.abs_diff_eq(expected, within), "{value} is not {expected}");
+    }
+
+    #[test]
+    fn passes_beyond_the_most_shares_see_all_alike() {
+        // 100 passes of 16 strata would be 1,600 shares.
+        for (count, passes, shares) in [(16, 100, 50), (16, 64, 64), (64, 64, 16), (3, 1000, 250)] {
+            let strata = Strata::new(count, passes, &Illuminant::D65, true);
+            let shares_of: Vec<_> =
+                (0..passes).map(|pass| strata.of_pass(pass).next().unwrap().from_nm).collect();
+            let first = shares_of[0];
+            assert_eq!(shares_of.iter().position(|nm| *nm == first), Some(0));
+            assert_eq!(
+                shares_of.iter().skip(1).position(|nm| *nm == first),
+                (passes > shares).then_some(shares as usize - 1)
+            );
+            let seen =
+                (0..passes).flat_map(|pass| strata.of_pass(pass)).map(|s| s.response[0]).sum::<DVec3>();
+            let off = seen / f64::from(passes) - strata.response()[0];
+            assert!(off.abs().max_element() < 1e-12, "{count}, {passes}: {off}");
+        }
     }
 
     #[test]

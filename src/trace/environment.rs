@@ -6,10 +6,13 @@
 //! Williams, *Pyramidal parametrics*, 1983) for the rest. The map's projection: Z. H. Cigolle et al., *A Survey of Efficient
 //! Representations for Independent Unit Vectors*, JCGT 3(2), 2014. The twin is shaders/environment.wgsl.
 
+mod backplate;
 mod drawing;
 
 use crate::math::Basis;
-use crate::scene::{Film, Light, LightError, Mipmap, Panorama, View, World, toward};
+use crate::scene::{Light, LightError, Panorama, World, toward};
+pub(in crate::trace) use backplate::{ALONG, Photographed};
+pub use backplate::{Backplate, backplate_point};
 use drawing::{channels, shine};
 use glam::{DVec2, DVec3, DVec4, IVec2, Vec2Swizzles as _, Vec4Swizzles as _};
 use rayon::prelude::*;
@@ -134,17 +137,6 @@ pub enum LightingError {
     NotFinite,
 }
 
-/// A photograph on a plane behind the stones, perpendicular to the axis to the eye.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Backplate<'a> {
-    /// The picture, in linear light, with its coarser levels.
-    pub picture: &'a Mipmap,
-    /// Distance of the plane behind the origin, in world units.
-    pub distance: f64,
-    /// The picture's width on that plane, in world units.
-    pub width: f64,
-}
-
 /// The environment of a picture: the light around the stones, the observer's head, and the backplate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Environment<'a> {
@@ -164,9 +156,6 @@ pub struct Environment<'a> {
 
 /// The square of a sweep below which a ray counts as one direction.
 pub(super) const STILL: f64 = 1e-14;
-
-/// The cosine between a ray and the axis to the eye below which the ray counts as running along the backplate.
-pub(in crate::trace) const ALONG: f64 = 1e-6;
 
 /// Least width of the edge of the head's shadow, in cosine.
 pub(crate) const HEAD_EDGE: f64 = 0.004;
@@ -305,88 +294,6 @@ impl Environment<'_> {
         let beside = (self.head.cos() - direction.dot(self.eye.toward)) / swept.max(HEAD_EDGE) + 0.5;
         sum * beside.clamp(0.0, 1.0)
     }
-}
-
-/// Returns the image coordinates of the point where a ray meets the plane at a distance behind the origin, perpendicular to
-/// the axis to the eye; `None` where it does not meet the plane.
-pub fn backplate_point(eye: &Basis, distance: f64, from: DVec3, direction: DVec3) -> Option<DVec2> {
-    let (speed, height) = (-direction.dot(eye.toward), from.dot(eye.toward) + distance);
-    let meets = speed > ALONG && height > 0.0;
-    meets.then(|| eye.project(from + direction * (height / speed)))
-}
-
-impl<'a> Backplate<'a> {
-    /// Places a picture at this distance behind the origin, wide enough to fill a view's film `span` times over, whatever
-    /// its shape.
-    pub fn filling(picture: &'a Mipmap, span: f64, distance: f64, view: &View, film: &Film) -> Self {
-        let [across, down] = film.size.map(f64::from);
-        let shape = f64::from(picture.picture().width) / f64::from(picture.picture().height);
-        let width = span * film.pixel * across.max(down * shape) * view.widening(distance);
-        Self { picture, distance, width }
-    }
-
-    /// Returns what a ray sees of the picture; `None` where it does not meet it. The ray is given by its direction and how
-    /// that sweeps.
-    fn at(&self, eye: &Basis, from: DVec3, (direction, sweep): (DVec3, DVec3)) -> Option<Photographed> {
-        let height = from.dot(eye.toward) + self.distance;
-        let (speed, faster) = (-direction.dot(eye.toward), -sweep.dot(eye.toward));
-        let speed = |part: f64| speed + faster * part;
-        // The part of the sweep that runs toward the plane, from half of it before the ray's direction to half after it.
-        let (low, high) = (speed(-0.5), speed(0.5));
-        if height <= 0.0 || low.max(high) <= ALONG {
-            return None;
-        }
-        let meets = |of: f64, other: f64| if of > ALONG { 0.0 } else { (ALONG - of) / (other - of) };
-        let (first, last) = (meets(low, high) - 0.5, 0.5 - meets(high, low));
-        let picture = self.picture.picture();
-        let size = DVec2::new(f64::from(picture.width), f64::from(picture.height));
-        // In pixels from the middle of the first: rows count down, and both axes have the same scale.
-        let pixels = |v: DVec3| eye.project(v) * DVec2::new(1.0, -1.0) * (size.x / self.width);
-        let (start, way, turn) = (pixels(from) + 0.5 * size - 0.5, pixels(direction), pixels(sweep));
-        let place = |part: f64| start + (way + turn * part) * (height / speed(part).max(ALONG));
-        let (from, to) = (place(first), if sweep == DVec3::ZERO { place(first) } else { place(last) });
-        let (enters, leaves) = inside(from, to, size)?;
-        // Along the line, places are projected: parts of its length become parts of the sweep.
-        let of_sweep = |q: f64| {
-            let (near, far) = (q * speed(first), (1.0 - q) * speed(last));
-            first + (last - first) * (near / (near + far))
-        };
-        let (first, last) = (of_sweep(enters), of_sweep(leaves));
-        let length = (to - from).length() * (leaves - enters);
-        let light = self.picture.along(length, |part| place(first + (last - first) * part));
-        let share = if from == to { 1.0 } else { last - first };
-        Some(Photographed { light: light.extend(0.0).wxyz() * share, share })
-    }
-}
-
-/// What a ray sees of a picture.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::trace) struct Photographed {
-    /// The light by channel, of that part of the ray's wavelengths which meets the picture, times this part.
-    pub light: DVec4,
-    /// That part, 0 to 1.
-    pub share: f64,
-}
-
-/// Returns the parts, 0 to 1, at which a line enters a picture and leaves it, in pixels from the middle of the first;
-/// `None` where it does not meet the picture.
-fn inside(from: DVec2, to: DVec2, size: DVec2) -> Option<(f64, f64)> {
-    if !from.is_finite() || !to.is_finite() {
-        return None;
-    }
-    let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
-    for axis in 0..2 {
-        let (start, way, end) = (from[axis], to[axis] - from[axis], size[axis] - 0.5);
-        if way == 0.0 {
-            if !(-0.5..=end).contains(&start) {
-                return None;
-            }
-            continue;
-        }
-        let (a, b) = ((-0.5 - start) / way, (end - start) / way);
-        (enters, leaves) = (enters.max(a.min(b)), leaves.min(a.max(b)));
-    }
-    (enters <= leaves).then_some((enters, leaves))
 }
 
 /// Returns the share of a sweep of directions, from half of it before the ray's direction to half after it, that lies inside

@@ -1,5 +1,5 @@
 //! The picture behind the bodies as packets of rays see it, in single precision: the twin of `Backplate::at` in
-//! `src/trace/environment.rs` and of `photo_at` in `shaders/environment.wgsl`.
+//! `src/trace/environment/backplate.rs` and of `photo_at` in `shaders/environment.wgsl`.
 
 use super::lanes::{Lanes, MOST_LANES, Vectors};
 use crate::scene::Mipmap;
