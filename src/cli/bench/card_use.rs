@@ -104,7 +104,7 @@ impl CardUse {
         self.parts[0].1
     }
 
-    /// Returns the largest part.
+    /// Returns the name of what the card spends the largest part of its time on.
     fn bound(&self) -> &'static str {
         self.parts.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map_or("", |largest| largest.0)
     }

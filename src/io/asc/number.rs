@@ -9,7 +9,7 @@ pub(super) enum Token {
     WithComma(f64),
     /// Digits with commas and points in another order, such as two points.
     Broken,
-    /// Anything else.
+    /// Text that is not meant as a number.
     Word,
 }
 

@@ -53,7 +53,7 @@ const MORNING: Plate = Plate {
     sun: "#ffffff",
 };
 
-/// Draws the page.
+/// Draws the pattern `page` on a square sheet: a headline, columns of text and a picture.
 pub(super) fn page(sheet: Document) -> Document {
     let paper = rectangle((0, 0, PATTERN_SIDE, PATTERN_SIDE)).set("fill", PAPER);
     let mut words = WORDS.split_whitespace().cycle().peekable();

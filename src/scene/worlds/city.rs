@@ -21,7 +21,7 @@ struct Depth {
     storey: f64,
     /// The share of windows that are lit.
     lit: f64,
-    /// How bright windows are.
+    /// The radiance of lit windows, white being 1.
     bright: f64,
     /// How much the glow of the air lies over the towers.
     haze: f64,

@@ -23,9 +23,9 @@ const WARM: DVec3 = DVec3::new(1.0, 0.58, 0.25);
 enum Spread {
     /// Through the openings of a shade, above and below, and a little through its cloth.
     Shade,
-    /// Evenly.
+    /// Evenly in all directions, as a globe of frosted glass does.
     Globe,
-    /// Downward.
+    /// Downward alone, as a lamp in the ceiling does.
     Down,
 }
 

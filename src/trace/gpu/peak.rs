@@ -45,7 +45,7 @@ pub struct CardPeak {
     pub launch_s: f64,
 }
 
-/// A shader with its buffers.
+/// One shader that measures a peak, ready to be dispatched, with the buffer that it reads and writes.
 struct Bout<'a> {
     gpu: &'a Gpu,
     pipeline: wgpu::ComputePipeline,

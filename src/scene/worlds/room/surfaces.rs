@@ -7,7 +7,7 @@ pub(super) struct RoomSurface {
     pub(super) normal: DVec3,
     /// The share of light that is sent back; zero where only its own light counts.
     pub(super) albedo: DVec3,
-    /// Light of its own.
+    /// The radiance that the surface emits itself, white being 1.
     pub(super) own: DVec3,
     /// How much of the room's light reaches it, 0 to 1.
     pub(super) shelter: f64,
