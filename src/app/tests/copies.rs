@@ -303,10 +303,10 @@ fn copies_that_were_moved_are_asked_about_before_they_go() {
     let mut bench = bench("rotating-cube");
     bench.harness.state_mut().model.session.motion.rest();
     bench.click("Prism rainbow");
-    assert_eq!(bench.editor().model.workspace.strength, 1.0, "nothing was moved");
+    assert_eq!(bench.editor().model.workspace.strength, 0.3, "nothing was moved");
     bench.click("Scatter");
     bench.click("Subtle pill");
-    assert_eq!(bench.editor().model.workspace.strength, 1.0);
+    assert_eq!(bench.editor().model.workspace.strength, 0.3);
     bench.click("Export…");
     let Some(Dialog::Export(export)) = &bench.editor().model.session.dialog else { panic!() };
     assert!(export.plan.selection.scene);

