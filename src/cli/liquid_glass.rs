@@ -37,7 +37,7 @@ pub struct LiquidGlass {
     /// a pattern (page, grid, checks, stripes, dots, slit), or a photograph's file
     #[arg(long, value_name = "WHAT")]
     background: String,
-    /// Folder to write to; without --compare `-` is standard output
+    /// Folder to write to, or the .png itself; without --compare `-` is standard output
     #[arg(long, default_value = "out")]
     out: PathBuf,
     /// Pixels of the picture: a number for a square, or WIDTHxHEIGHT
@@ -142,13 +142,19 @@ fn tint(text: &str) -> Result<DVec4, String> {
 }
 
 impl LiquidGlass {
+    /// Returns the ending of the path to write to if it is that of a picture, and no folder has this name.
+    fn picture_ending(&self) -> Option<&std::ffi::OsStr> {
+        let ending = self.out.extension().filter(|_| !self.out.is_dir())?;
+        PICTURES.iter().any(|known| ending.eq_ignore_ascii_case(known)).then_some(ending)
+    }
+
     pub fn run(&self) -> Result<(), Failure> {
-        let is_picture =
-            |ending: &&std::ffi::OsStr| PICTURES.iter().any(|known| ending.eq_ignore_ascii_case(known));
-        if let Some(ending) = self.out.extension().filter(is_picture).filter(|_| !self.out.is_dir()) {
-            let ending = ending.display();
+        let ending = self.picture_ending().map(|ending| ending.display().to_string());
+        if let Some(ending) =
+            ending.filter(|ending| self.compare || self.exr || !ending.eq_ignore_ascii_case("png"))
+        {
             return Err(Failure::Usage(format!(
-                "--out: several files are written: give a folder, not a .{ending}"
+                "--out: give a .png, or a folder; --compare and --exr write several files, which need a folder, not a .{ending}"
             )));
         }
         if is_standard(&self.out) && (self.compare || self.exr || self.timing) {
@@ -260,9 +266,12 @@ impl LiquidGlass {
     }
 
     fn write(&self, stem: &str, picture: &Linear, description: &str) -> Result<(), Failure> {
-        let path = match is_standard(&self.out) {
-            true => STANDARD.into(),
-            false => self.out.join(format!("{stem}.png")),
+        let path = if is_standard(&self.out) {
+            STANDARD.into()
+        } else if self.picture_ending().is_some() {
+            self.out.clone()
+        } else {
+            self.out.join(format!("{stem}.png"))
         };
         // Screens composite without exposure and tone curve.
         let manner = Develop { bloom: None, tone: Tone::Linear, ..Develop::default() };

@@ -65,7 +65,7 @@ pub struct SceneFile {
     pub ring: Option<RingEntry>,
 }
 
-/// A body of metal in a scene.
+/// What a scene file says of one body of metal: its mesh, its metal, and where it stands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MetalEntry {
     /// The path of its mesh from the scene's folder.

@@ -5,7 +5,7 @@
 //!
 //! | metal | source | accuracy |
 //! |---|---|---|
-//! | gold, silver | P. B. Johnson and R. W. Christy, *Phys. Rev. B* 6, 4370 (1972), doi:10.1103/PhysRevB.6.4370 | the authors give ±0.02 to ±0.09 for n and ±0.01 to ±0.06 for k in the visible [unchecked] |
+//! | gold, silver | P. B. Johnson and R. W. Christy, *Phys. Rev. B* 6, 4370 (1972), doi:10.1103/PhysRevB.6.4370 | the authors give ±0.02 to ±0.09 for n and ±0.01 to ±0.06 for k in the visible (not checked against the print) |
 //! | rhodium | J. H. Weaver, C. G. Olson and D. W. Lynch, *Phys. Rev. B* 15, 4115 (1977), doi:10.1103/PhysRevB.15.4115, as numbers in E. D. Palik (ed.), *Handbook of Optical Constants of Solids* (1985) | two decimals are printed |
 //! | platinum | A. D. Rakić et al., *Appl. Opt.* 37, 5271 (1998), doi:10.1364/AO.37.005271: the Brendel-Bormann model, fitted to the data of several authors | the samples differ more than the fit: by several percent of the reflectance |
 //!

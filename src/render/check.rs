@@ -78,7 +78,7 @@ pub enum JobError {
         /// What is wrong with the stone.
         error: Box<JobError>,
     },
-    /// A body of metal is at fault.
+    /// A number of a body of metal is out of its range.
     #[error("scene.metals[{place}]: {error}")]
     Metal {
         /// The place of the body among the metals, from 0.

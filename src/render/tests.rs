@@ -1,3 +1,6 @@
+mod enlarged;
+mod metal;
+
 use super::*;
 use crate::cut::{Design, Family, MaterialRef};
 use crate::math::Pose;
@@ -409,6 +412,20 @@ fn figures_of_bounds_are_followed_to_them() {
 }
 
 #[test]
+fn scopes_figures_and_maps_refuse_metal_instead_of_leaving_it_out() {
+    let surface = crate::math::ShadedSurface::creased(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]], 0.5);
+    let mesh = Arc::new(crate::math::ShadedMesh::new(surface).unwrap());
+    let plate = crate::scene::MetalInstance::new(&mesh, crate::optics::Metal::Gold);
+    let alone = Scene::alone(&specimen("round_brilliant"));
+    for product in [scope(vec![Reading::Energy]), figures()] {
+        let free = job(alone.clone(), product);
+        assert!(Renderer::default().plan(&free).is_ok());
+        let held = Job { scene: Arc::new(Scene { metals: vec![plate.clone()], ..alone.clone() }), ..free };
+        assert_eq!(Renderer::default().plan(&held).err(), Some(Unfit::Metal));
+    }
+}
+
+#[test]
 fn an_upright_light_has_its_horizon_level_behind_the_stones() {
     let light = Light::ring();
     let map = EnvironmentMap::new(&light, None);
@@ -451,90 +468,4 @@ fn with_few_bounces_rays_leave_the_rest_dark() {
     let mut wants_beams = job(alone(), light(Steps::Strips));
     (wants_beams.quality.rays.most_bounces, wants_beams.quality.tracer) = (6, Wanted::Beams);
     assert_eq!(Renderer::default().plan(&wants_beams).err(), Some(Unfit::FewBounces));
-}
-
-#[test]
-fn a_rough_picture_is_enlarged_with_fine_outlines_and_a_fine_background() {
-    let mut fine = several_lit();
-    let stripes = (0..64 * 64).map(|k| [if k % 8 < 4 { 0.1 } else { 0.9 }; 3]).collect();
-    let picture = Arc::new(Mipmap::new(Panorama { width: 64, height: 64, pixels: stripes }));
-    fine.film = Film::square(72, 2.0);
-    let Product::Light(product) = &mut fine.product else { panic!("no picture under light") };
-    (product.steps, product.wavelengths) = (Steps::Glance { first: 0 }, 16);
-    product.surroundings.shows_light = true;
-    product.surroundings.backplate =
-        Some(HungPicture { picture, span: 1.0, distance: 3.0, frame: fine.film });
-    fine.quality = Quality { tracer: Wanted::Rays, samples: Some(1), ..fine.quality };
-    let taken = |film: Film| lit(&Job { film, ..fine.clone() });
-    let (rough_film, true_picture) =
-        (Film { size: [24, 24], pixel: 3.0 * fine.film.pixel, ..fine.film }, taken(fine.film));
-    let rough = taken(rough_film);
-    let large = fine.enlarged(&rough, (&rough_film, DVec2::splat(0.5))).unwrap();
-    let probe = crate::trace::ray::SceneProbe::new(&fine.lit().unwrap());
-    let (mut beside, mut off, mut off_blocks) = (0, 0.0, 0.0);
-    for k in 0..72 * 72 {
-        let (x, y) = (k % 72, k / 72);
-        let [exact, enlarged] = [&true_picture, &large].map(|picture| picture.pixels[k]);
-        let block = rough.pixels[y / 3 * 24 + x / 3];
-        let gap =
-            |light: [f32; 4]| (0..3).map(|c| f64::from((light[c] - exact[c]).abs().min(1.0))).sum::<f64>();
-        assert_eq!(enlarged[3], exact[3], "{x}, {y}");
-        if probe.through(x as f64 + 0.5, y as f64 + 0.5).is_none() {
-            beside += 1;
-            assert!(gap(enlarged) < 1e-5, "{x}, {y}: {enlarged:?} is not {exact:?}");
-        }
-        (off, off_blocks) = (off + gap(enlarged), off_blocks + gap(block));
-    }
-    assert!(beside > 1000 && off < 0.5 * off_blocks, "{beside} beside, {off} of {off_blocks}");
-    // A picture of the same size stays as it is, but for rounding.
-    let same = fine.enlarged(&true_picture, (&fine.film, DVec2::splat(0.5))).unwrap();
-    let most = same.pixels.iter().flatten().zip(true_picture.pixels.iter().flatten());
-    assert!(most.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max) < 0.01);
-}
-
-#[test]
-fn metal_is_planned_to_the_processor_with_the_reason_where_a_card_is_wanted() {
-    let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
-    let surface = crate::math::ShadedSurface { points, corners: vec![[0, 1, 2]], normals: vec![] };
-    let plate = Arc::new(crate::math::ShadedMesh::new(surface).unwrap());
-    let plate = crate::scene::MetalInstance::new(&plate, crate::optics::Metal::Gold);
-    let scene = Scene { metals: vec![plate.clone()], ..Scene::alone(&specimen("round_brilliant")) };
-    let of = |scene: &Scene, tracer: Wanted| {
-        let mut job = job(scene.clone(), light(Steps::Strips));
-        job.quality.tracer = tracer;
-        Renderer::default().plan(&job)
-    };
-    for wanted in [Wanted::Quickest, Wanted::Rays, Wanted::Card] {
-        let plan = of(&scene, wanted).unwrap();
-        assert_eq!(plan.backend.name(), "ray");
-        let why = plan.no_card.map(|why| why.to_string());
-        assert_eq!(
-            why.as_deref(),
-            (wanted == Wanted::Card).then_some("graphics cards do not reflect metal yet")
-        );
-    }
-    assert!(matches!(of(&scene, Wanted::Beams), Err(Unfit::Metal)));
-    let rough = crate::scene::MetalInstance { roughness: 2.0, ..plate };
-    let error = of(&Scene { metals: vec![rough], ..scene.clone() }, Wanted::Rays).err();
-    let error = error.map(|error| error.to_string());
-    assert_eq!(error.as_deref(), Some("scene.metals[0]: roughness is 2; give a part from 0 to 1"));
-    // The metal of a job goes through JSON and back.
-    let job = job(scene, light(Steps::Strips));
-    let text = serde_json::to_string(&job).unwrap();
-    assert_eq!(serde_json::from_str::<Job>(&text).unwrap().scene.metals, job.scene.metals);
-    assert!(text.contains("\"Gold\""));
-}
-
-#[test]
-fn scopes_figures_and_maps_refuse_metal_instead_of_leaving_it_out() {
-    let surface = crate::math::ShadedSurface::creased(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]], 0.5);
-    let mesh = Arc::new(crate::math::ShadedMesh::new(surface).unwrap());
-    let plate = crate::scene::MetalInstance::new(&mesh, crate::optics::Metal::Gold);
-    let alone = Scene::alone(&specimen("round_brilliant"));
-    for product in [scope(vec![Reading::Energy]), figures()] {
-        let free = job(alone.clone(), product);
-        assert!(Renderer::default().plan(&free).is_ok());
-        let held = Job { scene: Arc::new(Scene { metals: vec![plate.clone()], ..alone.clone() }), ..free };
-        assert_eq!(Renderer::default().plan(&held).err(), Some(Unfit::Metal));
-    }
 }

@@ -12,11 +12,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-/// A ring in mm.
+/// The stones and the metal of a scene's ring, placed in the scene, in mm.
 pub(super) struct RingParts<'a> {
     /// The stones in their seats.
     pub stones: Vec<Member<'a>>,
-    /// All metal as one body.
+    /// The band, the head and all prongs and seats as one body of metal.
     pub metal: MetalInstance,
     /// What the ring is made of, in its own frame.
     pub mounting: Mounting,

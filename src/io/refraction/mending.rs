@@ -4,7 +4,7 @@
 use super::tiles;
 use glam::DVec2;
 
-/// A step of the tiles' coding.
+/// The distance of two places whose codes differ by one step, as a part of the background's side.
 const STEP: f64 = 16.0 / 255.0 / 255.0;
 
 /// Places of neighbours nearer to one another than this lie on one surface: three quarters of a tile.

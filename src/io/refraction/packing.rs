@@ -38,7 +38,7 @@ type Planes = [Vec<i32>; 3];
 
 /// What a page needs to unpack a band.
 pub(super) struct PackedBand {
-    /// A PNG of the remainders.
+    /// The bytes of a PNG file whose pixels are what the prediction leaves.
     pub png: Vec<u8>,
     /// The number of the band, the numbers of those it is predicted from, or -1, and the part of the way between them in
     /// parts of 1024.

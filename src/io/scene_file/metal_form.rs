@@ -14,7 +14,7 @@ const MOST_METALS: usize = 256;
 
 const SCALES: RangeInclusive<f64> = 1e-6..=1e6;
 
-/// A table `[[metal]]`.
+/// A table `[[metal]]` of a scene file, as serde reads and writes it.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MetalForm {

@@ -36,7 +36,7 @@ const RAIL_GAP_MM: f64 = 0.05;
 /// The least gap between neighbouring prongs at the girdle, in mm.
 const PRONG_GAP_MM: f64 = 0.3;
 
-/// A prong and where it stands.
+/// One prong: where it stands around the stone, the way that it takes, and the outline of the stone that it grips.
 pub(super) struct Prong {
     /// The azimuth about the stone's axis, radians.
     pub azimuth: f64,

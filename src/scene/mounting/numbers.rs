@@ -1,8 +1,9 @@
-//! The numbers of a ring: key, unit, range, and usual value of each, one row a number.
+//! The numbers that describe a ring: key, unit and range of each, one row a number. `Ring::default` has their usual values;
+//! docs/formats.md says what they mean.
 
 use super::{Ring, RingError};
 
-/// A number of a ring.
+/// One number that describes a ring, such as the width of its band.
 pub struct RingNumber {
     /// The key in scene files.
     pub key: &'static str,
@@ -10,11 +11,11 @@ pub struct RingNumber {
     pub range: [f64; 2],
     /// The unit; empty for a part of something.
     pub unit: &'static str,
-    /// Returns the value.
+    /// Returns the value that a ring has.
     pub get: fn(&Ring) -> f64,
 }
 
-/// All numbers of a ring.
+/// The numbers that describe a ring, in the order of its fields.
 pub const RING_NUMBERS: [RingNumber; 12] = [
     RingNumber {
         key: "inner_diameter_mm",

@@ -69,7 +69,7 @@ impl OuterShape {
     }
 }
 
-/// A ring as numbers; [`RING_NUMBERS`] has their ranges, docs/formats.md their meanings.
+/// A ring as numbers; `RING_NUMBERS` (in this folder) has their ranges, docs/formats.md their meanings.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ring {
@@ -136,9 +136,9 @@ pub struct MetalPart {
 /// Which of a ring's stones sits in a seat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SeatKind {
-    /// The main stone.
+    /// The main stone, which prongs hold in the middle of the head.
     Main,
-    /// A small stone.
+    /// One of the small stones, which stand around the main stone or along the band.
     Small,
 }
 

@@ -7,7 +7,7 @@ use crate::math::ShadedSurface;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// A place on a rod's middle.
+/// One cross-section of a rod: where its middle is, how it lies there, and how thick it is.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Station {
     /// The place, in mm.

@@ -10,28 +10,42 @@ use rayon::prelude::*;
 /// How many points are looked at together.
 const AT_ONCE: usize = 1024;
 
-/// Finds the bodies that are seen first: by packets where these can be followed, else by single rays.
+/// Finds the bodies that are seen first.
 pub struct FirstBodies<'a> {
     lit_scene: LitScene<'a>,
     /// The camera of the picture.
     pub camera: Camera,
-    packets: Option<PacketTracer<'a>>,
-    probe: SceneProbe<'a>,
+    rays: ProbingRays<'a>,
+}
+
+/// The rays that look for bodies.
+enum ProbingRays<'a> {
+    /// Packets in single precision, which are quicker.
+    Packets(Box<PacketTracer<'a>>),
+    /// Single rays in double precision, which meet bodies of all kinds.
+    Single(Box<SceneProbe<'a>>),
 }
 
 impl<'a> FirstBodies<'a> {
     /// Prepares the bodies of a scene.
     pub fn new(lit_scene: &LitScene<'a>) -> Self {
-        let probe = SceneProbe::new(lit_scene);
-        Self { lit_scene: *lit_scene, camera: probe.camera, packets: PacketTracer::new(*lit_scene), probe }
+        let camera = Camera::reaching(lit_scene.view, lit_scene.scene.reach());
+        let rays = match PacketTracer::new(*lit_scene) {
+            Some(packets) => ProbingRays::Packets(Box::new(packets)),
+            None => ProbingRays::Single(Box::new(SceneProbe::new(lit_scene))),
+        };
+        Self { lit_scene: *lit_scene, camera, rays }
     }
 
     /// Returns the index of the body that is seen first at each point, `None` where none is. Points are in pixels to the right of
     /// the picture's left border and below its upper one.
     pub fn at(&self, points: &[DVec2]) -> Vec<Option<u32>> {
-        let Some(packets) = &self.packets else {
-            let single = |at: &DVec2| self.probe.through(at.x, at.y).map(|seen| seen.stone as u32);
-            return points.par_iter().map(single).collect();
+        let packets = match &self.rays {
+            ProbingRays::Packets(packets) => packets,
+            ProbingRays::Single(probe) => {
+                let single = |at: &DVec2| probe.through(at.x, at.y).map(|seen| seen.stone as u32);
+                return points.par_iter().map(single).collect();
+            }
         };
         let eye_ray = |at: &DVec2| {
             let (origin, direction) = self.camera.ray(self.lit_scene.film.image_from_pixels(*at));

@@ -279,7 +279,7 @@ impl SceneTracer {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct First(FirstBody);
 
-/// A stone, or a body of metal.
+/// What a ray meets first, and where: a stone, or a body of metal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum FirstBody {
     Stone(Met),

@@ -39,7 +39,7 @@ pub struct MeshFile {
     /// All triangles; the surface's groups are the file's meshes, objects or groups, with their names.
     pub surface: Surface,
     /// The normals of the surface's corners, of any length, 0 where the file gives none; empty where it gives none at all.
-    /// Of OBJ they are read by [`parse_shaded`] alone.
+    /// Of OBJ they are read only for opaque bodies.
     pub normals: Vec<DVec3>,
     /// What the file says of its material.
     pub hint: Option<MaterialHint>,
