@@ -136,7 +136,7 @@ impl Design {
         self.material.check()?;
         match &self.cut {
             Cut::Tiers(_) | Cut::Planes(_) => self.facets().map(|_| ()),
-            Cut::RoundBrilliant(_) | Cut::Mesh(_) | Cut::Glass(_) => Ok(self.cut.check()?),
+            Cut::RoundBrilliant(_) | Cut::Family(_) | Cut::Mesh(_) | Cut::Glass(_) => Ok(self.cut.check()?),
         }
     }
 
@@ -149,6 +149,7 @@ impl Design {
     pub fn facets(&self) -> Result<Vec<(String, Plane)>, DesignError> {
         match &self.cut {
             Cut::RoundBrilliant(proportions) => Ok(proportions.facets()?),
+            Cut::Family(cut) => Ok(cut.facets()?),
             Cut::Tiers(tiers) => tiers_facets(tiers),
             Cut::Planes(planes) => named_planes(planes),
             Cut::Mesh(_) => Err(NotConvex.into()),

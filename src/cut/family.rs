@@ -5,6 +5,7 @@
 //! [`FAMILIES`](super::FAMILIES).
 
 use super::Cut;
+use super::family_cut::MakeNet;
 use std::fmt;
 
 /// A family of cuts, shaped by proportions.
@@ -17,6 +18,8 @@ pub struct Family {
     pub proportions: &'static [Proportion],
     /// A usual cut of the family, from which one is read or designed.
     pub first: Cut,
+    /// The function that makes the facets of a [`FamilyCut`](super::FamilyCut); `None` for families with a type of their own.
+    pub net: Option<MakeNet>,
 }
 
 impl Family {
@@ -112,15 +115,17 @@ pub enum Unit {
     Degrees,
     /// A whole number.
     Count,
+    /// A quotient of two lengths, or an exponent.
+    Ratio,
 }
 
 impl Unit {
-    /// Returns the name of the unit; that of a count is empty.
+    /// Returns the name of the unit; those of a count and a ratio are empty.
     pub fn name(self) -> &'static str {
         match self {
             Self::Percent => "percent",
             Self::Degrees => "degrees",
-            Self::Count => "",
+            Self::Count | Self::Ratio => "",
         }
     }
 }
@@ -130,7 +135,7 @@ impl fmt::Display for Unit {
         f.write_str(match self {
             Self::Percent => " %",
             Self::Degrees => "°",
-            Self::Count => "",
+            Self::Count | Self::Ratio => "",
         })
     }
 }
@@ -211,7 +216,7 @@ impl Proportion {
         let held = self.pair.filter(|_| !(self.is_given)(cut)).and_then(|key| cut.proportion(key));
         let value = match self.unit {
             Unit::Count => value.round().max(self.usual[0]).min(self.usual[1]),
-            Unit::Percent | Unit::Degrees => value,
+            Unit::Percent | Unit::Degrees | Unit::Ratio => value,
         };
         self.give(cut, value);
         held.into_iter().for_each(|other| other.hold(cut));
@@ -243,6 +248,7 @@ impl Proportion {
     pub fn hint(&self) -> String {
         match self.unit {
             Unit::Count => format!("{} to {}", self.usual[0], self.usual[1]),
+            Unit::Ratio => self.of.to_owned(),
             unit => format!("{} {}", unit.name(), self.of),
         }
     }

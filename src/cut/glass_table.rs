@@ -119,6 +119,7 @@ pub static PLATE: Family = Family {
     key: "plate",
     name: "Wavy plate",
     proportions: &[LENGTH, WIDTH, DEPTH, EDGE, AMPLITUDE, WAVELENGTH, PHASE],
+    net: None,
     first: Cut::Glass(Glass::Plate(Plate {
         sides: Sides { length: 100.0, width: 100.0, depth: 17.4, edge: 3.0 },
         amplitude: 4.9,
@@ -128,7 +129,7 @@ pub static PLATE: Family = Family {
 };
 
 const fn of_sides(key: &'static str, name: &'static str, first: Glass) -> Family {
-    Family { key, name, proportions: SIDES, first: Cut::Glass(first) }
+    Family { key, name, proportions: SIDES, first: Cut::Glass(first), net: None }
 }
 
 fn glass(cut: &Cut) -> Option<&Glass> {

@@ -1,6 +1,7 @@
 //! Checks proportions against the bounds of their family's table.
 
 use super::Cut;
+use super::facet_net::Unfit;
 use super::family::{Bound, BoundAt, Proportion};
 use super::proportion_error::{Limit, ProportionError};
 
@@ -20,7 +21,47 @@ impl Cut {
         for row in all.filter(|row| row.least.is_some() || row.most.is_some()) {
             row.check((row.get)(self), Some(self)).map_err(|error| self.in_given_terms(row, error))?;
         }
-        Ok(())
+        match self {
+            Self::Family(cut) => cut.check_net().map_err(|unfit| self.without_room(unfit)),
+            _ => Ok(()),
+        }
+    }
+
+    /// Returns the error of facets without room as one of the given proportion that is farthest from its usual range among
+    /// those that alone make room when they are usual, with its limit; of all where none makes room alone.
+    pub(super) fn without_room(&self, unfit: Unfit) -> ProportionError {
+        let given: Vec<(&'static Proportion, f64)> = self.given().collect();
+        let first = self.family().map(|family| &family.first);
+        let usual = |row: &Proportion| first.map_or(f64::NAN, |first| (row.get)(first));
+        let with = |cut: &Self, row: &Proportion, value| {
+            let mut cut = cut.clone();
+            row.set(&mut cut, value);
+            cut
+        };
+        let fits = |cut: &Self| matches!(cut, Self::Family(cut) if cut.check_net().is_ok());
+        let unusual = |(row, value): &(&Proportion, f64)| {
+            (value - usual(row)).abs() / (row.usual[1] - row.usual[0]).max(f64::MIN_POSITIVE)
+        };
+        let most = |rows: &mut dyn Iterator<Item = (&'static Proportion, f64)>| {
+            rows.max_by(|a, b| unusual(a).total_cmp(&unusual(b)))
+        };
+        let heals = |(row, _): &(&'static Proportion, f64)| fits(&with(self, row, usual(row)));
+        let alone = most(&mut given.iter().copied().filter(heals));
+        let others = if alone.is_some() { self } else { first.unwrap_or(self) };
+        let (row, value) =
+            alone.or_else(|| most(&mut given.iter().copied())).expect("every family has proportions");
+        let limit = farthest(usual(row), value, |value| fits(&with(others, row, value)));
+        // A count becomes a possible one.
+        let limit = (row.get)(&with(others, row, limit));
+        let limit = Limit {
+            row,
+            value,
+            limit,
+            inclusive: true,
+            reason: "beyond which no room is left",
+            tier: unfit.tier,
+        };
+        if value > limit.limit { ProportionError::TooLarge(limit) } else { ProportionError::TooSmall(limit) }
     }
 
     /// Returns the error of a derived number as one of the given proportion that changes that number most, with the limit
@@ -48,7 +89,7 @@ impl Cut {
         let others = if keeps(&with(self, row, usual(row))) { self } else { &family.first };
         let value = (row.get)(self);
         let at = farthest(usual(row), value, |value| keeps(&with(others, row, value)));
-        let limit = Limit { row, value, limit: at, inclusive: true, reason: limit.reason };
+        let limit = Limit { row, value, limit: at, inclusive: true, reason: limit.reason, tier: limit.tier };
         if value > at { ProportionError::TooLarge(limit) } else { ProportionError::TooSmall(limit) }
     }
 }
@@ -87,7 +128,7 @@ impl Proportion {
                 BoundAt::Of(at) => at(cut?),
             };
             let is_kept = side * (value - limit) > 0.0 || (inclusive && value == limit);
-            (!is_kept).then_some(Limit { row: self, value, limit, inclusive, reason })
+            (!is_kept).then_some(Limit { row: self, value, limit, inclusive, reason, tier: "" })
         };
         let too_small = crossed(&self.least, 1.0).map(ProportionError::TooSmall);
         let error = too_small.or_else(|| crossed(&self.most, -1.0).map(ProportionError::TooLarge));

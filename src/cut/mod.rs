@@ -8,9 +8,11 @@
 mod beyond_gear;
 mod derive;
 mod design;
+mod facet_net;
 mod facets;
 mod families;
 mod family;
+mod family_cut;
 pub mod from_mesh;
 mod glass;
 mod glass_solid;
@@ -33,8 +35,10 @@ mod warning;
 
 pub use beyond_gear::BeyondGear;
 pub use design::{DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFault};
+pub use facet_net::Unfit;
 pub use families::FAMILIES;
 pub use family::{Bound, BoundAt, Family, ProfileHandle, Proportion, Unit};
+pub use family_cut::FamilyCut;
 pub use glass::{Glass, Plate, Sides};
 pub use material::{MaterialError, MaterialRef};
 pub use mesh_shape::MeshShape;

@@ -68,11 +68,21 @@ pub struct Limit {
     pub inclusive: bool,
     /// What happens at the limit, as a clause for the message.
     pub reason: &'static str,
+    /// The tier of the facets for which no room is left; empty where the reason says it all.
+    pub tier: &'static str,
 }
 
 impl Limit {
+    /// Returns what happens at the limit, as a clause for a message.
+    pub fn clause(&self) -> String {
+        match self.tier {
+            "" => self.reason.to_owned(),
+            tier => format!("{} for the facets '{tier}'", self.reason),
+        }
+    }
+
     fn text(&self, open: &str, closed: &str, change: &str) -> String {
-        let Self { row: Proportion { unit, .. }, value, limit, inclusive, reason } = *self;
+        let Self { row: Proportion { unit, .. }, value, limit, inclusive, .. } = *self;
         let gap = (value - limit).abs();
         let near = gap < 0.01;
         let limit = if near || limit.abs() < 0.005 { given(limit) } else { rounded(limit) };
@@ -80,7 +90,10 @@ impl Limit {
         let step = if inclusive { (gap * 100.0).ceil() } else { (gap * 100.0).floor() + 1.0 } / 100.0;
         let value = given(if near { value } else { four_decimals(value) });
         let (step, hint) = (rounded(step), self.unit_hint());
-        format!("{value}{unit} must be {side} {limit}{unit}, {reason}; {change} it by at least {step}{hint}")
+        format!(
+            "{value}{unit} must be {side} {limit}{unit}, {}; {change} it by at least {step}{hint}",
+            self.clause()
+        )
     }
 
     /// Returns a hint with the value in the proper unit, where the given one looks like a fraction or radians.

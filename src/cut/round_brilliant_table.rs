@@ -22,6 +22,7 @@ pub static ROUND_BRILLIANT: Family = Family {
     key: "round_brilliant",
     name: "Round brilliant",
     first: Cut::RoundBrilliant(TOLKOWSKY),
+    net: None,
     proportions: &[
         Proportion {
             key: "table",

@@ -17,10 +17,10 @@ pub struct MachineSetting {
 }
 
 impl Cut {
-    /// Returns the tiers in the order in which they are listed; none for a round brilliant, a mesh or a glass shape.
+    /// Returns the tiers in the order in which they are listed; none for a cut that is shaped by proportions, or a mesh.
     pub fn settings(&self) -> Vec<MachineSetting> {
         match self {
-            Self::RoundBrilliant(_) | Self::Mesh(_) | Self::Glass(_) => vec![],
+            Self::RoundBrilliant(_) | Self::Family(_) | Self::Mesh(_) | Self::Glass(_) => vec![],
             Self::Tiers(design) => {
                 let numbered = (1..).zip(&design.tiers).filter(|(_, tier)| tier.is_cut);
                 let setting = |(number, tier): (usize, &super::Tier)| MachineSetting {
@@ -41,7 +41,7 @@ impl Cut {
     /// changes nothing.
     pub fn set(&mut self, place: usize, angle: f64, distance: f64) {
         match self {
-            Self::RoundBrilliant(_) | Self::Mesh(_) | Self::Glass(_) => {}
+            Self::RoundBrilliant(_) | Self::Family(_) | Self::Mesh(_) | Self::Glass(_) => {}
             Self::Tiers(design) => {
                 if let Some(tier) = design.tiers.iter_mut().filter(|tier| tier.is_cut).nth(place) {
                     (tier.angle, tier.distance) = (angle, distance);

@@ -1,5 +1,6 @@
 //! The cut of a stone: the shape that a file gives it.
 
+use super::family_cut::FamilyCut;
 use super::glass::Glass;
 use super::mesh_shape::MeshShape;
 use super::round_brilliant::RoundBrilliant;
@@ -11,6 +12,8 @@ use crate::math::Plane;
 pub enum Cut {
     /// A round brilliant, by its proportions.
     RoundBrilliant(RoundBrilliant),
+    /// A cut of another family, by the numbers of its table.
+    Family(FamilyCut),
     /// Facets by angle, distance and index, as cutters write them.
     Tiers(Tiers),
     /// Planes with their names, as written: 1 to [`MAX_PLANES`](super::MAX_PLANES) planes, normals of any length but
@@ -27,7 +30,7 @@ impl Cut {
     pub fn brilliant(&self) -> Option<&RoundBrilliant> {
         match self {
             Self::RoundBrilliant(brilliant) => Some(brilliant),
-            Self::Tiers(_) | Self::Planes(_) | Self::Mesh(_) | Self::Glass(_) => None,
+            Self::Family(_) | Self::Tiers(_) | Self::Planes(_) | Self::Mesh(_) | Self::Glass(_) => None,
         }
     }
 }

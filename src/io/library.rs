@@ -1,13 +1,14 @@
 //! The cuts and scenes that come with the program, as the texts of their files.
 
 /// The cuts that come with the program: the name of each, and the text of its file in `cuts/`.
-pub const CUTS: [(&str, &str); 10] = [
+pub const CUTS: [(&str, &str); 11] = [
     ("tolkowsky", include_str!("../../cuts/tolkowsky.toml")),
     ("modern-ideal", include_str!("../../cuts/modern-ideal.toml")),
     ("steep-deep", include_str!("../../cuts/steep-deep.toml")),
     ("shallow", include_str!("../../cuts/shallow.toml")),
     ("fisheye", include_str!("../../cuts/fisheye.toml")),
     ("sixty-sixty", include_str!("../../cuts/sixty-sixty.toml")),
+    ("oval", include_str!("../../cuts/oval.toml")),
     ("pill", include_str!("../../cuts/pill.toml")),
     ("prism", include_str!("../../cuts/prism.toml")),
     ("cube", include_str!("../../cuts/cube.toml")),

@@ -49,8 +49,8 @@ fn in_its_terms(given: &Cut, last: &Cut, row: &'static Proportion, fault: &Propo
     let side = if value > possible { "most" } else { "least" };
     let [value, limit] = [value, limit].map(|value| row.written(value));
     let reason = match fault.limit() {
-        Some(Limit { row: at, limit, reason, .. }) if *at == row => {
-            format!("The limit is {}, {reason}.", row.written(*limit))
+        Some(crossed) if crossed.row == row => {
+            format!("The limit is {}, {}.", row.written(crossed.limit), crossed.clause())
         }
         _ => message(fault),
     };
@@ -73,9 +73,9 @@ fn message(fault: &ProportionError) -> String {
     let row = fault.row();
     match fault.limit() {
         None => format!("{}: this is not a finite number.", row.name),
-        Some(Limit { value, limit, reason, .. }) => {
+        Some(crossed @ Limit { value, limit, .. }) => {
             let [value, bound] = [*value, *limit].map(|value| row.written(value));
-            format!("{} would be {value}; the limit is {bound}, {reason}.", row.name)
+            format!("{} would be {value}; the limit is {bound}, {}.", row.name, crossed.clause())
         }
     }
 }

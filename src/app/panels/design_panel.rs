@@ -80,7 +80,9 @@ fn identity(document: &Document, actions: &mut Actions, ui: &mut Ui) {
             Cut::Tiers(_) => "Tiers on an index gear",
             Cut::Planes(_) => "Facets given by planes",
             Cut::Mesh(_) => "Triangles of a mesh",
-            Cut::RoundBrilliant(_) | Cut::Glass(_) => design.cut.family().map_or("", |family| family.name),
+            Cut::RoundBrilliant(_) | Cut::Family(_) | Cut::Glass(_) => {
+                design.cut.family().map_or("", |family| family.name)
+            }
         });
     });
 }

@@ -80,7 +80,7 @@ pub(super) fn written(family: &Family, cut: &Cut) -> String {
     let number = |(row, value): (&Proportion, f64)| {
         let value = match row.unit {
             Unit::Count => toml::Value::from(value as i64),
-            Unit::Percent | Unit::Degrees => toml::Value::from(value),
+            Unit::Percent | Unit::Degrees | Unit::Ratio => toml::Value::from(value),
         };
         format!("{} = {value}\n", row.key)
     };

@@ -72,7 +72,7 @@ impl DesignForm {
             mesh: None,
         };
         match &design.cut {
-            Cut::RoundBrilliant(_) | Cut::Glass(_) => form,
+            Cut::RoundBrilliant(_) | Cut::Family(_) | Cut::Glass(_) => form,
             Cut::Tiers(tiers) => Self {
                 index: Some(TomlTable(tiers.clone())),
                 tier: Some(tiers.tiers.iter().map(|tier| TomlTable(TierForm::of(tier))).collect()),

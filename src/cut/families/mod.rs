@@ -1,12 +1,22 @@
 //! All families of cuts, and which of them a cut belongs to.
 
+mod brilliant;
+mod girdle;
+mod oval;
+mod rows;
+#[cfg(test)]
+mod tests;
+
 use super::family::{Family, ProfileHandle, Proportion};
+#[cfg(test)]
+use super::family_cut::FamilyCut;
 use super::glass_table::{CUBE, PILL, PLATE, PRISM};
 use super::round_brilliant_table::ROUND_BRILLIANT;
 use super::{Cut, Glass};
+use oval::OVAL;
 
 /// All families that are described by proportions, in the order in which messages list them.
-pub static FAMILIES: [&Family; 5] = [&ROUND_BRILLIANT, &PILL, &CUBE, &PRISM, &PLATE];
+pub static FAMILIES: [&Family; 6] = [&ROUND_BRILLIANT, &OVAL, &PILL, &CUBE, &PRISM, &PLATE];
 
 impl Family {
     /// Returns the family that has this key in cut files.
@@ -20,6 +30,7 @@ impl Cut {
     pub fn family(&self) -> Option<&'static Family> {
         match self {
             Self::RoundBrilliant(_) => Some(&ROUND_BRILLIANT),
+            Self::Family(cut) => Some(cut.family),
             Self::Glass(Glass::Pill(_)) => Some(&PILL),
             Self::Glass(Glass::Cube(_)) => Some(&CUBE),
             Self::Glass(Glass::Prism(_)) => Some(&PRISM),

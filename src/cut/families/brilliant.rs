@@ -1,0 +1,150 @@
+//! The brilliant on any convex outline: mains, stars and halves whose corners meet in points.
+//!
+//! At each main station, a bezel touches the outline: its level lines run along the tangent there. The table's corner of
+//! this bezel lies on the way from the station to the axis of the stone, so that the table is the outline made smaller, and all
+//! bezels rise to it. Mains below run to the culet's point in the same way. Two neighbours meet in a line; the tip of a star, or
+//! of two lower halves, is a point of that line. Stars go through a star tip and two corners of the table, halves through a
+//! tip and two neighbouring stations. All facets meet in points for every convex outline, and the stone is convex: tangents
+//! of a convex curve meet outside it. The construction is this program's own; on a circle it is the round brilliant of
+//! docs/optics.md.
+
+use super::super::facet_net::{FacetNet, Unfit};
+use super::girdle::{Girdle, Station};
+use glam::{DVec2, DVec3};
+
+/// The numbers of a brilliant on an outline. Lengths are in girdle radii, heights are above the girdle's upper edge.
+pub struct Brilliant<'a> {
+    pub girdle: &'a Girdle,
+    /// The point, seen from above, to which table and culet are centred.
+    pub middle: DVec2,
+    /// The table's part of the outline's size.
+    pub table: f64,
+    /// The height of the table.
+    pub crown_height: f64,
+    /// The part of the way from the table's edge to the outline that the stars reach, seen from above.
+    pub star: f64,
+    /// The girdle's thickness at the mains.
+    pub thickness: f64,
+    /// The depth of the mains' point below the girdle.
+    pub pavilion_depth: f64,
+    /// The part of the way from the outline to the middle that the lower halves reach, seen from above.
+    pub lower_half: f64,
+    /// The culet's part of the outline's size; 0 is a point.
+    pub culet: f64,
+}
+
+impl Brilliant<'_> {
+    /// Makes all facets.
+    ///
+    /// # Errors
+    /// The tier whose points give no plane.
+    pub fn net(&self) -> Result<FacetNet, Unfit> {
+        let mut net = FacetNet::default();
+        net.plane("table", DVec3::Z, DVec3::Z * self.crown_height);
+        self.add_crown(&mut net)?;
+        if self.thickness > 0.0 {
+            self.girdle.add_to(&mut net);
+        }
+        self.add_pavilion(&mut net)?;
+        if self.culet > 0.0 {
+            let depth = self.thickness + self.pavilion_depth * (1.0 - self.culet);
+            net.plane("culet", DVec3::NEG_Z, DVec3::NEG_Z * depth);
+        }
+        Ok(net)
+    }
+
+    /// Returns a point inside the stone, near which no plane runs.
+    fn inside(&self) -> DVec3 {
+        self.middle.extend(-0.5 * self.thickness)
+    }
+
+    fn add_crown(&self, net: &mut FacetNet) -> Result<(), Unfit> {
+        let top = |main| self.toward_middle(main, self.table).extend(self.crown_height);
+        for main in self.girdle.mains() {
+            let Station { at, normal } = self.girdle.main(main);
+            let level = normal.perp().extend(0.0);
+            net.through("bezel", [at.extend(0.0), at.extend(0.0) + level, top(main)], self.inside())?;
+        }
+        let tips = self.girdle.mains().map(|main| self.star_tip(main)).collect::<Option<Vec<_>>>();
+        let tips = tips.ok_or(Unfit { tier: "star" })?;
+        for (main, tip) in tips.iter().enumerate() {
+            net.through("star", [top(main), top(main + 1), *tip], self.inside())?;
+        }
+        for (main, tip) in tips.iter().enumerate() {
+            self.add_halves(net, "upper_half", main, *tip, 0.0)?;
+        }
+        Ok(())
+    }
+
+    fn add_pavilion(&self, net: &mut FacetNet) -> Result<(), Unfit> {
+        let point = self.middle.extend(-self.thickness - self.pavilion_depth);
+        let tips = self.girdle.mains().map(|main| {
+            // The line from the culet's point to where the tangents of both mains meet.
+            let outer = self.tangents_meet(main, 1.0)?.extend(-self.thickness);
+            let reach = self.reach_of_halves(main, outer.truncate())?;
+            Some(point + (outer - point) * reach)
+        });
+        let tips = tips.collect::<Option<Vec<_>>>().ok_or(Unfit { tier: "lower_half" })?;
+        for (main, tip) in tips.iter().enumerate() {
+            self.add_halves(net, "lower_half", main, *tip, -self.thickness)?;
+        }
+        for main in self.girdle.mains() {
+            let Station { at, normal } = self.girdle.main(main);
+            let (edge, level) = (at.extend(-self.thickness), normal.perp().extend(0.0));
+            net.through("main", [edge, edge + level, point], self.inside())?;
+        }
+        Ok(())
+    }
+
+    /// Adds the two halves between a main and the next, which share a tip and a point of the girdle.
+    fn add_halves(
+        &self,
+        net: &mut FacetNet,
+        tier: &'static str,
+        main: usize,
+        tip: DVec3,
+        z: f64,
+    ) -> Result<(), Unfit> {
+        let middle = self.girdle.between(main).extend(z);
+        for side in [main, main + 1] {
+            net.through(tier, [tip, self.girdle.main(side).at.extend(z), middle], self.inside())?;
+        }
+        Ok(())
+    }
+
+    /// Returns the tip of the star between a main and the next: the point of the line in which both bezels meet that lies
+    /// the star's part of the way from the table's edge to the outline. `None` where the bezels have no such line.
+    fn star_tip(&self, main: usize) -> Option<DVec3> {
+        let (outer, inner) = (self.tangents_meet(main, 1.0)?, self.tangents_meet(main, self.table)?);
+        let edge = 0.5 * (self.toward_middle(main, self.table) + self.toward_middle(main + 1, self.table));
+        // Both ends of the way lie on the line from the middle to where the tangents meet, or, without mirror symmetry, near it.
+        let size = (outer - self.middle).length();
+        let [near, far] = [edge, self.girdle.between(main)]
+            .map(|point| (point - self.middle).dot((outer - self.middle) / size) / size);
+        let reached = near + self.star * (far - near);
+        let rise = (1.0 - reached) / (1.0 - self.table);
+        let at = outer + (inner - outer) * rise;
+        Some(at.extend(self.crown_height * rise))
+    }
+
+    /// Returns how far the lower halves' tip lies from the culet's point, as a part of the way to where the tangents meet.
+    fn reach_of_halves(&self, main: usize, outer: DVec2) -> Option<f64> {
+        let size = (outer - self.middle).length_squared();
+        let edge = (self.girdle.between(main) - self.middle).dot(outer - self.middle) / size;
+        Some((1.0 - self.lower_half) * edge).filter(|reach| *reach > 0.0)
+    }
+
+    /// Returns the point on the way from a main's station to the middle at a part of the outline's size.
+    fn toward_middle(&self, main: usize, size: f64) -> DVec2 {
+        self.middle + (self.girdle.main(main).at - self.middle) * size
+    }
+
+    /// Returns the point where the tangents of a main and of the next meet, in the outline of a part of its size.
+    fn tangents_meet(&self, main: usize, size: f64) -> Option<DVec2> {
+        let [a, b] = [main, main + 1].map(|main| self.girdle.main(main));
+        let [da, db] = [a, b].map(|station| station.normal.dot(station.at - self.middle) * size);
+        let across = a.normal.perp_dot(b.normal);
+        let meet = (b.normal.perp() * -da + a.normal.perp() * db) / across;
+        (across > 0.0).then_some(self.middle + meet)
+    }
+}

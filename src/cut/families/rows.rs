@@ -1,0 +1,91 @@
+//! Rows that the tables of several families have in common. `PLACE` is the place of the number in the table.
+
+use super::super::family::BoundAt::Fixed;
+use super::super::family::{Bound, Proportion, Unit};
+use super::super::family_cut::number;
+
+/// The length of the stone to its width. A square or round outline has 1.
+pub const fn length_to_width<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
+    Proportion {
+        key: "length_to_width",
+        name: "Length to width",
+        unit: Unit::Ratio,
+        of: "the length as a multiple of the width",
+        meaning: "The length of the outline as a multiple of its width.",
+        usual,
+        step: 0.01,
+        speed: 0.002,
+        least: Bound::at(Fixed(0.5), "the shortest outline allowed"),
+        most: Bound::at(Fixed(5.0), "the longest outline allowed"),
+        ..number::<PLACE>()
+    }
+}
+
+/// A length in percent of the stone's width.
+pub const fn of_width<const PLACE: usize>(
+    key: &'static str,
+    name: &'static str,
+    usual: [f64; 2],
+) -> Proportion {
+    Proportion { key, name, of: "of the width", usual, ..number::<PLACE>() }
+}
+
+/// An angle from the girdle plane, 2 to 88 degrees.
+pub const fn slope<const PLACE: usize>(key: &'static str, name: &'static str, usual: [f64; 2]) -> Proportion {
+    Proportion {
+        key,
+        name,
+        unit: Unit::Degrees,
+        of: "from the girdle plane",
+        usual,
+        least: Bound::at(Fixed(2.0), "the flattest facet allowed"),
+        most: Bound::at(Fixed(88.0), "the steepest facet allowed"),
+        ..number::<PLACE>()
+    }
+}
+
+/// The table's width.
+pub const fn table<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
+    Proportion {
+        meaning: "The width of the flat facet on top, in percent of the width of the stone.",
+        least: Bound::at(Fixed(5.0), "the smallest table allowed"),
+        most: Bound::at(Fixed(95.0), "the largest table allowed"),
+        ..of_width::<PLACE>("table", "Table", usual)
+    }
+}
+
+/// The girdle's thickness.
+pub const fn girdle_thickness<const PLACE: usize>() -> Proportion {
+    Proportion {
+        meaning: "The thickness of the girdle where it is greatest, in percent of the width of the stone.",
+        least: Bound::at(Fixed(0.0), "a knife edge all round"),
+        most: Bound::at(Fixed(50.0), "the thickest girdle allowed"),
+        ..of_width::<PLACE>("girdle_thickness", "Girdle thickness", [0.5, 8.0])
+    }
+}
+
+/// The culet's size.
+pub const fn culet<const PLACE: usize>() -> Proportion {
+    Proportion {
+        meaning: "The size of the culet, the small facet at the bottom, as a part of the stone's own; 0 is a point.",
+        least: Bound::at(Fixed(0.0), "a point"),
+        most: Bound::at(Fixed(60.0), "the largest culet allowed"),
+        nothing: Some("a point"),
+        ..of_width::<PLACE>("culet", "Culet", [0.0, 10.0])
+    }
+}
+
+/// A part of a way, in percent.
+pub const fn part<const PLACE: usize>(
+    key: &'static str,
+    name: &'static str,
+    of: &'static str,
+    usual: [f64; 2],
+) -> Proportion {
+    Proportion {
+        of,
+        least: Bound::before(Fixed(0.0), "where the facets would vanish"),
+        most: Bound::before(Fixed(100.0), "where the facets would stand upright"),
+        ..of_width::<PLACE>(key, name, usual)
+    }
+}

@@ -1,0 +1,158 @@
+//! What holds for every family whose facets a function makes: stones at random numbers, and what their limits say.
+
+use super::*;
+use crate::cut::{Outline, ProportionError, Unit, is_girdle, tier_stem};
+use crate::math::{Calipers, Polytope, hull};
+use glam::DVec3;
+use proptest::prelude::*;
+use proptest::test_runner::{Config, TestRng, TestRunner};
+use std::collections::BTreeMap;
+
+/// Returns the families that this folder makes.
+fn made() -> impl Iterator<Item = (&'static Family, FamilyCut)> {
+    FAMILIES.into_iter().filter_map(|family| match &family.first {
+        Cut::Family(cut) => Some((family, *cut)),
+        _ => None,
+    })
+}
+
+/// Returns the cut whose numbers lie at these parts of their usual ranges.
+fn at(family: &'static Family, parts: &[f64]) -> Cut {
+    let mut cut = family.first.clone();
+    for (row, part) in family.editable().zip(parts) {
+        let [least, most] = row.usual;
+        row.set(&mut cut, least + (most - least) * part);
+    }
+    cut
+}
+
+/// Runs a check on 300 cuts of each family at random numbers inside their usual ranges; returns for each family how many make
+/// a stone.
+fn on_random_cuts(
+    check: impl Fn(&'static Family, &Cut) -> Result<bool, TestCaseError>,
+) -> Vec<(&'static str, u32)> {
+    let mut counts = vec![];
+    for (family, _) in made() {
+        let config = Config { cases: 300, failure_persistence: None, ..Config::default() };
+        let rng = TestRng::deterministic_rng(config.rng_algorithm);
+        let made = std::cell::Cell::new(0);
+        let parts = prop::collection::vec(0.0..=1.0, family.editable().count());
+        let result = TestRunner::new_with_rng(config, rng).run(&parts, |parts| {
+            made.set(made.get() + u32::from(check(family, &at(family, &parts))?));
+            Ok(())
+        });
+        assert_eq!(result, Ok(()), "{}", family.key);
+        counts.push((family.key, made.get()));
+    }
+    counts
+}
+
+fn stone(cut: &Cut) -> Option<(Polytope, Vec<String>)> {
+    let Cut::Family(cut) = cut else { return None };
+    let (names, planes): (Vec<_>, Vec<_>) = cut.facets().ok()?.into_iter().unzip();
+    let stone = Polytope::from_planes(&planes).expect("a checked net is closed");
+    let names = stone.facets().iter().map(|facet| names[facet.source].clone()).collect();
+    Some((stone, names))
+}
+
+/// Counts the facets of each tier but the girdle.
+fn tiers(names: &[String]) -> BTreeMap<&str, usize> {
+    let mut tiers = BTreeMap::new();
+    for name in names.iter().map(|name| tier_stem(name)).filter(|name| *name != "girdle") {
+        *tiers.entry(name).or_default() += 1;
+    }
+    tiers
+}
+
+#[test]
+fn at_random_numbers_a_family_makes_a_stone_or_names_its_limit() {
+    let made = on_random_cuts(|_, cut| match cut.check() {
+        Ok(()) => {
+            let (stone, names) = stone(cut).expect("it was checked");
+            prop_assert!(stone.facets().len() == names.len() && stone.volume() > 0.0);
+            Ok(true)
+        }
+        Err(error) => {
+            let Some(limit) = error.limit() else { return Err(TestCaseError::fail(error.to_string())) };
+            prop_assert!(!limit.tier.is_empty() || limit.reason.len() > 8, "{error}");
+            Ok(false)
+        }
+    });
+    // Usual ranges are those that a designer meets: most of them must fit together.
+    assert!(made.iter().all(|(_, count)| *count >= 240), "{made:?}");
+}
+
+#[test]
+fn length_to_width_is_as_given_and_half_the_width_is_one() {
+    on_random_cuts(|family, cut| {
+        let Some((stone, _)) = stone(cut) else { return Ok(false) };
+        let (low, high) = stone.bounds();
+        let size = high - low;
+        let expected = family.proportion("length_to_width").map_or(f64::NAN, |row| (row.get)(cut));
+        if !expected.is_nan() {
+            prop_assert!((size.y / size.x - expected).abs() < 1e-9, "{} for {expected}", size.y / size.x);
+        }
+        prop_assert!((size.truncate().min_element() - 2.0).abs() < 1e-9, "{size}");
+        Ok(true)
+    });
+}
+
+#[test]
+fn every_stone_has_the_facets_of_its_first_cut_and_its_mirror_symmetry() {
+    on_random_cuts(|family, cut| {
+        let Some((stone, names)) = stone(cut) else { return Ok(false) };
+        let counts = family.editable().any(|row| row.unit == Unit::Count);
+        let mut expected = self::stone(&family.first).expect("the first cut is a stone").1;
+        expected.retain(|name| !name.starts_with("culet"));
+        let mut found = names.clone();
+        found.retain(|name| !name.starts_with("culet"));
+        if !counts {
+            prop_assert_eq!(tiers(&found), tiers(&expected));
+        }
+        for corner in stone.vertices() {
+            let mirrored = DVec3::new(-corner.x, corner.y, corner.z);
+            let near = stone.vertices().iter().any(|other| other.distance(mirrored) < 1e-7);
+            prop_assert!(near, "{corner} has no mirror image");
+        }
+        Ok(true)
+    });
+}
+
+#[test]
+fn impossible_numbers_name_a_limit_that_makes_a_stone() {
+    let mut checked = 0;
+    for (family, _) in made() {
+        for row in family.editable().filter(|row| row.unit != Unit::Count) {
+            for value in [-40.0, 0.0, 96.0, 150.0, 1e7] {
+                let mut cut = family.first.clone();
+                row.set(&mut cut, value);
+                let Err(error) = cut.check() else { continue };
+                let (ProportionError::TooLarge(limit) | ProportionError::TooSmall(limit)) = error else {
+                    panic!("{error}")
+                };
+                if limit.inclusive && limit.row == row {
+                    row.set(&mut cut, limit.limit);
+                    assert!(
+                        cut.check().is_ok() || !limit.tier.is_empty() || cut.check() != Err(error),
+                        "{error}"
+                    );
+                }
+                checked += 1;
+            }
+        }
+    }
+    assert!(checked > 20, "{checked}");
+}
+
+#[test]
+fn facets_are_named_by_tier() {
+    for (family, cut) in made() {
+        let (stone, names) = stone(&Cut::Family(cut)).unwrap();
+        assert!(names.iter().any(|name| name == "table") || family.key == "briolette", "{}", family.key);
+        let girdle = stone.facets().iter().zip(&names).filter(|(facet, _)| is_girdle(facet));
+        assert!(girdle.into_iter().all(|(_, name)| name.starts_with("girdle")), "{}", family.key);
+        let outline = Outline::of(&stone);
+        assert!(outline.width > 0.0);
+        assert!(Calipers::of(&hull(stone.vertices().iter().map(|v| v.truncate()).collect())).is_some());
+    }
+}

@@ -1,0 +1,110 @@
+//! A cut of a family whose facets a function makes out of the numbers of its table.
+
+use super::facet_net::{FacetNet, Unfit};
+use super::family::{Family, Proportion};
+use super::proportion_error::ProportionError;
+use super::shape::Cut;
+use crate::math::Plane;
+use std::fmt;
+use std::ops::Index;
+
+/// The most numbers that a family may have.
+pub const MOST_NUMBERS: usize = 16;
+
+/// The function that makes the facets of a family.
+///
+/// # Errors
+/// What the numbers leave no room for.
+pub type MakeNet = fn(&FamilyCut) -> Result<FacetNet, Unfit>;
+
+/// A cut of a family, as the numbers of its table in their units. Numbers are taken by their place among the rows of the
+/// table, which the file of the family names by constants.
+#[derive(Clone, Copy)]
+pub struct FamilyCut {
+    /// The family, which has a [`Family::net`].
+    pub family: &'static Family,
+    /// The numbers, in the order of the rows; those past the last row are 0.
+    pub numbers: [f64; MOST_NUMBERS],
+}
+
+impl FamilyCut {
+    /// Makes the first cut of a family, for its table.
+    pub const fn first(family: &'static Family, given: &[f64]) -> Cut {
+        let mut numbers = [0.0; MOST_NUMBERS];
+        let mut place = 0;
+        while place < given.len() {
+            numbers[place] = given[place];
+            place += 1;
+        }
+        Cut::Family(Self { family, numbers })
+    }
+
+    /// Returns the net of facets.
+    ///
+    /// # Errors
+    /// What the numbers leave no room for.
+    pub(super) fn net(&self) -> Result<FacetNet, Unfit> {
+        let Some(make) = self.family.net else { return Err(Unfit::default()) };
+        make(self)
+    }
+
+    /// Returns every facet's name, no two alike, and its plane with a unit normal. Half of the stone's width is 1.
+    ///
+    /// # Errors
+    /// The first limit crossed, and by how much.
+    pub fn facets(&self) -> Result<Vec<(String, Plane)>, ProportionError> {
+        let cut = Cut::Family(*self);
+        cut.check()?;
+        self.net().map(|net| net.named()).map_err(|unfit| cut.without_room(unfit))
+    }
+
+    /// Checks that every facet of the net has its place on the stone.
+    ///
+    /// # Errors
+    /// The first facet without room.
+    pub(super) fn check_net(&self) -> Result<(), Unfit> {
+        self.net()?.check()
+    }
+}
+
+impl Index<usize> for FamilyCut {
+    type Output = f64;
+
+    /// Returns the number at a place among the rows.
+    fn index(&self, place: usize) -> &f64 {
+        &self.numbers[place]
+    }
+}
+
+impl fmt::Debug for FamilyCut {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let rows = self.family.proportions.iter().map(|row| row.key);
+        f.write_str(self.family.key)?;
+        f.debug_map().entries(rows.zip(self.numbers)).finish()
+    }
+}
+
+/// Cuts of one family are the same where their numbers are.
+impl PartialEq for FamilyCut {
+    fn eq(&self, other: &Self) -> bool {
+        self.family.key == other.family.key && self.numbers == other.numbers
+    }
+}
+
+/// Returns a row whose value is the number at the place `PLACE`, for the table of a family to complete.
+pub(super) const fn number<const PLACE: usize>() -> Proportion {
+    Proportion { get: get::<PLACE>, give: Some(give::<PLACE>), ..Proportion::BLANK }
+}
+
+fn get<const PLACE: usize>(cut: &Cut) -> f64 {
+    match cut {
+        Cut::Family(cut) => cut[PLACE],
+        _ => f64::NAN,
+    }
+}
+
+fn give<const PLACE: usize>(cut: &mut Cut, value: f64) {
+    if let Cut::Family(cut) = cut {
+        cut.numbers[PLACE] = value;
+    }
+}
