@@ -67,7 +67,7 @@ impl FacetNet {
         let unseen = stone.redundant().iter().copied().chain(merged).find(leaning);
         let narrow = || {
             let facets = stone.facets().iter().filter(|facet| facet.plane.normal.z != 0.0);
-            facets.into_iter().find(|facet| across(&stone, facet) < NARROWEST).map(|facet| facet.source)
+            facets.into_iter().find(|facet| width(&stone, facet) < NARROWEST).map(|facet| facet.source)
         };
         match unseen.or_else(narrow) {
             Some(index) => Err(Unfit { tier: self.facets[index].0 }),
@@ -78,7 +78,7 @@ impl FacetNet {
 
 /// Returns how far a facet reaches across: twice its area over its longest diagonal or side, so that it is the height of a
 /// triangle.
-fn across(stone: &Polytope, facet: &crate::math::Facet) -> f64 {
+fn width(stone: &Polytope, facet: &crate::math::Facet) -> f64 {
     let corners: Vec<DVec3> = stone.corners(facet).collect();
     let pairs = corners.iter().flat_map(|a| corners.iter().map(move |b| (*a - *b).length()));
     2.0 * stone.facet_area(facet) / pairs.fold(f64::MIN_POSITIVE, f64::max)

@@ -1,7 +1,7 @@
 //! The girdle's outline of a fancy cut: a convex curve, divided where facets meet on it.
 
 use super::super::facet_net::FacetNet;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use std::ops::Range;
 
 /// A place on the outline, seen from above. Lengths are in girdle radii.
@@ -16,27 +16,21 @@ pub struct Station {
 /// A closed outline, counter-clockwise, with a main facet at every second station.
 ///
 /// Stations alternate between those where a main touches the outline and those where two half facets part. Between two
-/// stations the girdle has a number of upright facets, whose edges stand on the curve.
+/// stations the girdle has a number of upright facets. They touch the curve in their middles, so that length and width are
+/// the distances of opposite facets.
 pub struct Girdle {
     stations: Vec<Station>,
-    /// The corners of the girdle from each station to the next, without the latter.
-    corners: Vec<Vec<DVec2>>,
+    /// The places where upright facets touch the curve.
+    upright: Vec<Station>,
 }
 
 impl Girdle {
     /// Divides a curve into stations. `curve` takes the way around, from 0 to 1, to a place; equal parts of this way lie
-    /// between the stations of `mains` main facets, and each part between stations has `upright` girdle facets.
+    /// between the stations of `mains` main facets, and `upright` girdle facets belong to each station.
     pub fn new(mains: usize, upright: usize, curve: impl Fn(f64) -> Station) -> Self {
-        let (mains, upright) = (mains.max(2), upright.max(1));
-        let way = |station: usize, corner: usize| {
-            (station as f64 + corner as f64 / upright as f64) / (2 * mains) as f64
-        };
-        Self {
-            stations: (0..2 * mains).map(|station| curve(way(station, 0))).collect(),
-            corners: (0..2 * mains)
-                .map(|station| (0..upright).map(|corner| curve(way(station, corner)).at).collect())
-                .collect(),
-        }
+        let (stations, upright) = (2 * mains.max(2), upright.max(1));
+        let places = |count: usize| (0..count).map(|place| curve(place as f64 / count as f64)).collect();
+        Self { stations: places(stations), upright: places(stations * upright) }
     }
 
     /// Returns the places of the mains.
@@ -56,10 +50,8 @@ impl Girdle {
 
     /// Adds the upright facets.
     pub fn add_to(&self, net: &mut FacetNet) {
-        let corners: Vec<DVec2> = self.corners.iter().flatten().copied().collect();
-        for (corner, next) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-            let along = *next - *corner;
-            net.plane("girdle", DVec3::new(along.y, -along.x, 0.0), corner.extend(0.0));
+        for Station { at, normal } in &self.upright {
+            net.plane("girdle", normal.extend(0.0), at.extend(0.0));
         }
     }
 }
