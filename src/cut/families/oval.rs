@@ -37,7 +37,7 @@ pub static OVAL: Family = Family {
             unit: Unit::Ratio,
             of: "the exponent of the superellipse",
             meaning: "How full the outline is between its ends and sides: 2 is an ellipse, more is nearer to a rectangle.",
-            usual: [1.8, 2.6],
+            usual: [2.0, 2.6],
             step: 0.05,
             speed: 0.005,
             least: Bound::at(Fixed(1.5), "where the outline is nearly a rhombus"),
