@@ -7,7 +7,7 @@ use super::model::ordering::Seen;
 use super::model::task::WindowTask;
 use super::model::workspace::Workspace;
 use super::model::{Action, Model, Task, update};
-use super::panels::side_panels;
+use super::panels::{side_panels, tier_table};
 use super::setup::{PaintedBy, Setup};
 use super::shows::Shows;
 use super::state_file::StateFile;
@@ -252,6 +252,8 @@ impl Editor {
             side_panels::show(&self.model, &mut self.actions, ui);
             self.run();
         }
+        tier_table::show(&self.model, &mut self.actions, ui);
+        self.run();
         let seen = stage::show(&self.model, &mut self.views, &mut self.actions, ui);
         self.run();
         light_path_window::show(&self.model, &mut self.views, &mut self.actions, &ctx);

@@ -30,6 +30,7 @@ mod round_brilliant_table;
 mod setting;
 mod shape;
 mod size;
+mod tier_change;
 mod tiers;
 mod warning;
 
@@ -50,6 +51,7 @@ pub use round_brilliant::{Crown, LowerHalf, Pavilion, RoundBrilliant};
 pub use setting::MachineSetting;
 pub use shape::Cut;
 pub use size::{Size, SizeError};
+pub use tier_change::{TierChange, read_indices};
 pub use tiers::{Indexed, Tier, TierFault, TierZone, Tiers};
 pub use warning::Warning;
 

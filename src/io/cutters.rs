@@ -15,6 +15,7 @@ mod outward;
 #[cfg(test)]
 pub(super) mod sample;
 
+pub use outward::as_tiers;
 pub(super) use outward::{FacetOutline, outlines, refractive_index, tiers_of, untold};
 
 /// Two facets of one tier are cut at one setting if their angles (degrees) and their distances (relative) differ by no more

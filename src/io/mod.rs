@@ -43,6 +43,8 @@ mod toml_text;
 
 pub use apng::{Animation, Frames, write_apng};
 pub use atomic::{Abandoned, Sink, WholeFile, WriteError, abandon_writes, write};
+#[cfg(feature = "interchange")]
+pub use cutters::as_tiers;
 pub use drawing_png::{DrawingError, rasterize, rasterize_clear, rasterize_within};
 #[cfg(feature = "exr")]
 pub use exr::write_exr;

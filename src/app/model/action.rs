@@ -14,7 +14,7 @@ use super::workspace::PanelSide;
 use crate::app::liquid::Liquid;
 use crate::app::shows::Shows;
 use crate::app::studio::{FiguresOrder, Grade, Order, Smoothing, Tilts, Which};
-use crate::cut::{Cut, MaterialRef};
+use crate::cut::{Cut, MaterialRef, TierChange};
 use crate::io::Failure;
 use crate::io::lighting::Lighting;
 use crate::io::mesh_options::MeshOptions;
@@ -61,6 +61,12 @@ pub enum Edit {
         /// From the origin, in the unit of the design.
         distance: f64,
     },
+    /// A change of the list of tiers.
+    Tiers(TierChange),
+    /// Lists the facets of a cut as tiers.
+    IntoTiers,
+    /// Adds a tier after the one at a place, beside the stone.
+    AddTier(Option<usize>),
     Material(MaterialRef),
     /// Sets the diameter by which the design is scaled, in mm.
     Diameter(f64),
@@ -94,6 +100,8 @@ pub enum ViewAction {
     Overlay(Option<String>),
     /// Ends a step of the view history; the next change begins another.
     EndStep,
+    /// Selects the tier at a place of the design's list, or none.
+    Tier(Option<usize>),
     /// The pointer is over a view; commands act on it.
     Hover(usize),
     /// The text of the status line about what is under the pointer.

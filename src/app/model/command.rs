@@ -47,6 +47,10 @@ pub enum Command by keys {
     Play: "M", "Motion", "Starts or stops the motion in renders: copies tumble and plates wave.";
     LayOut: "Space", "Scatter copies", "Scatters the copies in renders anew.";
     NextBehind: "G", "Next background", "Puts the next world or pattern behind renders.";
+    Tiers: "Shift+T", "Table of tiers",
+        "Opens a table below the views, in which tiers are added, placed and named.";
+    IntoTiers: "", "Turn into tiers",
+        "Lists the facets as tiers on an index gear, so that each can be cut otherwise. Proportions end with it.";
     Panels: "H", "Hide panels", "Hides the panels at both sides, or shows them again.";
     FullScreen: "F11", "Full screen", "Fills the screen with the window, or makes it smaller again.";
     ResetView: "", "Reset view",
@@ -76,7 +80,7 @@ use Command::*;
 /// All menus. The File menu also lists recent files, and the cuts and scenes that come with the program.
 pub const MENUS: [Menu; 5] = [
     Menu { title: "File", groups: &[&[Open], &[Save, SaveAs], &[Export, CopyPicture], &[Quit]] },
-    Menu { title: "Edit", groups: &[&[Undo, Redo], &[ViewBack, ViewOn]] },
+    Menu { title: "Edit", groups: &[&[Undo, Redo], &[ViewBack, ViewOn], &[IntoTiers]] },
     Menu {
         title: "View",
         groups: &[
@@ -86,6 +90,7 @@ pub const MENUS: [Menu; 5] = [
             &[Wireframe, Facets, Bounces, Unresolved, Total, Strongest, Glare],
             &[LightPath],
             &[Play, LayOut, NextBehind],
+            &[Tiers],
             &[Panels, FullScreen],
             &[ResetView, ResetLayout],
         ],

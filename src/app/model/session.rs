@@ -113,6 +113,8 @@ pub struct Session {
     pub held: Option<(usize, usize)>,
     /// The key of the proportion that was last edited in the panel.
     pub edited: Option<&'static str>,
+    /// The place of the tier that is selected in the design's list.
+    pub tier: Option<usize>,
     /// How often copies were laid out; this seeds the next layout.
     pub layings: u64,
     /// The text of the status line while the pointer is over a picture.
@@ -162,6 +164,7 @@ impl Session {
             flowing: Default::default(),
             held: None,
             edited: None,
+            tier: None,
             layings: 0,
             message: String::new(),
             notes: Notes::default(),

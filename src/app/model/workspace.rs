@@ -154,6 +154,8 @@ pub struct Workspace {
     pub smoothing: Smoothing,
     /// Whether the panels are hidden, so that views have the window to themselves.
     pub hides_panels: bool,
+    /// Whether the table of tiers is open below the views.
+    pub shows_tiers: bool,
     /// Which panels are open where they are not hidden.
     pub panels: Panels,
     /// The pane of liquid glass.
@@ -212,6 +214,7 @@ impl Default for Workspace {
             light_upright: false,
             smoothing: Smoothing::None,
             hides_panels: false,
+            shows_tiers: false,
             panels: Panels::default(),
             liquid: Liquid::default(),
         }

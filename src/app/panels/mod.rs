@@ -13,3 +13,4 @@ pub mod rows;
 pub mod side_panels;
 pub mod stone_rows;
 pub mod tier_rows;
+pub mod tier_table;

@@ -3,8 +3,10 @@
 //! Distances are shown in mm; the design has them in a unit of its own.
 
 use crate::app::model::action::{Actions, Edit};
+use crate::app::model::command::Command;
 use crate::app::model::document::Document;
 use crate::app::panels::rows::{ANY, NUMBER, Number, explain, named, skip_control};
+use crate::cut::Cut;
 use egui::{Align, Layout, RichText, Ui, vec2};
 
 const MEANING: &str = "A tier: all facets that are cut at one angle and one distance. A change moves this tier \
@@ -17,6 +19,13 @@ pub fn show(document: &Document, actions: &mut Actions, ui: &mut Ui) {
         "The distance from the origin to the facets, in mm at the stone's present size. 1 in the file is \
             {unit_mm:.3} mm."
     );
+    if let Cut::Tiers(_) = document.work.design.cut {
+        let button = ui.button("Table of tiers…");
+        let meaning = "Opens the table below the views, in which tiers are added, ordered, named and cut at other indices.";
+        if explain(ui, button, meaning).clicked() {
+            actions.push(Command::Tiers);
+        }
+    }
     let heads = ui.horizontal(|ui| {
         named(ui, "Tier", MEANING);
         skip_angle(ui);

@@ -15,6 +15,7 @@ mod layout;
 mod looks;
 mod reading;
 mod recorder;
+mod tiers;
 mod views;
 
 use crate::app::editor::Editor;

@@ -79,6 +79,12 @@ impl Probe {
         self.tracer.meet(origin, direction).is_some()
     }
 
+    /// Returns the facet at a point of the image; `None` beside the stone.
+    pub fn facet(&self, view: &View, at: DVec2) -> Option<usize> {
+        let (origin, direction) = self.ray(view, at);
+        self.tracer.meet(origin, direction).map(|(facet, _)| facet)
+    }
+
     /// Returns what lies at a point of a film, in its pixels; `None` beside the stone.
     pub fn at(&self, view: &View, film: &Film, at: DVec2, scope: &Scope) -> Option<ProbeHit> {
         let (origin, direction) = self.ray(view, film.image_from_pixels(at));

@@ -7,6 +7,7 @@ use super::{copies, eye_hand, refraction_view};
 use crate::app::model::action::ViewAction;
 use crate::app::shows::Shows;
 use crate::app::studio::Which;
+use crate::cut::Cut;
 use crate::picture::Scoped;
 use crate::scene::Scope;
 use egui::{
@@ -40,6 +41,9 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect, size: [u32; 2]) {
     attend(cx, &response, response.hovered() || response.has_focus());
     let is_alone = !shows.has_copies() || model.is_alone();
     clicked(cx, ui, is_alone, &response, &sight);
+    if is_alone {
+        selected(cx, ui, &response, &sight);
+    }
     match is_alone {
         true => hover(cx, ui, &response, &sight),
         false => copies::hover(cx, ui, &response, &sight),
@@ -61,6 +65,28 @@ fn clicked(cx: &mut PaneContext, ui: &Ui, is_alone: bool, response: &Response, s
     let followed = cx.model.session.followed;
     if let Some((_, at)) = followed.at.filter(|(pane, _)| followed.is_open && *pane == cx.pane) {
         sight.mark(ui, at);
+    }
+}
+
+/// Outlines the facets of the tier that is selected in the table of tiers, and selects the tier whose facet is clicked.
+fn selected(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneView) {
+    let model = cx.model;
+    let Cut::Tiers(tiers) = &model.document.work.design.cut else { return };
+    let specimen = model.document.specimen();
+    let Ok(stone) = specimen.stone() else { return };
+    if !model.workspace.shows_tiers {
+        return;
+    }
+    let tier_of = |facet: usize| tiers.tier_of_plane(stone.polytope.facets()[facet].source);
+    for facet in (0..stone.polytope.facets().len()).filter(|facet| tier_of(*facet).is_some()) {
+        if tier_of(facet) == model.session.tier {
+            sight.outline(ui, specimen.solid(), facet as u32, |corner| corner);
+        }
+    }
+    let at = response.interact_pointer_pos().filter(|_| response.clicked());
+    let hit = at.and_then(|at| cx.tools.probe.of(specimen).facet(&sight.view, sight.image(at)));
+    if let Some(place) = hit.and_then(tier_of) {
+        cx.actions.push(ViewAction::Tier(Some(place)));
     }
 }
 

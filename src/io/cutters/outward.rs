@@ -36,6 +36,13 @@ pub(in super::super) fn tiers_of<'a>(specimen: &'a Specimen, lost: &mut Vec<Stri
     Cow::Owned(tiers)
 }
 
+/// Lists the facets of a stone as tiers, with the first gear on whose teeth they lie, else the commonest; `None` for a body
+/// that is not a stone between planes.
+pub fn as_tiers(specimen: &Specimen) -> Option<Tiers> {
+    specimen.stone().ok()?;
+    Some(tiers_of(specimen, &mut vec![]).into_owned())
+}
+
 /// Returns the facets of a design, moved where the origin lies outside the stone, since tiers have no place for that.
 fn around_the_origin(specimen: &Specimen, lost: &mut Vec<String>) -> Vec<(String, Plane)> {
     // The design of a specimen has been checked, so it has facets.

@@ -20,6 +20,7 @@ pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
     session.motion.rest();
     workspace.rest();
     session.held = None;
+    session.tier = None;
     // Figures of the stone before do not belong to this one.
     session.measured.figures.retain(|which, _| *which != Which::Present);
     session.measured.tilts = None;

@@ -11,6 +11,7 @@ use crate::app::model::dialog::{AboutForm, Dialog, Then};
 use crate::app::model::eye::Eye;
 use crate::app::model::task::{Task, WindowTask};
 use crate::app::model::workspace::PaneLayout;
+use crate::cut::Cut;
 
 impl Model {
     /// Whether a command can be carried out now.
@@ -23,10 +24,17 @@ impl Model {
             Command::Undo => undo,
             Command::Redo => redo,
             Command::Save => self.document.is_changed() || self.document.path().is_none(),
+            Command::IntoTiers => !self.has_tiers() && self.document.specimen().stone().is_ok(),
+            Command::Tiers => self.has_tiers(),
             Command::LayOut => self.document.work.copies.poses.len() > 1,
             Command::Split | Command::NoCompare => self.session.compared.is_some(),
             _ => true,
         }
+    }
+
+    /// Whether the design is cut by tiers.
+    pub fn has_tiers(&self) -> bool {
+        matches!(self.document.work.design.cut, Cut::Tiers(_))
     }
 
     /// Whether a command is switched on, as menus show it.
@@ -50,6 +58,7 @@ impl Model {
             Command::LightPath => self.session.followed.is_open,
             Command::Play => self.session.motion.is_on,
             Command::Panels => workspace.hides_panels,
+            Command::Tiers => workspace.shows_tiers,
             _ => false,
         }
     }
@@ -73,6 +82,10 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
         Command::ResetLayout => {
             model.workspace.reset_layout();
             tasks.push(Task::Window(WindowTask::ForgetPanelWidths));
+        }
+        Command::IntoTiers => {
+            edits::edit(model, Edit::IntoTiers);
+            model.workspace.shows_tiers = true;
         }
         Command::LayOut => edits::edit(model, Edit::LayOut(model.document.work.copies.poses.len())),
         Command::Undo | Command::Redo => {
@@ -126,6 +139,7 @@ fn look(model: &mut Model, command: Command) {
         Command::Play => session.motion.is_on = !session.motion.is_on,
         Command::NextBehind => workspace.next_behind(),
         Command::Panels => workspace.hides_panels = !workspace.hides_panels,
+        Command::Tiers => workspace.shows_tiers = !workspace.shows_tiers,
         Command::ResetView => {
             workspace.reset_view();
             session.framing.renew(document.specimen());

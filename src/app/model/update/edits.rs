@@ -3,6 +3,8 @@
 use crate::app::model::Model;
 use crate::app::model::action::Edit;
 use crate::app::model::extent;
+use crate::cut::{Cut, TierChange};
+use crate::io::as_tiers;
 use crate::scene::{Copies, Pose};
 use glam::DVec3;
 use std::sync::Arc;
@@ -18,13 +20,17 @@ pub fn edit(model: &mut Model, edit: Edit) {
             model.session.edited = Some(key);
         }
         Edit::Tier { place, angle, distance } => {
-            let unit = model.document.extent().unit;
-            let design = &mut model.document.work.design;
-            design.cut.set(place, angle, distance);
-            // A stone that becomes wider gets a greater diameter, so that all other tiers stay where they are.
-            if let Some(now) = extent::unit(design) {
-                design.diameter_mm *= unit / now;
+            keep_tiers_in_place(model, |cut| cut.set(place, angle, distance));
+        }
+        Edit::Tiers(change) => keep_tiers_in_place(model, |cut| {
+            if let Cut::Tiers(tiers) = cut {
+                tiers.change(change);
             }
+        }),
+        Edit::AddTier(after) => add_tier(model, after),
+        Edit::IntoTiers => {
+            let tiers = as_tiers(model.document.specimen());
+            keep_tiers_in_place(model, |cut| tiers.into_iter().for_each(|tiers| *cut = Cut::Tiers(tiers)));
         }
         Edit::Material(material) => work.design.material = material,
         Edit::Diameter(mm) => work.design.diameter_mm = mm,
@@ -39,6 +45,26 @@ pub fn edit(model: &mut Model, edit: Edit) {
         }
     }
     model.document.update();
+}
+
+/// Changes the cut. A stone that becomes wider gets a greater diameter, so that all other tiers stay where they are.
+fn keep_tiers_in_place(model: &mut Model, change: impl FnOnce(&mut Cut)) {
+    let unit = model.document.extent().unit;
+    let design = &mut model.document.work.design;
+    change(&mut design.cut);
+    if let Some(now) = extent::unit(design) {
+        design.diameter_mm *= unit / now;
+    }
+}
+
+/// Adds a tier after the one at a place, or after the last, and selects it. It has the indices of that tier and just touches the
+/// stone, so that nothing is cut until it is moved.
+fn add_tier(model: &mut Model, after: Option<usize>) {
+    let Cut::Tiers(tiers) = &model.document.work.design.cut else { return };
+    let place = after.map_or(tiers.tiers.len(), |place| (place + 1).min(tiers.tiers.len()));
+    let tier = tiers.beside_stone(place);
+    edit(model, Edit::Tiers(TierChange::Insert(place, tier)));
+    model.session.tier = Some(place);
 }
 
 /// Lays `count` copies out anew, each turned as it was.

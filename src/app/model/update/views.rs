@@ -46,6 +46,7 @@ fn pass(model: &mut Model, change: ViewAction) {
     let session = &mut model.session;
     match change {
         ViewAction::Hover(pane) => session.hovered = pane,
+        ViewAction::Tier(place) => session.tier = place,
         ViewAction::Message(text) => session.message = text,
         ViewAction::Keys(keys) => session.keys = keys,
         ViewAction::Flowing(pane, flowing) => session.flowing[pane] = flowing,

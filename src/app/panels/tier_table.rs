@@ -1,0 +1,249 @@
+//! The table of tiers below the views: a row for each tier, in the order of cutting.
+//!
+//! A row that is clicked is selected, and its facets are outlined in the views; a facet that is clicked there selects its row.
+//! The buttons above the table act on the selected tier.
+
+use crate::app::model::Model;
+use crate::app::model::action::{Actions, Edit, ViewAction};
+use crate::app::panels::rows::{ANY, Number, explain};
+use crate::cut::{Cut, Tier, TierChange, TierZone, Tiers, read_indices};
+use egui::{Color32, Id, Panel, Response, RichText, ScrollArea, Sense, TextEdit, Ui, vec2};
+
+/// The least, the first and the greatest height of the table, points.
+const HEIGHTS: [f32; 3] = [110.0, 220.0, 480.0];
+/// The widths of the columns, points: grip, cut, name, zone, angle, distance, indices, instructions.
+const WIDTHS: [f32; 8] = [34.0, 34.0, 84.0, 64.0, 84.0, 92.0, 300.0, 240.0];
+/// The heads of the columns and their meanings.
+const HEADS: [(&str, &str); 8] = [
+    ("", "The number of the tier. Drag it to cut the tier earlier or later."),
+    ("Cut", "A tier that is not cut stays in the list and makes no facets."),
+    ("Name", "What cutters call the tier, such as P1, G1, C1 or T."),
+    ("Zone", "The part of the stone where the tier lies."),
+    ("Angle", "The angle from the girdle plane, in degrees; negative in the pavilion."),
+    ("Distance", "The distance from the origin to the facets, in mm at the stone's present size."),
+    ("Indices", "The teeth of the gear at which the tier is cut, joined by dashes."),
+    ("Instructions", "What the cutter is told, such as \"Meet P1-G1\"."),
+];
+
+/// Draws the table where it is open and the design is cut by tiers.
+pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
+    let Cut::Tiers(tiers) = &model.document.work.design.cut else { return };
+    if !model.workspace.shows_tiers {
+        return;
+    }
+    let panel = Panel::bottom("tiers").resizable(true).default_size(HEIGHTS[1]);
+    panel.size_range(HEIGHTS[0]..=HEIGHTS[2]).show(ui, |ui| {
+        let selected = model.session.tier.filter(|place| *place < tiers.tiers.len());
+        ui.add_space(4.0);
+        ui.horizontal_wrapped(|ui| buttons(tiers, selected, actions, ui));
+        ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+            heads(ui);
+            for place in 0..tiers.tiers.len() {
+                row(model, tiers, place, actions, ui);
+            }
+        });
+    });
+}
+
+/// Draws the buttons that change the list, and the gear.
+fn buttons(tiers: &Tiers, selected: Option<usize>, actions: &mut Actions, ui: &mut Ui) {
+    let add = ui.button("Add tier");
+    let meaning =
+        "Adds a tier after the selected one. It touches the stone and cuts nothing until it is moved.";
+    actions.push_if(explain(ui, add, meaning).clicked(), Edit::AddTier(selected));
+    let last = tiers.tiers.len().saturating_sub(1);
+    let place = selected.unwrap_or_default();
+    let all: [(&str, &str, bool, TierChange); 5] = [
+        ("Copy tier", "Puts a copy after the selected tier.", true, TierChange::Copy(place)),
+        (
+            "Split tier",
+            "Makes the second half of the selected tier's facets a tier of its own.",
+            selected.is_some_and(|place| tiers.tiers[place].facets.len() > 1),
+            TierChange::Split(place),
+        ),
+        ("Delete tier", "Takes the selected tier out of the list.", last > 0, TierChange::Delete(place)),
+        (
+            "Earlier",
+            "Cuts the selected tier before the one above it.",
+            place > 0,
+            TierChange::Move(place, place.saturating_sub(1)),
+        ),
+        (
+            "Later",
+            "Cuts the selected tier after the one below it.",
+            place < last,
+            TierChange::Move(place, (place + 1).min(last)),
+        ),
+    ];
+    for (name, meaning, is_possible, change) in all {
+        let button = ui.add_enabled(selected.is_some() && is_possible, egui::Button::new(name));
+        if explain(ui, button, meaning).clicked() {
+            if let TierChange::Move(_, to) = change {
+                actions.push(ViewAction::Tier(Some(to)));
+            }
+            actions.push(Edit::Tiers(change));
+        }
+    }
+    let mirror = if tiers.mirror { ", mirror image" } else { "" };
+    let hand = if tiers.gear < 0 { ", counted clockwise" } else { "" };
+    let gear = tiers.gear.abs();
+    ui.label(RichText::new(format!("{gear} index{hand}, {}-fold{mirror}", tiers.symmetry)).weak());
+}
+
+fn heads(ui: &mut Ui) {
+    ui.horizontal(|ui| {
+        for ((name, meaning), width) in HEADS.into_iter().zip(WIDTHS) {
+            cell(ui, width, |ui| {
+                let label = ui.label(RichText::new(name).weak());
+                explain(ui, label, meaning)
+            });
+        }
+    });
+}
+
+/// Draws the contents of a cell that is as wide as its column.
+fn cell<T>(ui: &mut Ui, width: f32, contents: impl FnOnce(&mut Ui) -> T) -> T {
+    let size = vec2(width, ui.spacing().interact_size.y);
+    let layout = egui::Layout::left_to_right(egui::Align::Center);
+    let shown = ui.allocate_ui_with_layout(size, layout, |ui| {
+        ui.set_min_width(width);
+        contents(ui)
+    });
+    shown.inner
+}
+
+/// Draws the row of a tier.
+fn row(model: &Model, tiers: &Tiers, place: usize, actions: &mut Actions, ui: &mut Ui) {
+    let tier = &tiers.tiers[place];
+    let called = if tier.name().is_empty() { format!("tier {}", place + 1) } else { tier.name().to_owned() };
+    let is_selected = model.session.tier == Some(place);
+    let fill =
+        if is_selected { ui.visuals().selection.bg_fill.gamma_multiply(0.35) } else { Color32::TRANSPARENT };
+    let frame = egui::Frame::new().fill(fill).show(ui, |ui| {
+        ui.horizontal(|ui| {
+            let grip = cell(ui, WIDTHS[0], |ui| grip(place, &called, is_selected, ui));
+            actions.push_if(grip.clicked(), ViewAction::Tier(Some(place)));
+            let mut is_cut = tier.is_cut;
+            let cut = cell(ui, WIDTHS[1], |ui| ui.checkbox(&mut is_cut, ""));
+            name(&cut, &format!("Cut {called}"));
+            actions.push_if(cut.changed(), Edit::Tiers(TierChange::IsCut(place, is_cut)));
+            text(ui, WIDTHS[2], (place, "Name", &called), tier.name(), |text| {
+                Some(TierChange::Name(place, text.trim().to_owned()))
+            })
+            .into_iter()
+            .for_each(|change| actions.push(Edit::Tiers(change)));
+            cell(ui, WIDTHS[3], |ui| ui.label(RichText::new(tier.zone().name()).weak()));
+            setting(model, (place, tier, &called), grip.id, actions, ui);
+            text(ui, WIDTHS[6], (place, "Indices", &called), &tier.indices(tiers.gear), |text| {
+                read_indices(text).map(|indices| TierChange::Indices(place, indices))
+            })
+            .into_iter()
+            .for_each(|change| actions.push(Edit::Tiers(change)));
+            text(ui, WIDTHS[7], (place, "Instructions", &called), &tier.instructions, |text| {
+                Some(TierChange::Instructions(place, text.to_owned()))
+            })
+            .into_iter()
+            .for_each(|change| actions.push(Edit::Tiers(change)));
+        });
+    });
+    dropped(place, &frame.response, actions, ui);
+}
+
+/// Draws the number of a row, by which it is selected and dragged.
+fn grip(place: usize, called: &str, is_selected: bool, ui: &mut Ui) -> Response {
+    let size = vec2(WIDTHS[0] - 6.0, ui.spacing().interact_size.y);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
+    let visuals = ui.style().interact_selectable(&response, is_selected);
+    ui.painter().rect_filled(rect, 3.0, visuals.weak_bg_fill);
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    ui.painter().text(
+        rect.center(),
+        egui::Align2::CENTER_CENTER,
+        (place + 1).to_string(),
+        font,
+        visuals.text_color(),
+    );
+    response.dnd_set_drag_payload(place);
+    name(&response, &format!("Select {called}"));
+    explain(ui, response, HEADS[0].1)
+}
+
+/// Moves the row that is dropped on this one.
+fn dropped(place: usize, row: &Response, actions: &mut Actions, ui: &Ui) {
+    if row.dnd_hover_payload::<usize>().is_some() {
+        let stroke = ui.visuals().selection.stroke;
+        ui.painter().hline(row.rect.x_range(), row.rect.top(), stroke);
+    }
+    if let Some(from) = row.dnd_release_payload::<usize>().filter(|from| **from != place) {
+        actions.push(Edit::Tiers(TierChange::Move(*from, place)));
+        actions.push(ViewAction::Tier(Some(place)));
+    }
+}
+
+/// Draws the angle and the distance of a tier; `grip` is the number of its row.
+fn setting(
+    model: &Model,
+    (place, tier, called): (usize, &Tier, &str),
+    grip: Id,
+    actions: &mut Actions,
+    ui: &mut Ui,
+) {
+    let document = &model.document;
+    let unit_mm = document.specimen().unit_mm() * document.extent().unit;
+    let (mut angle, mut distance_mm) = (tier.angle, tier.distance * unit_mm);
+    let before_mm = distance_mm;
+    let number =
+        |ui: &mut Ui, value: &mut f64, column: usize, (decimals, speed, unit): (usize, f64, &str)| {
+            let width = WIDTHS[column];
+            cell(ui, width, |ui| {
+                let shown = Number { decimals, speed, range: ANY, unit }.show(ui, (width - 8.0, grip), value);
+                name(&shown, &format!("{} of {called}", HEADS[column].0));
+            });
+        };
+    number(ui, &mut angle, 4, (2, 0.02, "°"));
+    number(ui, &mut distance_mm, 5, (3, 0.002, " mm"));
+    // A distance that is not touched keeps all its digits.
+    let distance = if distance_mm == before_mm { tier.distance } else { distance_mm / unit_mm };
+    // The table and the culet are level; other tiers keep their side where no sign is typed.
+    let is_level = matches!(tier.zone(), TierZone::Table | TierZone::Culet);
+    let angle = if is_level { angle } else { angle.abs().copysign(tier.angle) };
+    let is_changed = (angle, distance) != (tier.angle, tier.distance);
+    let is_possible = (-180.0..=180.0).contains(&angle) && distance.is_finite();
+    actions.push_if(is_changed && is_possible, Edit::Tiers(TierChange::Setting(place, angle, distance)));
+}
+
+/// Draws a field for a text of a tier; returns the change that the text means once it differs from the tier's own.
+///
+/// A text that means nothing yet is kept while it is typed, in red, and forgotten afterwards.
+fn text(
+    ui: &mut Ui,
+    width: f32,
+    (place, column, called): (usize, &str, &str),
+    own: &str,
+    change: impl Fn(&str) -> Option<TierChange>,
+) -> Option<TierChange> {
+    cell(ui, width, |ui| {
+        let id = ui.make_persistent_id((column, place));
+        let typed = id.with("typed");
+        let mut text = ui.data(|data| data.get_temp::<String>(typed)).unwrap_or_else(|| own.to_owned());
+        let means_nothing = change(&text).is_none();
+        let mut field = TextEdit::singleline(&mut text).id(id).desired_width(width - 8.0);
+        if means_nothing {
+            field = field.text_color(ui.visuals().error_fg_color);
+        }
+        let shown = ui.add(field);
+        name(&shown, &format!("{column} of {called}"));
+        if shown.has_focus() {
+            ui.data_mut(|data| data.insert_temp(typed, text.clone()));
+        } else {
+            ui.data_mut(|data| data.remove_temp::<String>(typed));
+        }
+        change(&text).filter(|_| shown.changed())
+    })
+}
+
+/// Gives a widget the name by which screen readers and tests find it.
+fn name(widget: &Response, name: &str) {
+    let name = name.to_owned();
+    widget.ctx.accesskit_node_builder(widget.id, |node| node.set_label(name));
+}

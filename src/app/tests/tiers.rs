@@ -1,0 +1,118 @@
+//! The table of tiers: what it changes, and how it and the views select one another.
+
+use super::*;
+use crate::cut::{Tier, Tiers};
+use egui::Role;
+
+/// Returns the tiers of the open design.
+fn tiers(bench: &Bench) -> Tiers {
+    match &bench.editor().model.document.work.design.cut {
+        Cut::Tiers(tiers) => tiers.clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Opens an editor in which the first cut has been turned into tiers.
+fn turned() -> Bench {
+    let mut bench = Bench::sized(Setup::default(), egui::vec2(1400.0, 900.0));
+    bench.settle();
+    bench.choose("Edit", "Turn into tiers");
+    bench.settle();
+    bench
+}
+
+/// Types a text into a field of the table.
+fn type_text(bench: &mut Bench, name: &str, text: &str) {
+    let field = bench.field(Role::TextInput, name);
+    field.focus();
+    bench.harness.step();
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    bench.harness.step();
+    bench.harness.get_by_role_and_label(Role::TextInput, name).type_text(text);
+    bench.harness.run_steps(3);
+}
+
+fn names(tiers: &Tiers) -> Vec<String> {
+    tiers.tiers.iter().map(|tier| tier.name().to_owned()).collect()
+}
+
+#[test]
+fn a_brilliant_that_is_turned_into_tiers_stays_where_it_is_and_comes_back_by_undo() {
+    let mut bench = Bench::sized(Setup::default(), egui::vec2(1400.0, 900.0));
+    bench.settle();
+    let (given, before) = (bench.brilliant(), Arc::clone(bench.editor().model.document.specimen()));
+    bench.choose("Edit", "Turn into tiers");
+    bench.settle();
+    let now = Arc::clone(bench.editor().model.document.specimen());
+    assert!((now.solid().volume() - before.solid().volume()).abs() < 1e-9);
+    assert!((now.unit_mm() - before.unit_mm()).abs() < 1e-9);
+    assert!(bench.editor().model.workspace.shows_tiers);
+    assert_eq!(tiers(&bench).count(), given.facets().unwrap().len());
+    bench.choose("Edit", "Undo");
+    assert_eq!(bench.brilliant(), given);
+}
+
+#[test]
+fn tiers_are_added_named_indexed_muted_copied_and_deleted_by_name() {
+    let mut bench = turned();
+    let before = tiers(&bench);
+    bench.click("Select main");
+    bench.click("Add tier");
+    let added = tiers(&bench);
+    assert_eq!(added.tiers.len(), before.tiers.len() + 1);
+    let place = bench.editor().model.session.tier.unwrap();
+    let name = added.tiers[place].name().to_owned();
+    // It touches the stone alone, so the stone is the same.
+    let volume = bench.editor().model.document.specimen().solid().volume();
+    bench.settle();
+    assert!((bench.editor().model.document.specimen().solid().volume() - volume).abs() < 1e-9);
+    type_text(&mut bench, &format!("Name of {name}"), "K1");
+    assert!(names(&tiers(&bench)).contains(&"K1".to_owned()), "{:?}", names(&tiers(&bench)));
+    type_text(&mut bench, "Indices of K1", "12-84");
+    assert_eq!(tiers(&bench).tiers[place].indices(96), "12-84");
+    // A text that is no list of indices changes nothing.
+    type_text(&mut bench, "Indices of K1", "12-x");
+    assert_eq!(tiers(&bench).tiers[place].indices(96), "12-84");
+    bench.click("Cut K1");
+    assert!(!tiers(&bench).tiers[place].is_cut);
+    bench.click("Copy tier");
+    assert_eq!(names(&tiers(&bench)).iter().filter(|name| name.starts_with('K')).count(), 2);
+    bench.click("Delete tier");
+    bench.click("Delete tier");
+    assert_eq!(names(&tiers(&bench)), names(&before));
+    while bench.editor().model.document.steps().0 {
+        bench.choose("Edit", "Undo");
+    }
+    assert!(matches!(bench.editor().model.document.work.design.cut, Cut::RoundBrilliant(_)));
+}
+
+#[test]
+fn an_angle_that_is_typed_keeps_its_side_and_moves_one_tier() {
+    let mut bench = turned();
+    let before = tiers(&bench);
+    let place = before.tiers.iter().position(|tier| tier.name() == "main").unwrap();
+    bench.type_number("Angle of main", "41.25");
+    let now = tiers(&bench);
+    assert_eq!(now.tiers[place].angle, -41.25);
+    let others = |tiers: &Tiers| -> Vec<Tier> {
+        tiers.tiers.iter().filter(|tier| tier.name() != "main").cloned().collect()
+    };
+    assert_eq!(others(&now), others(&before));
+}
+
+#[test]
+fn a_facet_that_is_clicked_selects_its_tier_and_rows_are_ordered() {
+    let mut bench = turned();
+    bench.harness.run_steps(3);
+    // The middle of a view face up is the table.
+    let view = bench.harness.get_by_label("ASET view").rect().center();
+    bench.click_at(view);
+    bench.settle();
+    let place = bench.editor().model.session.tier.expect("a tier is selected");
+    assert_eq!(tiers(&bench).tiers[place].name(), "table");
+    bench.click("Later");
+    assert_eq!(tiers(&bench).tiers[place + 1].name(), "table");
+    assert_eq!(bench.editor().model.session.tier, Some(place + 1));
+    bench.click("Earlier");
+    assert_eq!(tiers(&bench).tiers[place].name(), "table");
+}

@@ -1,0 +1,299 @@
+//! Changes of the list of tiers of a cutter's design, as its table in the editor makes them.
+
+use super::tiers::{Indexed, Tier, TierZone, Tiers};
+use crate::math::{Plane, Polytope};
+use glam::DVec3;
+
+/// A tier that is added is flatter by this than the one before it, degrees.
+const FLATTER: f64 = 3.0;
+
+/// A change of the list of tiers. Places count from 0, in the order of cutting, with the tiers that are not cut.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TierChange {
+    /// Puts a tier in at a place; those from there on move down.
+    Insert(usize, Tier),
+    /// Puts a copy of a tier in after it.
+    Copy(usize),
+    /// Takes a tier out of the list.
+    Delete(usize),
+    /// Moves a tier from one place to another; those between close up.
+    Move(usize, usize),
+    /// Divides a tier in two: the first half of its facets stays, the others become a tier after it.
+    Split(usize),
+    /// Sets whether a tier is cut.
+    IsCut(usize, bool),
+    /// Names a tier. Its facets get no names of their own.
+    Name(usize, String),
+    /// Sets the instructions of a tier.
+    Instructions(usize, String),
+    /// Sets the indices at which a tier is cut, in teeth.
+    Indices(usize, Vec<f64>),
+    /// Sets the angle of a tier, degrees, and its distance, in the unit of the design.
+    Setting(usize, f64, f64),
+}
+
+impl Tiers {
+    /// Makes a change. A place past the last tier changes nothing.
+    pub fn change(&mut self, change: TierChange) {
+        let count = self.tiers.len();
+        match change {
+            TierChange::Insert(place, tier) => self.tiers.insert(place.min(count), tier),
+            TierChange::Move(from, to) if from < count && to < count => {
+                let moved = self.tiers.remove(from);
+                self.tiers.insert(to, moved);
+            }
+            TierChange::Copy(place) | TierChange::Split(place) if place < count => {
+                let mut copy = self.tiers[place].clone();
+                if let TierChange::Split(_) = change {
+                    copy.facets = self.tiers[place].split_off();
+                }
+                copy.rename(&self.free_name(copy.name()));
+                if !copy.facets.is_empty() {
+                    self.tiers.insert(place + 1, copy);
+                }
+            }
+            TierChange::Delete(place) if place < count => drop(self.tiers.remove(place)),
+            TierChange::IsCut(place, _)
+            | TierChange::Name(place, _)
+            | TierChange::Instructions(place, _)
+            | TierChange::Indices(place, _)
+            | TierChange::Setting(place, ..)
+                if place < count =>
+            {
+                self.tiers[place].change(change);
+            }
+            _ => {}
+        }
+    }
+
+    /// Returns a name like the one given that no tier has: its letters with the next free number.
+    pub fn free_name(&self, like: &str) -> String {
+        let letters = like.trim_end_matches(|c: char| c.is_ascii_digit());
+        let is_free = |name: &String| self.tiers.iter().all(|tier| tier.name() != name);
+        (1..).map(|number| format!("{letters}{number}")).find(is_free).unwrap_or_default()
+    }
+
+    /// Returns the place of the tier to which a plane of the design belongs. `plane` counts the facets of all tiers that are
+    /// cut, in their order.
+    pub fn tier_of_plane(&self, plane: usize) -> Option<usize> {
+        let mut before = 0;
+        let holds = |tier: &Tier| {
+            before += if tier.is_cut { tier.facets.len() } else { 0 };
+            plane < before
+        };
+        self.tiers.iter().position(holds)
+    }
+}
+
+impl Tiers {
+    /// Makes a tier for a place in the list, with the indices of the tier before it. It is 3 degrees flatter than that one, or
+    /// steeper where there is no room, and touches the stone at a corner or an edge.
+    pub fn beside_stone(&self, place: usize) -> Tier {
+        let before = place.checked_sub(1).and_then(|place| self.tiers.get(place));
+        let angle = match before.map_or(0.0, |tier| tier.angle) {
+            0.0 => 30.0,
+            90.0 | -90.0 => -45.0,
+            angle if angle.abs() > 2.0 * FLATTER => angle - FLATTER.copysign(angle),
+            angle => angle + FLATTER.copysign(angle),
+        };
+        let mut indices: Vec<f64> =
+            before.map_or(vec![], |tier| tier.facets.iter().map(|facet| facet.index).collect());
+        if indices.len() < 2 {
+            let repeats = self.symmetry.clamp(1, 96);
+            indices = (0..repeats)
+                .map(|k| f64::from(self.gear.abs()) * f64::from(k) / f64::from(repeats))
+                .collect();
+        }
+        let mut tier =
+            Tier { angle, distance: 1.0, instructions: String::new(), is_cut: true, facets: vec![] };
+        tier.change(TierChange::Indices(0, indices));
+        tier.rename(&self.free_name(match tier.zone() {
+            TierZone::Pavilion => "P1",
+            _ => "C1",
+        }));
+        let normals: Vec<DVec3> =
+            tier.facets.iter().map(|facet| self.plane(&tier, facet.index).normal).collect();
+        let reach = self.corners().into_iter().flat_map(|corner| normals.iter().map(move |n| n.dot(corner)));
+        tier.distance = reach.fold(0.0, f64::max);
+        tier
+    }
+
+    /// Returns the corners of the stone in the design's unit; none where the facets make none.
+    fn corners(&self) -> Vec<DVec3> {
+        let mut planes: Vec<Plane> = self.facets().into_iter().map(|(_, plane)| plane).collect();
+        let solid = Polytope::from_planes(&planes).or_else(|_| {
+            planes.extend(Self::block().map(|(_, plane)| plane));
+            Polytope::from_planes(&planes)
+        });
+        solid.map(|solid| solid.vertices().to_vec()).unwrap_or_default()
+    }
+}
+
+impl Tier {
+    /// Names the tier: its first facet gets the name, the others none.
+    pub fn rename(&mut self, name: &str) {
+        self.facets.iter_mut().for_each(|facet| facet.name.clear());
+        if let Some(first) = self.facets.first_mut() {
+            name.clone_into(&mut first.name);
+        }
+    }
+
+    /// Makes a change of the tier alone.
+    fn change(&mut self, change: TierChange) {
+        match change {
+            TierChange::IsCut(_, is_cut) => self.is_cut = is_cut,
+            TierChange::Name(_, name) => self.rename(&name),
+            TierChange::Instructions(_, text) => self.instructions = text,
+            TierChange::Indices(_, indices) => {
+                let name = self.name().to_owned();
+                let facet = |index| Indexed { index, name: String::new() };
+                self.facets = indices.into_iter().map(facet).collect();
+                self.rename(&name);
+            }
+            TierChange::Setting(_, angle, distance) => (self.angle, self.distance) = (angle, distance),
+            _ => {}
+        }
+    }
+
+    /// Takes the second half of the facets out of the tier.
+    fn split_off(&mut self) -> Vec<Indexed> {
+        self.facets.split_off(self.facets.len().div_ceil(2))
+    }
+
+    /// Writes the indices as cutters do, joined by dashes; index 0 is the gear's last tooth.
+    pub fn indices(&self, gear: i32) -> String {
+        let tooth = |facet: &Indexed| match facet.index {
+            0.0 => gear.abs().to_string(),
+            index => index.to_string(),
+        };
+        self.facets.iter().map(tooth).collect::<Vec<_>>().join("-")
+    }
+}
+
+/// Reads indices as cutters write them: joined by dashes, commas or blanks. `None` where one of them is no number, or
+/// where there is none.
+pub fn read_indices(text: &str) -> Option<Vec<f64>> {
+    let parts =
+        text.split(|c: char| c == '-' || c == ',' || c.is_whitespace()).filter(|part| !part.is_empty());
+    let indices: Option<Vec<f64>> =
+        parts.map(|part| part.parse().ok().filter(|i: &f64| i.is_finite())).collect();
+    indices.filter(|indices| !indices.is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn design() -> Tiers {
+        let tier = |name: &str, angle: f64, indices: &[f64]| {
+            let facet = |(k, &index): (usize, &f64)| Indexed {
+                index,
+                name: if k == 0 { name.to_owned() } else { String::new() },
+            };
+            Tier {
+                angle,
+                distance: 1.0,
+                instructions: String::new(),
+                is_cut: true,
+                facets: indices.iter().enumerate().map(facet).collect(),
+            }
+        };
+        let tiers = vec![
+            tier("P1", -42.0, &[0.0, 24.0, 48.0, 72.0]),
+            tier("G1", 90.0, &[12.0, 36.0, 60.0, 84.0]),
+            tier("T", 0.0, &[0.0]),
+        ];
+        Tiers { gear: 96, tiers, ..Tiers::default() }
+    }
+
+    fn names(tiers: &Tiers) -> Vec<&str> {
+        tiers.tiers.iter().map(Tier::name).collect()
+    }
+
+    #[test]
+    fn tiers_are_copied_deleted_and_moved() {
+        let mut tiers = design();
+        tiers.change(TierChange::Copy(0));
+        assert_eq!(names(&tiers), ["P1", "P2", "G1", "T"]);
+        assert_eq!(tiers.tiers[0].facets.len(), tiers.tiers[1].facets.len());
+        tiers.change(TierChange::Move(3, 0));
+        assert_eq!(names(&tiers), ["T", "P1", "P2", "G1"]);
+        tiers.change(TierChange::Move(0, 3));
+        tiers.change(TierChange::Delete(1));
+        assert_eq!(tiers, design());
+        let last = tiers.tiers[2].clone();
+        tiers.change(TierChange::Insert(99, last));
+        assert_eq!(names(&tiers), ["P1", "G1", "T", "T"]);
+        // Places past the last tier change nothing.
+        let before = tiers.clone();
+        for change in [
+            TierChange::Copy(9),
+            TierChange::Delete(4),
+            TierChange::Move(0, 4),
+            TierChange::Split(4),
+            TierChange::IsCut(7, false),
+        ] {
+            tiers.change(change);
+        }
+        assert_eq!(tiers, before);
+    }
+
+    #[test]
+    fn a_split_keeps_every_facet_and_one_facet_stays_whole() {
+        let mut tiers = design();
+        let before = tiers.count();
+        tiers.change(TierChange::Split(0));
+        assert_eq!(names(&tiers), ["P1", "P2", "G1", "T"]);
+        assert_eq!(tiers.count(), before);
+        assert_eq!(tiers.tiers[1].indices(96), "48-72");
+        tiers.change(TierChange::Split(3));
+        assert_eq!(tiers.tiers.len(), 4);
+    }
+
+    #[test]
+    fn a_tier_is_named_muted_indexed_and_set() {
+        let mut tiers = design();
+        tiers.change(TierChange::Indices(0, vec![6.0, 90.0]));
+        tiers.change(TierChange::IsCut(0, false));
+        tiers.change(TierChange::Setting(0, -40.5, 0.9));
+        tiers.change(TierChange::Instructions(0, "Cut to TCP".to_owned()));
+        let tier = &tiers.tiers[0];
+        assert_eq!((tier.name(), tier.angle, tier.distance, tier.is_cut), ("P1", -40.5, 0.9, false));
+        assert_eq!((tier.indices(96).as_str(), tier.instructions.as_str()), ("6-90", "Cut to TCP"));
+        tiers.change(TierChange::Name(0, "main".to_owned()));
+        assert_eq!(tiers.tiers[0].name(), "main");
+        // A tier that is not cut has no planes.
+        assert_eq!(tiers.tier_of_plane(0), Some(1));
+        assert_eq!((tiers.tier_of_plane(4), tiers.tier_of_plane(5)), (Some(2), None));
+    }
+
+    #[test]
+    fn a_tier_that_is_added_touches_the_stone_and_cuts_nothing() {
+        let mut tiers = design();
+        tiers.symmetry = 4;
+        for place in 0..=3 {
+            let mut more = tiers.clone();
+            let tier = more.beside_stone(place);
+            assert!(!tiers.tiers.iter().any(|old| old.name() == tier.name()));
+            let planes: Vec<Plane> = tier.facets.iter().map(|facet| more.plane(&tier, facet.index)).collect();
+            let corners = more.corners();
+            let highest = |plane: &Plane| corners.iter().map(|c| plane.distance(*c)).fold(f64::MIN, f64::max);
+            let most = planes.iter().map(highest).fold(f64::MIN, f64::max);
+            assert!(most.abs() < 1e-12 && !corners.is_empty(), "{most}");
+            more.change(TierChange::Insert(place, tier));
+            assert_eq!(more.tiers.len(), 4);
+        }
+    }
+
+    #[test]
+    fn indices_are_read_as_they_are_written() {
+        for tier in &design().tiers {
+            let read = read_indices(&tier.indices(96)).unwrap();
+            let written: Vec<f64> = tier.facets.iter().map(|facet| facet.index).collect();
+            let same = read.iter().zip(&written).all(|(a, b)| (a - b).rem_euclid(96.0) == 0.0);
+            assert!(same && read.len() == written.len(), "{read:?} {written:?}");
+        }
+        assert_eq!(read_indices("6, 12.5 18--24"), Some(vec![6.0, 12.5, 18.0, 24.0]));
+        assert!([" ", "6-x", "-", "1e999"].iter().all(|text| read_indices(text).is_none()));
+    }
+}
