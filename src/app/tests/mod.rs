@@ -209,9 +209,7 @@ impl Bench {
     pub fn brilliant(&self) -> RoundBrilliant {
         match self.editor().model.document.work.design.cut {
             Cut::RoundBrilliant(brilliant) => brilliant,
-            Cut::Tiers(_) | Cut::Planes(_) | Cut::Mesh(_) | Cut::Glass(_) => {
-                panic!("a round brilliant is expected")
-            }
+            _ => panic!("a round brilliant is expected"),
         }
     }
 
