@@ -4,6 +4,9 @@ use super::tiers::{Indexed, Tier, TierZone, Tiers};
 use crate::math::{Plane, Polytope};
 use glam::DVec3;
 
+/// Half of the last decimal to which indices are shown, teeth.
+const SHOWN: f64 = 0.5e-4;
+
 /// A tier that is added is flatter by this than the one before it, degrees.
 const FLATTER: f64 = 3.0;
 
@@ -47,7 +50,7 @@ impl Tiers {
                 if let TierChange::Split(_) = change {
                     copy.facets = self.tiers[place].split_off();
                 }
-                copy.rename(&self.free_name(copy.name()));
+                copy.rename(&self.free_name(self.tiers[place].name()));
                 if !copy.facets.is_empty() {
                     self.tiers.insert(place + 1, copy);
                 }
@@ -146,7 +149,12 @@ impl Tier {
             TierChange::Instructions(_, text) => self.instructions = text,
             TierChange::Indices(_, indices) => {
                 let name = self.name().to_owned();
-                let facet = |index| Indexed { index, name: String::new() };
+                // An index that is as it was shown keeps its further digits.
+                let kept = |index: f64| {
+                    let same = self.facets.iter().find(|facet| (facet.index - index).abs() < SHOWN);
+                    same.map_or(index, |facet| facet.index)
+                };
+                let facet = |index| Indexed { index: kept(index), name: String::new() };
                 self.facets = indices.into_iter().map(facet).collect();
                 self.rename(&name);
             }
@@ -160,11 +168,11 @@ impl Tier {
         self.facets.split_off(self.facets.len().div_ceil(2))
     }
 
-    /// Writes the indices as cutters do, joined by dashes; index 0 is the gear's last tooth.
+    /// Writes the indices as cutters do, joined by dashes, to four decimals; index 0 is the gear's last tooth.
     pub fn indices(&self, gear: i32) -> String {
         let tooth = |facet: &Indexed| match facet.index {
             0.0 => gear.abs().to_string(),
-            index => index.to_string(),
+            index => ((index * 1e4).round() / 1e4).to_string(),
         };
         self.facets.iter().map(tooth).collect::<Vec<_>>().join("-")
     }

@@ -184,13 +184,18 @@ pub(super) fn gathered(pieces: impl IntoIterator<Item = TierPiece>) -> Vec<Tier>
 
 impl TierPiece {
     fn belongs_to(&self, tier: &Tier) -> bool {
-        let FacetSetting { angle, distance, .. } = self.setting;
         let said = [&self.instructions, &tier.instructions];
-        (angle - tier.angle).abs() <= SAME_SETTING
-            && angle.is_sign_negative() == tier.angle.is_sign_negative()
-            && (distance - tier.distance).abs() <= SAME_SETTING * tier.distance
+        self.is_cut_as(&FacetSetting { angle: tier.angle, distance: tier.distance, index: 0.0 })
             && self.is_cut == tier.is_cut
             && (said[0] == said[1] || said.iter().any(|text| text.is_empty()))
+    }
+
+    /// Whether the facet is cut at the angle and the distance of another setting.
+    fn is_cut_as(&self, other: &FacetSetting) -> bool {
+        let FacetSetting { angle, distance, .. } = self.setting;
+        (angle - other.angle).abs() <= SAME_SETTING
+            && angle.is_sign_negative() == other.angle.is_sign_negative()
+            && (distance - other.distance).abs() <= SAME_SETTING * other.distance
     }
 
     fn join(self, tier: &mut Tier) {

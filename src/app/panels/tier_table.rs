@@ -10,7 +10,7 @@ use crate::cut::{Cut, Tier, TierChange, TierZone, Tiers, read_indices};
 use egui::{Color32, Id, Panel, Response, RichText, ScrollArea, Sense, TextEdit, Ui, vec2};
 
 /// The least, the first and the greatest height of the table, points.
-const HEIGHTS: [f32; 3] = [110.0, 220.0, 480.0];
+const HEIGHTS: [f32; 3] = [110.0, 270.0, 560.0];
 /// The widths of the columns, points: grip, cut, name, zone, angle, distance, indices, instructions.
 const WIDTHS: [f32; 8] = [34.0, 34.0, 84.0, 64.0, 84.0, 92.0, 300.0, 240.0];
 /// The heads of the columns and their meanings.
@@ -28,7 +28,7 @@ const HEADS: [(&str, &str); 8] = [
 /// Draws the table where it is open and the design is cut by tiers.
 pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let Cut::Tiers(tiers) = &model.document.work.design.cut else { return };
-    if !model.workspace.shows_tiers {
+    if !model.shows_tiers() {
         return;
     }
     let panel = Panel::bottom("tiers").resizable(true).default_size(HEIGHTS[1]);

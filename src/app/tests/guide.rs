@@ -104,3 +104,13 @@ fn what_lies_behind() {
     workspace.panes.iter_mut().zip(shown).for_each(|(pane, shows)| pane.shows = shows);
     draw(&mut window("cube.toml", &workspace), "backgrounds");
 }
+
+#[test]
+#[ignore = "writes a picture into docs/images/editor"]
+fn an_oval_as_tiers() {
+    let mut bench = window("oval.toml", &Bench::small());
+    bench.choose("Edit", "Turn into tiers");
+    bench.settle();
+    bench.click_at(bench.harness.get_by_label("ASET picture").rect().center() + egui::vec2(60.0, 140.0));
+    take(&mut bench, "tiers");
+}

@@ -21,10 +21,16 @@ fn turned() -> Bench {
     bench
 }
 
+/// Scrolls the table until a widget is in sight.
+fn reach(bench: &mut Bench, label: &str) {
+    bench.harness.get_by_label(label).scroll_to_me();
+    bench.harness.run_steps(SCROLLED);
+}
+
 /// Types a text into a field of the table.
 fn type_text(bench: &mut Bench, name: &str, text: &str) {
-    let field = bench.field(Role::TextInput, name);
-    field.focus();
+    reach(bench, name);
+    bench.field(Role::TextInput, name).focus();
     bench.harness.step();
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
     bench.harness.step();
@@ -56,7 +62,7 @@ fn a_brilliant_that_is_turned_into_tiers_stays_where_it_is_and_comes_back_by_und
 fn tiers_are_added_named_indexed_muted_copied_and_deleted_by_name() {
     let mut bench = turned();
     let before = tiers(&bench);
-    bench.click("Select main");
+    bench.click("Select P2");
     bench.click("Add tier");
     let added = tiers(&bench);
     assert_eq!(added.tiers.len(), before.tiers.len() + 1);
@@ -73,6 +79,7 @@ fn tiers_are_added_named_indexed_muted_copied_and_deleted_by_name() {
     // A text that is no list of indices changes nothing.
     type_text(&mut bench, "Indices of K1", "12-x");
     assert_eq!(tiers(&bench).tiers[place].indices(96), "12-84");
+    reach(&mut bench, "Cut K1");
     bench.click("Cut K1");
     assert!(!tiers(&bench).tiers[place].is_cut);
     bench.click("Copy tier");
@@ -90,12 +97,14 @@ fn tiers_are_added_named_indexed_muted_copied_and_deleted_by_name() {
 fn an_angle_that_is_typed_keeps_its_side_and_moves_one_tier() {
     let mut bench = turned();
     let before = tiers(&bench);
-    let place = before.tiers.iter().position(|tier| tier.name() == "main").unwrap();
-    bench.type_number("Angle of main", "41.25");
+    let place = before.tiers.iter().position(|tier| tier.name() == "P2").unwrap();
+    reach(&mut bench, "Angle of P2");
+    bench.type_number("Angle of P2", "41.25");
     let now = tiers(&bench);
     assert_eq!(now.tiers[place].angle, -41.25);
+    assert_eq!(before.tiers[place].facets.len(), 8);
     let others = |tiers: &Tiers| -> Vec<Tier> {
-        tiers.tiers.iter().filter(|tier| tier.name() != "main").cloned().collect()
+        tiers.tiers.iter().filter(|tier| tier.name() != "P2").cloned().collect()
     };
     assert_eq!(others(&now), others(&before));
 }
@@ -105,14 +114,15 @@ fn a_facet_that_is_clicked_selects_its_tier_and_rows_are_ordered() {
     let mut bench = turned();
     bench.harness.run_steps(3);
     // The middle of a view face up is the table.
-    let view = bench.harness.get_by_label("ASET view").rect().center();
+    let view = bench.harness.get_by_label("ASET picture").rect().center();
     bench.click_at(view);
     bench.settle();
     let place = bench.editor().model.session.tier.expect("a tier is selected");
-    assert_eq!(tiers(&bench).tiers[place].name(), "table");
-    bench.click("Later");
-    assert_eq!(tiers(&bench).tiers[place + 1].name(), "table");
-    assert_eq!(bench.editor().model.session.tier, Some(place + 1));
+    assert_eq!(tiers(&bench).tiers[place].name(), "T");
+    assert!(!bench.editor().model.session.followed.is_open, "no ray is followed beside the table");
     bench.click("Earlier");
-    assert_eq!(tiers(&bench).tiers[place].name(), "table");
+    assert_eq!(tiers(&bench).tiers[place - 1].name(), "T");
+    assert_eq!(bench.editor().model.session.tier, Some(place - 1));
+    bench.click("Later");
+    assert_eq!(tiers(&bench).tiers[place].name(), "T");
 }

@@ -58,7 +58,9 @@ fn clicked(cx: &mut PaneContext, ui: &Ui, is_alone: bool, response: &Response, s
         // A click by a key means the middle of the view.
         let at = sight.image(response.interact_pointer_pos().unwrap_or(sight.body.center()));
         let specimen = cx.model.document.specimen();
-        if cx.tools.probe.of(specimen).is_on(&sight.view, at) {
+        // A click on a facet means its row where the table of tiers is open, unless a ray is followed already.
+        let is_for_table = cx.model.shows_tiers() && !cx.model.session.followed.is_open;
+        if !is_for_table && cx.tools.probe.of(specimen).is_on(&sight.view, at) {
             cx.tools.following.click(cx.pane, at, sight.body, ui.ctx());
         }
     }
@@ -74,7 +76,7 @@ fn selected(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneView
     let Cut::Tiers(tiers) = &model.document.work.design.cut else { return };
     let specimen = model.document.specimen();
     let Ok(stone) = specimen.stone() else { return };
-    if !model.workspace.shows_tiers {
+    if !model.shows_tiers() {
         return;
     }
     let tier_of = |facet: usize| tiers.tier_of_plane(stone.polytope.facets()[facet].source);

@@ -1,7 +1,7 @@
 //! Prepares designs for cutters' files: as tiers, with their outlines, and with messages about what such files cannot hold.
 
 use super::{Gear, TierPiece, fourteen_digits, gathered, named_once};
-use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MaterialRef, Tiers, tier_stem};
+use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MaterialRef, Tier, TierZone, Tiers, tier_stem};
 use crate::math::{Plane, Polytope};
 use crate::optics::line;
 use crate::scene::Specimen;
@@ -38,9 +38,34 @@ pub(in super::super) fn tiers_of<'a>(specimen: &'a Specimen, lost: &mut Vec<Stri
 
 /// Lists the facets of a stone as tiers, with the first gear on whose teeth they lie, else the commonest; `None` for a body
 /// that is not a stone between planes.
+///
+/// The tiers stand in the order in which cutters work, pavilion, girdle, crown and table, and have cutters' names: P1, G1,
+/// C1, T.
 pub fn as_tiers(specimen: &Specimen) -> Option<Tiers> {
     specimen.stone().ok()?;
-    Some(tiers_of(specimen, &mut vec![]).into_owned())
+    let mut tiers = tiers_of(specimen, &mut vec![]).into_owned();
+    let order = |tier: &Tier| match tier.zone() {
+        TierZone::Pavilion => 0,
+        TierZone::Culet => 1,
+        TierZone::Girdle => 2,
+        TierZone::Crown => 3,
+        TierZone::Table => 4,
+    };
+    tiers.tiers.sort_by_key(order);
+    for place in 0..tiers.tiers.len() {
+        let zone = tiers.tiers[place].zone();
+        let number = 1 + tiers.tiers[..place].iter().filter(|tier| tier.zone() == zone).count();
+        let letter = match zone {
+            TierZone::Pavilion => "P",
+            TierZone::Girdle => "G",
+            TierZone::Crown => "C",
+            TierZone::Table => "T",
+            TierZone::Culet => "CULET",
+        };
+        let is_alone = matches!(zone, TierZone::Table | TierZone::Culet) && number == 1;
+        tiers.tiers[place].rename(&if is_alone { letter.to_owned() } else { format!("{letter}{number}") });
+    }
+    Some(tiers)
 }
 
 /// Returns the facets of a design, moved where the origin lies outside the stone, since tiers have no place for that.
@@ -75,9 +100,23 @@ fn indexed(facets: &[(String, Plane)], gear: Gear) -> Tiers {
         let setting = gear.setting(plane.normal, plane.offset.max(0.0));
         TierPiece { tier: runs, setting, name: stem.to_owned(), instructions: String::new(), is_cut: true }
     });
-    let mut tiers = Tiers { tiers: gathered(pieces), ..gear.tiers() };
+    let mut tiers = Tiers { tiers: gathered(together(pieces)), ..gear.tiers() };
     named_once(&mut tiers.tiers);
     tiers
+}
+
+/// Brings facets that are cut alike together, where others of their name lie between them, as on an oval.
+fn together(pieces: impl Iterator<Item = TierPiece>) -> impl Iterator<Item = TierPiece> {
+    let mut groups: Vec<Vec<TierPiece>> = vec![];
+    for piece in pieces {
+        let of_its_run = groups.iter_mut().rev().take_while(|group| group[0].tier == piece.tier);
+        let alike = of_its_run.into_iter().find(|group| piece.is_cut_as(&group[0].setting));
+        match alike {
+            Some(group) => group.push(piece),
+            None => groups.push(vec![piece]),
+        }
+    }
+    groups.into_iter().flatten()
 }
 
 /// Returns the outlines of the facets that are cut, in their order, in the design's unit.

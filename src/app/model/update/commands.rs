@@ -37,6 +37,11 @@ impl Model {
         matches!(self.document.work.design.cut, Cut::Tiers(_))
     }
 
+    /// Whether the table of tiers is in sight.
+    pub fn shows_tiers(&self) -> bool {
+        self.workspace.shows_tiers && self.has_tiers()
+    }
+
     /// Whether a command is switched on, as menus show it.
     pub fn is_chosen(&self, command: Command) -> bool {
         let workspace = &self.workspace;
