@@ -16,7 +16,7 @@ use super::tasks::autosave::Autosave;
 use super::tasks::{Outside, TaskAnswer};
 use super::views::gallery::{Shown, hang};
 use super::views::look_ups::look_ups;
-use super::views::{ViewTools, clock, light_path_window, stage};
+use super::views::{ViewTools, bench_mode, clock, light_path_window, stage};
 use super::{dialogs, drops, menus, theme};
 use crate::io::Failure;
 use crate::io::library;
@@ -248,13 +248,18 @@ impl Editor {
         menus::bar(&self.model, &mut self.actions, ui);
         menus::status(&self.model.session, &self.studio, self.painted_by, ui);
         self.run();
-        if !self.model.workspace.hides_panels {
+        if !self.model.workspace.hides_panels && !self.model.is_at_bench() {
             side_panels::show(&self.model, &mut self.actions, ui);
             self.run();
         }
         tier_table::show(&self.model, &mut self.actions, ui);
         self.run();
-        let seen = stage::show(&self.model, &mut self.views, &mut self.actions, ui);
+        let seen = if self.model.is_at_bench() {
+            bench_mode::show(&self.model, &mut self.actions, ui);
+            vec![]
+        } else {
+            stage::show(&self.model, &mut self.views, &mut self.actions, ui)
+        };
         self.run();
         light_path_window::show(&self.model, &mut self.views, &mut self.actions, &ctx);
         dialogs::show(&self.model, &self.thumbnails, &mut self.actions, &ctx);

@@ -2,6 +2,7 @@
 
 use super::choosing::{Choice, Purpose, Question};
 use super::command::Command;
+use super::cutting::CuttingProgress;
 use super::dialog::{AboutPage, Then};
 use super::export::Selection;
 use super::exporting::ExportEvent;
@@ -100,6 +101,8 @@ pub enum ViewAction {
     Overlay(Option<String>),
     /// Ends a step of the view history; the next change begins another.
     EndStep,
+    /// Progress at the faceting machine.
+    Cutting(CuttingProgress),
     /// Selects the tier at a place of the design's list, or none.
     Tier(Option<usize>),
     /// The pointer is over a view; commands act on it.

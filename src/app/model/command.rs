@@ -49,6 +49,8 @@ pub enum Command by keys {
     NextBehind: "G", "Next background", "Puts the next world or pattern behind renders.";
     Tiers: "Shift+T", "Table of tiers",
         "Opens a table below the views, in which tiers are added, placed and named.";
+    BenchMode: "Shift+B", "Bench mode",
+        "Shows one step of the cutting at a time, in large letters, and marks what has been cut.";
     IntoTiers: "", "Turn into tiers",
         "Lists the facets as tiers on an index gear, so that each can be cut otherwise. Proportions end with it.";
     Panels: "H", "Hide panels", "Hides the panels at both sides, or shows them again.";
@@ -90,7 +92,7 @@ pub const MENUS: [Menu; 5] = [
             &[Wireframe, Facets, Bounces, Unresolved, Total, Strongest, Glare],
             &[LightPath],
             &[Play, LayOut, NextBehind],
-            &[Tiers],
+            &[Tiers, BenchMode],
             &[Panels, FullScreen],
             &[ResetView, ResetLayout],
         ],

@@ -7,6 +7,7 @@ pub mod action;
 pub mod choosing;
 pub mod command;
 pub mod compare;
+pub mod cutting;
 pub mod dialog;
 pub mod document;
 pub mod export;

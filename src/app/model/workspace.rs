@@ -1,5 +1,6 @@
 //! How the user has arranged the window: kept from one start to the next.
 
+use super::cutting::CuttingProgress;
 use crate::app::liquid::Liquid;
 use crate::app::model::eye::Eye;
 use crate::app::shows::Shows;
@@ -156,6 +157,8 @@ pub struct Workspace {
     pub hides_panels: bool,
     /// Whether the table of tiers is open below the views.
     pub shows_tiers: bool,
+    /// Progress at the faceting machine.
+    pub cutting: CuttingProgress,
     /// Which panels are open where they are not hidden.
     pub panels: Panels,
     /// The pane of liquid glass.
@@ -215,6 +218,7 @@ impl Default for Workspace {
             smoothing: Smoothing::None,
             hides_panels: false,
             shows_tiers: false,
+            cutting: CuttingProgress::default(),
             panels: Panels::default(),
             liquid: Liquid::default(),
         }

@@ -114,3 +114,14 @@ fn an_oval_as_tiers() {
     bench.click_at(bench.harness.get_by_label("ASET picture").rect().center() + egui::vec2(60.0, 140.0));
     take(&mut bench, "tiers");
 }
+
+#[test]
+#[ignore = "writes a picture into docs/images/editor"]
+fn a_step_at_the_bench() {
+    let mut bench = window("tolkowsky.toml", &Bench::small());
+    bench.choose("Edit", "Turn into tiers");
+    bench.choose("View", "Bench mode");
+    ["Next step", "Index 12", "Index 24"].into_iter().for_each(|label| bench.click(label));
+    bench.harness.run_steps(8);
+    take(&mut bench, "bench-mode");
+}

@@ -126,3 +126,39 @@ fn a_facet_that_is_clicked_selects_its_tier_and_rows_are_ordered() {
     bench.click("Later");
     assert_eq!(tiers(&bench).tiers[place].name(), "T");
 }
+
+#[test]
+fn bench_mode_shows_one_step_and_keeps_what_was_cut() {
+    let mut bench = turned();
+    let design = tiers(&bench);
+    bench.choose("View", "Bench mode");
+    assert!(bench.harness.query_by_label("ASET picture").is_none());
+    bench.click("Next step");
+    let first = design.tiers[1].facets[0].index;
+    let chip = format!("Index {}", if first == 0.0 { 96.0 } else { first });
+    bench.click(&chip);
+    let marked = |bench: &Bench| bench.harness.query_by_label_contains("1 of 8 indices are cut").is_some();
+    assert!(marked(&bench));
+    // The arrow keys turn the pages.
+    bench.harness.key_press(egui::Key::ArrowLeft);
+    bench.harness.run_steps(2);
+    assert!(!marked(&bench));
+    bench.harness.key_press(egui::Key::ArrowRight);
+    bench.harness.run_steps(2);
+    assert!(marked(&bench));
+    // A gear that counts the other way round shows other numbers for the same marks.
+    bench.click("Left-handed gear");
+    assert!(marked(&bench));
+    bench.click("Leave bench mode");
+    bench.settle();
+    // Another angle is another step, whose marks are void.
+    bench.choose("View", "Table of tiers");
+    bench.choose("View", "Table of tiers");
+    reach(&mut bench, "Angle of P2");
+    bench.type_number("Angle of P2", "41.5");
+    bench.choose("View", "Bench mode");
+    assert!(!marked(&bench));
+    let text = serde_json::to_string(&bench.editor().model.workspace).unwrap();
+    let read: Workspace = serde_json::from_str(&text).unwrap();
+    assert_eq!(read.cutting, bench.editor().model.workspace.cutting);
+}

@@ -1,5 +1,6 @@
 //! The views of the stone and what is drawn in them.
 
+pub mod bench_mode;
 pub mod clock;
 mod copies;
 mod eye_hand;

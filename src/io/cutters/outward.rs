@@ -1,8 +1,8 @@
 //! Prepares designs for cutters' files: as tiers, with their outlines, and with messages about what such files cannot hold.
 
 use super::{Gear, TierPiece, fourteen_digits, gathered, named_once};
-use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MaterialRef, Tier, TierZone, Tiers, tier_stem};
-use crate::math::{Plane, Polytope};
+use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, Indexed, MaterialRef, Tier, TierZone, Tiers, tier_stem};
+use crate::math::{Basis, Plane, Polytope, Symmetry};
 use crate::optics::line;
 use crate::scene::Specimen;
 use glam::DVec3;
@@ -31,7 +31,10 @@ pub(in super::super) fn tiers_of<'a>(specimen: &'a Specimen, lost: &mut Vec<Stri
         tiers.tiers.iter().flat_map(|tier| &tier.facets).all(|facet| facet.index.fract() == 0.0)
     };
     let mut tiers = GEARS.iter().map(of_gear).find(is_whole).unwrap_or_else(|| of_gear(&GEARS[0]));
-    (tiers.symmetry, tiers.mirror) = if brilliant { (8, true) } else { (1, false) };
+    // A round brilliant whose girdle facets are no multiple of 8 is eightfold all the same.
+    let found = Symmetry::of(facets.iter().map(|(_, plane)| *plane), &Basis::FACE_UP, DVec3::Z);
+    (tiers.symmetry, tiers.mirror) =
+        if brilliant { (8, true) } else { (found.turns, found.mirror.is_some()) };
     tiers.headers = std::iter::once(&design.name).chain(&design.source).cloned().collect();
     Cow::Owned(tiers)
 }
@@ -52,6 +55,11 @@ pub fn as_tiers(specimen: &Specimen) -> Option<Tiers> {
         TierZone::Table => 4,
     };
     tiers.tiers.sort_by_key(order);
+    let gear = f64::from(tiers.gear.abs());
+    let tooth = |facet: &Indexed| facet.index.rem_euclid(gear);
+    for tier in &mut tiers.tiers {
+        tier.facets.sort_by(|a, b| tooth(a).total_cmp(&tooth(b)));
+    }
     for place in 0..tiers.tiers.len() {
         let zone = tiers.tiers[place].zone();
         let number = 1 + tiers.tiers[..place].iter().filter(|tier| tier.zone() == zone).count();

@@ -25,7 +25,7 @@ impl Model {
             Command::Redo => redo,
             Command::Save => self.document.is_changed() || self.document.path().is_none(),
             Command::IntoTiers => !self.has_tiers() && self.document.specimen().stone().is_ok(),
-            Command::Tiers => self.has_tiers(),
+            Command::Tiers | Command::BenchMode => self.has_tiers(),
             Command::LayOut => self.document.work.copies.poses.len() > 1,
             Command::Split | Command::NoCompare => self.session.compared.is_some(),
             _ => true,
@@ -37,9 +37,14 @@ impl Model {
         matches!(self.document.work.design.cut, Cut::Tiers(_))
     }
 
+    /// Whether one step of the cutting is in sight in the place of the views.
+    pub fn is_at_bench(&self) -> bool {
+        self.workspace.cutting.is_open && self.has_tiers()
+    }
+
     /// Whether the table of tiers is in sight.
     pub fn shows_tiers(&self) -> bool {
-        self.workspace.shows_tiers && self.has_tiers()
+        self.workspace.shows_tiers && self.has_tiers() && !self.is_at_bench()
     }
 
     /// Whether a command is switched on, as menus show it.
@@ -64,6 +69,7 @@ impl Model {
             Command::Play => self.session.motion.is_on,
             Command::Panels => workspace.hides_panels,
             Command::Tiers => workspace.shows_tiers,
+            Command::BenchMode => workspace.cutting.is_open,
             _ => false,
         }
     }
@@ -144,6 +150,7 @@ fn look(model: &mut Model, command: Command) {
         Command::Play => session.motion.is_on = !session.motion.is_on,
         Command::NextBehind => workspace.next_behind(),
         Command::Panels => workspace.hides_panels = !workspace.hides_panels,
+        Command::BenchMode => workspace.cutting.is_open = !workspace.cutting.is_open,
         Command::Tiers => workspace.shows_tiers = !workspace.shows_tiers,
         Command::ResetView => {
             workspace.reset_view();

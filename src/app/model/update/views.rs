@@ -32,6 +32,7 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: ViewAction) {
         ViewAction::LightUpright(is_upright) => workspace.light_upright = is_upright,
         ViewAction::Smoothing(smoothing) => workspace.smoothing = smoothing,
         ViewAction::Liquid(liquid) => workspace.liquid = liquid,
+        ViewAction::Cutting(progress) => workspace.cutting = progress,
         ViewAction::ByArea(by_area) => workspace.by_area = by_area,
         ViewAction::Panel { side, has_room_for_both, is_open } => {
             workspace.panels.set(side, has_room_for_both, is_open);
