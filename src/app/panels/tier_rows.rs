@@ -20,7 +20,7 @@ pub fn show(document: &Document, actions: &mut Actions, ui: &mut Ui) {
             {unit_mm:.3} mm."
     );
     if let Cut::Tiers(_) = document.work.design.cut {
-        let button = ui.button("Table of tiers…");
+        let button = ui.button("Edit tiers…");
         let meaning = "Opens the table below the views, in which tiers are added, ordered, named and cut at other indices.";
         if explain(ui, button, meaning).clicked() {
             actions.push(Command::Tiers);

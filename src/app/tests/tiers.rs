@@ -152,8 +152,6 @@ fn bench_mode_shows_one_step_and_keeps_what_was_cut() {
     bench.click("Leave bench mode");
     bench.settle();
     // Another angle is another step, whose marks are void.
-    bench.choose("View", "Table of tiers");
-    bench.choose("View", "Table of tiers");
     reach(&mut bench, "Angle of P2");
     bench.type_number("Angle of P2", "41.5");
     bench.choose("View", "Bench mode");
