@@ -62,25 +62,32 @@ impl Tiers {
     /// Tiers are cut as they are listed, but a tier whose meet names one that is listed later is cut after it. Of several
     /// corners that fit a meet, the facet goes to the first that it reaches as it is cut deeper.
     pub fn solved(&self) -> SolvedTiers {
+        self.followed(true)
+    }
+
+    /// Follows the meet of each tier between the design's own planes, so that the meets before it move nothing: the difference
+    /// shows how well the design's numbers agree with each meet.
+    pub fn checked_meets(&self) -> SolvedTiers {
+        self.followed(false)
+    }
+
+    /// Follows all meets, each on a stone whose tiers lie where their meets say, or where their own numbers say.
+    fn followed(&self, by_meets: bool) -> SolvedTiers {
         let mut bench = Bench::of(self);
         let mut solved =
             SolvedTiers { tiers: self.clone(), outcomes: vec![TierOutcome::Kept; self.tiers.len()] };
         for place in cutting_order(self) {
-            let tier = &mut solved.tiers.tiers[place];
-            if !tier.is_cut {
+            let given = &self.tiers[place];
+            if !given.is_cut {
                 continue;
             }
-            if let Some(meet) = &self.tiers[place].meet {
-                solved.outcomes[place] = match bench.follow(place, tier, meet) {
-                    Ok(outcome) => outcome,
-                    Err(fault) => TierOutcome::Failed(MeetError {
-                        tier: place + 1,
-                        name: tier.name().to_owned(),
-                        fault,
-                    }),
-                };
+            let tier = &mut solved.tiers.tiers[place];
+            if let Some(meet) = &given.meet {
+                solved.outcomes[place] = bench.follow(place, tier, meet).unwrap_or_else(|fault| {
+                    TierOutcome::Failed(MeetError { tier: place + 1, name: tier.name().to_owned(), fault })
+                });
             }
-            bench.cut(place, tier);
+            bench.cut(place, if by_meets { tier } else { given });
         }
         solved
     }
