@@ -1,8 +1,10 @@
 //! `convert`: writes a stone's design in another format.
 
 use super::console::say;
+use super::meets::KnownMeets;
 use super::mesh_options::MeshArguments;
 use super::specimen::LoadedSpecimen;
+use crate::cut::{Cut, Design};
 use crate::io::Failure;
 use crate::io::design_file::{self, DesignFormat};
 use clap::Args;
@@ -18,6 +20,10 @@ pub struct Convert {
     /// The format to write, whatever the ending
     #[arg(long, value_enum)]
     format: Option<DesignFormat>,
+    /// For a cutter's design, follow its meets: keep those that the file gives, that its instructions state and that the
+    /// geometry shows, and move each tier to the distance that follows
+    #[arg(long)]
+    meets: bool,
     #[command(flatten)]
     mesh: MeshArguments,
 }
@@ -33,11 +39,28 @@ impl Convert {
                 endings.join(", ")
             ))
         })?;
-        let specimen = LoadedSpecimen::load(&self.input, self.mesh.options())?;
+        let mut specimen = LoadedSpecimen::load(&self.input, self.mesh.options())?;
+        if self.meets {
+            specimen = followed(specimen)?;
+        }
         let lost = design_file::write(&specimen, format, &self.output)?;
         for what in lost {
             say(&format!("note: {}: {what}", self.output.display()));
         }
         Ok(())
     }
+}
+
+/// Returns the stone whose tiers lie where their meets say.
+fn followed(specimen: LoadedSpecimen) -> Result<LoadedSpecimen, Failure> {
+    let LoadedSpecimen { path, made } = specimen;
+    let Some(meets) = KnownMeets::of(&made.design.cut) else {
+        let problem = "--meets follows the meets of tiers, and this design has none; leave the option out";
+        return Err(Failure::Input(format!("{path}: {problem}")));
+    };
+    let cut = Cut::Tiers(meets.followed(&path));
+    let design = made.design.clone();
+    let made = made.remade(Design { cut, ..design });
+    made.map(|made| LoadedSpecimen { path: path.clone(), made })
+        .map_err(|error| Failure::Input(format!("{path}: with its meets: {error}")))
 }

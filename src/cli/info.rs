@@ -3,6 +3,7 @@
 use super::assembly::{Assembly, MadeRing};
 use super::batch::each_file;
 use super::console::{json, print};
+use super::meets::KnownMeets;
 use super::mesh_options::MeshArguments;
 use super::names::is_scene;
 use super::specimen::LoadedSpecimen;
@@ -38,6 +39,10 @@ pub struct Info {
     /// List every facet after the tiers
     #[arg(long)]
     facets: bool,
+    /// For a cutter's design, list where each tier goes: the meet that the file gives, that its instruction states or that
+    /// the geometry shows, and the distance that follows from it
+    #[arg(long)]
+    meets: bool,
     #[command(flatten)]
     mesh: MeshArguments,
 }
@@ -51,8 +56,16 @@ impl Info {
                 return self.print_as(&scene_json(&assembly), || scene_table(&assembly));
             }
             let specimen = LoadedSpecimen::load(file, mesh)?.made_of(material, None)?;
-            let value = described(&specimen)?;
-            self.print_as(&value, || table(&specimen, &value, self.facets))
+            let mut value = described(&specimen)?;
+            let meets = self.meets.then(|| KnownMeets::of(&specimen.design.cut)).flatten();
+            if self.meets && meets.is_none() {
+                specimen.say("meets are those of tiers, and this design has none");
+            }
+            if let Some(meets) = &meets {
+                value["meets"] = meets.json();
+            }
+            let rows = || meets.as_ref().map(KnownMeets::table).unwrap_or_default();
+            self.print_as(&value, || table(&specimen, &value, self.facets) + &rows())
         })
     }
 

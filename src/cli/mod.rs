@@ -14,6 +14,7 @@ mod liquid_glass;
 mod lists;
 mod map_files;
 mod measure;
+mod meets;
 mod mesh_options;
 mod names;
 mod options;

@@ -67,7 +67,8 @@ mod tests {
 
     fn told(gear: i32, angle: f64, indices: &[f64]) -> Vec<String> {
         let facets = indices.iter().map(|&index| Indexed { index, name: String::new() }).collect();
-        let tier = Tier { angle, distance: 1.0, instructions: String::new(), is_cut: true, facets };
+        let tier =
+            Tier { angle, distance: 1.0, instructions: String::new(), meet: None, is_cut: true, facets };
         let tiers = Tiers { gear, tiers: vec![tier], ..Tiers::default() };
         tiers.beyond_gear().map(|beyond| beyond.to_string()).collect()
     }

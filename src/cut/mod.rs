@@ -1,4 +1,4 @@
-//! Floor 1: what a cut is, as numbers: the round brilliant in closed form, cutters' tiers, plane lists, meshes, glass
+//! Floor 1: what a cut is, as numbers: the round brilliant in closed form, cutters' tiers with their meets, plane lists, meshes, glass
 //! shapes, material and size.
 //!
 //! Numbers in files are percent of the girdle diameter and degrees. Planes come out in the stone's frame: +z out of the
@@ -19,6 +19,7 @@ mod glass_solid;
 mod glass_table;
 mod limits;
 mod material;
+pub mod meets;
 mod mesh_shape;
 mod names;
 mod outline;
@@ -42,6 +43,7 @@ pub use family::{Bound, BoundAt, Family, ProfileHandle, Proportion, Unit};
 pub use family_cut::FamilyCut;
 pub use glass::{Glass, Plate, Sides};
 pub use material::{MaterialError, MaterialRef};
+pub use meets::{GivenSize, Meet, MeetError, MeetFault, MeetPoint, SolvedTiers, TierEdit, TierOutcome};
 pub use mesh_shape::MeshShape;
 pub use outline::{AlongAxes, Outline, is_girdle, is_table, round_diameter};
 pub use proportion_error::{Limit, ProportionError};

@@ -3,6 +3,7 @@
 //!
 //! Source: the conventions of GemCad (R. Strickland), as described in docs/formats.md.
 
+use super::meets::Meet;
 use super::names;
 use crate::math::Plane;
 use glam::DVec3;
@@ -64,6 +65,9 @@ pub struct Tier {
     pub distance: f64,
     /// The cutter's instructions; empty where there are none.
     pub instructions: String,
+    /// Where the facets go, as far as it is known; `None` where the distance alone says it. Reading a design moves no facet to
+    /// its meet: [`Tiers::solved`] does.
+    pub meet: Option<Meet>,
     /// Whether the tier is cut. A tier that is not cut is kept in the design but makes no facets.
     pub is_cut: bool,
     /// The facets, in the order in which they are listed.
@@ -249,7 +253,7 @@ mod tests {
 
     fn tier(angle: f64, distance: f64, indices: &[f64]) -> Tier {
         let facets = indices.iter().map(|&index| Indexed { index, name: String::new() }).collect();
-        Tier { angle, distance, instructions: String::new(), is_cut: true, facets }
+        Tier { angle, distance, instructions: String::new(), meet: None, is_cut: true, facets }
     }
 
     fn square(gear: i32, offset: f64) -> Tiers {

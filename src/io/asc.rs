@@ -219,7 +219,14 @@ impl Reader {
             return Ok(());
         }
         self.tier_lines.push(self.number);
-        self.tiers.push(Tier { angle, distance, instructions: String::new(), is_cut: true, facets: vec![] });
+        self.tiers.push(Tier {
+            angle,
+            distance,
+            instructions: String::new(),
+            meet: None,
+            is_cut: true,
+            facets: vec![],
+        });
         (self.in_tier, self.name) = (true, None);
         self.facets(after)
     }

@@ -20,6 +20,7 @@ pub use super::toml_format::FORMAT;
 mod family_form;
 mod form;
 pub(super) mod material_form;
+mod meet_form;
 mod tier_form;
 pub(super) mod values;
 

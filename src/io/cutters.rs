@@ -208,7 +208,7 @@ impl TierPiece {
     fn alone(self) -> Tier {
         let FacetSetting { angle, distance, index } = self.setting;
         let facets = vec![Indexed { index, name: self.name }];
-        Tier { angle, distance, instructions: self.instructions, is_cut: self.is_cut, facets }
+        Tier { angle, distance, instructions: self.instructions, meet: None, is_cut: self.is_cut, facets }
     }
 }
 
@@ -281,7 +281,14 @@ mod tests {
                 let index = if index > f64::from(teeth.abs()) { index - 24.0 } else { index };
                 let index = if index > f64::from(teeth.abs()) { 1.0 } else { index };
                 let facets = vec![Indexed { index, name: String::new() }];
-                let tier = Tier { angle, distance: 0.7, instructions: String::new(), is_cut: true, facets };
+                let tier = Tier {
+                    angle,
+                    distance: 0.7,
+                    instructions: String::new(),
+                    meet: None,
+                    is_cut: true,
+                    facets,
+                };
                 let plane = gear.tiers().plane(&tier, index);
                 assert_eq!(
                     gear.setting(plane.normal, plane.offset),

@@ -1,9 +1,9 @@
-//! Builds a [`Polytope`] by cutting a box with one half-space after the other.
+//! Builds a [`Polytope`] by cutting a box with one half-space after the other (`draft`).
 //!
-//! Every corner is judged once to be above, on or below the cutting plane, and every facet follows that one judgement. So
-//! the outlines stay closed however the numbers are rounded. Where up to sixteen planes of a brilliant meet, the result is
+//! Where up to sixteen planes of a brilliant meet, the result is
 //! therefore one corner and not a cluster.
 
+use super::draft::{Draft, DraftCut, DraftFace, directed_edges};
 use super::{Facet, Plane, Polytope};
 use glam::DVec3;
 use std::collections::HashMap;
@@ -114,25 +114,6 @@ impl PolytopeError {
             }
         }
     }
-}
-
-/// What a cut did to the solid.
-enum Cut {
-    Missed,
-    Done,
-    Emptied { certificate: Vec<usize> },
-    Unclosed,
-}
-
-struct Face {
-    source: usize,
-    outline: Vec<u32>,
-}
-
-/// A solid in the making. Faces whose source is the number of planes given, or more, are the six sides of the box.
-struct Draft {
-    vertices: Vec<DVec3>,
-    faces: Vec<Face>,
 }
 
 pub(super) fn build(planes: &[Plane]) -> Result<Polytope, PolytopeError> {
@@ -254,92 +235,20 @@ fn cut_with(planes: &[Plane], kept: &[usize], half: f64, tolerance: f64) -> Resu
     let mut draft = Draft::cube(half, planes.len());
     for &k in kept {
         match draft.cut(k, &planes[k], tolerance) {
-            Cut::Missed | Cut::Done => {}
-            Cut::Emptied { certificate } => return Err(PolytopeError::Empty { planes: certificate }),
-            Cut::Unclosed => return Err(PolytopeError::Degenerate { plane: k }),
+            DraftCut::Missed | DraftCut::Done => {}
+            DraftCut::Emptied { certificate } => return Err(PolytopeError::Empty { planes: certificate }),
+            DraftCut::Unclosed => return Err(PolytopeError::Degenerate { plane: k }),
         }
     }
     Ok(draft)
 }
 
 impl Draft {
-    fn cube(half: f64, first_source: usize) -> Self {
-        let corner = |i: u32| {
-            DVec3::from_array([i & 1, i >> 1 & 1, i >> 2 & 1].map(|b| if b == 0 { -half } else { half }))
-        };
-        let outlines = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-        let face = |(i, o): (usize, [u32; 4])| Face { source: first_source + i, outline: o.to_vec() };
-        Self {
-            vertices: (0..8).map(corner).collect(),
-            faces: outlines.into_iter().enumerate().map(face).collect(),
-        }
-    }
-
-    fn cut(&mut self, source: usize, plane: &Plane, tolerance: f64) -> Cut {
-        let height: Vec<f64> = self.vertices.iter().map(|&v| plane.distance(v)).collect();
-        let live = || self.faces.iter().flat_map(|f| f.outline.iter().map(|&v| v as usize));
-        if live().all(|v| height[v] <= tolerance) {
-            return Cut::Missed;
-        }
-        if live().all(|v| height[v] >= -tolerance) {
-            return Cut::Emptied { certificate: self.certificate(source, &height) };
-        }
-        let on_before = |v: u32| (v as usize) < height.len() && height[v as usize].abs() <= tolerance;
-        let first_new = height.len() as u32;
-        let mut split: HashMap<(u32, u32), u32> = HashMap::new();
-        let vertices = &mut self.vertices;
-        let mut edges: Vec<(u32, u32)> = Vec::new();
-        self.faces.retain_mut(|face| {
-            let mut above = false;
-            let mut below = false;
-            let mut on = 0;
-            for &v in &face.outline {
-                let h = height[v as usize];
-                above |= h > tolerance;
-                below |= h < -tolerance;
-                on += usize::from(h.abs() <= tolerance);
-            }
-            if !below {
-                return false;
-            }
-            if above {
-                face.outline = trim(&face.outline, &height, tolerance, vertices, &mut split);
-            }
-            if above || on >= 2 {
-                let next = face.outline.iter().cycle().skip(1);
-                let rim = |v: u32| v >= first_new || on_before(v);
-                edges.extend(
-                    face.outline.iter().zip(next).map(|(&a, &b)| (a, b)).filter(|&(a, b)| rim(a) && rim(b)),
-                );
-            }
-            true
-        });
-        match close(&edges) {
-            Some(outline) => {
-                self.faces.push(Face { source, outline });
-                Cut::Done
-            }
-            None => Cut::Unclosed,
-        }
-    }
-
-    /// Returns planes that together leave nothing: the new one, and those that meet at the corner least far above it. By the
-    /// duality of linear programming these already prove it.
-    fn certificate(&self, source: usize, height: &[f64]) -> Vec<usize> {
-        let live = self.faces.iter().flat_map(|f| f.outline.iter().copied());
-        let lowest = live.min_by(|&a, &b| height[a as usize].total_cmp(&height[b as usize]));
-        let meets = |f: &&Face| lowest.is_some_and(|v| f.outline.contains(&v));
-        let mut planes: Vec<usize> = self.faces.iter().filter(meets).map(|f| f.source).collect();
-        planes.push(source);
-        planes.sort_unstable();
-        planes
-    }
-
     /// Returns the given planes whose facets touch the box; `None` where no part of the box is left.
     fn unbounded(&self, given: usize) -> Option<Vec<usize>> {
         let boxed = self.faces.iter().filter(|f| f.source >= given);
         let far: Vec<u32> = boxed.flat_map(|f| f.outline.iter().copied()).collect();
-        let touches = |f: &&Face| f.source < given && f.outline.iter().any(|v| far.contains(v));
+        let touches = |f: &&DraftFace| f.source < given && f.outline.iter().any(|v| far.contains(v));
         let mut open: Vec<usize> = self.faces.iter().filter(touches).map(|f| f.source).collect();
         open.sort_unstable();
         (!far.is_empty()).then_some(open)
@@ -384,62 +293,4 @@ impl Draft {
         let euler = polytope.vertices.len() + polytope.facets.len() == polytope.edge_count() + 2;
         if euler { Ok(polytope) } else { Err(PolytopeError::Degenerate { plane: kept[kept.len() - 1] }) }
     }
-}
-
-fn directed_edges(outline: &[u32]) -> impl Iterator<Item = (u32, u32)> {
-    outline.iter().copied().zip(outline.iter().copied().cycle().skip(1))
-}
-
-/// Returns the part of an outline that is not above the plane, with a new corner wherever an edge crosses the plane.
-fn trim(
-    outline: &[u32],
-    height: &[f64],
-    tolerance: f64,
-    vertices: &mut Vec<DVec3>,
-    split: &mut HashMap<(u32, u32), u32>,
-) -> Vec<u32> {
-    let mut kept = Vec::with_capacity(outline.len() + 1);
-    for (a, b) in directed_edges(outline) {
-        let (at_a, at_b) = (height[a as usize], height[b as usize]);
-        if at_a <= tolerance {
-            kept.push(a);
-        }
-        let crosses = (at_a > tolerance && at_b < -tolerance) || (at_a < -tolerance && at_b > tolerance);
-        if crosses {
-            // The edge's other facet meets it in the other direction: one corner serves both.
-            let (low, high) = (a.min(b), a.max(b));
-            let corner = *split.entry((low, high)).or_insert_with(|| {
-                let (p, q) = (vertices[low as usize], vertices[high as usize]);
-                let (at_p, at_q) = (height[low as usize], height[high as usize]);
-                vertices.push(p + (q - p) * (at_p / (at_p - at_q)));
-                vertices.len() as u32 - 1
-            });
-            kept.push(corner);
-        }
-    }
-    kept
-}
-
-/// Returns the outline of the new facet: the edges in the plane that belong to one facet only, in the opposite direction.
-///
-/// `None` where they do not make one closed ring of three or more.
-fn close(edges: &[(u32, u32)]) -> Option<Vec<u32>> {
-    let present: std::collections::HashSet<(u32, u32)> = edges.iter().copied().collect();
-    let rim = edges.iter().filter(|&&(a, b)| !present.contains(&(b, a)));
-    let mut next: HashMap<u32, u32> = HashMap::new();
-    let mut start = None;
-    for &(a, b) in rim {
-        start.get_or_insert(b);
-        if next.insert(b, a).is_some() {
-            return None;
-        }
-    }
-    let start = start?;
-    let mut outline = vec![start];
-    let mut at = *next.get(&start)?;
-    while at != start && outline.len() < next.len() {
-        outline.push(at);
-        at = *next.get(&at)?;
-    }
-    (at == start && outline.len() == next.len() && outline.len() >= 3).then_some(outline)
 }

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/asc");
 
 /// Returns the files with these extensions, in order; where there is no corpus, none, with a message.
-fn files(endings: &[&str]) -> Vec<PathBuf> {
+pub fn files(endings: &[&str]) -> Vec<PathBuf> {
     if !Path::new(CORPUS).is_dir() {
         println!("SKIPPED: {CORPUS} is not there, so no real file is read");
         return vec![];

@@ -10,6 +10,7 @@ use crate::cut::{Cut, DEFAULT_DIAMETER_MM, MAX_PLANES, MaterialRef, MeshShape};
 use crate::math::{Plane, Pose, Surface, TriangleMesh};
 
 mod materials;
+mod meets;
 mod random;
 
 /// The example that every guide shows.

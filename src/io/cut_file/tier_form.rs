@@ -1,5 +1,6 @@
 //! The keys of the tables `[[tier]]` of a cutter's design.
 
+use super::meet_form::MeetForm;
 use crate::cut::{Indexed, Tier};
 use crate::io::file_error::Fault;
 use serde::{Deserialize, Serialize};
@@ -15,6 +16,8 @@ pub(super) struct TierForm {
     names: Vec<String>,
     #[serde(default, skip_serializing_if = "String::is_empty")]
     instructions: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    meet: Option<MeetForm>,
     #[serde(default = "yes", skip_serializing_if = "Clone::clone")]
     cut: bool,
 }
@@ -32,6 +35,7 @@ impl TierForm {
             indices: tier.facets.iter().map(|facet| facet.index).collect(),
             names: tier.facets[..named].iter().map(|facet| facet.name.clone()).collect(),
             instructions: tier.instructions.clone(),
+            meet: tier.meet.as_ref().map(MeetForm::of),
             cut: tier.is_cut,
         }
     }
@@ -48,6 +52,7 @@ impl TierForm {
             angle: self.angle,
             distance: self.distance,
             instructions: self.instructions,
+            meet: self.meet.map(|form| form.meet(place)).transpose()?,
             is_cut: self.cut,
             facets: self
                 .indices

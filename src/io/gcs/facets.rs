@@ -111,6 +111,7 @@ impl<'d> Reader<'d> {
             angle: girdle_below(setting.angle),
             distance: setting.distance,
             instructions,
+            meet: None,
             is_cut,
             facets: vec![],
         })

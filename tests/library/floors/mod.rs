@@ -27,7 +27,7 @@ struct Room {
     door: &'static [&'static str],
 }
 
-const ROOMS: [Room; 7] = [
+const ROOMS: [Room; 8] = [
     Room { folder: "math/mending", door: &["Mended", "Mending", "SurfaceError"] },
     Room {
         folder: "math/faceting",
@@ -45,6 +45,19 @@ const ROOMS: [Room; 7] = [
     Room {
         folder: "cut/from_mesh",
         door: &["Doubt", "FromMesh", "FromMeshError", "Up", "directions", "from_mesh"],
+    },
+    Room {
+        folder: "cut/meets",
+        door: &[
+            "GivenSize",
+            "Meet",
+            "MeetError",
+            "MeetFault",
+            "MeetPoint",
+            "SolvedTiers",
+            "TierEdit",
+            "TierOutcome",
+        ],
     },
     Room {
         folder: "picture/liquid_glass",

@@ -1,0 +1,80 @@
+//! What is wrong with a meet.
+
+use super::meet::MeetPoint;
+
+/// Why the meet of a tier gives no distance.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("tier {tier}{}: {fault}", if .name.is_empty() { String::new() } else { format!(" '{:.40}'", .name) })]
+pub struct MeetError {
+    /// The number of the tier, from 1.
+    pub tier: usize,
+    /// The tier's name; empty where it has none.
+    pub name: String,
+    /// What is wrong.
+    pub fault: MeetFault,
+}
+
+/// What is missing for a meet, or ambiguous in it.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MeetFault {
+    /// A name that no tier has.
+    #[error("no tier is called {name}; name a tier of the design")]
+    UnknownName {
+        /// The name.
+        name: String,
+    },
+    /// A name of tiers none of which is cut before.
+    #[error("{name} is not cut yet; move its tier up, or name another")]
+    NotCutYet {
+        /// The name.
+        name: String,
+    },
+    /// Facets that do not meet.
+    #[error("{} on the stone so far", no_point(.point))]
+    NoPoint {
+        /// The point that is not there.
+        point: MeetPoint,
+    },
+    /// A level girdle before there is a girdle line.
+    #[error("no girdle facet meets another facet in a level line so far; give the distance")]
+    NoGirdleLine,
+    /// A centre point of an upright facet.
+    #[error("an upright facet passes through no centre point; give another meet")]
+    Upright,
+    /// A centre-point angle of a facet that is not upright.
+    #[error("a centre-point angle is for girdle facets; give another meet")]
+    NotUpright,
+    /// Facets of the tier whose points differ.
+    #[error(
+        "the facets at {first} and {other} would need distances that differ by {by:.2e}; split the tier, or name other facets"
+    )]
+    Disagree {
+        /// The index of the first facet, in teeth.
+        first: f64,
+        /// The index of the other facet, in teeth.
+        other: f64,
+        /// How far the distances lie apart, or, in degrees, the angles.
+        by: f64,
+    },
+    /// Points in one place or on one line.
+    #[error("the points lie on one line, so they give no plane; name other facets")]
+    OneLine,
+    /// A plane on the other side of the origin, where a tier cannot be.
+    #[error("the point lies beyond the axis, so no facet at this angle and index passes through it")]
+    BeyondAxis,
+}
+
+fn no_point(point: &MeetPoint) -> String {
+    match point {
+        MeetPoint::Corner(names) => match &names[..] {
+            [] => "no facet is named to meet".to_owned(),
+            [one] => format!("no corner of {one} can be reached"),
+            [before @ .., last] => {
+                format!("{} and {last} meet in no point that this tier can reach", before.join(", "))
+            }
+        },
+        MeetPoint::GirdlePoint => "no corner of the girdle can be reached".to_owned(),
+        MeetPoint::Centre { .. } => "no facet makes a centre point".to_owned(),
+        MeetPoint::LevelGirdle => "there is no girdle line".to_owned(),
+    }
+}

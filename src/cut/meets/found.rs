@@ -1,0 +1,183 @@
+//! Finds meets in the geometry of a finished design: which corners of the stone so far does each tier pass through?
+
+use super::super::tiers::{Tier, Tiers};
+use super::meet::{Meet, MeetPoint};
+use super::solve::{Bench, TierOutcome, cutting_order};
+use super::stone::StoneCorner;
+use super::words;
+
+/// A tier passes through a point that is this near to it, in lengths of the largest distance: half of the fifth digit that
+/// most files carry, and what comes of it where facets lean.
+const PASSES: f64 = 2e-5;
+
+/// Directions this near to one another are one; machines are set to about 1e-3.
+const SAME_WAY: f64 = 1e-6;
+
+/// The fewest and the most names of a corner.
+const NAMES: std::ops::RangeInclusive<usize> = 3..=6;
+
+/// The most lists of names that are tried for one corner.
+const MOST_LISTS: usize = 60;
+
+impl Tiers {
+    /// Returns the design with the meets that its instructions state. Tiers that have a meet keep it, and all numbers stay.
+    ///
+    /// Where an instruction names a corner by too few facets, so that another one would be reached first, those that meet there
+    /// as well are added.
+    pub fn with_stated_meets(&self) -> Self {
+        let mut design = self.clone();
+        for (tier, stated) in design.tiers.iter_mut().zip(words::stated(self)) {
+            tier.meet = tier.meet.take().or(stated);
+        }
+        let given = design.clone();
+        let mut bench = Bench::of(&given);
+        for place in cutting_order(&given) {
+            let tier = &given.tiers[place];
+            if !tier.is_cut {
+                continue;
+            }
+            if self.tiers[place].meet.is_none()
+                && let Some(Meet::Points(points)) = &tier.meet
+                && let [MeetPoint::Corner(named)] = &points[..]
+                && let Some(more) = bench.named_more(place, tier, named)
+            {
+                design.tiers[place].meet = Some(more);
+            }
+            bench.cut(place, tier);
+        }
+        design
+    }
+
+    /// Returns the design with meets that its geometry shows, for tiers without one: points through which the tier passes, and
+    /// by which [`solved`](Self::solved) finds its distance again. All numbers stay.
+    pub fn with_found_meets(&self) -> Self {
+        let mut design = self.clone();
+        let mut bench = Bench::of(self);
+        for place in cutting_order(self) {
+            let tier = &self.tiers[place];
+            if !tier.is_cut {
+                continue;
+            }
+            if tier.meet.is_none() {
+                design.tiers[place].meet = bench.found(place, tier);
+            }
+            bench.cut(place, tier);
+        }
+        design
+    }
+}
+
+impl Bench<'_> {
+    /// Returns a meet that gives a tier the distance that it has; `None` where there is none.
+    fn found(&self, place: usize, tier: &Tier) -> Option<Meet> {
+        let level = self.is_beside_girdle(tier).then_some(MeetPoint::LevelGirdle);
+        let points = [MeetPoint::Centre { temporary: false }].into_iter().chain(level);
+        let mut simple = points.map(|point| Meet::Points(vec![point]));
+        simple.find(|meet| self.gives(place, tier, meet)).or_else(|| self.found_corner(place, tier))
+    }
+
+    /// Returns whether the first facet of a tier meets one below or above it in a level line: one of them is upright, and they
+    /// face the same way.
+    fn is_beside_girdle(&self, tier: &Tier) -> bool {
+        let Some(first) = tier.facets.first() else { return false };
+        let normal = self.plane(tier, first.index).normal;
+        let out = normal.truncate().normalize_or_zero();
+        self.stone().planes().iter().any(|cut| {
+            let other = cut.plane.normal;
+            (other.z == 0.0) != (normal.z == 0.0)
+                && (other.truncate().normalize_or_zero() - out).length() < SAME_WAY
+        })
+    }
+
+    /// Returns whether a meet gives a tier the distance that it has.
+    fn gives(&self, place: usize, tier: &Tier, meet: &Meet) -> bool {
+        let mut followed = tier.clone();
+        let outcome = self.follow(place, &mut followed, meet);
+        outcome == Ok(TierOutcome::Solved)
+            && (followed.distance - tier.distance).abs() <= PASSES * self.stone().scale()
+    }
+
+    fn found_corner(&self, place: usize, tier: &Tier) -> Option<Meet> {
+        let corners = self.passed(tier);
+        let lists = |count: usize| {
+            corners.iter().flat_map(move |corner| self.lists(place, corner, count)).collect::<Vec<_>>()
+        };
+        let meets = NAMES.flat_map(lists).map(|names| Meet::Points(vec![MeetPoint::Corner(names)]));
+        meets.into_iter().find(|meet| self.gives(place, tier, meet))
+    }
+
+    /// Returns the corners through which the first facet of a tier passes, first the one beside its middle.
+    fn passed(&self, tier: &Tier) -> Vec<&StoneCorner> {
+        let Some(first) = tier.facets.first() else { return vec![] };
+        let plane = self.plane(tier, first.index);
+        let near = PASSES * self.stone().scale();
+        let mut corners: Vec<&StoneCorner> =
+            self.stone().corners().iter().filter(|corner| plane.distance(corner.at).abs() <= near).collect();
+        let out = plane.normal.truncate().normalize_or_zero();
+        let aside = |corner: &StoneCorner| out.perp_dot(corner.at.truncate()).abs();
+        corners.sort_by(|a, b| aside(a).total_cmp(&aside(b)));
+        corners
+    }
+
+    /// Returns a meet of more names than these at a corner where they meet, which gives the tier the distance that it has;
+    /// `None` where these names give it, or where no such corner is there.
+    fn named_more(&self, place: usize, tier: &Tier, named: &[String]) -> Option<Meet> {
+        let meet = |names: Vec<String>| Meet::Points(vec![MeetPoint::Corner(names)]);
+        if self.gives(place, tier, &meet(named.to_vec())) {
+            return None;
+        }
+        let meant = self.meant(place, named).ok()?;
+        let corners = self.passed(tier).into_iter().filter(|corner| self.is_corner_of(corner, &meant));
+        let mut lists = corners.flat_map(|corner| {
+            let spare = self.beyond(corner, &meant);
+            (1..=spare.len()).map(move |count| spare[..count].to_vec()).collect::<Vec<_>>()
+        });
+        lists.find_map(|more| {
+            let more = more.iter().map(|&tier| self.names().written(tier, place));
+            Some(meet(named.iter().cloned().chain(more).collect()))
+                .filter(|meet| self.gives(place, tier, meet))
+        })
+    }
+
+    /// Returns the tiers of the facets that meet at a corner besides one for each name.
+    fn beyond(&self, corner: &StoneCorner, meant: &[Vec<usize>]) -> Vec<usize> {
+        let mut tiers: Vec<usize> =
+            corner.planes.iter().map(|&plane| self.stone().plane(plane).tier).collect();
+        for named in meant {
+            if let Some(at) = tiers.iter().position(|tier| named.contains(tier)) {
+                tiers.remove(at);
+            }
+        }
+        tiers
+    }
+
+    /// Returns lists of so many names of facets that meet at a corner.
+    fn lists(&self, place: usize, corner: &StoneCorner, count: usize) -> Vec<Vec<String>> {
+        let mut tiers: Vec<usize> =
+            corner.planes.iter().map(|&plane| self.stone().plane(plane).tier).collect();
+        tiers.sort_unstable();
+        let mut lists: Vec<Vec<usize>> = vec![];
+        choose(&tiers, count, &mut vec![], &mut lists);
+        lists.dedup();
+        let name = |&tier: &usize| self.names().written(tier, place);
+        lists.iter().map(|list| list.iter().map(name).collect()).collect()
+    }
+}
+
+/// Lists the ways to choose some members of a sorted list, up to [`MOST_LISTS`].
+fn choose(from: &[usize], count: usize, chosen: &mut Vec<usize>, lists: &mut Vec<Vec<usize>>) {
+    if count == 0 {
+        if !lists.contains(chosen) {
+            lists.push(chosen.clone());
+        }
+        return;
+    }
+    for (at, &member) in from.iter().enumerate() {
+        if lists.len() >= MOST_LISTS || from.len() - at < count {
+            return;
+        }
+        chosen.push(member);
+        choose(&from[at + 1..], count - 1, chosen, lists);
+        chosen.pop();
+    }
+}

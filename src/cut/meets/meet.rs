@@ -1,0 +1,90 @@
+//! What a cutter's instruction says about where the facets of a tier go.
+
+use std::fmt;
+
+/// The word that stands for any girdle facet among the names of a corner.
+pub const ANY_GIRDLE: &str = "girdle";
+
+/// Where the facets of a tier go.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Meet {
+    /// The cutter chooses: the tier's own distance stands.
+    Given(GivenSize),
+    /// The centre-point angle method (CAM): an upright facet goes to where a facet below it, cut to the temporary centre point
+    /// at this angle from the girdle plane, degrees, would meet it on the level girdle line.
+    CentreAngle(f64),
+    /// The facets pass through these points. One gives the distance; two the angle too, at the given index; three the index
+    /// too. There are one to three.
+    Points(Vec<MeetPoint>),
+}
+
+/// What a cutter chooses by the distance of a tier.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GivenSize {
+    /// The size of the stone, its length or width, or that of a facet.
+    Size,
+    /// The thickness of the girdle.
+    GirdleThickness,
+}
+
+/// A point through which a facet passes, on the stone as it is cut so far.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum MeetPoint {
+    /// The point where the axis leaves the stone, on the side of the tier.
+    Centre {
+        /// Whether later tiers will cut the point away.
+        temporary: bool,
+    },
+    /// The outline of the stone at the height where its girdle lies on the side of the tier.
+    LevelGirdle,
+    /// A corner of the girdle, on the side of the tier.
+    GirdlePoint,
+    /// The corner where facets of these tiers meet; a name that is given twice means two facets of its tier. [`ANY_GIRDLE`] is
+    /// any upright facet.
+    Corner(Vec<String>),
+}
+
+impl MeetPoint {
+    /// The points that are written in words, with their words.
+    pub const IN_WORDS: [(&str, Self); 4] = [
+        ("centre point", Self::Centre { temporary: false }),
+        ("temporary centre point", Self::Centre { temporary: true }),
+        ("level girdle", Self::LevelGirdle),
+        ("girdle point", Self::GirdlePoint),
+    ];
+}
+
+impl GivenSize {
+    /// The sizes with their words.
+    pub const IN_WORDS: [(&str, Self); 2] =
+        [("size", Self::Size), ("girdle thickness", Self::GirdleThickness)];
+}
+
+impl fmt::Display for MeetPoint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Centre { temporary: false } => f.write_str("Cut to centre point"),
+            Self::Centre { temporary: true } => f.write_str("Cut to temporary centre point"),
+            Self::LevelGirdle => f.write_str("Level girdle"),
+            Self::GirdlePoint => f.write_str("Meet girdle point"),
+            Self::Corner(names) => write!(f, "Meet {}", names.join("-")),
+        }
+    }
+}
+
+/// Writes the meet as a cutter's instruction.
+impl fmt::Display for Meet {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Given(GivenSize::Size) => f.write_str("Set size"),
+            Self::Given(GivenSize::GirdleThickness) => f.write_str("Set girdle thickness"),
+            Self::CentreAngle(angle) => write!(f, "CAM {angle}°"),
+            Self::Points(points) => {
+                for (place, point) in points.iter().enumerate() {
+                    write!(f, "{}{point}", if place == 0 { "" } else { "; " })?;
+                }
+                Ok(())
+            }
+        }
+    }
+}

@@ -1,0 +1,428 @@
+//! Solves meets: goes through the tiers as they are cut, and gives each the distance (and angle, and indices) at which its
+//! facets pass through the points of its meet.
+
+use super::super::tiers::{Tier, TierZone, Tiers};
+use super::fault::{MeetError, MeetFault};
+use super::meet::{Meet, MeetPoint};
+use super::names::TierNames;
+use super::stone::{PartStone, StoneCorner, StoneSide};
+use crate::math::Plane;
+use glam::DVec3;
+use std::f64::consts::TAU;
+
+/// The largest difference between the facets of a tier, in lengths of the largest distance: files whose distances were found
+/// by hand leave so much.
+const AGREE: f64 = 1e-3;
+
+/// A corner this much below the highest, in lengths of the largest distance, is one that a facet can be cut to.
+const REACHABLE: f64 = 1e-6;
+
+/// Depths this near to one another, in lengths of the largest distance, are one depth.
+const SAME_DEPTH: f64 = 1e-4;
+
+/// How often the corners are chosen anew for an angle that follows from them.
+const MOST_TRIES: usize = 8;
+
+/// A design whose meets were followed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SolvedTiers {
+    /// The design, with the numbers that follow from its meets. A tier whose meet fails keeps its numbers.
+    pub tiers: Tiers,
+    /// What became of each tier, in their order.
+    pub outcomes: Vec<TierOutcome>,
+}
+
+/// What became of a tier.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TierOutcome {
+    /// The tier keeps its numbers: it has no meet, a meet that the cutter chooses, or it is not cut.
+    Kept,
+    /// The tier keeps its distance, because it is the first to reach the point that it names: it sets the centre point, or the
+    /// girdle line.
+    Sets,
+    /// The meet gave the tier its numbers.
+    Solved,
+    /// The meet could not be followed.
+    Failed(MeetError),
+}
+
+impl SolvedTiers {
+    /// Returns the meets that could not be followed.
+    pub fn errors(&self) -> impl Iterator<Item = &MeetError> {
+        self.outcomes.iter().filter_map(|outcome| match outcome {
+            TierOutcome::Failed(error) => Some(error),
+            _ => None,
+        })
+    }
+}
+
+impl Tiers {
+    /// Follows the meets of all tiers and returns the design with the numbers that they give.
+    ///
+    /// Tiers are cut as they are listed, but a tier whose meet names one that is listed later is cut after it. Of several
+    /// corners that fit a meet, the facet goes to the first that it reaches as it is cut deeper.
+    pub fn solved(&self) -> SolvedTiers {
+        self.followed(true)
+    }
+
+    /// Follows the meet of each tier between the design's own planes, so that the meets before it move nothing: the difference
+    /// shows how well the design's numbers agree with each meet.
+    pub fn checked_meets(&self) -> SolvedTiers {
+        self.followed(false)
+    }
+
+    /// Follows all meets, each on a stone whose tiers lie where their meets say, or where their own numbers say.
+    fn followed(&self, by_meets: bool) -> SolvedTiers {
+        let mut bench = Bench::of(self);
+        let mut solved =
+            SolvedTiers { tiers: self.clone(), outcomes: vec![TierOutcome::Kept; self.tiers.len()] };
+        for place in cutting_order(self) {
+            let given = &self.tiers[place];
+            if !given.is_cut {
+                continue;
+            }
+            let tier = &mut solved.tiers.tiers[place];
+            if let Some(meet) = &given.meet {
+                solved.outcomes[place] = bench.follow(place, tier, meet).unwrap_or_else(|fault| {
+                    TierOutcome::Failed(MeetError { tier: place + 1, name: tier.name().to_owned(), fault })
+                });
+            }
+            bench.cut(place, if by_meets { tier } else { given });
+        }
+        solved
+    }
+}
+
+/// Returns the places of the tiers in the order in which they are cut.
+pub(super) fn cutting_order(tiers: &Tiers) -> Vec<usize> {
+    let names = TierNames::of(tiers);
+    let needs = |place: usize| -> Vec<Vec<usize>> {
+        let Some(Meet::Points(points)) = &tiers.tiers[place].meet else { return vec![] };
+        let corners = points.iter().filter_map(|point| match point {
+            MeetPoint::Corner(names) => Some(names),
+            _ => None,
+        });
+        let listed_later = |meant: &Vec<usize>| !meant.is_empty() && meant.iter().all(|&other| other > place);
+        corners.flatten().map(|name| names.meant(name, place)).filter(listed_later).collect()
+    };
+    let mut waiting: Vec<(usize, Vec<Vec<usize>>)> =
+        (0..tiers.tiers.len()).map(|place| (place, needs(place))).collect();
+    let mut order: Vec<usize> = vec![];
+    while !waiting.is_empty() {
+        let is_ready = |(_, needs): &(usize, Vec<Vec<usize>>)| {
+            needs.iter().all(|meant| meant.iter().any(|other| order.contains(other)))
+        };
+        // Tiers that wait for one another are cut as they are listed.
+        let next = waiting.iter().position(is_ready).unwrap_or(0);
+        order.push(waiting.remove(next).0);
+    }
+    order
+}
+
+/// The stone on the bench: what is cut of a design so far.
+pub(super) struct Bench<'a> {
+    design: &'a Tiers,
+    names: TierNames,
+    stone: PartStone,
+    /// The height of the temporary centre point above the girdle line, by the first centre-point angle.
+    centre_height: Option<f64>,
+    is_done: Vec<bool>,
+}
+
+/// A plane through the points of a meet, and how a tier is set for it.
+#[derive(Debug, Clone, Copy)]
+struct FacetSolution {
+    angle: f64,
+    index: f64,
+    distance: f64,
+}
+
+impl<'a> Bench<'a> {
+    pub fn of(design: &'a Tiers) -> Self {
+        let largest = design.tiers.iter().map(|tier| tier.distance.abs()).fold(0.0, f64::max);
+        let scale = if largest > 0.0 { largest } else { 1.0 };
+        let count = design.tiers.iter().map(|tier| tier.facets.len()).sum();
+        Self {
+            design,
+            names: TierNames::of(design),
+            stone: PartStone::new(scale, count),
+            centre_height: None,
+            is_done: vec![false; design.tiers.len()],
+        }
+    }
+
+    pub fn names(&self) -> &TierNames {
+        &self.names
+    }
+
+    pub fn stone(&self) -> &PartStone {
+        &self.stone
+    }
+
+    pub fn plane(&self, tier: &Tier, index: f64) -> Plane {
+        self.design.plane(tier, index)
+    }
+
+    /// Cuts a tier at its numbers.
+    pub fn cut(&mut self, place: usize, tier: &Tier) {
+        if let (Some(Meet::CentreAngle(angle)), None) = (&tier.meet, self.centre_height) {
+            self.centre_height = Some(tier.distance.abs() * angle.to_radians().tan());
+        }
+        self.is_done[place] = true;
+        self.stone.cut(place, tier.facets.iter().map(|facet| self.design.plane(tier, facet.index)));
+    }
+
+    /// Sets a tier to the numbers that a meet gives.
+    pub fn follow(&self, place: usize, tier: &mut Tier, meet: &Meet) -> Result<TierOutcome, MeetFault> {
+        match meet {
+            Meet::Given(_) => Ok(TierOutcome::Kept),
+            Meet::CentreAngle(_) if tier.zone() != TierZone::Girdle => Err(MeetFault::NotUpright),
+            Meet::CentreAngle(angle) => {
+                let Some(height) = self.centre_height else { return Ok(TierOutcome::Sets) };
+                tier.distance = (height / angle.to_radians().tan()).copysign(tier.distance);
+                Ok(TierOutcome::Solved)
+            }
+            Meet::Points(points) if self.is_first(tier, points) => Ok(TierOutcome::Sets),
+            Meet::Points(points) => self.follow_points(place, tier, points).map(|()| TierOutcome::Solved),
+        }
+    }
+
+    /// Returns whether a tier makes the one point that its meet names, because nothing on its side makes it yet.
+    fn is_first(&self, tier: &Tier, points: &[MeetPoint]) -> bool {
+        let Some(first) = tier.facets.first() else { return true };
+        let side = StoneSide::of(self.design.plane(tier, first.index).normal);
+        match points {
+            [] => true,
+            [MeetPoint::Centre { .. }] => side.is_some_and(|side| self.stone.centre(side).is_none()),
+            [MeetPoint::LevelGirdle] => self.girdle_height(side).is_none(),
+            _ => false,
+        }
+    }
+
+    /// Returns the height of the girdle line on a side; for an upright facet that below, or else above.
+    fn girdle_height(&self, side: Option<StoneSide>) -> Option<f64> {
+        let below = || self.stone.girdle_height(StoneSide::Below);
+        side.map_or_else(
+            || below().or_else(|| self.stone.girdle_height(StoneSide::Above)),
+            |side| self.stone.girdle_height(side),
+        )
+    }
+
+    fn follow_points(&self, place: usize, tier: &mut Tier, points: &[MeetPoint]) -> Result<(), MeetFault> {
+        let planes = self.planes(tier, tier.angle);
+        let solve = |facet| self.facet_through(place, tier, &planes, facet, points);
+        let solutions = (0..tier.facets.len()).map(solve).collect::<Result<Vec<_>, _>>()?;
+        let Some(first) = solutions.first() else { return Ok(()) };
+        let most = AGREE * self.stone.scale();
+        for (other, facet) in solutions.iter().zip(&tier.facets) {
+            let apart = (other.distance - first.distance).abs();
+            let turned = (other.angle - first.angle).abs();
+            if apart > most || turned > AGREE.to_degrees() {
+                let by = if apart > most { apart } else { turned };
+                return Err(MeetFault::Disagree { first: tier.facets[0].index, other: facet.index, by });
+            }
+        }
+        tier.angle = first.angle;
+        tier.distance = first.distance.copysign(tier.distance);
+        for (facet, solution) in tier.facets.iter_mut().zip(&solutions) {
+            facet.index = solution.index;
+        }
+        Ok(())
+    }
+
+    /// Returns the planes of a tier's facets at another angle.
+    fn planes(&self, tier: &Tier, angle: f64) -> Vec<Plane> {
+        let bare = Tier { angle, instructions: String::new(), facets: vec![], meet: None, ..*tier };
+        tier.facets.iter().map(|facet| self.design.plane(&bare, facet.index)).collect()
+    }
+
+    /// Returns how one facet of a tier is set to pass through points; `planes` are those of the tier.
+    fn facet_through(
+        &self,
+        place: usize,
+        tier: &Tier,
+        planes: &[Plane],
+        facet: usize,
+        points: &[MeetPoint],
+    ) -> Result<FacetSolution, MeetFault> {
+        let places = |planes: &[Plane]| {
+            let place = |point| self.point(place, planes, facet, point);
+            points.iter().map(place).collect::<Result<Vec<DVec3>, _>>()
+        };
+        let mut through = places(planes)?;
+        let mut solution = self.through(tier, facet, planes[facet].normal, &through)?;
+        // With the angle other corners may be reached first.
+        for _ in 1..if points.len() > 1 { MOST_TRIES } else { 1 } {
+            let mut turned = self.planes(tier, solution.angle);
+            let bare = Tier {
+                angle: solution.angle,
+                instructions: String::new(),
+                facets: vec![],
+                meet: None,
+                ..*tier
+            };
+            turned[facet] = self.design.plane(&bare, solution.index);
+            let again = places(&turned)?;
+            if again == through {
+                break;
+            }
+            solution = self.through(tier, facet, turned[facet].normal, &again)?;
+            through = again;
+        }
+        Ok(solution)
+    }
+
+    /// Returns the place of a point of a meet beside a facet; `planes` are those of its tier.
+    fn point(
+        &self,
+        place: usize,
+        planes: &[Plane],
+        facet: usize,
+        point: &MeetPoint,
+    ) -> Result<DVec3, MeetFault> {
+        let normal = planes[facet].normal;
+        let side = StoneSide::of(normal);
+        let missing = || MeetFault::NoPoint { point: point.clone() };
+        match point {
+            MeetPoint::Centre { .. } => {
+                let side = side.ok_or(MeetFault::Upright)?;
+                let height = self.stone.centre(side).ok_or_else(missing)?;
+                Ok(DVec3::new(0.0, 0.0, height.copysign(normal.z)))
+            }
+            MeetPoint::LevelGirdle => {
+                let height = self.girdle_height(side).ok_or(MeetFault::NoGirdleLine)?;
+                self.stone.section_support(height, normal).ok_or_else(missing)
+            }
+            MeetPoint::GirdlePoint => {
+                let fits = |corner: &StoneCorner| self.is_girdle_corner(corner, side);
+                self.first_reached(planes, facet, fits).ok_or_else(missing)
+            }
+            MeetPoint::Corner(named) => {
+                let meant = self.meant(place, named)?;
+                let fits = |corner: &StoneCorner| self.is_corner_of(corner, &meant);
+                self.first_reached(planes, facet, fits).ok_or_else(missing)
+            }
+        }
+    }
+
+    /// Returns for each name the tiers that it means, of which at least one is cut.
+    pub fn meant(&self, place: usize, named: &[String]) -> Result<Vec<Vec<usize>>, MeetFault> {
+        let of_name = |name: &String| {
+            let meant = self.names.meant(name, place);
+            match () {
+                () if meant.is_empty() => Err(MeetFault::UnknownName { name: name.clone() }),
+                () if !meant.iter().any(|&tier| self.is_done[tier]) => {
+                    Err(MeetFault::NotCutYet { name: name.clone() })
+                }
+                () => Ok(meant),
+            }
+        };
+        named.iter().map(of_name).collect()
+    }
+
+    /// Returns whether two upright facets meet at a corner on a side.
+    fn is_girdle_corner(&self, corner: &StoneCorner, side: Option<StoneSide>) -> bool {
+        let sides = || corner.planes.iter().map(|&plane| StoneSide::of(self.stone.plane(plane).plane.normal));
+        sides().filter(Option::is_none).count() >= 2 && (side.is_none() || sides().any(|other| other == side))
+    }
+
+    /// Returns whether facets of all these tiers meet at a corner, a facet for each.
+    pub fn is_corner_of(&self, corner: &StoneCorner, meant: &[Vec<usize>]) -> bool {
+        let mut is_taken = vec![false; corner.planes.len()];
+        meant.iter().all(|tiers| {
+            let free = corner
+                .planes
+                .iter()
+                .enumerate()
+                .position(|(at, &plane)| !is_taken[at] && tiers.contains(&self.stone.plane(plane).tier));
+            free.inspect(|&at| is_taken[at] = true).is_some()
+        })
+    }
+
+    /// Returns the corner that a facet reaches first as it is cut deeper, of those that fit. All facets of the tier are cut as
+    /// deep, and leave the corner on the stone.
+    fn first_reached(
+        &self,
+        planes: &[Plane],
+        facet: usize,
+        fits: impl Fn(&StoneCorner) -> bool,
+    ) -> Option<DVec3> {
+        let (normal, scale) = (planes[facet].normal, self.stone.scale());
+        let highest = self.stone.support(normal) - REACHABLE * scale;
+        let is_left = |at: DVec3, depth: f64| {
+            planes.iter().all(|plane| plane.normal.dot(at) <= depth + SAME_DEPTH * scale)
+        };
+        let mut best: Option<(f64, DVec3)> = None;
+        for corner in self.stone.corners() {
+            let depth = normal.dot(corner.at);
+            let is_first = depth < highest && best.is_none_or(|(before, _)| depth > before);
+            if is_first && is_left(corner.at, depth) && fits(corner) {
+                best = Some((depth, corner.at));
+            }
+        }
+        best.map(|(_, at)| at)
+    }
+
+    /// Returns the setting of a facet whose plane passes through one to three places. One keeps its angle and index, two keep
+    /// its index.
+    fn through(
+        &self,
+        tier: &Tier,
+        facet: usize,
+        normal: DVec3,
+        places: &[DVec3],
+    ) -> Result<FacetSolution, MeetFault> {
+        let index = tier.facets[facet].index;
+        let kept = FacetSolution { angle: tier.angle, index, distance: normal.dot(places[0]) };
+        let (first, others) = (places[0], &places[1..]);
+        let same = SAME_DEPTH * self.stone.scale();
+        let solution = match others {
+            [second, third, ..] => self.through_three(tier, index, normal, [first, *second, *third])?,
+            [second] => {
+                let azimuth = self.azimuth(index);
+                let out = DVec3::new(azimuth.sin(), -azimuth.cos(), 0.0);
+                let (rise, run) = ((second.z - first.z) * normal.z.signum(), out.dot(first - *second));
+                // Points at one height and radius leave the angle open: it stays.
+                if rise.abs().max(run.abs()) <= same {
+                    kept
+                } else {
+                    let slope = rise.atan2(run);
+                    let slope = if slope < 0.0 { slope + TAU / 2.0 } else { slope };
+                    let (sin, cos) = slope.sin_cos();
+                    let normal = out * sin + DVec3::Z * (cos * normal.z.signum());
+                    let angle = slope.to_degrees().copysign(tier.angle);
+                    FacetSolution { angle, index, distance: normal.dot(first) }
+                }
+            }
+            [] => kept,
+        };
+        if solution.distance < 0.0 { Err(MeetFault::BeyondAxis) } else { Ok(solution) }
+    }
+
+    fn through_three(
+        &self,
+        tier: &Tier,
+        index: f64,
+        before: DVec3,
+        [a, b, c]: [DVec3; 3],
+    ) -> Result<FacetSolution, MeetFault> {
+        let across = (b - a).cross(c - a);
+        let least = SAME_DEPTH * self.stone.scale() * (b - a).length().max((c - a).length());
+        if across.length() <= least {
+            return Err(MeetFault::OneLine);
+        }
+        let normal = across.normalize_or_zero();
+        let normal = if normal.dot(before) < 0.0 { -normal } else { normal };
+        let level = normal.truncate().length();
+        let angle = level.atan2(normal.z.abs()).to_degrees().copysign(tier.angle);
+        let teeth = f64::from(self.design.gear);
+        let exact = normal.x.atan2(-normal.y) / TAU * teeth + self.design.offset;
+        let turns = ((index - exact) / teeth).round();
+        let index = if level > 0.0 { exact + turns * teeth } else { index };
+        Ok(FacetSolution { angle, index, distance: normal.dot(a) })
+    }
+
+    fn azimuth(&self, index: f64) -> f64 {
+        (index - self.design.offset) / f64::from(self.design.gear) * TAU
+    }
+}

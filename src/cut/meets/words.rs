@@ -1,0 +1,262 @@
+//! Reads cutters' instructions as meets.
+//!
+//! Source: the wordings of some five thousand instructions in published designs.
+
+use super::meet::{ANY_GIRDLE, GivenSize, Meet, MeetPoint};
+use super::names::TierNames;
+use crate::cut::tiers::{TierZone, Tiers};
+
+/// The most points that a meet has.
+const MOST_POINTS: usize = 3;
+
+/// Words for the point where the axis leaves the stone.
+const CENTRE: [&str; 9] = [
+    "pcp",
+    "cp",
+    "centerpoint",
+    "centrepoint",
+    "center point",
+    "centre point",
+    "perm.cpt",
+    "meet culet",
+    "at culet",
+];
+
+/// Words for a point on the axis that is cut away later.
+const TEMPORARY: [&str; 2] = ["tcp", "temporary"];
+
+/// Words for a corner of the girdle.
+const GIRDLE_POINT: [&str; 12] = [
+    "gmp",
+    "g.m.p",
+    "girdle meet",
+    "meet girdle",
+    "meet the girdle",
+    "meet at girdle",
+    "cut to girdle",
+    "cut to meet girdle",
+    "match girdle",
+    "mp @ girdle",
+    "mp@ girdle",
+    "to the girdle",
+];
+
+/// Words for what a cutter chooses.
+const CHOSEN: [&str; 16] = [
+    "set",
+    "fix",
+    "size",
+    "establish",
+    "estimate",
+    "width",
+    "length",
+    "thickness",
+    "tickness",
+    "locate",
+    "position",
+    "leave some",
+    "by eye",
+    "eyeball",
+    "choice",
+    "form girdle",
+];
+
+/// Words after which the names of a corner come.
+const BEFORE_NAMES: [&str; 6] = ["meet", "meets", "mp", "to", "from", "with"];
+
+/// Returns for each tier the meet that its instruction states; `None` where it states none.
+pub(super) fn stated(tiers: &Tiers) -> Vec<Option<Meet>> {
+    let names = TierNames::of(tiers);
+    let mut meets: Vec<Option<Meet>> = vec![];
+    for (place, tier) in tiers.tiers.iter().enumerate() {
+        let above = meets.last().cloned().flatten();
+        meets.push(read(&tier.instructions, tier.zone(), &names, place, above));
+    }
+    meets
+}
+
+/// Reads one instruction; `above` is the meet of the tier before, which a ditto mark repeats.
+fn read(text: &str, zone: TierZone, names: &TierNames, from: usize, above: Option<Meet>) -> Option<Meet> {
+    let text = text.to_lowercase();
+    if text.contains(['"', '“', '”']) && !text.contains(|c: char| c.is_alphanumeric() && c != 'g') {
+        return above;
+    }
+    if let Some(angle) = centre_angle(&text) {
+        return Some(match zone {
+            TierZone::Girdle => Meet::CentreAngle(angle),
+            _ => Meet::Points(vec![MeetPoint::Centre { temporary: true }]),
+        });
+    }
+    let (mut corners, ends_at_centre) = corners(&text, names, from);
+    corners.truncate(MOST_POINTS);
+    let has = |words: &[&str]| words.iter().any(|word| has_words(&text, word));
+    let centre = if has(&TEMPORARY) {
+        Some(MeetPoint::Centre { temporary: true })
+    } else {
+        has(&CENTRE).then_some(MeetPoint::Centre { temporary: false })
+    };
+    let is_level = has_words(&text, "level") && text.contains("girdle");
+    let is_chosen = has(&CHOSEN);
+    let point = |point| Some(Meet::Points(vec![point]));
+    if ends_at_centre && let Some(centre) = centre {
+        return point(centre);
+    }
+    if !corners.is_empty() {
+        return Some(Meet::Points(corners));
+    }
+    let has_girdle_point = GIRDLE_POINT.iter().any(|words| text.contains(words));
+    if has_girdle_point && !is_chosen {
+        return point(MeetPoint::GirdlePoint);
+    }
+    if let Some(centre) = centre.filter(|_| !text.contains("w from") && !text.contains("below")) {
+        return point(centre);
+    }
+    if is_chosen {
+        let is_girdle = text.contains("girdle") || text.contains("thick");
+        return Some(Meet::Given(match is_girdle && zone != TierZone::Girdle {
+            true => GivenSize::GirdleThickness,
+            false => GivenSize::Size,
+        }));
+    }
+    if is_level { point(MeetPoint::LevelGirdle) } else { None }
+}
+
+/// Returns whether a text holds these words, not as a part of longer ones.
+fn has_words(text: &str, words: &str) -> bool {
+    let is_letter = |c: Option<char>| c.is_some_and(char::is_alphabetic);
+    text.match_indices(words).any(|(at, _)| {
+        !is_letter(text[..at].chars().next_back()) && !is_letter(text[at + words.len()..].chars().next())
+    })
+}
+
+/// Returns the angle of the centre-point angle method, degrees.
+fn centre_angle(text: &str) -> Option<f64> {
+    let (before, after) = text.split_once("cam")?;
+    if before.ends_with(char::is_alphanumeric) {
+        return None;
+    }
+    let number = after.trim_start();
+    let end = number.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(number.len());
+    let angle: f64 = number[..end].trim_end_matches('.').parse().ok()?;
+    (angle > 0.0 && angle < 90.0).then_some(angle)
+}
+
+/// A piece of an instruction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Piece<'a> {
+    Word(&'a str),
+    /// The end of a sentence, or a semicolon.
+    Stop,
+    Comma,
+    Hyphen,
+}
+
+fn pieces(text: &str) -> Vec<Piece<'_>> {
+    let mut pieces = vec![];
+    let mut start = None;
+    for (at, letter) in text.char_indices().chain([(text.len(), ' ')]) {
+        if letter.is_alphanumeric() || letter == '\'' {
+            start.get_or_insert(at);
+            continue;
+        }
+        if let Some(start) = start.take() {
+            pieces.push(Piece::Word(&text[start..at]));
+        }
+        match letter {
+            ';' | '.' => pieces.push(Piece::Stop),
+            ',' | '&' => pieces.push(Piece::Comma),
+            '-' => pieces.push(Piece::Hyphen),
+            _ => {}
+        }
+    }
+    pieces
+}
+
+/// Returns whether a word may be the name of a tier: a letter or two, a number, or both.
+fn is_name(word: &str) -> bool {
+    let letters = word.chars().take_while(|c| c.is_alphabetic()).count();
+    let digits = word.chars().skip(letters).take_while(char::is_ascii_digit).count();
+    let is_whole = letters + digits == word.chars().count();
+    is_whole && digits <= 2 && (letters <= 1 || (digits > 0 && letters <= 2))
+}
+
+/// Returns the corners whose names an instruction lists, and whether such a list ends at the centre point.
+fn corners(text: &str, names: &TierNames, from: usize) -> (Vec<MeetPoint>, bool) {
+    let pieces = pieces(text);
+    let mut lists: Vec<Vec<String>> = vec![];
+    let mut ends_at_centre = false;
+    let mut at = 0;
+    while at < pieces.len() {
+        let is_begun = matches!(pieces[at], Piece::Word(word) if BEFORE_NAMES.contains(&word));
+        let is_bare = matches!(pieces[at..], [Piece::Word(a), Piece::Hyphen, Piece::Word(b), ..]
+            if known(a, names, from) && known(b, names, from));
+        if !is_begun && !is_bare {
+            at += 1;
+            continue;
+        }
+        let (mut found, next, is_centre) = lists_from(&pieces, at + usize::from(is_begun), names, from);
+        if !matches!(pieces[at], Piece::Word("meet" | "meets" | "mp")) {
+            // Other words may follow these too.
+            found.retain(|list| list.iter().all(|name| !names.meant(name, from).is_empty()));
+        }
+        ends_at_centre |= is_centre;
+        lists.extend(found);
+        at = next.max(at + 1);
+    }
+    let own = |name: &String| names.meant(name, from) == [from];
+    lists.iter_mut().for_each(|list| list.retain(|name| !own(name)));
+    lists.retain(|list| !list.is_empty() && list.iter().any(|name| name != ANY_GIRDLE));
+    (lists.into_iter().map(MeetPoint::Corner).collect(), ends_at_centre)
+}
+
+fn known(word: &str, names: &TierNames, from: usize) -> bool {
+    is_name(word) && !names.meant(word, from).is_empty()
+}
+
+/// Reads lists of names from a place on; returns them with the place behind them, and whether they end at the centre point.
+fn lists_from(
+    pieces: &[Piece<'_>],
+    mut at: usize,
+    names: &TierNames,
+    from: usize,
+) -> (Vec<Vec<String>>, usize, bool) {
+    let mut lists: Vec<Vec<String>> = vec![vec![]];
+    // Names behind "and", which make a corner of their own where they are several and joined by hyphens.
+    let (mut has_comma, mut ends_at_centre) = (false, false);
+    while let Some(piece) = pieces.get(at) {
+        let last = lists.len() - 1;
+        match *piece {
+            Piece::Comma => has_comma = true,
+            Piece::Stop => {
+                let follows =
+                    matches!(pieces.get(at + 1), Some(Piece::Word(word)) if known(word, names, from));
+                if !follows || lists[last].is_empty() {
+                    break;
+                }
+                lists.push(vec![]);
+            }
+            Piece::Word("and") if !has_comma && !lists[last].is_empty() => lists.push(vec![]),
+            Piece::Word("pcp" | "tcp" | "cp" | "centerpoint" | "center" | "centrepoint" | "culet") => {
+                ends_at_centre |= !lists[0].is_empty() && pieces[at - 1] != Piece::Comma;
+            }
+            Piece::Word("girdle" | "gjrdle") => lists[last].push(ANY_GIRDLE.to_owned()),
+            Piece::Word(word) if is_name(word) => lists[last].push(word.to_owned()),
+            Piece::Hyphen
+            | Piece::Word(
+                "and" | "at" | "the" | "with" | "to" | "lower" | "upper" | "corner" | "corners" | "point"
+                | "points",
+            ) => {}
+            Piece::Word(_) => break,
+        }
+        at += 1;
+    }
+    // A single name is no corner of its own.
+    let mut joined: Vec<Vec<String>> = vec![];
+    for list in lists.into_iter().filter(|list| !list.is_empty()) {
+        match joined.last_mut() {
+            Some(before) if list.len() < 2 || before.len() < 2 => before.extend(list),
+            _ => joined.push(list),
+        }
+    }
+    (joined, at, ends_at_centre)
+}

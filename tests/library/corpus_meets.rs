@@ -1,0 +1,176 @@
+//! Meets of real designs: a design whose distances are forgotten is cut again by what its instructions say.
+
+use super::corpus::files;
+use brillianteer::cut::{Cut, Meet, MeetFault, MeetPoint, SolvedTiers, Tier, TierOutcome, TierZone, Tiers};
+use brillianteer::io::design_file;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// The largest difference of a distance that comes back, in the designs' unit, which is about a girdle radius.
+const COMES_BACK: f64 = 1e-4;
+
+/// The largest difference between a file's own distance and the one that its meet gives between the file's other planes: the
+/// rounding of five digits, and what comes of it where facets lean. Some tiers on, it may have grown to [`COMES_BACK`].
+const BORNE_OUT: f64 = 3e-5;
+
+/// The least share of designs that must come back.
+const LEAST: f64 = 0.95;
+
+/// Reasons that are counted: those of designs whose meets the file's own planes bear out.
+const BACK: &str = "come back";
+const OFF: &str = "do not come back";
+
+/// What became of a design.
+#[derive(Debug, Clone, PartialEq)]
+enum Fate {
+    /// All distances came back.
+    Back,
+    /// A distance did not: why.
+    Off(String),
+    /// Its instructions contradict the file or themselves: why.
+    Contradicted(&'static str),
+}
+
+/// The blocks of a stone, each of which needs one distance of its own.
+fn block(zone: TierZone) -> usize {
+    match zone {
+        TierZone::Table | TierZone::Crown => 0,
+        TierZone::Girdle => 1,
+        TierZone::Pavilion | TierZone::Culet => 2,
+    }
+}
+
+/// Forgets each distance that a meet gives: such a tier no longer reaches the stone.
+fn forgotten(met: &Tiers, solved: &SolvedTiers) -> Tiers {
+    let far = 2.0 * met.tiers.iter().map(|tier| tier.distance.abs()).fold(0.0, f64::max);
+    let mut design = met.clone();
+    for (tier, outcome) in design.tiers.iter_mut().zip(&solved.outcomes) {
+        if *outcome == TierOutcome::Solved {
+            tier.distance = far.copysign(tier.distance);
+        }
+    }
+    design
+}
+
+/// Returns whether each block of a stone keeps at most one distance of its own, so that all others follow from meets.
+fn is_determined(design: &Tiers, solved: &SolvedTiers) -> bool {
+    let mut kept = [0; 3];
+    for (tier, outcome) in design.tiers.iter().zip(&solved.outcomes) {
+        kept[block(tier.zone())] += usize::from(matches!(outcome, TierOutcome::Kept | TierOutcome::Sets));
+    }
+    kept.iter().all(|&count| count <= 1)
+}
+
+/// Returns why no distance can come back: a meet names what is not there, or another place than the file's own planes.
+fn contradicted(design: &Tiers, met: &Tiers) -> Option<&'static str> {
+    let checked = met.checked_meets();
+    let tiers = design.tiers.iter().zip(&checked.tiers.tiers).zip(&checked.outcomes);
+    tiers.into_iter().find_map(|((own, checked), outcome)| {
+        if let TierOutcome::Failed(error) = outcome {
+            return Some(match error.fault {
+                MeetFault::UnknownName { .. } | MeetFault::NotCutYet { .. } => {
+                    "a name means no tier that is cut"
+                }
+                MeetFault::Disagree { .. } => "the facets of a tier would need several distances",
+                _ => "facets that are named do not meet",
+            });
+        }
+        let missed = (own.distance.abs() - checked.distance.abs()).abs();
+        (missed > BORNE_OUT).then_some(match own.meet.as_ref().or(checked.meet.as_ref()) {
+            Some(Meet::CentreAngle(_)) => "the angle of a CAM instruction has only two decimals",
+            _ if missed < 1e-3 => "the file's own planes miss a stated point by up to 1e-3",
+            _ => "the file's own planes miss a stated point by more than 1e-3",
+        })
+    })
+}
+
+/// Returns whether the meets of a design determine it, and what became of it.
+fn fate(design: &Tiers) -> (bool, Fate) {
+    let met = design.with_stated_meets().with_found_meets();
+    let whole = met.solved();
+    let is_determined = is_determined(design, &whole);
+    if let Some(why) = contradicted(design, &met) {
+        return (is_determined, Fate::Contradicted(why));
+    }
+    let solved = forgotten(&met, &whole).solved();
+    let tiers = design.tiers.iter().zip(&solved.tiers.tiers).zip(&solved.outcomes);
+    for (place, ((before, after), outcome)) in tiers.enumerate() {
+        let apart = (before.distance.abs() - after.distance.abs()).abs();
+        if let TierOutcome::Failed(error) = outcome {
+            return (is_determined, Fate::Off(error.to_string()));
+        }
+        if apart > COMES_BACK {
+            let meet = met.tiers[place].meet.as_ref().map(Meet::to_string).unwrap_or_default();
+            let why = format!("tier {} is off by {apart:.1e}: {meet}", place + 1);
+            return (is_determined, Fate::Off(why));
+        }
+    }
+    (is_determined, Fate::Back)
+}
+
+/// Returns the name of a group of designs.
+fn group(states: bool, is_determined: bool) -> String {
+    let meets = if states { "stated meets" } else { "found meets alone" };
+    let free = if is_determined { "one distance a block" } else { "more distances kept" };
+    format!("{meets}, {free}")
+}
+
+#[test]
+fn designs_whose_distances_are_forgotten_are_cut_again_by_their_meets() {
+    let files = files(&["asc"]);
+    let fates: Vec<(String, bool, (bool, Fate))> = files
+        .par_iter()
+        .filter_map(|file| {
+            let Cut::Tiers(design) = design_file::read(file).ok()?.design.cut else { return None };
+            let states = design.with_stated_meets().tiers.iter().any(|tier| tier.meet.is_some());
+            let name = file.file_name()?.to_string_lossy().into_owned();
+            Some((name, states, fate(&design)))
+        })
+        .collect();
+    if files.is_empty() {
+        return;
+    }
+    let mut reasons: BTreeMap<String, BTreeMap<&str, usize>> = BTreeMap::new();
+    let mut counts: BTreeMap<(bool, &str), usize> = BTreeMap::new();
+    for (name, states, (is_determined, fate)) in &fates {
+        let reason = match fate {
+            Fate::Back => BACK,
+            Fate::Off(why) => {
+                println!("{name}: {why}");
+                OFF
+            }
+            Fate::Contradicted(why) => why,
+        };
+        *counts.entry((*is_determined, reason)).or_default() += 1;
+        *reasons.entry(group(*states, *is_determined)).or_default().entry(reason).or_default() += 1;
+    }
+    reasons.iter().for_each(|(group, reasons)| println!("{group}: {reasons:?}"));
+    for is_determined in [true, false] {
+        let count = |reason| counts.get(&(is_determined, reason)).copied().unwrap_or(0);
+        let (back, off) = (count(BACK), count(OFF));
+        let share = back as f64 / (back + off).max(1) as f64;
+        println!("determined: {is_determined}: {back} come back, {off} do not, {:.2} %", 100.0 * share);
+        assert!(back > 100 && share >= LEAST, "determined: {is_determined}: {back} come back, {off} do not");
+    }
+}
+
+#[test]
+fn the_check_of_meets_can_fail() {
+    let file = files(&["asc"]).into_iter().find(|file| file.ends_with("SRB.asc"));
+    let Some(file) = file else { return };
+    let Cut::Tiers(design) = design_file::read(&file).unwrap().design.cut else {
+        panic!("tiers are expected")
+    };
+    let met = design.with_stated_meets().with_found_meets();
+    assert!(met.tiers.iter().any(|tier| matches!(&tier.meet, Some(Meet::Points(points))
+        if points.iter().any(|point| matches!(point, MeetPoint::Corner(_))))));
+    let whole = met.solved();
+    let mut other = forgotten(&met, &whole);
+    // A size that is another by a thousandth moves what meets it.
+    let kept = whole.outcomes.iter().position(|outcome| *outcome != TierOutcome::Solved).unwrap();
+    other.tiers[kept].distance *= 1.001;
+    let solved = other.solved();
+    let apart = design.tiers.iter().zip(&solved.tiers.tiers).enumerate().filter(|(place, _)| *place != kept);
+    let most = apart.map(|(_, (a, b))| (a.distance.abs() - b.distance.abs()).abs()).fold(0.0, f64::max);
+    assert!(most > COMES_BACK, "{most}");
+}
