@@ -43,7 +43,7 @@ pub use family::{Bound, BoundAt, Family, ProfileHandle, Proportion, Unit};
 pub use family_cut::FamilyCut;
 pub use glass::{Glass, Plate, Sides};
 pub use material::{MaterialError, MaterialRef};
-pub use meets::{GivenSize, Meet, MeetError, MeetFault, MeetPoint, SolvedTiers, TierEdit, TierOutcome};
+pub use meets::{GivenSize, Meet, MeetError, MeetFault, MeetPoint, SolvedTiers, TierOutcome};
 pub use mesh_shape::MeshShape;
 pub use outline::{AlongAxes, Outline, is_girdle, is_table, round_diameter};
 pub use proportion_error::{Limit, ProportionError};

@@ -1,5 +1,6 @@
 //! Changes of the list of tiers of a cutter's design, as its table in the editor makes them.
 
+use super::meets::{Meet, SolvedTiers};
 use super::tiers::{Indexed, Tier, TierZone, Tiers};
 use crate::math::{Plane, Polytope};
 use glam::DVec3;
@@ -31,11 +32,23 @@ pub enum TierChange {
     Instructions(usize, String),
     /// Sets the indices at which a tier is cut, in teeth.
     Indices(usize, Vec<f64>),
-    /// Sets the angle of a tier, degrees, and its distance, in the unit of the design.
+    /// Sets the angle of a tier, degrees, and its distance, in the unit of the design. A tier whose distance changes loses its
+    /// meet, which would give another.
     Setting(usize, f64, f64),
+    /// Sets where the facets of a tier go; `None` for its distance.
+    Meet(usize, Option<Meet>),
+    /// Gives every tier without a meet the one that the geometry shows, if it shows one.
+    FindMeets,
 }
 
 impl Tiers {
+    /// Returns the design with a change made and all meets followed.
+    pub fn changed(&self, change: TierChange) -> SolvedTiers {
+        let mut design = self.clone();
+        design.change(change);
+        design.solved()
+    }
+
     /// Makes a change. A place past the last tier changes nothing.
     pub fn change(&mut self, change: TierChange) {
         let count = self.tiers.len();
@@ -55,11 +68,13 @@ impl Tiers {
                     self.tiers.insert(place + 1, copy);
                 }
             }
+            TierChange::FindMeets => *self = self.with_found_meets(),
             TierChange::Delete(place) if place < count => drop(self.tiers.remove(place)),
             TierChange::IsCut(place, _)
             | TierChange::Name(place, _)
             | TierChange::Instructions(place, _)
             | TierChange::Indices(place, _)
+            | TierChange::Meet(place, _)
             | TierChange::Setting(place, ..)
                 if place < count =>
             {
@@ -74,6 +89,13 @@ impl Tiers {
         let letters = like.trim_end_matches(|c: char| c.is_ascii_digit());
         let is_free = |name: &String| self.tiers.iter().all(|tier| tier.name() != name);
         (1..).map(|number| format!("{letters}{number}")).find(is_free).unwrap_or_default()
+    }
+
+    /// Returns the place in the list of the tier that is the one at `number`, from 0, among those that are cut; the length of the
+    /// list where there are not so many.
+    pub fn place_of_cut(&self, number: usize) -> usize {
+        let cut = self.tiers.iter().enumerate().filter(|(_, tier)| tier.is_cut);
+        cut.map(|(place, _)| place).nth(number).unwrap_or(self.tiers.len())
     }
 
     /// Returns the place of the tier to which a plane of the design belongs. `plane` counts the facets of all tiers that are
@@ -107,8 +129,14 @@ impl Tiers {
                 .map(|k| f64::from(self.gear.abs()) * f64::from(k) / f64::from(repeats))
                 .collect();
         }
-        let mut tier =
-            Tier { angle, distance: 1.0, instructions: String::new(), is_cut: true, facets: vec![] };
+        let mut tier = Tier {
+            angle,
+            distance: 1.0,
+            instructions: String::new(),
+            meet: None,
+            is_cut: true,
+            facets: vec![],
+        };
         tier.change(TierChange::Indices(0, indices));
         tier.rename(&self.free_name(match tier.zone() {
             TierZone::Pavilion => "P1",
@@ -158,7 +186,13 @@ impl Tier {
                 self.facets = indices.into_iter().map(facet).collect();
                 self.rename(&name);
             }
-            TierChange::Setting(_, angle, distance) => (self.angle, self.distance) = (angle, distance),
+            TierChange::Meet(_, meet) => self.meet = meet,
+            TierChange::Setting(_, angle, distance) => {
+                if distance != self.distance {
+                    self.meet = None;
+                }
+                (self.angle, self.distance) = (angle, distance);
+            }
             _ => {}
         }
     }
@@ -202,6 +236,7 @@ mod tests {
                 angle,
                 distance: 1.0,
                 instructions: String::new(),
+                meet: None,
                 is_cut: true,
                 facets: indices.iter().enumerate().map(facet).collect(),
             }

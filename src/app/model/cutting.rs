@@ -53,7 +53,11 @@ pub fn steps(tiers: &Tiers) -> Vec<CuttingStep> {
         zone: tier.zone(),
         angle: tier.angle.abs().min(180.0 - tier.angle.abs()),
         indices: tier.facets.iter().map(|facet| facet.index).collect(),
-        instructions: tier.instructions.clone(),
+        // A meet that was set in the editor has no instruction of its own.
+        instructions: match (&tier.meet, tier.instructions.is_empty()) {
+            (Some(meet), true) => meet.to_string(),
+            _ => tier.instructions.clone(),
+        },
     })
     .collect()
 }
@@ -109,7 +113,14 @@ mod tests {
 
     fn step(angle: f64) -> CuttingStep {
         let facets = [0.0, 24.0].map(|index| Indexed { index, name: String::new() }).to_vec();
-        let tier = Tier { angle, distance: 1.0, instructions: "Meet P1".to_owned(), is_cut: true, facets };
+        let tier = Tier {
+            angle,
+            distance: 1.0,
+            instructions: "Meet P1".to_owned(),
+            meet: None,
+            is_cut: true,
+            facets,
+        };
         let muted = Tier { is_cut: false, ..tier.clone() };
         let tiers = Tiers { gear: 96, tiers: vec![muted, tier], ..Tiers::default() };
         let [step] = steps(&tiers).try_into().unwrap();

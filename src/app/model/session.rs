@@ -115,6 +115,8 @@ pub struct Session {
     pub edited: Option<&'static str>,
     /// The place of the tier that is selected in the design's list.
     pub tier: Option<usize>,
+    /// Why the meet of each tier could not be followed after the last change; `None` where it was.
+    pub meet_faults: Vec<Option<String>>,
     /// How often copies were laid out; this seeds the next layout.
     pub layings: u64,
     /// The text of the status line while the pointer is over a picture.
@@ -165,6 +167,7 @@ impl Session {
             held: None,
             edited: None,
             tier: None,
+            meet_faults: vec![],
             layings: 0,
             message: String::new(),
             notes: Notes::default(),

@@ -6,7 +6,7 @@ use crate::app::model::action::{Actions, Edit};
 use crate::app::model::command::Command;
 use crate::app::model::document::Document;
 use crate::app::panels::rows::{ANY, NUMBER, Number, explain, named, skip_control};
-use crate::cut::Cut;
+use crate::cut::{Cut, TierChange};
 use egui::{Align, Layout, RichText, Ui, vec2};
 
 const MEANING: &str = "A tier: all facets that are cut at one angle and one distance. A change moves this tier \
@@ -52,7 +52,14 @@ pub fn show(document: &Document, actions: &mut Actions, ui: &mut Ui) {
             let angle = angle.abs().copysign(setting.angle);
             let is_changed = (angle, distance) != (setting.angle, setting.distance);
             if is_changed && angle.is_finite() && distance.is_finite() {
-                actions.push(Edit::Tier { place, angle, distance });
+                actions.push(match &document.work.design.cut {
+                    // Its meets follow.
+                    Cut::Tiers(tiers) => {
+                        let listed = tiers.place_of_cut(place);
+                        Edit::Tiers(TierChange::Setting(listed, angle, distance))
+                    }
+                    _ => Edit::Tier { place, angle, distance },
+                });
             }
         });
     }

@@ -11,18 +11,23 @@ use egui::{Color32, Id, Panel, Response, RichText, ScrollArea, Sense, TextEdit, 
 
 /// The least, the first and the greatest height of the table, points.
 const HEIGHTS: [f32; 3] = [110.0, 270.0, 560.0];
-/// The widths of the columns, points: grip, cut, name, zone, angle, distance, indices, instructions.
-const WIDTHS: [f32; 8] = [34.0, 34.0, 84.0, 64.0, 84.0, 92.0, 300.0, 240.0];
+/// The widths of the columns, points: grip, cut, name, zone, angle, distance, meet, indices, instructions.
+const WIDTHS: [f32; 9] = [34.0, 34.0, 84.0, 64.0, 84.0, 92.0, 190.0, 240.0, 200.0];
 /// The heads of the columns and their meanings.
-const HEADS: [(&str, &str); 8] = [
+const HEADS: [(&str, &str); 9] = [
     ("", "The number of the tier. Drag it to cut the tier earlier or later."),
     ("Cut", "A tier that is not cut stays in the list and makes no facets."),
     ("Name", "What cutters call the tier, such as P1, G1, C1 or T."),
     ("Zone", "The part of the stone where the tier lies."),
     ("Angle", "The angle from the girdle plane, in degrees; negative in the pavilion."),
     ("Distance", "The distance from the origin to the facets, in mm at the stone's present size."),
+    (
+        "Meet",
+        "Where the facets go, in cutters' words: Meet P1-G1, Level girdle, Cut to centre point, Meet girdle point. The distance \
+         follows, also when an earlier tier changes. Empty for the distance as it is.",
+    ),
     ("Indices", "The teeth of the gear at which the tier is cut, joined by dashes."),
-    ("Instructions", "What the cutter is told, such as \"Meet P1-G1\"."),
+    ("Instructions", "What the cutter is told besides."),
 ];
 
 /// Draws the table where it is open and the design is cut by tiers.
@@ -84,6 +89,9 @@ fn buttons(tiers: &Tiers, selected: Option<usize>, actions: &mut Actions, ui: &m
             actions.push(Edit::Tiers(change));
         }
     }
+    let find = ui.button("Find meets");
+    let meaning = "Gives every tier without a meet the one that the stone shows: the points through which its facets pass.";
+    actions.push_if(explain(ui, find, meaning).clicked(), Edit::Tiers(TierChange::FindMeets));
     let mirror = if tiers.mirror { ", mirror image" } else { "" };
     let hand = if tiers.gear < 0 { ", counted clockwise" } else { "" };
     let gear = tiers.gear.abs();
@@ -134,16 +142,17 @@ fn row(model: &Model, tiers: &Tiers, place: usize, actions: &mut Actions, ui: &m
             .for_each(|change| actions.push(Edit::Tiers(change)));
             cell(ui, WIDTHS[3], |ui| ui.label(RichText::new(tier.zone().name()).weak()));
             setting(model, (place, tier, &called), grip.id, actions, ui);
-            text(ui, WIDTHS[6], (place, "Indices", &called), &tier.indices(tiers.gear), |text| {
-                read_indices(text).map(|indices| TierChange::Indices(place, indices))
-            })
-            .into_iter()
-            .for_each(|change| actions.push(Edit::Tiers(change)));
-            text(ui, WIDTHS[7], (place, "Instructions", &called), &tier.instructions, |text| {
-                Some(TierChange::Instructions(place, text.to_owned()))
-            })
-            .into_iter()
-            .for_each(|change| actions.push(Edit::Tiers(change)));
+            let meet = meet(model, (place, tiers, &called), ui);
+            let indices =
+                text(ui, WIDTHS[7], (place, "Indices", &called), &tier.indices(tiers.gear), |text| {
+                    read_indices(text).map(|indices| TierChange::Indices(place, indices))
+                });
+            let instructions =
+                text(ui, WIDTHS[8], (place, "Instructions", &called), &tier.instructions, |text| {
+                    Some(TierChange::Instructions(place, text.to_owned()))
+                });
+            let changes = [meet, indices, instructions].into_iter().flatten();
+            changes.for_each(|change| actions.push(Edit::Tiers(change)));
         });
     });
     dropped(place, &frame.response, actions, ui);
@@ -210,6 +219,27 @@ fn setting(
     let is_changed = (angle, distance) != (tier.angle, tier.distance);
     let is_possible = (-180.0..=180.0).contains(&angle) && distance.is_finite();
     actions.push_if(is_changed && is_possible, Edit::Tiers(TierChange::Setting(place, angle, distance)));
+}
+
+/// Draws the field for the meet of a tier, and marks one that could not be followed.
+fn meet(model: &Model, (place, tiers, called): (usize, &Tiers, &str), ui: &mut Ui) -> Option<TierChange> {
+    let own = tiers.tiers[place].meet.as_ref().map(ToString::to_string).unwrap_or_default();
+    let fault = model.session.meet_faults.get(place).and_then(Option::as_ref);
+    let left = ui.cursor().left();
+    let changed = text(ui, WIDTHS[6], (place, "Meet", called), &own, |text| match text.trim() {
+        "" => Some(TierChange::Meet(place, None)),
+        text => tiers.meet_in_words(place, text).map(|meet| TierChange::Meet(place, Some(meet))),
+    });
+    if let Some(fault) = fault {
+        let (row, colour) = (ui.max_rect(), ui.visuals().error_fg_color);
+        let cell = egui::Rect::from_x_y_ranges(left..=left + WIDTHS[6] - 8.0, row.y_range());
+        ui.painter().rect_stroke(cell, 3.0, egui::Stroke::new(1.0, colour), egui::StrokeKind::Inside);
+        let under = ui.interact(cell, ui.scope_id().with(("fault", place)), Sense::hover());
+        let said = format!("The meet of {called} cannot be followed: {fault}");
+        name(&under, &said);
+        under.on_hover_text(said);
+    }
+    changed
 }
 
 /// Draws a field for a text of a tier; returns the change that the text means once it differs from the tier's own.

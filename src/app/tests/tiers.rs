@@ -160,3 +160,39 @@ fn bench_mode_shows_one_step_and_keeps_what_was_cut() {
     let read: Workspace = serde_json::from_str(&text).unwrap();
     assert_eq!(read.cutting, bench.editor().model.workspace.cutting);
 }
+
+#[test]
+fn later_meets_follow_a_tier_that_moves_and_undo_brings_them_back() {
+    let mut bench = turned();
+    let before = tiers(&bench);
+    let met = before.tiers.iter().filter(|tier| tier.meet.is_some()).count();
+    assert!(met >= 3, "{met} meets are found on a brilliant");
+    reach(&mut bench, "Angle of P2");
+    bench.type_number("Angle of P2", "41.5");
+    let now = tiers(&bench);
+    let moved = before.tiers.iter().zip(&now.tiers).filter(|(a, b)| a.distance != b.distance).count();
+    assert!(moved >= 1, "the halves follow the mains");
+    assert!(bench.editor().model.session.meet_faults.iter().all(Option::is_none));
+    // Meets hold: followed once more, nothing moves.
+    let again = now.solved();
+    let farthest = again.tiers.tiers.iter().zip(&now.tiers).map(|(a, b)| (a.distance - b.distance).abs());
+    assert!(farthest.fold(0.0, f64::max) < 1e-9);
+    bench.choose("Edit", "Undo");
+    assert_eq!(tiers(&bench), before);
+}
+
+#[test]
+fn a_meet_that_is_typed_places_the_tier_and_one_that_fails_is_said() {
+    let mut bench = turned();
+    let before = tiers(&bench);
+    let place = before.tiers.iter().position(|tier| tier.name() == "C1").unwrap();
+    // A text that is no meet is not taken.
+    type_text(&mut bench, "Meet of C1", "somewhere");
+    assert_eq!(tiers(&bench), before);
+    type_text(&mut bench, "Meet of C1", "Meet P1-P9");
+    let fault = bench.editor().model.session.meet_faults[place].clone();
+    assert!(fault.is_some() || tiers(&bench) == before, "{fault:?}");
+    bench.click("Select C1");
+    bench.click("Find meets");
+    assert_eq!(tiers(&bench).tiers.len(), before.tiers.len());
+}

@@ -1,11 +1,10 @@
 //! Meets: where the facets of a tier go, as cutters say it. `meet` is what a tier keeps, `words` reads it from instructions,
-//! `found` finds it in the geometry, `solve` follows it, and `edit` changes a number and follows all meets.
+//! `found` finds it in the geometry, and `solve` follows it.
 //!
 //! A meet is a point on the stone as it is cut so far (`stone`): a corner where named tiers meet (`names`), a corner of the
 //! girdle, the girdle line, or the point where the axis leaves the stone. Names may be written as cutters write them: P1 is
 //! the pavilion tier 1, G1 a girdle tier, C1 the crown tier 1, and small and capital letters are the same.
 
-mod edit;
 mod fault;
 mod found;
 mod meet;
@@ -16,7 +15,6 @@ mod stone;
 mod tests;
 mod words;
 
-pub use edit::TierEdit;
 pub use fault::{MeetError, MeetFault};
 pub use meet::{GivenSize, Meet, MeetPoint};
 pub use solve::{SolvedTiers, TierOutcome};

@@ -1,5 +1,6 @@
 //! Laws of meets, on a brilliant that is cut by them.
 
+use super::super::tier_change::TierChange;
 use super::super::tiers::{Indexed, Tier, Tiers};
 use super::*;
 
@@ -106,19 +107,21 @@ fn a_turned_gear_and_another_unit_change_nothing_else() {
 fn every_later_meet_follows_an_edit() {
     let design = brilliant();
     for (place, angle) in [(0, -44.0), (3, 44.0), (4, 36.0), (2, -40.5)] {
-        let edited = design.edited(place, TierEdit::Angle(angle));
+        let edited = design.changed(TierChange::Setting(place, angle, design.tiers[place].distance));
         assert_eq!(edited.errors().count(), 0, "{:?}", edited.outcomes);
         assert!(distances(&edited.tiers) != distances(&design));
         for facets in MEETING {
             assert!(apart(&edited.tiers, facets) < EXACT, "{place}: {facets:?}");
         }
     }
-    let moved = design.edited(4, TierEdit::Distance(0.7));
+    let moved = design.changed(TierChange::Setting(4, design.tiers[4].angle, 0.7));
     assert_eq!((moved.tiers.tiers[4].distance, &moved.tiers.tiers[4].meet), (0.7, &None));
-    let turned = design.edited(5, TierEdit::Index { facet: 1, index: 21.0 });
+    let mut indices: Vec<f64> = design.tiers[5].facets.iter().map(|facet| facet.index).collect();
+    indices[1] = 21.0;
+    let turned = design.changed(TierChange::Indices(5, indices));
     assert_eq!(turned.tiers.tiers[5].facets[1].index, 21.0);
     assert!(matches!(turned.outcomes[5], TierOutcome::Failed(_)), "{:?}", turned.outcomes[5]);
-    assert_eq!(design.edited(99, TierEdit::Angle(1.0)).tiers, design);
+    assert_eq!(design.changed(TierChange::Setting(99, 1.0, 1.0)).tiers, design);
 }
 
 fn corner(names: &[&str]) -> MeetPoint {

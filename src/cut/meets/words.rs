@@ -75,6 +75,14 @@ pub(super) fn stated(tiers: &Tiers) -> Vec<Option<Meet>> {
     meets
 }
 
+impl Tiers {
+    /// Reads what an instruction would mean for the tier at a place, from 0; `None` where it states no meet.
+    pub fn meet_in_words(&self, place: usize, text: &str) -> Option<Meet> {
+        let tier = self.tiers.get(place)?;
+        read(text, tier.zone(), &TierNames::of(self), place, None)
+    }
+}
+
 /// Reads one instruction; `above` is the meet of the tier before, which a ditto mark repeats.
 fn read(text: &str, zone: TierZone, names: &TierNames, from: usize, above: Option<Meet>) -> Option<Meet> {
     let text = text.to_lowercase();

@@ -48,16 +48,7 @@ const ROOMS: [Room; 8] = [
     },
     Room {
         folder: "cut/meets",
-        door: &[
-            "GivenSize",
-            "Meet",
-            "MeetError",
-            "MeetFault",
-            "MeetPoint",
-            "SolvedTiers",
-            "TierEdit",
-            "TierOutcome",
-        ],
+        door: &["GivenSize", "Meet", "MeetError", "MeetFault", "MeetPoint", "SolvedTiers", "TierOutcome"],
     },
     Room {
         folder: "picture/liquid_glass",

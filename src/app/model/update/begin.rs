@@ -21,6 +21,7 @@ pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
     workspace.rest();
     session.held = None;
     session.tier = None;
+    session.meet_faults.clear();
     // Figures of the stone before do not belong to this one.
     session.measured.figures.retain(|which, _| *which != Which::Present);
     session.measured.tilts = None;

@@ -3,7 +3,7 @@
 use crate::app::model::Model;
 use crate::app::model::action::Edit;
 use crate::app::model::extent;
-use crate::cut::{Cut, TierChange};
+use crate::cut::{Cut, SolvedTiers, TierChange, TierOutcome};
 use crate::io::as_tiers;
 use crate::scene::{Copies, Pose};
 use glam::DVec3;
@@ -22,15 +22,12 @@ pub fn edit(model: &mut Model, edit: Edit) {
         Edit::Tier { place, angle, distance } => {
             keep_tiers_in_place(model, |cut| cut.set(place, angle, distance));
         }
-        Edit::Tiers(change) => keep_tiers_in_place(model, |cut| {
-            if let Cut::Tiers(tiers) = cut {
-                tiers.change(change);
-            }
-        }),
+        Edit::Tiers(change) => change_tiers(model, change),
         Edit::AddTier(after) => add_tier(model, after),
         Edit::IntoTiers => {
-            let tiers = as_tiers(model.document.specimen());
+            let tiers = as_tiers(model.document.specimen()).map(|tiers| tiers.with_found_meets());
             keep_tiers_in_place(model, |cut| tiers.into_iter().for_each(|tiers| *cut = Cut::Tiers(tiers)));
+            model.session.meet_faults.clear();
         }
         Edit::Material(material) => work.design.material = material,
         Edit::Diameter(mm) => work.design.diameter_mm = mm,
@@ -55,6 +52,18 @@ fn keep_tiers_in_place(model: &mut Model, change: impl FnOnce(&mut Cut)) {
     if let Some(now) = extent::unit(design) {
         design.diameter_mm *= unit / now;
     }
+}
+
+/// Changes the list of tiers and follows all meets; notes which of them could not be followed.
+fn change_tiers(model: &mut Model, change: TierChange) {
+    let Cut::Tiers(tiers) = &model.document.work.design.cut else { return };
+    let SolvedTiers { tiers, outcomes } = tiers.changed(change);
+    let fault = |outcome| match outcome {
+        TierOutcome::Failed(error) => Some(error.fault.to_string()),
+        _ => None,
+    };
+    model.session.meet_faults = outcomes.into_iter().map(fault).collect();
+    keep_tiers_in_place(model, |cut| *cut = Cut::Tiers(tiers));
 }
 
 /// Adds a tier after the one at a place, or after the last, and selects it. It has the indices of that tier and just touches the
