@@ -106,7 +106,9 @@ fn an_angle_that_is_typed_keeps_its_side_and_moves_one_tier() {
     let others = |tiers: &Tiers| -> Vec<Tier> {
         tiers.tiers.iter().filter(|tier| tier.name() != "P2").cloned().collect()
     };
-    assert_eq!(others(&now), others(&before));
+    for (now, before) in others(&now).iter().zip(&others(&before)) {
+        assert!((now.distance - before.distance).abs() < 1e-9 && now.angle == before.angle, "{now:?}");
+    }
 }
 
 #[test]
@@ -166,12 +168,13 @@ fn later_meets_follow_a_tier_that_moves_and_undo_brings_them_back() {
     let mut bench = turned();
     let before = tiers(&bench);
     let met = before.tiers.iter().filter(|tier| tier.meet.is_some()).count();
-    assert!(met >= 3, "{met} meets are found on a brilliant");
-    reach(&mut bench, "Angle of P2");
-    bench.type_number("Angle of P2", "41.5");
+    assert!(met >= 2, "{met} meets are found on a brilliant");
+    reach(&mut bench, "Angle of C1");
+    bench.type_number("Angle of C1", "33.5");
     let now = tiers(&bench);
-    let moved = before.tiers.iter().zip(&now.tiers).filter(|(a, b)| a.distance != b.distance).count();
-    assert!(moved >= 1, "the halves follow the mains");
+    let moved = before.tiers.iter().zip(&now.tiers).filter(|(a, b)| (a.distance - b.distance).abs() > 1e-4);
+    let moved: Vec<&str> = moved.map(|(tier, _)| tier.name()).collect();
+    assert_eq!(moved, ["C3", "T"], "upper halves and table follow the bezels");
     assert!(bench.editor().model.session.meet_faults.iter().all(Option::is_none));
     // Meets hold: followed once more, nothing moves.
     let again = now.solved();
