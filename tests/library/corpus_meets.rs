@@ -1,7 +1,7 @@
 //! Meets of real designs: a design whose distances are forgotten is cut again by what its instructions say.
 
 use super::corpus::files;
-use brillianteer::cut::{Cut, Meet, MeetFault, MeetPoint, SolvedTiers, Tier, TierOutcome, TierZone, Tiers};
+use brillianteer::cut::{Cut, Meet, MeetFault, MeetPoint, SolvedTiers, TierOutcome, TierZone, Tiers};
 use brillianteer::io::design_file;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
