@@ -14,6 +14,12 @@ pub enum DrawingError {
         /// What the parser found.
         reason: String,
     },
+    /// The drawing holds what PDF files of this program have no room for.
+    #[error("the drawing has {what}, which is not written as PDF; write it as SVG or PNG")]
+    NotForPdf {
+        /// What the drawing has.
+        what: &'static str,
+    },
     /// The picture would be empty or too large.
     #[error(
         "a drawing of {width} by {height} pixels: each side must be from 1 to {MOST_PIXELS}; change the width"
@@ -78,7 +84,7 @@ fn drawn(tree: &Tree, width: u32, paper: Color) -> Result<Pixmap, DrawingError> 
     Ok(pixmap)
 }
 
-fn parse(svg: &str) -> Result<Tree, DrawingError> {
+pub(super) fn parse(svg: &str) -> Result<Tree, DrawingError> {
     let mut fonts = fontdb::Database::new();
     for font in [epaint_default_fonts::UBUNTU_LIGHT, epaint_default_fonts::HACK_REGULAR] {
         fonts.load_font_data(font.to_vec());

@@ -1,0 +1,86 @@
+//! `sheet`: writes the sheets that gem cutters work from.
+
+use super::batch::{distinct, each_file};
+use super::console::{json, print, written};
+use super::mesh_options::MeshArguments;
+use super::specimen::{LoadedSpecimen, stem};
+use crate::io::cutting_sheet::{SheetFormat, cutting_sheet, write};
+use crate::io::{Failure, is_standard};
+use crate::picture::Paper;
+use clap::Args;
+use serde_json::json;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub struct SheetArguments {
+    /// Designs of convex stones, or names of cuts that come with the program
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// A file, whose ending names the format, or a folder to write to; `-` is standard output and needs --format
+    #[arg(long, default_value = "out", value_name = "FILE|FOLDER")]
+    out: PathBuf,
+    /// The format to write, whatever the ending [default: that of the ending, else pdf]
+    #[arg(long, value_enum)]
+    format: Option<SheetFormat>,
+    /// The size of the paper
+    #[arg(long, value_enum, default_value_t)]
+    paper: Paper,
+    /// Give the indices of a gear that counts clockwise, for a left-handed machine
+    #[arg(long)]
+    left_handed: bool,
+    /// Print what stands on the sheet as JSON instead: one object, or for several files one object a line
+    #[arg(long)]
+    json: bool,
+    /// A material's name, or an index, instead of the file's
+    #[arg(long, value_name = "MATERIAL")]
+    material: Option<String>,
+    #[command(flatten)]
+    mesh: MeshArguments,
+}
+
+impl SheetArguments {
+    pub fn run(&self) -> Result<(), Failure> {
+        let format = if self.json { None } else { Some(self.format()?) };
+        each_file(&self.files, |file| {
+            let specimen =
+                LoadedSpecimen::load(file, self.mesh.options())?.made_of(self.material.as_deref(), None)?;
+            let sheet = cutting_sheet(&specimen, self.left_handed)?;
+            let Some((format, is_folder)) = format else {
+                let mut value = json!({ "file": specimen.path });
+                if let (Some(value), Ok(serde_json::Value::Object(sheet))) =
+                    (value.as_object_mut(), serde_json::to_value(&sheet))
+                {
+                    value.extend(sheet);
+                }
+                return print(&if self.files.len() == 1 { json(&value) } else { value.to_string() });
+            };
+            let path = match is_folder {
+                true => self.out.join(format!("{}-sheet.{}", stem(file), format.ending())),
+                false => self.out.clone(),
+            };
+            write(&specimen, &sheet, self.paper, (format, &path))?.iter().try_for_each(|file| written(file))
+        })
+    }
+
+    /// Returns the format, and whether `--out` is a folder.
+    fn format(&self) -> Result<(SheetFormat, bool), Failure> {
+        let out = self.out.display();
+        let is_folder = !is_standard(&self.out) && (self.out.is_dir() || self.out.extension().is_none());
+        let of_name = SheetFormat::of_name(&self.out).filter(|_| !is_folder);
+        if is_folder {
+            distinct(&self.files)?;
+        } else if self.files.len() > 1 {
+            return Err(Failure::Usage(format!("--out {out}: several designs need a folder")));
+        }
+        match self.format.or(of_name) {
+            Some(format) => Ok((format, is_folder)),
+            None if is_folder => Ok((SheetFormat::Pdf, true)),
+            None if is_standard(&self.out) => {
+                Err(Failure::Usage("--out -: give the format by --format pdf, svg or png".to_owned()))
+            }
+            None => Err(Failure::Usage(format!(
+                "--out {out}: the ending names no format; give .pdf, .svg, .png, --format, or a folder"
+            ))),
+        }
+    }
+}
