@@ -84,3 +84,38 @@ impl SheetArguments {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::run_line;
+    use crate::io::Failure;
+    use std::path::Path;
+
+    fn run(options: &[&str]) -> Result<(), Failure> {
+        run_line(["brillianteer", "sheet"].iter().chain(options).map(Into::into).collect())
+    }
+
+    #[test]
+    fn sheets_go_to_a_file_or_a_folder_in_the_format_of_the_ending() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+        run(&["tolkowsky", "--out", &path("a.svg"), "--paper", "letter"]).unwrap();
+        run(&["tolkowsky", "cube", "--out", &path(""), "--left-handed"]).unwrap();
+        run(&["shallow", "--out", &path("b.bin"), "--format", "pdf"]).unwrap();
+        run(&["shallow", "--out", &path("none.pdf"), "--json"]).unwrap();
+        let is_there = |name: &str| Path::new(&path(name)).is_file();
+        assert!(["a.svg", "tolkowsky-sheet.pdf", "cube-sheet.pdf", "b.bin"].into_iter().all(is_there));
+        assert!(!is_there("none.pdf"));
+        assert!(std::fs::read_to_string(path("a.svg")).unwrap().contains("width=\"215.9mm\""));
+        assert!(std::fs::read(path("b.bin")).unwrap().starts_with(b"%PDF-"));
+        for (options, said) in [
+            (vec!["tolkowsky", "--out", "a.jpg"], "the ending names no format"),
+            (vec!["tolkowsky", "shallow", "--out", "a.pdf"], "several designs need a folder"),
+            (vec!["tolkowsky", "--out", "-"], "--format"),
+            (vec!["pill", "--out", &path("pill.pdf")], "smooth"),
+        ] {
+            let error = run(&options).unwrap_err().to_string();
+            assert!(error.contains(said), "{error}");
+        }
+    }
+}

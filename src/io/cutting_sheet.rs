@@ -6,6 +6,9 @@ use crate::picture::{CuttingSheet, Paper, sheet_pages};
 use crate::scene::{Body, Specimen};
 use std::path::{Path, PathBuf};
 
+#[cfg(test)]
+mod tests;
+
 /// Pixels an inch of sheets in PNG.
 const PIXELS_PER_INCH: f64 = 300.0;
 

@@ -46,7 +46,9 @@ pub fn pdf(pages: &[String], title: &str) -> Result<Vec<u8>, DrawingError> {
         page.parent(page_tree).contents(content_id);
         let mut resources = page.resources();
         let mut dictionary = resources.fonts();
-        named.iter().for_each(|(name, font)| drop(dictionary.pair(Name(name.as_bytes()), *font)));
+        for (name, font) in &named {
+            dictionary.pair(Name(name.as_bytes()), *font);
+        }
         dictionary.finish();
         resources.finish();
         page.finish();

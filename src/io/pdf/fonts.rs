@@ -93,7 +93,9 @@ impl PdfFont {
         cid.subtype(CidFontType::Type2).base_font(base).system_info(IDENTITY).font_descriptor(descriptor);
         cid.default_width(0.0).cid_to_gid_map_predefined(Name(b"Identity"));
         let mut widths = cid.widths();
-        self.widths.iter().for_each(|(&glyph, &width)| drop(widths.consecutive(glyph, [width])));
+        for (&glyph, &width) in &self.widths {
+            widths.consecutive(glyph, [width]);
+        }
         widths.finish();
         cid.finish();
         self.describe(pdf, descriptor, base, file);

@@ -155,7 +155,7 @@ pub(super) fn tiers_of_planes(tiers: &Tiers) -> Vec<usize> {
 
 /// Returns a name for every tier: its own, or the letter of its zone with a number that no other tier has.
 fn names(tiers: &Tiers) -> Vec<String> {
-    let own = |tier: &Tier| Some(cleaned(tier.name())).filter(|name| is_printable(name));
+    let own = |tier: &Tier| Some(cleaned(&tier.name().replace('_', " "))).filter(|name| is_printable(name));
     let taken: BTreeSet<String> = tiers.tiers.iter().filter_map(own).collect();
     let mut counts: BTreeMap<&str, u32> = BTreeMap::new();
     let mut given = |tier: &Tier| {

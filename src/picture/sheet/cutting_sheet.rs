@@ -6,6 +6,9 @@ use crate::optics::{critical_angle, line};
 use crate::scene::{Specimen, Stone};
 use serde::Serialize;
 
+/// The note about a design whose facets leave the stone open.
+const OPEN: &str = "The facets of the design leave the stone open; the block that it is cut from closes it.";
+
 /// Everything that a cutter's sheet says about a design.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CuttingSheet {
@@ -57,6 +60,8 @@ impl CuttingSheet {
         let below = blocks.iter().flat_map(|block| &block.tiers).filter(|row| row.below_critical);
         let of_plane = tiers_of_planes(&tiers);
         let facets = stone.polytope.facets().iter();
+        let tier_of_facet: Vec<Option<usize>> =
+            facets.map(|facet| of_plane.get(facet.source).copied()).collect();
         Self {
             title: cleaned(&design.name),
             lines: lines(specimen, &tiers),
@@ -72,8 +77,8 @@ impl CuttingSheet {
             figures: SheetFigures::of(&stone.polytope, stone.names()),
             critical_angle_deg,
             below_critical: below.map(|row| row.name.clone()).collect(),
-            notes: notes(specimen, &tiers),
-            tier_of_facet: facets.map(|facet| of_plane.get(facet.source).copied()).collect(),
+            notes: notes(specimen, &tiers, tier_of_facet.contains(&None)),
+            tier_of_facet,
             blocks,
             tiers,
         }
@@ -102,7 +107,8 @@ fn lines(specimen: &Specimen, tiers: &Tiers) -> Vec<String> {
     let all = own.iter().cloned().chain(source).map(|line| cleaned(&line));
     let title = cleaned(&design.name);
     let mut lines: Vec<String> = vec![];
-    for line in all.filter(|line| !line.is_empty() && *line != title) {
+    let is_said = |line: &String| line.contains(char::is_alphanumeric) && *line != title;
+    for line in all.filter(is_said) {
         if !lines.contains(&line) {
             lines.push(line);
         }
@@ -110,7 +116,8 @@ fn lines(specimen: &Specimen, tiers: &Tiers) -> Vec<String> {
     lines
 }
 
-fn notes(specimen: &Specimen, tiers: &Tiers) -> Vec<String> {
+/// Returns the notes of a design; `open` says that the block closes its stone.
+fn notes(specimen: &Specimen, tiers: &Tiers, open: bool) -> Vec<String> {
     let uncut = tiers.tiers.iter().filter(|tier| !tier.is_cut).count();
     let uncut = match uncut {
         0 => None,
@@ -118,6 +125,6 @@ fn notes(specimen: &Specimen, tiers: &Tiers) -> Vec<String> {
         _ => Some(format!("{uncut} tiers of the design are not cut and are left out.")),
     };
     let own = specimen.design.notes.iter().chain(&tiers.footers);
-    let all = own.chain(&specimen.warnings).cloned().chain(uncut);
+    let all = own.cloned().chain(open.then(|| OPEN.to_owned())).chain(uncut);
     all.map(|note| cleaned(&note)).filter(|note| !note.is_empty()).collect()
 }

@@ -31,10 +31,12 @@ pub(super) const LEADERS: f64 = OUTER + 8.0;
 pub(super) struct IndexRing<'a> {
     /// The gear.
     pub tiers: &'a Tiers,
-    /// The middle of the plan on the sheet, and the radius of the circle that holds the stone.
+    /// The middle of the plan on the sheet.
     pub middle: DVec2,
     /// The radius of the circle that holds the stone.
     pub radius: f64,
+    /// The least and the greatest x that a number may reach.
+    pub sides: [f64; 2],
     /// Whether the plan shows the stone from below, turned over about its y axis.
     pub from_below: bool,
 }
@@ -84,7 +86,8 @@ impl IndexRing<'_> {
             let at = self.number_at(index);
             let mut frame = text_frame(SIZE, Align::Middle, at, &index_text(index));
             (frame.low.x, frame.high.x) = (frame.low.x - APART, frame.high.x + APART);
-            if !frames.iter().any(|other| overlap(other, &frame)) {
+            let is_inside = frame.low.x >= self.sides[0] && frame.high.x <= self.sides[1];
+            if is_inside && !frames.iter().any(|other| overlap(other, &frame)) {
                 frames.push(frame);
                 placed.push((index, at, is_used(index)));
             }

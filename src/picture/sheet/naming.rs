@@ -19,6 +19,10 @@ const BESIDE: f64 = 4.0;
 const EVEN: f64 = 1e-6;
 /// The most tiers left for which leaders are drawn.
 const MOST_LED: usize = 40;
+/// While no more tiers than this are left, leaders may be of any length.
+const FEW: usize = 5;
+/// The greatest length of a leader where there are many.
+const LONGEST_OF_MANY: f64 = 110.0;
 /// The most facets of a tier that are tried for a leader.
 const MOST_TRIED: usize = 64;
 
@@ -26,6 +30,8 @@ const MOST_TRIED: usize = 64;
 pub(super) struct SeenTier {
     /// The tier's name.
     pub name: String,
+    /// Whether its name may stand outside, at the end of a leader.
+    pub is_led: bool,
     /// The outlines of its facets in sight, on the sheet.
     pub outlines: Vec<Vec<DVec2>>,
 }
@@ -44,12 +50,14 @@ pub(super) struct Places {
 pub(super) fn write_names(sheet: &mut Sheet, mut places: Places, tiers: &[SeenTier]) {
     let mut rest: Vec<&SeenTier> = vec![];
     for tier in tiers.iter().filter(|tier| !tier.outlines.is_empty()) {
-        if !write_inside(sheet, &mut places, tier) {
+        if !write_inside(sheet, &mut places, tier) && tier.is_led {
             rest.push(tier);
         }
     }
     rest.truncate(MOST_LED);
-    while let Some((leader, k)) = best_leader(&places, &rest) {
+    // A few long leaders are easy to read, many are not.
+    let longest = if rest.len() <= FEW { f64::INFINITY } else { LONGEST_OF_MANY };
+    while let Some((leader, k)) = best_leader(&places, &rest, longest) {
         write_outside(sheet, &mut places, rest.remove(k), leader);
     }
 }
@@ -86,11 +94,16 @@ struct NameLeader {
 }
 
 /// Returns the leader of least cost, and the place of its tier in `tiers`.
-fn best_leader(places: &Places, tiers: &[&SeenTier]) -> Option<(NameLeader, usize)> {
+fn best_leader(places: &Places, tiers: &[&SeenTier], longest: f64) -> Option<(NameLeader, usize)> {
     let mut best: Option<(NameLeader, usize)> = None;
     for (k, tier) in tiers.iter().enumerate() {
         for from in tier.outlines.iter().take(MOST_TRIED).map(|corners| centroid(corners)) {
             for (slot, &to) in places.slots.iter().enumerate() {
+                // No leader costs less than its length.
+                let least = best.map_or(longest, |(leader, _)| longest.min(leader.cost));
+                if from.distance(to) > least {
+                    continue;
+                }
                 let label = places.frame(&tier.name, to);
                 let Some(cost) = places.room.cost(from, to, &label).filter(|_| places.holds(&label)) else {
                     continue;

@@ -159,7 +159,7 @@ impl Layout<'_> {
             let right = DVec2::new(x + FIGURES_WIDTH / 2.0 - 20.0, height);
             sheet.plain_text(FIGURES, Align::End, right, &format!("{value:.3}"));
         }
-        y += rows as f64 * LINE;
+        y += rows as f64 * LINE + 6.0;
         for remark in remarks(self.data) {
             for line in words(&remark, SMALL.size, FIGURES_WIDTH - 20.0) {
                 sheet.plain_text(SMALL, Align::Start, DVec2::new(left, y), &line);
@@ -191,15 +191,21 @@ impl Layout<'_> {
         let (mut pages, mut page, mut y) = (vec![], sheet, y);
         let next = self.frame.low.y + 40.0;
         let room = self.frame.high.y - next;
-        for group in groups.into_iter().flat_map(|group| group.divided(room)) {
-            if y + group.height() > self.frame.high.y {
+        let groups: Vec<LineGroup> = groups.into_iter().flat_map(|group| group.divided(room)).collect();
+        for (k, group) in groups.iter().enumerate() {
+            // A block that a page holds is not divided, unless it is the first.
+            let rest = groups[k + 1..].iter().take_while(|group| !group.begins_block());
+            let block = group.height() + rest.map(LineGroup::height).sum::<f64>();
+            let is_kept = k > 0 && group.begins_block() && block <= room;
+            let needed = if is_kept { block } else { group.height() };
+            if y + needed > self.frame.high.y {
                 pages.push(std::mem::replace(&mut page, Sheet::new(Inks::PRINT)));
                 let title = shortened(&self.data.title, TITLE_AGAIN.size, 0.98 * self.width());
                 let at = DVec2::new(self.frame.low.x, self.frame.low.y + 12.0);
                 page.strong_text(TITLE_AGAIN, Align::Start, at, &title);
                 y = next;
             }
-            columns.draw(&mut page, &group, y);
+            columns.draw(&mut page, group, y);
             y += group.height();
         }
         pages.push(page);

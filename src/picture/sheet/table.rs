@@ -24,6 +24,8 @@ const NAMES: [f64; 2] = [56.0, 190.0];
 const ANGLES: f64 = 86.0;
 /// Space between columns.
 const GUTTER: f64 = 22.0;
+/// The least width of the column of instructions.
+const LEAST_INSTRUCTIONS: f64 = 200.0;
 /// The greatest part of the page's width that instructions take.
 const INSTRUCTIONS: f64 = 0.4;
 
@@ -60,7 +62,7 @@ impl Columns {
         };
         let names = widest(&mut rows().map(|row| &row.name)).clamp(NAMES[0], NAMES[1]);
         let said = widest(&mut rows().map(|row| &row.instruction));
-        let instructions = (said + 1.0).min(INSTRUCTIONS * width);
+        let instructions = (said + 1.0).clamp(LEAST_INSTRUCTIONS, INSTRUCTIONS * width);
         let indices = width - names - ANGLES - instructions - 3.0 * GUTTER;
         Self { left, width, names, indices, instructions }
     }
@@ -126,7 +128,8 @@ impl Columns {
             y += line.height();
         }
         if let Some(TableLine::Cells { .. }) = group.lines.last() {
-            sheet.quiet_lines(&[ends(y + BETWEEN)], "rule", 0.35);
+            let (from, to) = ends(y + BETWEEN);
+            sheet.extension(from, to);
         }
     }
 
@@ -166,6 +169,11 @@ impl LineGroup {
     /// Returns the height of the group with the space below it.
     pub fn height(&self) -> f64 {
         self.lines.iter().map(TableLine::height).sum::<f64>() + BETWEEN
+    }
+
+    /// Whether a block begins with this group.
+    pub fn begins_block(&self) -> bool {
+        matches!(self.lines.first(), Some(TableLine::Heading(_)))
     }
 
     /// Divides the group where it is higher than `room`, so that each part fits; a part has one line at least.

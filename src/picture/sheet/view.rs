@@ -51,12 +51,15 @@ impl SheetView<'_> {
         let centre = basis.project((low + high) / 2.0);
         let aspect = DrawnAspect { basis, centre, scale: radius / bounding_radius(self.stone), place };
         sheet.stone(self.stone, &aspect, |facet| aspect.shows(facet));
-        let ring = IndexRing { tiers: &self.data.tiers, middle: place, radius, from_below };
-        let taken = ring.draw(sheet, &self.used(from_below));
-        self.caption(sheet, if from_below { "PAVILION, from below" } else { "CROWN, from above" });
+        let sides = [self.bounds.low.x, self.bounds.high.x];
+        let ring = IndexRing { tiers: &self.data.tiers, middle: place, radius, sides, from_below };
+        let mut taken = ring.draw(sheet, &self.used(from_below));
+        taken
+            .push(self.caption(sheet, if from_below { "PAVILION, from below" } else { "CROWN, from above" }));
         let slot = |k: i32| place + DVec2::from_angle(f64::from(4 * k).to_radians()) * (radius + LEADERS);
         let slots = (0..90).map(slot).collect();
-        self.names(sheet, &aspect, taken, slots);
+        let led = |zone: TierZone| zone != TierZone::Girdle;
+        self.names(sheet, &aspect, (taken, slots), led);
     }
 
     /// Draws a profile, its table up, at a scale in units per girdle radius; `letter` stands at the dimension line below.
@@ -70,19 +73,20 @@ impl SheetView<'_> {
         let centre = DVec2::new((left + right) / 2.0, (low.z + high.z) / 2.0);
         let aspect = DrawnAspect { basis, centre, scale, place };
         sheet.stone(self.stone, &aspect, |facet| aspect.shows(facet));
-        self.caption(sheet, caption);
-        let taken =
-            vec![self.dimension(sheet, place + DVec2::Y * (half.y + DIMENSION_BELOW), half.x, letter)];
+        let below = place + DVec2::Y * (half.y + DIMENSION_BELOW);
+        let taken = vec![self.caption(sheet, caption), self.dimension(sheet, below, half.x, letter)];
         let reach = half.x + PROFILE_LEADERS;
         let count = (2.0 * half.y / 18.0).max(1.0) as usize;
         let height = |k: usize| place.y - half.y + (k as f64 + 0.5) * 2.0 * half.y / count as f64;
         let side = |x: f64| (0..count).map(move |k| DVec2::new(place.x + x, height(k)));
-        self.names(sheet, &aspect, taken, side(reach).chain(side(-reach)).collect());
+        // Facets of crown and pavilion are named in the plans, where those of the girdle are not in sight.
+        let slots = side(reach).chain(side(-reach)).collect();
+        self.names(sheet, &aspect, (taken, slots), |zone| zone == TierZone::Girdle);
     }
 
-    fn caption(&self, sheet: &mut Sheet, text: &str) {
+    fn caption(&self, sheet: &mut Sheet, text: &str) -> Frame {
         let middle = (self.bounds.low.x + self.bounds.high.x) / 2.0;
-        sheet.strong_text(CAPTION, Align::Middle, DVec2::new(middle, self.bounds.low.y + 10.0), text);
+        sheet.strong_text(CAPTION, Align::Middle, DVec2::new(middle, self.bounds.low.y + 10.0), text)
     }
 
     /// Draws a dimension line with a letter in its middle. Returns the box that it fills.
@@ -102,13 +106,19 @@ impl SheetView<'_> {
         let shown = rows.filter(|row| match row.zone {
             TierZone::Pavilion => from_below,
             TierZone::Crown => !from_below,
-            TierZone::Girdle => true,
-            TierZone::Table | TierZone::Culet => false,
+            TierZone::Table | TierZone::Girdle | TierZone::Culet => false,
         });
         shown.flat_map(|row| row.indices.iter().copied()).collect()
     }
 
-    fn names(&self, sheet: &mut Sheet, aspect: &DrawnAspect, taken: Vec<Frame>, slots: Vec<DVec2>) {
+    /// Writes the names of the tiers; those of the zones for which `led` holds may stand outside, at the end of a leader.
+    fn names(
+        &self,
+        sheet: &mut Sheet,
+        aspect: &DrawnAspect,
+        (taken, slots): (Vec<Frame>, Vec<DVec2>),
+        led: impl Fn(TierZone) -> bool,
+    ) {
         let facets = self.stone.polytope.facets();
         let outline = |facet: &Facet| aspect.outline(self.stone, facet);
         let shown = || facets.iter().zip(&self.data.tier_of_facet).filter(|(facet, _)| aspect.shows(facet));
@@ -116,6 +126,7 @@ impl SheetView<'_> {
         let rows = self.data.blocks.iter().flat_map(|block| &block.tiers);
         let seen = |row: &super::SheetRow| SeenTier {
             name: row.name.clone(),
+            is_led: led(row.zone),
             outlines: shown().filter(|(_, tier)| **tier == Some(row.tier)).map(|(f, _)| outline(f)).collect(),
         };
         let tiers: Vec<SeenTier> = rows.map(seen).collect();
