@@ -6,7 +6,7 @@ use super::mesh_options::MeshArguments;
 use super::specimen::{LoadedSpecimen, stem};
 use crate::io::cutting_sheet::{SheetFormat, cutting_sheet, write};
 use crate::io::{Failure, is_standard};
-use crate::picture::Paper;
+use crate::picture::PaperSize;
 use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;
@@ -24,7 +24,7 @@ pub struct SheetArguments {
     format: Option<SheetFormat>,
     /// The size of the paper
     #[arg(long, value_enum, default_value_t)]
-    paper: Paper,
+    paper: PaperSize,
     /// Give the indices of a gear that counts clockwise, for a left-handed machine
     #[arg(long)]
     left_handed: bool,
@@ -100,11 +100,11 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
         run(&["tolkowsky", "--out", &path("a.svg"), "--paper", "letter"]).unwrap();
-        run(&["tolkowsky", "cube", "--out", &path(""), "--left-handed"]).unwrap();
+        run(&["tolkowsky", "shallow", "--out", &path(""), "--left-handed"]).unwrap();
         run(&["shallow", "--out", &path("b.bin"), "--format", "pdf"]).unwrap();
         run(&["shallow", "--out", &path("none.pdf"), "--json"]).unwrap();
         let is_there = |name: &str| Path::new(&path(name)).is_file();
-        assert!(["a.svg", "tolkowsky-sheet.pdf", "cube-sheet.pdf", "b.bin"].into_iter().all(is_there));
+        assert!(["a.svg", "tolkowsky-sheet.pdf", "shallow-sheet.pdf", "b.bin"].into_iter().all(is_there));
         assert!(!is_there("none.pdf"));
         assert!(std::fs::read_to_string(path("a.svg")).unwrap().contains("width=\"215.9mm\""));
         assert!(std::fs::read(path("b.bin")).unwrap().starts_with(b"%PDF-"));

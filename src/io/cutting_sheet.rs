@@ -2,7 +2,7 @@
 
 use super::cutters::tiers_of;
 use super::{DrawingError, Failure, WriteError, pdf, rasterize, write as write_whole, write_png};
-use crate::picture::{CuttingSheet, Paper, sheet_pages};
+use crate::picture::{CuttingSheet, PaperSize, sheet_pages};
 use crate::scene::{Body, Specimen};
 use std::path::{Path, PathBuf};
 
@@ -76,7 +76,7 @@ pub fn cutting_sheet(specimen: &Specimen, left_handed: bool) -> Result<CuttingSh
 pub fn write(
     specimen: &Specimen,
     sheet: &CuttingSheet,
-    paper: Paper,
+    paper: PaperSize,
     (format, path): (SheetFormat, &Path),
 ) -> Result<Vec<PathBuf>, Failure> {
     let drawn = specimen.stone().map(|stone| sheet_pages(sheet, stone, paper));

@@ -56,7 +56,7 @@ pub use patterns::{PATTERN_SIDE, PATTERN_SPAN, Pattern};
 pub use profile::profile;
 pub use raster::Rows;
 pub use refraction::{Backdrop, Carried, MapBand, RefractionMap, SourcePlace, Survey, refract};
-pub use sheet::{BlockKind, CuttingSheet, Paper, SheetBlock, SheetRow, sheet_pages};
+pub use sheet::{BlockKind, CuttingSheet, PaperSize, SheetBlock, SheetRow, sheet_pages};
 pub use temporal::{MotionVector, TemporalHistory};
 pub use tone::{Tone, reachable};
 pub use views::{Picture, Scoped, named, names};

@@ -3,7 +3,7 @@
 
 use brillianteer::io::cutting_sheet::cutting_sheet;
 use brillianteer::io::design_file;
-use brillianteer::picture::{CuttingSheet, Paper, sheet_pages};
+use brillianteer::picture::{CuttingSheet, PaperSize, sheet_pages};
 use brillianteer::scene::Specimen;
 use std::path::Path;
 
@@ -110,7 +110,7 @@ fn sheets_of_real_designs_say_what_their_files_say() {
         wanted.sort();
         said.sort();
         assert_eq!(said, wanted, "{name}");
-        assert!(!sheet_pages(&sheet, specimen.stone().unwrap(), Paper::A4).is_empty());
+        assert!(!sheet_pages(&sheet, specimen.stone().unwrap(), PaperSize::A4).is_empty());
         compared += wanted.len();
         // A number that is off by a digit would be seen.
         let mut off = tiers[0].clone();

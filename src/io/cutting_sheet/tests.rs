@@ -140,7 +140,7 @@ fn paths(group: &Group) -> Vec<Rect> {
 /// texts of all pages.
 fn assert_printable(specimen: &Specimen, sheet: &CuttingSheet) -> Vec<String> {
     let mut said = vec![];
-    for paper in [Paper::A4, Paper::Letter] {
+    for paper in [PaperSize::A4, PaperSize::Letter] {
         for page in sheet_pages(sheet, specimen.stone().unwrap(), paper) {
             let svg = page.to_string();
             let tree = parse(&svg).unwrap();
@@ -222,7 +222,7 @@ proptest! {
             let sheet = cutting_sheet(&specimen, left_handed).unwrap();
             assert_printable(&specimen, &sheet);
             // The tiers of the other hand make the same stone.
-            let pages = sheet_pages(&sheet, specimen.stone().unwrap(), Paper::A4);
+            let pages = sheet_pages(&sheet, specimen.stone().unwrap(), PaperSize::A4);
             prop_assert!(!pages.is_empty());
         }
     }
@@ -238,7 +238,7 @@ fn sheets_are_written_in_every_format_and_a_page_a_file() {
         let sheet = cutting_sheet(&specimen, false).unwrap();
         for format in [SheetFormat::Pdf, SheetFormat::Svg] {
             let path = folder.path().join(format!("step.{}", format.ending()));
-            let files = write(&specimen, &sheet, Paper::A4, (format, &path)).unwrap();
+            let files = write(&specimen, &sheet, PaperSize::A4, (format, &path)).unwrap();
             assert_eq!(files.len() > 1, is_long && format == SheetFormat::Svg, "{files:?}");
             assert!(files.iter().all(|file| file.is_file()), "{files:?}");
             assert_eq!(files.first(), Some(&path));
@@ -248,7 +248,7 @@ fn sheets_are_written_in_every_format_and_a_page_a_file() {
     let error = write(
         &specimen(Cut::Tiers(Tiers { footers: vec!["a note ".repeat(900)], ..step_cut() }), 1.54),
         &sheet_of(Tiers { footers: vec!["a note ".repeat(900)], ..step_cut() }, false),
-        Paper::A4,
+        PaperSize::A4,
         (SheetFormat::Svg, Path::new("-")),
     );
     assert!(matches!(error, Err(Failure::Usage(_))));
@@ -261,30 +261,6 @@ fn every_cut_that_comes_with_the_program_has_a_sheet_or_says_why_not() {
         match cutting_sheet(&specimen, false) {
             Ok(sheet) => drop(assert_printable(&specimen, &sheet)),
             Err(error) => assert!(error.to_string().contains("smooth"), "{error}"),
-        }
-    }
-}
-
-#[test]
-fn zz_probe() {
-    let Ok(list) = std::env::var("SHEET_PROBE") else { return };
-    for path in list.split(',') {
-        let file = Path::new(path);
-        let design = match crate::io::library::cut(path) {
-            Some(text) => crate::io::cut_file::parse(text, path).unwrap(),
-            None => crate::io::design_file::read(file).unwrap().design,
-        };
-        let specimen = Specimen::new(design).unwrap();
-        let sheet = cutting_sheet(&specimen, false).unwrap();
-        for format in SheetFormat::ALL {
-            let out =
-                Path::new("/tmp/w/sheets").join(file.file_stem().unwrap()).with_extension(format.ending());
-            let started = std::time::Instant::now();
-            println!(
-                "{:?} {:?}",
-                write(&specimen, &sheet, Paper::A4, (format, &out)).unwrap(),
-                started.elapsed()
-            );
         }
     }
 }

@@ -14,4 +14,4 @@ mod wrapping;
 
 pub use blocks::{BlockKind, SheetBlock, SheetRow};
 pub use cutting_sheet::CuttingSheet;
-pub use page::{Paper, sheet_pages};
+pub use page::{PaperSize, sheet_pages};

@@ -43,7 +43,7 @@ const PROFILE: DVec2 = DVec2::new(290.0, 230.0);
 /// A size of paper, upright.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
-pub enum Paper {
+pub enum PaperSize {
     /// 210 by 297 mm.
     #[default]
     A4,
@@ -51,7 +51,7 @@ pub enum Paper {
     Letter,
 }
 
-impl Paper {
+impl PaperSize {
     /// Returns width and height in mm.
     pub fn size_mm(self) -> DVec2 {
         match self {
@@ -62,7 +62,7 @@ impl Paper {
 }
 
 /// Draws a cutter's sheet, page by page; the stone is the one that `data` describes.
-pub fn sheet_pages(data: &CuttingSheet, stone: &Stone, paper: Paper) -> Vec<Document> {
+pub fn sheet_pages(data: &CuttingSheet, stone: &Stone, paper: PaperSize) -> Vec<Document> {
     let size = paper.size_mm() * PER_MM;
     let frame = Frame { low: DVec2::splat(MARGIN), high: size - MARGIN - DVec2::Y * FOOT };
     let layout = Layout { data, stone, frame };
