@@ -3,8 +3,9 @@
 
 use brillianteer::io::cutting_sheet::cutting_sheet;
 use brillianteer::io::design_file;
-use brillianteer::picture::{CuttingSheet, PaperSize, sheet_pages};
+use brillianteer::picture::{BlockKind, PaperSize, SheetRow, sheet_pages};
 use brillianteer::scene::Specimen;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 const LIBRARY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/asc/library");
@@ -64,21 +65,21 @@ fn text_tier(record: &str) -> TextTier {
     tier
 }
 
-/// Returns what a sheet must say of the tiers of a file, in words: name, angle, indices, instruction.
-fn expected(gear: f64, tier: &TextTier) -> String {
+/// Returns what a sheet must say of a tier of a file, in words: name, angle, indices, instruction. The sheet chooses the name
+/// of a tier without one.
+fn expected(gear: f64, tier: &TextTier, chosen: &str) -> String {
     let flat = tier.angle == 0.0;
     let mut indices: Vec<f64> = if flat { vec![] } else { tier.indices.clone() };
     indices.sort_by(|a, b| (a % gear).total_cmp(&(b % gear)));
     let text = |index: &f64| if *index == 0.0 { gear } else { *index }.to_string();
     let indices: Vec<String> = indices.iter().map(text).collect();
     let said = if flat && tier.instruction.is_empty() { "Table" } else { &tier.instruction };
-    format!("{} {:.2} {} {said}", tier.name, tier.angle.abs(), indices.join("-"))
+    let name = if tier.name.is_empty() { chosen } else { &tier.name };
+    format!("{name} {:.2} {} {said}", tier.angle.abs(), indices.join("-"))
 }
 
-fn lines(sheet: &CuttingSheet) -> Vec<String> {
-    let rows = sheet.blocks.iter().flat_map(|block| &block.tiers);
-    rows.map(|row| format!("{} {:.2} {} {}", row.name, row.angle_deg, row.indices_text(), row.instruction))
-        .collect()
+fn line(row: &SheetRow) -> String {
+    format!("{} {:.2} {} {}", row.name, row.angle_deg, row.indices_text(), row.instruction)
 }
 
 #[test]
@@ -93,29 +94,26 @@ fn sheets_of_real_designs_say_what_their_files_say() {
         // These files have no letters beyond Latin-1.
         let text: String = bytes.iter().map(|&byte| char::from(byte)).collect();
         let (gear, tiers) = text_tiers(&text);
+        let gear = gear.abs();
         let specimen = Specimen::new(design_file::read(&path).unwrap().design).unwrap();
         let sheet = cutting_sheet(&specimen, false).unwrap();
-        let mut wanted: Vec<String> = tiers.iter().map(|tier| expected(gear, tier)).collect();
-        let mut said = lines(&sheet);
-        // The sheet puts the crown last, files have it where they please; within a block the order is the file's.
-        let order = |is_up: bool| -> Vec<String> {
-            let tiers =
-                tiers.iter().filter(|tier| (tier.angle.is_sign_positive() && tier.angle < 90.0) == is_up);
-            tiers.map(|tier| expected(gear, tier)).collect()
-        };
-        let in_blocks: Vec<String> = order(false).into_iter().chain(order(true)).collect();
-        if sheet.blocks.len() == 2 {
-            assert_eq!(said, in_blocks, "{name}");
+        let mut seen = BTreeSet::new();
+        for block in &sheet.blocks {
+            assert!(block.tiers.is_sorted_by_key(|row| row.tier), "{name}: not in cutting order");
+            for row in &block.tiers {
+                let tier = &tiers[row.tier];
+                assert_eq!(line(row), expected(gear, tier, &row.name), "{name}");
+                let is_crown = tier.angle.is_sign_positive() && tier.angle < 90.0;
+                assert_eq!(block.name == BlockKind::Crown, is_crown, "{name}: {tier:?}");
+                assert!(seen.insert(row.tier), "{name}: {tier:?} stands on the sheet twice");
+                // A number that is off by a digit would be seen.
+                let off = TextTier { angle: tier.angle + 0.01, ..tier.clone() };
+                assert_ne!(line(row), expected(gear, &off, &row.name));
+            }
         }
-        wanted.sort();
-        said.sort();
-        assert_eq!(said, wanted, "{name}");
+        assert_eq!(seen.len(), tiers.len(), "{name}: tiers are missing");
         assert!(!sheet_pages(&sheet, specimen.stone().unwrap(), PaperSize::A4).is_empty());
-        compared += wanted.len();
-        // A number that is off by a digit would be seen.
-        let mut off = tiers[0].clone();
-        off.angle += 0.01;
-        assert!(!said.contains(&expected(gear, &off)), "{name}");
+        compared += tiers.len();
     }
     println!("{} designs, {compared} tiers agree", DESIGNS.len());
     assert!(compared > 100);

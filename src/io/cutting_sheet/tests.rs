@@ -183,7 +183,7 @@ fn sheets_are_printable_and_every_tier_stands_on_them() {
             let said = assert_printable(&specimen, &sheet);
             for row in sheet.blocks.iter().flat_map(|block| &block.tiers) {
                 let angle = format!("{:.2}", row.angle_deg);
-                assert!(said.iter().any(|text| *text == angle), "{angle} is missing");
+                assert!(said.contains(&angle), "{angle} is missing");
             }
         }
     }

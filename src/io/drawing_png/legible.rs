@@ -6,8 +6,11 @@ use resvg::usvg::{self, Node, Rect};
 /// The widest overlap that nobody sees, pixels.
 const TOUCHING: f32 = 1.0;
 
+/// The box of a text, and what it says.
+pub type Written = (Rect, String);
+
 /// Returns the boxes of all texts, with what they say.
-pub fn texts(group: &usvg::Group) -> Vec<(Rect, String)> {
+pub fn texts(group: &usvg::Group) -> Vec<Written> {
     let of_node = |node: &Node| match node {
         Node::Group(inner) => texts(inner),
         Node::Text(text) => {
@@ -20,7 +23,7 @@ pub fn texts(group: &usvg::Group) -> Vec<(Rect, String)> {
 }
 
 /// Returns the first two texts that overlap by more than can be seen.
-pub fn overlapping(boxes: &[(Rect, String)]) -> Option<(&(Rect, String), &(Rect, String))> {
+pub fn overlapping(boxes: &[Written]) -> Option<(&Written, &Written)> {
     let over = |a: &Rect, b: &Rect| {
         (a.right().min(b.right()) - a.left().max(b.left()))
             .min(a.bottom().min(b.bottom()) - a.top().max(b.top()))
