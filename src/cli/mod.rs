@@ -24,6 +24,7 @@ mod progress;
 mod refraction_import;
 mod refraction_map;
 mod render;
+mod sheet;
 mod shell;
 mod specimen;
 mod spin;
@@ -102,6 +103,8 @@ enum Command {
     Measure(measure::Measure),
     /// Show a stone's geometry, proportions and weight, or the stones of a scene
     Info(info::Info),
+    /// Write the sheet that a gem cutter works from: plans, profiles, and every tier in cutting order
+    Sheet(sheet::SheetArguments),
     /// Write a stone's design in another format
     Convert(convert::Convert),
     /// Time the tracers on the same pictures
@@ -207,6 +210,7 @@ impl Command {
             Self::LiquidGlass(glass) => glass.run(),
             Self::Measure(measure) => measure.run(),
             Self::Info(info) => info.run(),
+            Self::Sheet(sheet) => sheet.run(),
             Self::Convert(convert) => convert.run(),
             Self::Bench(bench) => bench.run(),
             Self::Materials(list) => list.materials(),

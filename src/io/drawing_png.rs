@@ -5,6 +5,9 @@ use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{self, ImageHrefResolver, Options, Tree, fontdb};
 use std::sync::Arc;
 
+#[cfg(test)]
+pub(super) mod legible;
+
 /// Why a drawing could not be rasterised.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum DrawingError {
@@ -13,6 +16,12 @@ pub enum DrawingError {
     NotSvg {
         /// What the parser found.
         reason: String,
+    },
+    /// The drawing holds what PDF files of this program have no room for.
+    #[error("the drawing has {what}, which is not written as PDF; write it as SVG or PNG")]
+    NotForPdf {
+        /// What the drawing has.
+        what: &'static str,
     },
     /// The picture would be empty or too large.
     #[error(
@@ -78,7 +87,7 @@ fn drawn(tree: &Tree, width: u32, paper: Color) -> Result<Pixmap, DrawingError> 
     Ok(pixmap)
 }
 
-fn parse(svg: &str) -> Result<Tree, DrawingError> {
+pub(super) fn parse(svg: &str) -> Result<Tree, DrawingError> {
     let mut fonts = fontdb::Database::new();
     for font in [epaint_default_fonts::UBUNTU_LIGHT, epaint_default_fonts::HACK_REGULAR] {
         fonts.load_font_data(font.to_vec());
@@ -100,13 +109,13 @@ const FAMILY: &str = "Ubuntu";
 
 #[cfg(test)]
 mod tests {
+    use super::legible::assert_legible;
     use super::*;
     use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
     use crate::math::Plane;
     use crate::picture::{DiagramStyle, Inks, diagram, profile};
     use crate::scene::Stone;
     use glam::DVec3;
-    use usvg::{Node, Rect};
 
     /// Returns brilliants far beyond what is cut: every possible combination of small, usual and large proportions.
     fn brilliants() -> Vec<RoundBrilliant> {
@@ -165,35 +174,6 @@ mod tests {
         ];
         let needle = slab.map(|(name, [x, y, z])| (name, [3.0 * x, 3.0 * y, z / 90.0]));
         vec![planes(&tetrahedron), planes(&slab), planes(&needle)]
-    }
-
-    fn texts(group: &usvg::Group, found: &mut Vec<Rect>) {
-        for node in group.children() {
-            match node {
-                Node::Group(inner) => texts(inner, found),
-                Node::Text(text) => found.push(text.abs_bounding_box()),
-                _ => {}
-            }
-        }
-    }
-
-    /// Parses a drawing and checks that its texts lie within it and do not overlap.
-    fn assert_legible(svg: &str) {
-        let tree = parse(svg).unwrap();
-        let mut boxes = vec![];
-        texts(tree.root(), &mut boxes);
-        assert!(boxes.len() > 4);
-        let size = tree.size();
-        for (k, a) in boxes.iter().enumerate() {
-            let inside =
-                a.left() > 0.0 && a.top() > 0.0 && a.right() < size.width() && a.bottom() < size.height();
-            assert!(inside, "{a:?} is outside {size:?}: {svg}");
-            for b in &boxes[..k] {
-                let over = (a.right().min(b.right()) - a.left().max(b.left()))
-                    .min(a.bottom().min(b.bottom()) - a.top().max(b.top()));
-                assert!(over < 1.0, "{a:?} overlaps {b:?}: {svg}");
-            }
-        }
     }
 
     #[test]

@@ -9,6 +9,8 @@ pub mod cut_file;
 #[cfg(feature = "interchange")]
 mod cutters;
 #[cfg(feature = "interchange")]
+pub mod cutting_sheet;
+#[cfg(feature = "interchange")]
 pub mod design_file;
 mod drawing_png;
 #[cfg(feature = "exr")]
@@ -28,6 +30,8 @@ pub mod lighting;
 pub mod mesh;
 pub mod mesh_options;
 pub mod panorama;
+#[cfg(feature = "interchange")]
+mod pdf;
 mod picture_file;
 mod png;
 mod png_bytes;
@@ -52,6 +56,8 @@ pub use failure::Failure;
 pub use file_error::{Fault, FileError, NameOrFileError};
 #[cfg(feature = "interchange")]
 pub use mesh::{write_glb, write_obj, write_ply, write_stl};
+#[cfg(feature = "interchange")]
+pub use pdf::pdf;
 #[cfg(feature = "exr")]
 pub use picture_file::write_linear_exr;
 pub use picture_file::{Finish, write_rgba_png};

@@ -6,6 +6,8 @@
 
 mod inks;
 mod lettering;
+mod paper;
+mod room;
 
 pub use inks::Inks;
 pub(super) use inks::{Ink, between, hex};
@@ -13,6 +15,7 @@ pub(super) use lettering::{
     Align, DIMENSION, Frame, REMARK, TITLE, Type, printable, shortened, text_frame, text_width,
 };
 pub(crate) use lettering::{degrees, percent};
+pub(super) use room::{LeaderRoom, overlap, room_for};
 
 use crate::math::{Basis, Facet};
 use crate::scene::Stone;

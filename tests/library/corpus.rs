@@ -1,6 +1,6 @@
 //! Reads real files of real cutters where there are any: in `../shared/data`, beside the checkout.
 
-use brillianteer::cut::{AlongAxes, Cut, Outline, Tiers};
+use brillianteer::cut::{Cut, Outline, SheetFigures, Tiers};
 use brillianteer::io::design_file::{self, DesignFormat, written};
 use brillianteer::math::{Facet, Polytope};
 use brillianteer::scene::{Specimen, Stone};
@@ -165,11 +165,11 @@ fn what_is_measured_is_what_the_library_says() {
     let entries: Vec<Value> = serde_json::from_str(&text).unwrap();
     let by_name: BTreeMap<&str, &Value> = entries.iter().map(|e| (e["name"].as_str().unwrap(), e)).collect();
     let tally = |(what, least)| Tally { what, least, agree: 0, differ: vec![] };
-    let keys = [("lw", 0.99), ("pw", 0.99), ("cw", 0.99), ("tw", 0.99), ("uw", 0.99), ("facetCount", 0.99)];
+    let keys = ["lw", "pw", "cw", "tw", "uw", "facetCount", "girdleCount"].map(|what| (what, 0.99));
     let mut tallies = keys.map(tally);
     // By the library's own rule for girdles only the solids are compared.
     let mut by_their_rule = [("pw", 0.995), ("cw", 0.995)].map(tally);
-    for file in files(&["asc"]) {
+    for file in files(&["asc", "gem"]) {
         let name = file.file_name().unwrap().to_string_lossy().into_owned();
         let (Some(entry), Ok(specimen)) = (by_name.get(name.as_str()), open(&file)) else { continue };
         let stone = specimen.stone().unwrap();
@@ -201,16 +201,20 @@ fn what_is_measured_is_what_the_library_says() {
     }
 }
 
-fn measured(stone: &Stone) -> [f64; 6] {
-    let (names, stone) = (stone.names(), &stone.polytope);
-    // The library counts each of several facets in one plane, and none of the block's.
-    let facets = names.iter().filter(|name| !name.starts_with("block")).count() + stone.merged().len();
-    let (outline, AlongAxes { length_to_width, table }) = (Outline::of(stone), AlongAxes::of(stone));
-    let width = width_along_axes(stone);
-    let depths = [outline.pavilion_depth(), outline.crown_height()];
-    let [pavilion, crown] = depths.map(|depth| depth / width);
-    let [x, y] = table.map(|percent| percent / 100.0);
-    [length_to_width, pavilion, crown, x, y, facets as f64]
+/// Returns what a cutter's sheet says: L/W, P/W, C/W, T/W, U/W, facets, girdle facets.
+fn measured(stone: &Stone) -> [f64; 7] {
+    let found = SheetFigures::of(&stone.polytope, stone.names());
+    // The library counts each of several facets in one plane.
+    let twice = stone.polytope.merged().len();
+    [
+        found.length_to_width,
+        found.pavilion_to_width,
+        found.crown_to_width,
+        found.table_to_width,
+        found.table_across_to_width,
+        (found.facets + found.girdle_facets + twice) as f64,
+        found.girdle_facets as f64,
+    ]
 }
 
 /// Returns the width that the library relates its figures to: the smaller of the extents along x and y.

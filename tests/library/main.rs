@@ -30,6 +30,7 @@ mod packets;
 mod polytope;
 mod reference;
 mod refraction;
+mod sheet;
 mod stones;
 mod tracers;
 mod triangles;

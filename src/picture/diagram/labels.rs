@@ -1,9 +1,11 @@
 //! Places the labels of a view's tiers: inside a facet where there is room, otherwise outside, with a leader (a line) to
 //! a facet.
 
-use super::super::drawing::{Align, Frame, Sheet, Type, degrees, text_frame, text_width};
+use super::super::drawing::{
+    Align, Frame, LeaderRoom, Sheet, Type, degrees, room_for, text_frame, text_width,
+};
 use super::{INDEX, NAME, SLOPE, Tier, View};
-use crate::math::{Affine, area, centroid, clip};
+use crate::math::centroid;
 use crate::scene::Stone;
 use glam::DVec2;
 
@@ -22,10 +24,6 @@ const LONGEST_OF_MANY: f64 = 120.0;
 /// The most tiers left for which leaders are drawn. With more, the few leaders that find room would say little about the
 /// stone.
 const MOST_LED: usize = 200;
-/// Cost of a leader for each corner of the stone that it passes closely, in units of its length.
-const PAST_CORNER: f64 = 30.0;
-/// Cost of a leader that runs along the stone's outline instead of outward, in units of its length.
-const TANGENT: f64 = 60.0;
 /// Gap between a leader's end and its label.
 const BESIDE: f64 = 5.0;
 
@@ -103,12 +101,8 @@ pub(super) struct Labels<'a> {
     stone: &'a Stone,
     /// Ends of leaders that are not yet taken.
     slots: Vec<DVec2>,
-    /// Boxes that leaders must not cross: the index's numbers and the labels.
-    taken: Vec<Frame>,
-    /// Leaders drawn so far, which others must not cross.
-    leaders: Vec<(DVec2, DVec2)>,
-    /// The stone's corners in sight, which leaders avoid.
-    corners: Vec<DVec2>,
+    /// What leaders keep clear of: the index's numbers, labels and other leaders.
+    room: LeaderRoom,
 }
 
 /// A line from a facet to a place for its label, with its cost: the lower, the better.
@@ -128,7 +122,8 @@ impl<'a> Labels<'a> {
         let taken = numbers.map(|(at, text)| text_frame(INDEX.size, Align::Middle, at, &text)).collect();
         let shown = stone.polytope.facets().iter().filter(|facet| view.aspect.shows(facet));
         let corners = shown.flat_map(|facet| view.aspect.outline(stone, facet)).collect();
-        Self { view, stone, slots, taken, leaders: vec![], corners }
+        let room = LeaderRoom { middle: view.aspect.place, taken, leaders: vec![], corners };
+        Self { view, stone, slots, room }
     }
 
     /// Labels every tier. The label goes inside a facet that is large enough; otherwise outside, with a leader that
@@ -166,11 +161,11 @@ impl<'a> Labels<'a> {
 
     /// Writes a label into the tier's facet that has the most room for it. Returns whether one has room.
     fn inside(&mut self, sheet: &mut Sheet, tier: &Tier, label: &Label) -> bool {
-        let rooms = self.outlines(tier).filter_map(|corners| room_for(&corners, label.size));
+        let rooms = self.outlines(tier).filter_map(|corners| room_for(&corners, label.size, CLEARANCE));
         let Some((_, middle)) = rooms.reduce(|a, b| if b.0 > a.0 * (1.0 + EVEN) { b } else { a }) else {
             return false;
         };
-        self.taken.push(label.frame(middle));
+        self.room.taken.push(label.frame(middle));
         label.write(sheet, middle);
         true
     }
@@ -195,21 +190,12 @@ impl<'a> Labels<'a> {
         best
     }
 
-    /// Returns the cost of a leader: its length, and more for corners that it passes and for not running outward.
-    /// Returns `None` where the leader crosses something or its label, of this size, has no room.
+    /// Returns the cost of a leader, or `None` where it crosses something or its label, of this size, has no room.
     fn cost(&self, from: DVec2, to: DVec2, size: DVec2) -> Option<f64> {
         if size.x > self.view.style.half_room() - (to.x - self.view.aspect.place.x).abs() - BESIDE {
             return None;
         }
-        let (label, length) = (self.frame_beside(to, size), from.distance(to));
-        let crossed = self.taken.iter().any(|frame| crosses_box(from, to, frame) || overlap(frame, &label))
-            || self.leaders.iter().any(|&(a, b)| crosses(from, to, a, b) || crosses_box(a, b, &label))
-            || crosses_box(from, to, &label);
-        let near = |p: &&DVec2| distance_to_line(**p, from, to) < 5.0;
-        let corners = self.corners.iter().filter(near).count() as f64;
-        let outward = (from - self.view.aspect.place).normalize_or_zero();
-        let across = 1.0 - outward.dot((to - from) / length.max(f64::MIN_POSITIVE));
-        (!crossed).then_some(length + PAST_CORNER * corners + TANGENT * across)
+        self.room.cost(from, to, &self.frame_beside(to, size))
     }
 
     /// Returns the side of the view on which a place lies: -1 for left, 1 for right.
@@ -227,83 +213,10 @@ impl<'a> Labels<'a> {
         let to = self.slots.remove(leader.slot);
         sheet.stroke(leader.from, to);
         sheet.dot(leader.from);
-        self.leaders.push((leader.from, to));
+        self.room.leaders.push((leader.from, to));
         let side = self.side(to);
         let label = Label::stacked(tier, if side > 0.0 { Align::Start } else { Align::End });
-        self.taken.push(self.frame_beside(to, label.size));
+        self.room.taken.push(self.frame_beside(to, label.size));
         label.write(sheet, to + DVec2::X * BESIDE * side);
-    }
-}
-
-/// Finds the places where the middle of a box of this size may stand so that the box lies inside a convex polygon.
-/// Returns their area and centroid, or `None` if there are none.
-///
-/// Corners run clockwise on the sheet, whose y axis points down.
-fn room_for(corners: &[DVec2], size: DVec2) -> Option<(f64, DVec2)> {
-    let mut room: Vec<DVec2> = corners.to_vec();
-    let mut kept = vec![];
-    let half = size / 2.0 + CLEARANCE;
-    for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-        let inward = -(b - a).perp();
-        let needed = inward.abs().dot(half);
-        clip(&room, Affine::new(-inward.dot(a) - needed, inward), &mut kept);
-        std::mem::swap(&mut room, &mut kept);
-    }
-    let area = area(&room).abs();
-    (area > 0.0).then(|| (area, centroid(&room)))
-}
-
-fn distance_to_line(p: DVec2, a: DVec2, b: DVec2) -> f64 {
-    let along = (b - a).dot(p - a) / (b - a).length_squared().max(f64::MIN_POSITIVE);
-    p.distance(a.lerp(b, along.clamp(0.0, 1.0)))
-}
-
-fn crosses(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
-    let side = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p) > 0.0;
-    side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)
-}
-
-fn crosses_box(a: DVec2, b: DVec2, frame: &Frame) -> bool {
-    let Frame { low, high } = *frame;
-    let (up, down) = (DVec2::new(low.x, high.y), DVec2::new(high.x, low.y));
-    crosses(a, b, low, high) || crosses(a, b, up, down)
-}
-
-fn overlap(a: &Frame, b: &Frame) -> bool {
-    a.low.cmplt(b.high).all() && b.low.cmplt(a.high).all()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A square whose corners run clockwise on the sheet, as y points down.
-    const SQUARE: [DVec2; 4] =
-        [DVec2::new(0.0, 0.0), DVec2::new(0.0, 100.0), DVec2::new(100.0, 100.0), DVec2::new(100.0, 0.0)];
-
-    #[test]
-    fn a_box_has_the_room_that_its_size_leaves() {
-        let (area, middle) = room_for(&SQUARE, DVec2::new(40.0, 20.0)).unwrap();
-        let free = DVec2::splat(100.0 - 2.0 * CLEARANCE) - DVec2::new(40.0, 20.0);
-        assert!((area - free.x * free.y).abs() < 1e-9);
-        assert!(middle.distance(DVec2::splat(50.0)) < 1e-9);
-        assert!(room_for(&SQUARE, DVec2::new(96.0, 1.0)).is_none());
-        assert!(room_for(&SQUARE[..2], DVec2::ONE).is_none());
-    }
-
-    #[test]
-    fn a_line_through_a_box_crosses_it_and_one_beside_it_does_not() {
-        let frame = Frame { low: DVec2::ZERO, high: DVec2::new(10.0, 4.0) };
-        assert!(crosses_box(DVec2::new(5.0, -3.0), DVec2::new(5.5, 9.0), &frame));
-        assert!(crosses_box(DVec2::new(-5.0, 2.0), DVec2::new(5.0, 2.1), &frame));
-        assert!(!crosses_box(DVec2::new(-5.0, 5.0), DVec2::new(15.0, 5.0), &frame));
-    }
-
-    #[test]
-    fn the_distance_to_a_line_ends_at_its_ends() {
-        let (a, b) = (DVec2::ZERO, DVec2::new(10.0, 0.0));
-        assert_eq!(distance_to_line(DVec2::new(4.0, 3.0), a, b), 3.0);
-        assert_eq!(distance_to_line(DVec2::new(13.0, 4.0), a, b), 5.0);
-        assert_eq!(distance_to_line(DVec2::new(3.0, 4.0), a, a), 5.0);
     }
 }

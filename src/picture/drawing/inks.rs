@@ -31,6 +31,17 @@ impl Inks {
         faces: [[232, 232, 235], [255; 3]],
     };
 
+    /// Black on white with one grey, for sheets that are printed.
+    pub const PRINT: Self = Self {
+        paper: [255; 3],
+        ink: [0; 3],
+        edge: [0x55; 3],
+        quiet: [0x55; 3],
+        accent: [0x33; 3],
+        extension: [0xaa; 3],
+        faces: [[0xe6; 3], [255; 3]],
+    };
+
     /// Light on dark, for dark windows.
     pub const DARK: Self = Self {
         paper: [0x1b, 0x1c, 0x1f],

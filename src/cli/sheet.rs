@@ -1,0 +1,121 @@
+//! `sheet`: writes the sheets that gem cutters work from.
+
+use super::batch::{distinct, each_file};
+use super::console::{json, print, written};
+use super::mesh_options::MeshArguments;
+use super::specimen::{LoadedSpecimen, stem};
+use crate::io::cutting_sheet::{SheetFormat, cutting_sheet, write};
+use crate::io::{Failure, is_standard};
+use crate::picture::PaperSize;
+use clap::Args;
+use serde_json::json;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub struct SheetArguments {
+    /// Designs of convex stones, or names of cuts that come with the program
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// A file, whose ending names the format, or a folder to write to; `-` is standard output and needs --format
+    #[arg(long, default_value = "out", value_name = "FILE|FOLDER")]
+    out: PathBuf,
+    /// The format to write, whatever the ending [default: that of the ending, else pdf]
+    #[arg(long, value_enum)]
+    format: Option<SheetFormat>,
+    /// The size of the paper
+    #[arg(long, value_enum, default_value_t)]
+    paper: PaperSize,
+    /// Give the indices of a gear that counts clockwise, for a left-handed machine
+    #[arg(long)]
+    left_handed: bool,
+    /// Print what stands on the sheet as JSON instead: one object, or for several files one object a line
+    #[arg(long)]
+    json: bool,
+    /// A material's name, or an index, instead of the file's
+    #[arg(long, value_name = "MATERIAL")]
+    material: Option<String>,
+    #[command(flatten)]
+    mesh: MeshArguments,
+}
+
+impl SheetArguments {
+    pub fn run(&self) -> Result<(), Failure> {
+        let format = if self.json { None } else { Some(self.format()?) };
+        each_file(&self.files, |file| {
+            let specimen =
+                LoadedSpecimen::load(file, self.mesh.options())?.made_of(self.material.as_deref(), None)?;
+            let sheet = cutting_sheet(&specimen, self.left_handed)?;
+            let Some((format, is_folder)) = format else {
+                let mut value = json!({ "file": specimen.path });
+                if let (Some(value), Ok(serde_json::Value::Object(sheet))) =
+                    (value.as_object_mut(), serde_json::to_value(&sheet))
+                {
+                    value.extend(sheet);
+                }
+                return print(&if self.files.len() == 1 { json(&value) } else { value.to_string() });
+            };
+            let path = match is_folder {
+                true => self.out.join(format!("{}-sheet.{}", stem(file), format.ending())),
+                false => self.out.clone(),
+            };
+            write(&specimen, &sheet, self.paper, (format, &path))?.iter().try_for_each(|file| written(file))
+        })
+    }
+
+    /// Returns the format, and whether `--out` is a folder.
+    fn format(&self) -> Result<(SheetFormat, bool), Failure> {
+        let out = self.out.display();
+        let is_folder = !is_standard(&self.out) && (self.out.is_dir() || self.out.extension().is_none());
+        let of_name = SheetFormat::of_name(&self.out).filter(|_| !is_folder);
+        if is_folder {
+            distinct(&self.files)?;
+        } else if self.files.len() > 1 {
+            return Err(Failure::Usage(format!("--out {out}: several designs need a folder")));
+        }
+        match self.format.or(of_name) {
+            Some(format) => Ok((format, is_folder)),
+            None if is_folder => Ok((SheetFormat::Pdf, true)),
+            None if is_standard(&self.out) => {
+                Err(Failure::Usage("--out -: give the format by --format pdf, svg or png".to_owned()))
+            }
+            None => Err(Failure::Usage(format!(
+                "--out {out}: the ending names no format; give .pdf, .svg, .png, --format, or a folder"
+            ))),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::run_line;
+    use crate::io::Failure;
+    use std::path::Path;
+
+    fn run(options: &[&str]) -> Result<(), Failure> {
+        run_line(["brillianteer", "sheet"].iter().chain(options).map(Into::into).collect())
+    }
+
+    #[test]
+    fn sheets_go_to_a_file_or_a_folder_in_the_format_of_the_ending() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+        run(&["tolkowsky", "--out", &path("a.svg"), "--paper", "letter"]).unwrap();
+        run(&["tolkowsky", "shallow", "--out", &path(""), "--left-handed"]).unwrap();
+        run(&["shallow", "--out", &path("b.bin"), "--format", "pdf"]).unwrap();
+        run(&["shallow", "--out", &path("none.pdf"), "--json"]).unwrap();
+        let is_there = |name: &str| Path::new(&path(name)).is_file();
+        assert!(["a.svg", "tolkowsky-sheet.pdf", "shallow-sheet.pdf", "b.bin"].into_iter().all(is_there));
+        assert!(!is_there("none.pdf"));
+        assert!(std::fs::read_to_string(path("a.svg")).unwrap().contains("width=\"215.9mm\""));
+        assert!(std::fs::read(path("b.bin")).unwrap().starts_with(b"%PDF-"));
+        for (options, said) in [
+            (vec!["tolkowsky", "--out", "a.jpg"], "the ending names no format"),
+            (vec!["tolkowsky", "shallow", "--out", "a.pdf"], "several designs need a folder"),
+            (vec!["tolkowsky", "--out", "-"], "--format"),
+            (vec!["pill", "--out", &path("pill.pdf")], "smooth"),
+        ] {
+            let error = run(&options).unwrap_err().to_string();
+            assert!(error.contains(said), "{error}");
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! The cutter's sheet: all that a faceter needs at the machine, on one page of paper or as many as its instructions take.
+//!
+//! [`CuttingSheet`] says as plain data what stands on it; [`sheet_pages`] draws it. Source of the order: the sheets that
+//! GemCad prints (R. Strickland, gemcad.com/lesson4.htm).
+
+mod blocks;
+mod cutting_sheet;
+mod index_ring;
+mod naming;
+mod page;
+mod table;
+mod view;
+mod wrapping;
+
+pub use blocks::{BlockKind, SheetBlock, SheetRow};
+pub use cutting_sheet::CuttingSheet;
+pub use page::{PaperSize, sheet_pages};

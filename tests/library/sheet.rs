@@ -1,0 +1,120 @@
+//! Compares the sheets of real cutters' designs with the texts of their files, which a reader of the test's own takes apart.
+//! The designs are not part of the project; where they are missing the test says so and passes.
+
+use brillianteer::io::cutting_sheet::cutting_sheet;
+use brillianteer::io::design_file;
+use brillianteer::picture::{BlockKind, PaperSize, SheetRow, sheet_pages};
+use brillianteer::scene::Specimen;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+const LIBRARY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/asc/library");
+
+/// Designs of many kinds: two ovals, emerald, baguette, pear, marquise, heart, Portuguese, briolette, barion, and one with a
+/// preform.
+const DESIGNS: [&str; 11] = [
+    "PC02003", "PC02093A", "PC04002", "PC12001", "PC05042", "PC03005", "PC01028A", "PC01386", "PC01601",
+    "PC01697", "PC04039",
+];
+
+/// A tier as the text of a file gives it: angle, indices, name, instruction.
+#[derive(Debug, Clone, PartialEq)]
+struct TextTier {
+    angle: f64,
+    indices: Vec<f64>,
+    name: String,
+    instruction: String,
+}
+
+/// Reads the gear and the facets of a GemCad text file, as they are written.
+fn text_tiers(text: &str) -> (f64, Vec<TextTier>) {
+    let mut records: Vec<String> = vec![];
+    for line in text.lines() {
+        match records.last_mut() {
+            Some(record) if line.starts_with(' ') => record.push_str(line),
+            _ => records.push(line.to_owned()),
+        }
+    }
+    let gear = records.iter().find(|record| record.starts_with("g ")).unwrap();
+    let gear: f64 = gear.split_whitespace().nth(1).unwrap().parse().unwrap();
+    let facets = records.iter().filter(|record| record.starts_with("a "));
+    (gear, facets.map(|record| text_tier(record)).collect())
+}
+
+fn text_tier(record: &str) -> TextTier {
+    let (settings, said) = record.split_once(" G ").unwrap_or((record, ""));
+    let mut words = settings.split_whitespace().skip(1);
+    let angle = words.next().unwrap().parse().unwrap();
+    let mut tier = TextTier {
+        angle,
+        indices: vec![],
+        name: String::new(),
+        instruction: said.split_whitespace().collect::<Vec<_>>().join(" "),
+    };
+    words.next();
+    while let Some(word) = words.next() {
+        if word == "n" {
+            let name = words.next().unwrap_or_default();
+            if tier.name.is_empty() {
+                tier.name = name.to_owned();
+            }
+        } else if let Ok(index) = word.parse() {
+            tier.indices.push(index);
+        }
+    }
+    tier
+}
+
+/// Returns what a sheet must say of a tier of a file, in words: name, angle, indices, instruction. The sheet chooses the name
+/// of a tier without one.
+fn expected(gear: f64, tier: &TextTier, chosen: &str) -> String {
+    let flat = tier.angle == 0.0;
+    let mut indices: Vec<f64> = if flat { vec![] } else { tier.indices.clone() };
+    indices.sort_by(|a, b| (a % gear).total_cmp(&(b % gear)));
+    let text = |index: &f64| if *index == 0.0 { gear } else { *index }.to_string();
+    let indices: Vec<String> = indices.iter().map(text).collect();
+    let said = if flat && tier.instruction.is_empty() { "Table" } else { &tier.instruction };
+    let name = if tier.name.is_empty() { chosen } else { &tier.name };
+    format!("{name} {:.2} {} {said}", tier.angle.abs(), indices.join("-"))
+}
+
+fn line(row: &SheetRow) -> String {
+    format!("{} {:.2} {} {}", row.name, row.angle_deg, row.indices_text(), row.instruction)
+}
+
+#[test]
+fn sheets_of_real_designs_say_what_their_files_say() {
+    if !Path::new(LIBRARY).is_dir() {
+        return println!("SKIPPED: {LIBRARY} is not there, so no sheet is compared with a real file");
+    }
+    let mut compared = 0;
+    for name in DESIGNS {
+        let path = Path::new(LIBRARY).join(format!("{name}.ASC"));
+        let bytes = std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        // These files have no letters beyond Latin-1.
+        let text: String = bytes.iter().map(|&byte| char::from(byte)).collect();
+        let (gear, tiers) = text_tiers(&text);
+        let gear = gear.abs();
+        let specimen = Specimen::new(design_file::read(&path).unwrap().design).unwrap();
+        let sheet = cutting_sheet(&specimen, false).unwrap();
+        let mut seen = BTreeSet::new();
+        for block in &sheet.blocks {
+            assert!(block.tiers.is_sorted_by_key(|row| row.tier), "{name}: not in cutting order");
+            for row in &block.tiers {
+                let tier = &tiers[row.tier];
+                assert_eq!(line(row), expected(gear, tier, &row.name), "{name}");
+                let is_crown = tier.angle.is_sign_positive() && tier.angle < 90.0;
+                assert_eq!(block.name == BlockKind::Crown, is_crown, "{name}: {tier:?}");
+                assert!(seen.insert(row.tier), "{name}: {tier:?} stands on the sheet twice");
+                // A number that is off by a digit would be seen.
+                let off = TextTier { angle: tier.angle + 0.01, ..tier.clone() };
+                assert_ne!(line(row), expected(gear, &off, &row.name));
+            }
+        }
+        assert_eq!(seen.len(), tiers.len(), "{name}: tiers are missing");
+        assert!(!sheet_pages(&sheet, specimen.stone().unwrap(), PaperSize::A4).is_empty());
+        compared += tiers.len();
+    }
+    println!("{} designs, {compared} tiers agree", DESIGNS.len());
+    assert!(compared > 100);
+}
