@@ -4,6 +4,7 @@
 //! that it takes one after the other, `names` what a name stands for, and `console` what is printed.
 
 mod assembly;
+mod audit_list;
 mod batch;
 mod bench;
 mod console;

@@ -5,6 +5,7 @@
 //! table, z = 0 at the crown-side girdle, girdle radius 1. Impossible numbers are errors that name their limit; unusual ones
 //! are warnings.
 
+pub mod audit;
 mod beyond_gear;
 mod derive;
 mod design;
@@ -31,6 +32,7 @@ mod size;
 mod tiers;
 mod warning;
 
+pub use audit::{Audit, AuditSubject, Finding, FindingKind, FindingUnit};
 pub use beyond_gear::BeyondGear;
 pub use design::{DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFault};
 pub use families::FAMILIES;
