@@ -54,7 +54,10 @@ impl Info {
             if is_scene(file) {
                 let assembly = Assembly::load(file, material, None, mesh)?;
                 if self.audit {
-                    say(&format!("note: {}: --audit is for single stones and has no effect on a scene", file.display()));
+                    say(&format!(
+                        "note: {}: --audit is for single stones and has no effect on a scene",
+                        file.display()
+                    ));
                 }
                 return self.print_as(&scene_json(&assembly), || scene_table(&assembly));
             }

@@ -24,6 +24,8 @@ mod progress;
 mod refraction_import;
 mod refraction_map;
 mod render;
+mod retarget;
+mod rough_yield;
 mod shell;
 mod specimen;
 mod spin;
@@ -102,6 +104,10 @@ enum Command {
     Measure(measure::Measure),
     /// Show a stone's geometry, proportions and weight, or the stones of a scene
     Info(info::Info),
+    /// Fit a design to another material by a stated rule, and measure the light of both
+    Retarget(retarget::RetargetArguments),
+    /// Show the size, weight and yield of the stone that a piece of rough gives, or a weight needs
+    Yield(rough_yield::RoughYield),
     /// Write a stone's design in another format
     Convert(convert::Convert),
     /// Time the tracers on the same pictures
@@ -207,6 +213,8 @@ impl Command {
             Self::LiquidGlass(glass) => glass.run(),
             Self::Measure(measure) => measure.run(),
             Self::Info(info) => info.run(),
+            Self::Retarget(retarget) => retarget.run(),
+            Self::Yield(rough) => rough.run(),
             Self::Convert(convert) => convert.run(),
             Self::Bench(bench) => bench.run(),
             Self::Materials(list) => list.materials(),

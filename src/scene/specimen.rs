@@ -111,7 +111,13 @@ impl Specimen {
         let index = self.material.dispersion.try_index(line::SODIUM_D).ok();
         let critical_deg = index.and_then(critical_angle).map(f64::to_degrees);
         let polytope = &stone.polytope;
-        Ok(Audit::of(&AuditSubject { stone: polytope, names: stone.names(), planes: &planes, tiers, critical_deg }))
+        Ok(Audit::of(&AuditSubject {
+            stone: polytope,
+            names: stone.names(),
+            planes: &planes,
+            tiers,
+            critical_deg,
+        }))
     }
 
     /// Makes the specimen of another design. The solid is not built anew where the cut is the same.

@@ -13,6 +13,7 @@ mod card_limits;
 mod common;
 mod corpus;
 mod corpus_gem;
+mod cutting;
 mod estimates;
 mod fields;
 mod floors;

@@ -116,7 +116,9 @@ impl Corners {
         let splits: Vec<&CornerEdge> =
             self.edges.iter().filter(|edge| self.is_split(edge, subject)).collect();
         let mut known: Vec<[usize; 2]> = splits.iter().map(|edge| sorted(edge.ends)).collect();
-        known.extend(self.edges.iter().filter(|edge| self.is_side(edge, subject)).map(|edge| sorted(edge.ends)));
+        known.extend(
+            self.edges.iter().filter(|edge| self.is_side(edge, subject)).map(|edge| sorted(edge.ends)),
+        );
         known.sort_unstable();
         let mut misses = vec![];
         let points: Vec<DVec3> = self.all.iter().map(|corner| corner.at).collect();
@@ -126,7 +128,8 @@ impl Corners {
             }
         });
         misses.sort_unstable();
-        let near = misses.into_iter().map(|ends| self.finding(FindingKind::NearMiss, ends, NEAR_MISS, subject));
+        let near =
+            misses.into_iter().map(|ends| self.finding(FindingKind::NearMiss, ends, NEAR_MISS, subject));
         let split = splits.iter().map(|e| self.finding(FindingKind::SplitMeet, e.ends, SPLIT_MEET, subject));
         near.chain(split).collect()
     }

@@ -17,7 +17,8 @@ const ROUNDING_DEG: f64 = 1e-3;
 
 /// Returns the small facets, each beside the facets of its zone. Table and culet have no others beside them.
 pub(super) fn small(subject: &Subject) -> Vec<Finding> {
-    let areas: Vec<f64> = subject.facets().iter().map(|facet| subject.given.stone.facet_area(facet)).collect();
+    let areas: Vec<f64> =
+        subject.facets().iter().map(|facet| subject.given.stone.facet_area(facet)).collect();
     let zones = [TierZone::Crown, TierZone::Girdle, TierZone::Pavilion];
     let of_zone = |zone| {
         let facets: Vec<usize> = (0..areas.len()).filter(|&facet| subject.zones[facet] == zone).collect();
@@ -90,11 +91,14 @@ pub(super) fn below_critical(subject: &Subject) -> Vec<Finding> {
 
 /// Returns the planes that never touch the stone, by tiers.
 pub(super) fn unused(subject: &Subject) -> Vec<Finding> {
-    let name = |&place: &usize| match subject.given.planes.get(place) {
+    let planes = subject.given.planes;
+    // Planes beyond those of the design are the faces of the block that closes an open stone.
+    let of_design = |place: &&usize| planes.is_empty() || **place < planes.len();
+    let name = |&place: &usize| match planes.get(place) {
         Some(name) => name.clone(),
         None => format!("plane {}", place + 1),
     };
-    let names = subject.given.stone.redundant().iter().map(name);
+    let names = subject.given.stone.redundant().iter().filter(of_design).map(name);
     let finding = |facets: Vec<String>| Finding {
         kind: FindingKind::UnusedPlane,
         points: vec![],

@@ -65,11 +65,17 @@ impl FindingKind {
     pub fn meaning(self) -> &'static str {
         match self {
             Self::NearMiss => "Two corners lie so near to each other that they may be meant to be one.",
-            Self::SplitMeet => "A short edge joins two corners of three facets; four facets may be meant to meet.",
+            Self::SplitMeet => {
+                "A short edge joins two corners of three facets; four facets may be meant to meet."
+            }
             Self::SmallFacet => "The facet is small beside the others of its zone; it may be left over.",
             Self::ThinFacet => "The facet is so narrow that it may be a cut that went a little too deep.",
-            Self::BelowCritical => "Light that enters through the table at right angles leaks through these facets.",
-            Self::UnevenGirdle => "The girdle's edge does not run level from meet to meet; it may be meant to.",
+            Self::BelowCritical => {
+                "Light that enters through the table at right angles leaks through these facets."
+            }
+            Self::UnevenGirdle => {
+                "The girdle's edge does not run level from meet to meet; it may be meant to."
+            }
             Self::Outline => "These girdle facets lie where the symmetry of the others puts none.",
             Self::Symmetry => "These facets lie where the symmetry of the others puts none.",
             Self::StatedSymmetry => "Most facets do not keep the symmetry that the file states.",
@@ -92,7 +98,7 @@ pub enum FindingUnit {
     PercentOfWidth,
     /// Percent of the median area of the facets of the same zone.
     PercentOfMedianArea,
-    /// Percent of the stone's facets.
+    /// Percent of the facets of crown and pavilion.
     PercentOfFacets,
     /// Degrees from the girdle plane.
     Degrees,

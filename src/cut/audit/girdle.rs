@@ -13,7 +13,10 @@ pub const UNEVEN_GIRDLE: f64 = 0.5;
 /// A meet is a corner where at least two facets of one side reach a girdle facet. Between meets an edge may dip, as it does
 /// in every round brilliant. Stones without girdle facets have no such edges.
 pub(super) fn uneven(subject: &Subject, corners: &Corners) -> Vec<Finding> {
-    [TierZone::Crown, TierZone::Pavilion].into_iter().filter_map(|side| edge(subject, corners, side)).collect()
+    [TierZone::Crown, TierZone::Pavilion]
+        .into_iter()
+        .filter_map(|side| edge(subject, corners, side))
+        .collect()
 }
 
 fn edge(subject: &Subject, corners: &Corners, side: TierZone) -> Option<Finding> {

@@ -26,7 +26,7 @@ use subject::Subject;
 /// What an audit found.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Audit {
-    /// The findings, in the order of [`FindingKind::ALL`]; those of one kind in the order of the stone's corners or facets.
+    /// The findings, in the order of [`FindingKind::ALL`]; those of one kind with the smallest size first.
     pub findings: Vec<Finding>,
 }
 
@@ -42,7 +42,7 @@ impl Audit {
         findings.extend(girdle::uneven(&subject, &corners));
         findings.extend(symmetry::departures(&subject));
         findings.extend(facets::unused(&subject));
-        findings.sort_by_key(|finding| finding.kind);
+        findings.sort_by(|a, b| a.kind.cmp(&b.kind).then(a.size.total_cmp(&b.size)));
         Self { findings }
     }
 

@@ -12,8 +12,8 @@ pub struct AuditSubject<'a> {
     pub stone: &'a Polytope,
     /// The names of its facets, in their order; facets beyond the last name are numbered from 1.
     pub names: &'a [String],
-    /// The names of the planes that the stone was built from, in their order. Without them unused planes are called by their
-    /// numbers.
+    /// The names of the design's planes, from which the stone was built, in their order; planes beyond them are the block that
+    /// closes an open stone. Where the list is empty, unused planes are called by their numbers.
     pub planes: &'a [String],
     /// The tiers, where the design has tiers: they state its symmetry.
     pub tiers: Option<&'a Tiers>,

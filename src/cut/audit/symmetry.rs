@@ -14,7 +14,8 @@ pub const OFF_SYMMETRY: f64 = 0.1;
 /// A symmetry that the file does not state counts as meant where at least this part of the facets keeps it.
 const NEARLY_ALL: f64 = 0.9;
 
-/// The part of the facets that must keep a stated symmetry for the others to count as departures from it, in percent.
+/// The part of the facets of crown and pavilion that must keep a stated symmetry for the others to count as departures from
+/// it, in percent.
 pub const MOST_KEEP: f64 = 60.0;
 
 /// The most turns that are tried where the file states no symmetry.
@@ -36,9 +37,7 @@ impl Map {
         let across = plane.normal.truncate();
         let mapped = match self {
             Self::Turn(angle) => DVec2::from_angle(angle).rotate(across),
-            Self::Mirror(line) => {
-                DVec2::from_angle(2.0 * line).rotate(DVec2::new(across.x, -across.y))
-            }
+            Self::Mirror(line) => DVec2::from_angle(2.0 * line).rotate(DVec2::new(across.x, -across.y)),
         };
         Plane { normal: mapped.extend(plane.normal.z), offset: plane.offset }
     }
@@ -48,6 +47,8 @@ impl Map {
 struct Planes {
     sorted: Vec<Plane>,
     width: f64,
+    /// How far an image may lie from a plane, in percent of the width.
+    slack: f64,
 }
 
 impl Planes {
@@ -58,7 +59,7 @@ impl Planes {
         let seen = |plane: Plane| Plane { offset: plane.offset - plane.normal.dot(middle), ..plane };
         let mut sorted: Vec<Plane> = subject.given.stone.planes().map(seen).collect();
         sorted.sort_by(|a, b| a.normal.z.total_cmp(&b.normal.z));
-        Self { sorted, width: outline.width }
+        Self { sorted, width: outline.width, slack: slack(subject.given.tiers) }
     }
 
     /// Returns how far two planes lie apart at the girdle, in percent of the width.
@@ -68,10 +69,10 @@ impl Planes {
     }
 
     fn has(&self, image: &Plane) -> bool {
-        let reach = 2.0 * OFF_SYMMETRY / 100.0;
+        let reach = 2.0 * self.slack / 100.0;
         let first = self.sorted.partition_point(|plane| plane.normal.z < image.normal.z - reach);
         let near = self.sorted[first..].iter().take_while(|plane| plane.normal.z <= image.normal.z + reach);
-        near.into_iter().any(|plane| self.apart(plane, image) <= OFF_SYMMETRY)
+        near.into_iter().any(|plane| self.apart(plane, image) <= self.slack)
     }
 
     /// Returns the part of the planes whose image is a plane of the stone.
@@ -95,13 +96,22 @@ impl Planes {
     }
 }
 
+/// Returns how far an image may lie from a plane, in percent of the width. Where the teeth of the gear are no multiple of the
+/// stated symmetry, indices are rounded to teeth, so that a whole tooth is no departure.
+fn slack(tiers: Option<&Tiers>) -> f64 {
+    let rounded =
+        tiers.filter(|tiers| tiers.symmetry > 0 && !tiers.gear.unsigned_abs().is_multiple_of(tiers.symmetry));
+    let tooth = rounded.map_or(0.0, |tiers| 100.0 * 0.5 * TAU / f64::from(tiers.gear.unsigned_abs().max(1)));
+    OFF_SYMMETRY + tooth
+}
+
 /// Returns all maps of a symmetry but the identity.
 fn maps(turns: u32, mirror: Option<f64>) -> Vec<Map> {
     let step = TAU / f64::from(turns);
     let turned = (1..turns).map(|k| Map::Turn(f64::from(k) * step));
-    let mirrored = mirror.into_iter().flat_map(|line| {
-        (0..turns).map(move |k| Map::Mirror(line + 0.5 * f64::from(k) * step))
-    });
+    let mirrored = mirror
+        .into_iter()
+        .flat_map(|line| (0..turns).map(move |k| Map::Mirror(line + 0.5 * f64::from(k) * step)));
     turned.chain(mirrored).collect()
 }
 
@@ -124,7 +134,7 @@ pub(super) fn departures(subject: &Subject) -> Vec<Finding> {
     };
     let off: Vec<usize> =
         (0..subject.facets().len()).filter(|&facet| planes.departs(&seen(facet), &maps)).collect();
-    let kept = 100.0 * (1.0 - off.len() as f64 / subject.facets().len() as f64);
+    let kept = kept_percent(subject, &off);
     if stated.is_some() && kept < MOST_KEEP {
         return vec![not_found(kept, subject.names(&off))];
     }
@@ -133,10 +143,18 @@ pub(super) fn departures(subject: &Subject) -> Vec<Finding> {
         points: tier.iter().map(|&facet| subject.middle(facet)).collect::<Vec<DVec3>>(),
         facets: subject.names(&tier),
         size: tier.iter().map(|&facet| planes.departure(&seen(facet), &maps)).fold(0.0, f64::max),
-        threshold: OFF_SYMMETRY,
+        threshold: planes.slack,
         unit: FindingUnit::PercentOfWidth,
     };
     grouped(off, |&a, &b| subject.tier(a) == subject.tier(b)).into_iter().map(finding).collect()
+}
+
+/// Returns the part of the facets of crown and pavilion that are not among those `off` the symmetry, in percent. A girdle
+/// of many facets has symmetries that the stone has not.
+fn kept_percent(subject: &Subject, off: &[usize]) -> f64 {
+    let all = (0..subject.facets().len()).filter(|&facet| !subject.is_girdle(facet)).count();
+    let off = off.iter().filter(|&&facet| !subject.is_girdle(facet)).count();
+    100.0 * (1.0 - off as f64 / all.max(1) as f64)
 }
 
 fn not_found(kept: f64, facets: Vec<String>) -> Finding {
@@ -176,9 +194,8 @@ fn found_maps(subject: &Subject, planes: &Planes) -> Vec<Map> {
 fn best_mirror(subject: &Subject, planes: &Planes) -> Option<f64> {
     let leaning = (0..subject.facets().len())
         .filter(|&facet| !matches!(subject.zones[facet], TierZone::Table | TierZone::Culet));
-    let tiers = grouped(leaning, |&a, &b| {
-        subject.tier(a) == subject.tier(b) && subject.zones[a] == subject.zones[b]
-    });
+    let tiers =
+        grouped(leaning, |&a, &b| subject.tier(a) == subject.tier(b) && subject.zones[a] == subject.zones[b]);
     let smallest = tiers.into_iter().min_by_key(Vec::len)?;
     let azimuths: Vec<f64> =
         smallest.iter().map(|&facet| subject.facets()[facet].plane.normal.truncate().to_angle()).collect();
