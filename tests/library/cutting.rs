@@ -6,12 +6,13 @@ use brillianteer::io::design_file;
 use brillianteer::scene::Specimen;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
-/// Returns the stones of the corpus.
-fn stones(test: &str) -> Vec<(PathBuf, Specimen)> {
-    let Some(folder) = shared(test, "data/asc/library") else { return vec![] };
-    let mut files: Vec<PathBuf> =
-        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+/// The stones of the corpus.
+static STONES: LazyLock<Vec<(PathBuf, Specimen)>> = LazyLock::new(|| {
+    let Some(folder) = shared("cutting", "data/asc/library") else { return vec![] };
+    let listed = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut files: Vec<PathBuf> = listed.collect();
     files.sort();
     let made = files.into_iter().filter_map(|file| {
         let design = design_file::read(&file).ok()?.design;
@@ -20,14 +21,14 @@ fn stones(test: &str) -> Vec<(PathBuf, Specimen)> {
     let made: Vec<_> = made.collect();
     assert!(made.len() > 2000, "only {} stones were made", made.len());
     made
-}
+});
 
 #[test]
 fn every_design_can_be_audited_and_most_have_few_candidates() {
-    let stones = stones("every_design_can_be_audited");
+    let stones = &*STONES;
     let mut designs = BTreeMap::<FindingKind, usize>::new();
     let mut clean = 0;
-    for (file, specimen) in &stones {
+    for (file, specimen) in stones {
         let audit = specimen.audit().unwrap();
         clean += usize::from(audit.findings.is_empty());
         for kind in FindingKind::ALL {
@@ -49,7 +50,7 @@ fn every_design_can_be_audited_and_most_have_few_candidates() {
 
 #[test]
 fn a_tangent_ratio_keeps_the_facets_and_corners_of_real_designs() {
-    let stones = stones("a_tangent_ratio_keeps_the_facets");
+    let stones = &*STONES;
     let (mut kept, mut tried) = (0, 0);
     for (_, specimen) in stones.iter().step_by(10) {
         let rule = RetargetRule::PavilionRatio(Some(1.05));
@@ -68,7 +69,7 @@ fn a_tangent_ratio_keeps_the_facets_and_corners_of_real_designs() {
 
 #[test]
 fn every_design_fits_into_rough() {
-    for (file, specimen) in stones("every_design_fits_into_rough").iter().step_by(10) {
+    for (file, specimen) in STONES.iter().step_by(10) {
         let rough = Rough::new([12.0, 9.0, 7.0]).unwrap();
         let found = Finished::from_rough(&specimen.stone().unwrap().polytope, &rough, None).unwrap();
         let within =

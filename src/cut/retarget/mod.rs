@@ -348,13 +348,16 @@ fn compared(before: &[(String, Plane)], after: &[(String, Plane)]) -> Vec<Retarg
         tier_stem(&a.0) == tier_stem(&b.0) && a.1.normal.z.signum() == b.1.normal.z.signum()
     });
     let changed = tiers.into_iter().filter(|tier| tier.iter().any(|(a, b)| a.1 != b.1));
-    let tier = |tier: Vec<(&(String, Plane), &(String, Plane))>| RetargetedTier {
-        name: tier_stem(&tier[0].0.0).to_owned(),
-        facets: tier.len(),
-        before_deg: angle(&tier[0].0.1),
-        after_deg: angle(&tier[0].1.1),
-    };
-    changed.map(tier).collect()
+    let reports = changed.map(|tier| {
+        let ((name, before), (_, after)) = tier[0];
+        RetargetedTier {
+            name: tier_stem(name).to_owned(),
+            facets: tier.len(),
+            before_deg: angle(before),
+            after_deg: angle(after),
+        }
+    });
+    reports.collect()
 }
 
 #[cfg(test)]

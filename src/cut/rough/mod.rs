@@ -130,7 +130,9 @@ impl Finished {
         let limit = if by_depth < by_plan { FitLimit::Depth } else { FitLimit::Footprint };
         let mut finished = shape.finished(stone, by_depth.min(by_plan), turn, girdle_mm)?;
         finished.limit = limit;
-        finished.depth_left_mm = (depth - finished.size_mm[2]).max(0.0);
+        if limit == FitLimit::Footprint {
+            finished.depth_left_mm = (depth - finished.size_mm[2]).max(0.0);
+        }
         Ok(finished)
     }
 

@@ -27,8 +27,8 @@ fn liquid_glass_comes_drawn_traced_and_side_by_side_with_what_the_drawing_costs(
     // A path that ends in .png is the picture itself.
     assert_eq!(desk.done(&format!("{line} --out alone/pane.png")), "alone/pane.png\n");
     assert_eq!(
-        fs::read(desk.at("alone/pane.png")).unwrap(),
-        fs::read(desk.at("alone/liquid-glass.png")).unwrap()
+        std::fs::read(desk.at("alone/pane.png")).unwrap(),
+        std::fs::read(desk.at("alone/liquid-glass.png")).unwrap()
     );
     let printed = desk.done(&format!("{line} --out all --compare --tint #3060ff40 --frost 50"));
     let names = ["", "-traced", "-both"].map(|name| format!("all/liquid-glass{name}.png"));
