@@ -1,13 +1,14 @@
 //! `info`: prints a stone's geometry, proportions and weight, or the stones of a scene.
 
 use super::assembly::{Assembly, MadeRing};
+use super::audit_list::{audit_json, audit_list};
 use super::batch::each_file;
-use super::console::{json, print};
+use super::console::{json, print, say};
 use super::meets::KnownMeets;
 use super::mesh_options::MeshArguments;
 use super::names::is_scene;
 use super::specimen::LoadedSpecimen;
-use crate::cut::{AlongAxes, Cut, ProportionReport, Spread, Unit};
+use crate::cut::{AlongAxes, Audit, Cut, ProportionReport, Spread, Unit};
 use crate::io::Failure;
 use crate::io::STANDARD;
 use crate::math::{Facet, Polytope};
@@ -43,6 +44,10 @@ pub struct Info {
     /// the geometry shows, and the distance that follows from it
     #[arg(long)]
     meets: bool,
+    /// List what may not be meant: near misses, split meets, slivers, tiers below the critical angle, departures from the
+    /// symmetry. Candidates, no verdicts
+    #[arg(long)]
+    audit: bool,
     #[command(flatten)]
     mesh: MeshArguments,
 }
@@ -53,6 +58,12 @@ impl Info {
         each_file(&self.files, |file| {
             if is_scene(file) {
                 let assembly = Assembly::load(file, material, None, mesh)?;
+                if self.audit {
+                    say(&format!(
+                        "note: {}: --audit is for single stones and has no effect on a scene",
+                        file.display()
+                    ));
+                }
                 return self.print_as(&scene_json(&assembly), || scene_table(&assembly));
             }
             let specimen = LoadedSpecimen::load(file, mesh)?.made_of(material, None)?;
@@ -64,9 +75,26 @@ impl Info {
             if let Some(meets) = &meets {
                 value["meets"] = meets.json();
             }
-            let rows = || meets.as_ref().map(KnownMeets::table).unwrap_or_default();
-            self.print_as(&value, || table(&specimen, &value, self.facets) + &rows())
+            let audit = self.audited(&specimen);
+            if let Some(audit) = &audit {
+                value["audit"] = audit_json(audit);
+            }
+            let listed = |audit: &Audit| format!("\n\n{}", audit_list(audit));
+            self.print_as(&value, || {
+                let rows = meets.as_ref().map(KnownMeets::table);
+                let further = [rows, audit.as_ref().map(listed)].into_iter().flatten().collect::<String>();
+                table(&specimen, &value, self.facets) + &further
+            })
         })
+    }
+
+    /// Audits the stone where that is asked for; a solid that is no stone between planes gets a note instead.
+    fn audited(&self, specimen: &LoadedSpecimen) -> Option<Audit> {
+        let audit = self.audit.then(|| specimen.audit())?;
+        if audit.is_err() {
+            say(&format!("note: {}: only a convex stone between planes can be audited", specimen.path));
+        }
+        audit.ok()
     }
 
     fn print_as(&self, value: &Value, table: impl FnOnce() -> String) -> Result<(), Failure> {

@@ -48,13 +48,7 @@ impl<'a> KnownMeets<'a> {
             }
         }
         self.solved.errors().for_each(|error| say(&format!("warning: {path}: {error}")));
-        let mut tiers = self.solved.tiers;
-        for tier in &mut tiers.tiers {
-            if let (true, Some(meet)) = (tier.instructions.is_empty(), &tier.meet) {
-                tier.instructions = meet.to_string();
-            }
-        }
-        tiers
+        self.solved.tiers
     }
 
     fn called(&self, place: usize) -> String {

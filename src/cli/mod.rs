@@ -4,6 +4,7 @@
 //! that it takes one after the other, `names` what a name stands for, and `console` what is printed.
 
 mod assembly;
+mod audit_list;
 mod batch;
 mod bench;
 mod console;
@@ -24,6 +25,8 @@ mod progress;
 mod refraction_import;
 mod refraction_map;
 mod render;
+mod retarget;
+mod rough_yield;
 mod sheet;
 mod shell;
 mod specimen;
@@ -105,6 +108,10 @@ enum Command {
     Info(info::Info),
     /// Write the sheet that a gem cutter works from: plans, profiles, and every tier in cutting order
     Sheet(sheet::SheetArguments),
+    /// Fit a design to another material by a stated rule, and measure the light of both
+    Retarget(retarget::RetargetArguments),
+    /// Show the size, weight and yield of the stone that a piece of rough gives, or a weight needs
+    Yield(rough_yield::RoughYield),
     /// Write a stone's design in another format
     Convert(convert::Convert),
     /// Time the tracers on the same pictures
@@ -211,6 +218,8 @@ impl Command {
             Self::Measure(measure) => measure.run(),
             Self::Info(info) => info.run(),
             Self::Sheet(sheet) => sheet.run(),
+            Self::Retarget(retarget) => retarget.run(),
+            Self::Yield(rough) => rough.run(),
             Self::Convert(convert) => convert.run(),
             Self::Bench(bench) => bench.run(),
             Self::Materials(list) => list.materials(),

@@ -5,6 +5,7 @@
 //! table, z = 0 at the crown-side girdle, girdle radius 1. Impossible numbers are errors that name their limit; unusual ones
 //! are warnings.
 
+pub mod audit;
 mod beyond_gear;
 mod derive;
 mod design;
@@ -26,6 +27,8 @@ mod outline;
 mod proportion_error;
 mod proportions;
 mod report;
+mod retarget;
+mod rough;
 mod round_brilliant;
 mod round_brilliant_table;
 mod setting;
@@ -36,6 +39,7 @@ mod tier_change;
 mod tiers;
 mod warning;
 
+pub use audit::{Audit, AuditSubject, Finding, FindingKind, FindingUnit};
 pub use beyond_gear::BeyondGear;
 pub use design::{DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFault};
 pub use facet_net::Unfit;
@@ -50,6 +54,8 @@ pub use outline::{AlongAxes, Outline, is_girdle, is_table, round_diameter};
 pub use proportion_error::{Limit, ProportionError};
 pub use proportions::Derived;
 pub use report::{ProportionReport, Spread, TierReport};
+pub use retarget::{RetargetError, RetargetRule, Retargeted, RetargetedTier, retarget};
+pub use rough::{Finished, FitLimit, Rough, RoughError};
 pub use round_brilliant::{Crown, LowerHalf, Pavilion, RoundBrilliant};
 pub use setting::MachineSetting;
 pub use shape::Cut;

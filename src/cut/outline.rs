@@ -6,7 +6,7 @@ use serde::Serialize;
 
 /// A facet whose normal leans less than this from the girdle plane (sine) is part of the girdle. Upright facets of a
 /// cutter's file of six digits lean by no more.
-const UPRIGHT: f64 = 1e-5;
+pub(super) const UPRIGHT: f64 = 1e-5;
 
 /// A facet whose normal leans less than this from the axis (sine) is a table or a culet.
 pub(super) const LEVEL: f64 = 1e-5;

@@ -83,7 +83,7 @@ impl ProportionReport {
 }
 
 /// Returns the zone of the stone where a facet lies.
-fn zone(facet: &Facet) -> TierZone {
+pub(super) fn zone(facet: &Facet) -> TierZone {
     match facet.plane.normal.z > 0.0 {
         _ if is_girdle(facet) => TierZone::Girdle,
         true if is_table(facet) => TierZone::Table,

@@ -8,6 +8,7 @@ use super::names;
 use crate::math::Plane;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
@@ -153,6 +154,14 @@ impl Tier {
             (90.0 | -90.0, _) => TierZone::Girdle,
             (_, true) => TierZone::Pavilion,
             (_, false) => TierZone::Crown,
+        }
+    }
+
+    /// Returns what a cutter is told: the instructions, or where there are none, the meet in words.
+    pub fn instruction(&self) -> Cow<'_, str> {
+        match &self.meet {
+            Some(meet) if self.instructions.is_empty() => Cow::Owned(meet.to_string()),
+            _ => Cow::Borrowed(&self.instructions),
         }
     }
 

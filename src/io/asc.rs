@@ -463,8 +463,9 @@ fn write_tier(out: &mut String, tier: &Tier, texts: &mut Texts) {
             let _ = write!(out, " n {}", texts.word(&facet.name));
         }
     }
-    if !tier.instructions.is_empty() {
-        let _ = write!(out, " G {}", texts.line(&tier.instructions));
+    let instruction = tier.instruction();
+    if !instruction.is_empty() {
+        let _ = write!(out, " G {}", texts.line(&instruction));
     }
     out.push('\n');
 }

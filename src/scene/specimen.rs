@@ -1,9 +1,9 @@
 //! A specimen: a stone made from a design, with its solid, its material, and warnings about anything unusual.
 
 use super::{Body, Medium, Stone};
-use crate::cut::{Cut, Design, DesignError, Tiers, Warning};
+use crate::cut::{Audit, AuditSubject, Cut, Design, DesignError, Tiers, Warning};
 use crate::math::{NotConvex, Plane, Polytope, PolytopeError, SmoothSolid, SolidRef};
-use crate::optics::Material;
+use crate::optics::{Material, critical_angle, line};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -92,6 +92,32 @@ impl Specimen {
     /// The solid is not a stone between planes.
     pub fn stone(&self) -> Result<&Stone, NotConvex> {
         self.body.stone()
+    }
+
+    /// Audits the stone: lists the places that may not be what its designer meant. The critical angle is that of the material
+    /// in sodium light; without a finite index there, none is compared.
+    ///
+    /// # Errors
+    /// The solid is not a stone between planes.
+    pub fn audit(&self) -> Result<Audit, NotConvex> {
+        let stone = self.stone()?;
+        // The planes that the stone was built from: those of the design, and then those of the block.
+        let planes: Vec<String> =
+            self.design.facets().unwrap_or_default().into_iter().map(|(name, _)| name).collect();
+        let tiers = match &self.design.cut {
+            Cut::Tiers(tiers) => Some(tiers),
+            _ => None,
+        };
+        let index = self.material.dispersion.try_index(line::SODIUM_D).ok();
+        let critical_deg = index.and_then(critical_angle).map(f64::to_degrees);
+        let polytope = &stone.polytope;
+        Ok(Audit::of(&AuditSubject {
+            stone: polytope,
+            names: stone.names(),
+            planes: &planes,
+            tiers,
+            critical_deg,
+        }))
     }
 
     /// Makes the specimen of another design. The solid is not built anew where the cut is the same.

@@ -14,6 +14,7 @@ mod common;
 mod corpus;
 mod corpus_gem;
 mod corpus_meets;
+mod cutting;
 mod estimates;
 mod fields;
 mod floors;

@@ -1,6 +1,7 @@
 //! The program as a user runs it: real files in, real files out, messages, exit codes.
 #![cfg(feature = "cli")]
 
+mod cutting;
 mod desk;
 mod ends;
 mod faults;

@@ -53,11 +53,7 @@ pub fn steps(tiers: &Tiers) -> Vec<CuttingStep> {
         zone: tier.zone(),
         angle: tier.angle.abs().min(180.0 - tier.angle.abs()),
         indices: tier.facets.iter().map(|facet| facet.index).collect(),
-        // A meet that was set in the editor has no instruction of its own.
-        instructions: match (&tier.meet, tier.instructions.is_empty()) {
-            (Some(meet), true) => meet.to_string(),
-            _ => tier.instructions.clone(),
-        },
+        instructions: tier.instruction().into_owned(),
     })
     .collect()
 }

@@ -162,7 +162,7 @@ fn put_tier(tiers: &Tiers, tier: &Tier, facets: &[FacetOutline], form: &Form, pa
     };
     let depth = form.depth(&tiers.plane(tier, 0.0));
     let name = page.attribute("name", tier.name());
-    let instructions = page.attribute("instructions", &tier.instructions);
+    let instructions = page.attribute("instructions", &tier.instruction());
     let visible = tier.is_cut;
     page.line(
         1,

@@ -90,7 +90,7 @@ fn put_facets(tiers: &Tiers, texts: &mut Texts, bytes: &mut Vec<u8>) {
             let p = inverse(tier, outline, farthest);
             p.to_array().iter().for_each(|x| bytes.extend(x.to_le_bytes()));
             bytes.extend(number.to_le_bytes());
-            let instructions = if place == 0 { tier.instructions.as_str() } else { "" };
+            let instructions = if place == 0 { tier.instruction() } else { "".into() };
             texts.replaced += facet.name.matches('\t').count();
             texts.put(&format!("{}\t{instructions}", facet.name.replace('\t', "?")), bytes);
             put_outline(&outline.1, bytes);

@@ -131,7 +131,7 @@ fn indices(tiers: &Tiers, tier: &Tier) -> Vec<f64> {
 }
 
 fn instruction(tier: &Tier) -> String {
-    match (cleaned(&tier.instructions), tier.zone()) {
+    match (cleaned(&tier.instruction()), tier.zone()) {
         (said, TierZone::Table) if said.is_empty() => "Table".to_owned(),
         (said, TierZone::Culet) if said.is_empty() => "Culet".to_owned(),
         (said, _) => said,

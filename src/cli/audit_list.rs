@@ -1,0 +1,96 @@
+//! How `info` prints what an audit found: as a list for people, and as JSON.
+
+use crate::cut::{Audit, Finding, FindingKind, FindingUnit, tier_stem};
+use crate::math::grouped;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// The most places that the list prints for alike findings; JSON has all.
+const MOST_PLACES: usize = 3;
+
+/// The most names of facets that a line of the list prints.
+const MOST_NAMES: usize = 12;
+
+/// Returns the audit as JSON: how many findings of each kind, and all findings.
+pub fn audit_json(audit: &Audit) -> Value {
+    let kinds = FindingKind::ALL.map(|kind| (kind, audit.of_kind(kind).count()));
+    let counts: BTreeMap<String, usize> = kinds
+        .into_iter()
+        .filter_map(|(kind, count)| Some((json!(kind).as_str()?.to_owned(), count)))
+        .collect();
+    json!({ "counts": counts, "findings": audit.findings })
+}
+
+/// Returns the audit as a list. Findings of one kind about the same tiers and of the same size share a line.
+pub fn audit_list(audit: &Audit) -> String {
+    if audit.findings.is_empty() {
+        return "  audit: nothing found".to_owned();
+    }
+    let count = audit.findings.len();
+    let candidates = if count == 1 { "candidate" } else { "candidates" };
+    let mut text = format!("  audit: {count} {candidates}; whether one is a fault is for you to judge");
+    for kind in FindingKind::ALL {
+        let findings: Vec<&Finding> = audit.of_kind(kind).collect();
+        let Some(first) = findings.first() else { continue };
+        let _ = write!(text, "\n  {kind}{}: {}", limit(first), kind.meaning());
+        for alike in grouped(findings, |a, b| key(a) == key(b)) {
+            let _ = write!(text, "\n    {}", line(&alike));
+        }
+    }
+    text
+}
+
+/// Returns what findings that share a line have in common: their tiers and their size as it is printed.
+fn key(finding: &Finding) -> (Vec<&str>, String) {
+    let mut tiers: Vec<&str> = finding.facets.iter().map(|name| tier_stem(name)).collect();
+    tiers.sort_unstable();
+    (tiers, size(finding.size, finding.unit))
+}
+
+fn size(value: f64, unit: FindingUnit) -> String {
+    match unit {
+        FindingUnit::Degrees => format!("{value:.2}{unit}"),
+        FindingUnit::Planes => format!("{value} {unit}"),
+        _ => format!("{value:.2} {unit}"),
+    }
+}
+
+/// Returns the threshold of a kind, in brackets; nothing where any size counts.
+fn limit(finding: &Finding) -> String {
+    let side = match finding.kind {
+        FindingKind::UnevenGirdle | FindingKind::Outline | FindingKind::Symmetry => "above",
+        FindingKind::UnusedPlane => return String::new(),
+        _ => "below",
+    };
+    // The name of this kind says already that its sizes lie below.
+    let side = if finding.kind == FindingKind::BelowCritical { "" } else { side };
+    format!(" ({})", format!("{side} {}", size(finding.threshold, finding.unit)).trim_start())
+}
+
+fn line(alike: &[&Finding]) -> String {
+    let first = alike[0];
+    let mut text = size(first.size, first.unit);
+    if alike.len() > 1 {
+        let _ = write!(text, ", {} times", alike.len());
+    }
+    let mut names: Vec<&str> = first.facets.iter().map(String::as_str).take(MOST_NAMES).collect();
+    let more = format!("and {} more", first.facets.len() - names.len());
+    if first.facets.len() > names.len() {
+        names.push(&more);
+    }
+    let _ = write!(text, ": {}", names.join(", "));
+    let places: Vec<String> =
+        alike.iter().flat_map(|finding| finding.points.first()).take(MOST_PLACES).map(place).collect();
+    if !places.is_empty() {
+        let rest = if alike.len() > places.len() { ", ..." } else { "" };
+        let _ = write!(text, "  at {}{rest}", places.join(", "));
+    }
+    text
+}
+
+fn place(point: &glam::DVec3) -> String {
+    // Rounded first, so that a tiny negative number does not print as -0.000.
+    let [x, y, z] = ((1e3 * *point).round() / 1e3 + 0.0).to_array();
+    format!("({x:.3}, {y:.3}, {z:.3})")
+}

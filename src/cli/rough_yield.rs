@@ -1,0 +1,112 @@
+//! `yield`: prints the size, weight and yield of the stone that a piece of rough gives, or that has a weight.
+
+use super::console::{json, print};
+use super::mesh_options::MeshArguments;
+use super::options::number;
+use super::specimen::LoadedSpecimen;
+use crate::cut::{Finished, FitLimit, Rough, RoughError};
+use crate::io::Failure;
+use clap::{ArgGroup, Args};
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("wanted").required(true).args(["rough", "weight"]))]
+pub struct RoughYield {
+    /// A design, or the name of a cut that comes with the program
+    file: PathBuf,
+    /// The rough's length, width and depth in mm, such as 12x9x7; the stone's axis lies along the depth
+    #[arg(long, value_name = "LxWxD")]
+    rough: Option<Rough>,
+    /// The finished weight that is wanted, carats
+    #[arg(long, value_name = "CARATS", value_parser = number, allow_negative_numbers = true)]
+    weight: Option<f64>,
+    /// The thickness of the finished girdle in mm, whatever the size [default: as the design has it]
+    #[arg(long, value_name = "MM", value_parser = number, allow_negative_numbers = true)]
+    girdle_mm: Option<f64>,
+    /// The weight of the rough in carats, of which the yield is a part as well
+    #[arg(long, value_name = "CARATS", value_parser = number, allow_negative_numbers = true)]
+    rough_weight: Option<f64>,
+    /// A material's name, or an index, instead of the file's
+    #[arg(long, value_name = "MATERIAL")]
+    material: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    mesh: MeshArguments,
+}
+
+impl RoughYield {
+    pub fn run(&self) -> Result<(), Failure> {
+        if let Some(carats) = self.rough_weight.filter(|carats| !(*carats > 0.0 && carats.is_finite())) {
+            return Err(Failure::Usage(format!("--rough-weight {carats}: give more than 0 carats")));
+        }
+        let specimen =
+            LoadedSpecimen::load(&self.file, self.mesh.options())?.made_of(self.material.as_deref(), None)?;
+        let path = &specimen.path;
+        let stone = specimen.stone().map_err(|e| Failure::Input(format!("{path}: {e}")))?;
+        let found = match (&self.rough, self.weight) {
+            (Some(rough), _) => Finished::from_rough(&stone.polytope, rough, self.girdle_mm),
+            (None, carats) => Finished::of_weight(
+                &stone.polytope,
+                carats.unwrap_or_default(),
+                &specimen.material,
+                self.girdle_mm,
+            ),
+        };
+        let found = found.map_err(|error| match error {
+            RoughError::Thin { .. } => Failure::Input(format!("{path}: {error}")),
+            error => Failure::Usage(format!("{path}: {error}")),
+        })?;
+        let value = self.value(&specimen, &found);
+        print(&if self.json { json(&value) } else { self.table(&value, &found) })
+    }
+
+    fn value(&self, specimen: &LoadedSpecimen, found: &Finished) -> Value {
+        let carats = specimen.material.carats(found.volume_mm3);
+        let percent = |part: f64| 100.0 * part;
+        json!({
+            "file": specimen.path,
+            "name": specimen.design.name,
+            "material": specimen.material.name,
+            "density": specimen.material.density,
+            "rough_mm": self.rough.map(|rough| rough.sides_mm),
+            "rough_carats": self.rough_weight,
+            "finished": found,
+            "carats": carats,
+            "yield_of_box_percent": self.rough.map(|rough| percent(found.yield_of(rough.volume_mm3()))),
+            "yield_of_weight_percent": carats.zip(self.rough_weight).map(|(carats, rough)| percent(carats / rough)),
+        })
+    }
+
+    fn table(&self, value: &Value, found: &Finished) -> String {
+        let text = |key: &str| value[key].as_str().unwrap_or_default();
+        let mut table = format!("{}: {}, {}\n", text("file"), text("name"), text("material"));
+        let mut line = |key: &str, what: String| {
+            let _ = writeln!(table, "  {key:<28}{what}");
+        };
+        let [length, width, depth] = found.size_mm;
+        line("finished size", format!("{length:.3} by {width:.3} by {depth:.3} mm"));
+        line("diameter", format!("{:.3} mm", found.diameter_mm));
+        line("girdle", format!("{:.3} mm", found.girdle_mm));
+        let carats = value["carats"].as_f64();
+        line("weight", carats.map_or("not known".into(), |carats| format!("{carats:.3} ct")));
+        if let Some(rough) = self.rough {
+            let limit = match found.limit {
+                FitLimit::Footprint => "the rough's length and width",
+                FitLimit::Depth => "the rough's depth",
+                FitLimit::Weight => "the weight",
+            };
+            line("limited by", limit.to_owned());
+            line("turned in the rough", format!("{:.2} deg", found.turn_deg));
+            line("depth left for the girdle", format!("{:.3} mm", found.depth_left_mm));
+            line("yield of the box", format!("{:.2} %", 100.0 * found.yield_of(rough.volume_mm3())));
+        }
+        if let Some(percent) = value["yield_of_weight_percent"].as_f64() {
+            line("yield of the weight", format!("{percent:.2} %"));
+        }
+        table.trim_end().to_owned()
+    }
+}

@@ -1,0 +1,364 @@
+//! Fits a design to another material by a stated rule.
+//!
+//! Inside a stone the directions of reflected light follow from the facets' angles alone; the index decides which reflections
+//! are total. So both rules move the pavilion, whose margin over the critical angle changes with the material, and leave the
+//! crown, which light crosses near the square and where no such limit is met. The tangent ratio is that of R. Long and
+//! N. Steele, *Facet Design*, vol. 1: tan(new angle) = factor · tan(old angle) for all tiers of one side, which keeps the plan
+//! view. It is a stretch of that side along the axis, so it keeps every meet.
+
+use super::outline::UPRIGHT;
+use super::{
+    Crown, Cut, Design, DesignError, MaterialRef, Outline, Pavilion, RoundBrilliant, Tiers, tier_stem,
+};
+use crate::math::{Plane, Polytope, PolytopeError, grouped};
+use crate::optics::{critical_angle, line};
+use serde::Serialize;
+
+/// The factors of tangents that are taken.
+const FACTORS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
+
+/// The flattest and the steepest angle that a leaning facet may have afterwards, degrees from the girdle plane.
+const ANGLES_DEG: std::ops::RangeInclusive<f64> = 0.5..=89.5;
+
+/// A vertex nearer to the lowest one than this, in units of the stone's depth, is at the culet.
+const AT_CULET: f64 = 1e-6;
+
+/// The rule by which a design is fitted to another material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RetargetRule {
+    /// Every tier of the pavilion turns by the difference of the critical angles, each about the line where it crosses the
+    /// height of the girdle's lower edge. Meets of tiers that had different angles open by a little.
+    CriticalAngle,
+    /// The tangents of all pavilion angles are multiplied by a factor, 0.1 to 10. Without one, the main tier, the flattest of
+    /// those that reach the lowest point, keeps its margin over the critical angle.
+    PavilionRatio(Option<f64>),
+    /// The tangents of all crown angles are multiplied by this factor, 0.1 to 10.
+    CrownRatio(f64),
+}
+
+/// A tier before and after a design was fitted to another material.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RetargetedTier {
+    /// The name that the facets share.
+    pub name: String,
+    /// The number of facets.
+    pub facets: usize,
+    /// The angle of the first facet from the girdle plane before, degrees; below 0 where it faces down.
+    pub before_deg: f64,
+    /// The angle afterwards, degrees.
+    pub after_deg: f64,
+}
+
+/// A design that was fitted to another material.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Retargeted {
+    /// The new design.
+    pub design: Design,
+    /// The critical angles of the old and the new material in sodium light, degrees.
+    pub critical_deg: [f64; 2],
+    /// The name of the main tier, the flattest of the pavilion tiers that reach the lowest point.
+    pub main: String,
+    /// The factor of the tangents; for a shift of angles, that of the main tier.
+    pub factor: f64,
+    /// The tiers that changed.
+    pub tiers: Vec<RetargetedTier>,
+    /// What a user should know about how it was done, in sentences.
+    pub notes: Vec<String>,
+}
+
+/// Why a design cannot be fitted to another material.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RetargetError {
+    /// The design is at fault, before or afterwards.
+    #[error(transparent)]
+    Design(#[from] DesignError),
+    /// The planes of the design enclose nothing.
+    #[error("{0}")]
+    Solid(String),
+    /// A material without total reflection.
+    #[error("{material} has no critical angle at 589.3 nm; give a material with an index above 1")]
+    NoCriticalAngle {
+        /// The material's name.
+        material: String,
+    },
+    /// A stone without leaning facets that face down.
+    #[error("the stone has no pavilion facets whose angles could follow the material")]
+    NoPavilion,
+    /// A factor out of range.
+    #[error("factor: {value} must be from {} to {}", FACTORS.start(), FACTORS.end())]
+    Factor {
+        /// The factor as given.
+        value: f64,
+    },
+    /// A tier that would become too flat or too steep.
+    #[error(
+        "tier '{tier}' would go from {before:.2} to {after:.2} degrees; from {} to {} are possible: try the tangent ratio, or a \
+         material nearer to the old one",
+        ANGLES_DEG.start(),
+        ANGLES_DEG.end()
+    )]
+    Angle {
+        /// The tier's name.
+        tier: String,
+        /// Its angle before, degrees.
+        before: f64,
+        /// Its angle afterwards, degrees.
+        after: f64,
+    },
+    /// A tier of a cutter's design whose plane would have the origin outside.
+    #[error(
+        "tier '{tier}' would pass the design's origin, and its distance would be below 0; give a smaller change"
+    )]
+    Origin {
+        /// The tier's name.
+        tier: String,
+    },
+}
+
+/// What becomes of the angles of one side.
+#[derive(Clone, Copy)]
+struct AngleChange {
+    /// 1 for the crown, -1 for the pavilion.
+    side: f64,
+    /// The height about which the side is stretched or its facets are turned.
+    level: f64,
+    /// The factor of the depth of level facets, and of all tangents where `shift` is `None`.
+    factor: f64,
+    /// The angle that is added, radians.
+    shift: Option<f64>,
+}
+
+impl AngleChange {
+    /// Returns the changed plane of a facet of this side; `None` for other facets, and the angles before and after, in
+    /// degrees, where the new one is not possible.
+    fn plane(&self, plane: &Plane) -> Result<Option<Plane>, [f64; 2]> {
+        let across = plane.normal.truncate();
+        let (run, rise) = (across.length(), plane.normal.z);
+        if rise.abs() < UPRIGHT || rise.signum() != self.side {
+            return Ok(None);
+        }
+        if run < UPRIGHT {
+            let height = plane.offset / rise;
+            let moved = self.level + self.factor * (height - self.level);
+            return Ok(Some(Plane::new(plane.normal, moved * rise)));
+        }
+        let before = run.atan2(rise.abs());
+        let after = match self.shift {
+            Some(shift) => before + shift,
+            None => (self.factor * before.tan()).atan(),
+        };
+        if !ANGLES_DEG.contains(&after.to_degrees()) {
+            return Err([before, after].map(f64::to_degrees));
+        }
+        // The line in which the plane crosses the level stays where it is.
+        let radius = (plane.offset - rise * self.level) / run;
+        let (sin, cos) = after.sin_cos();
+        let normal = (across / run * sin).extend(self.side * cos);
+        Ok(Some(Plane::new(normal, radius * sin + self.side * cos * self.level)))
+    }
+}
+
+/// Fits a design to another material.
+///
+/// The size, the name and everything else that the design says stay; a sentence about the change is added to its notes. A
+/// round brilliant changes by its proportions: the mains by the rule, and the lower halves as their length demands, which
+/// keeps every meet under either rule. Any other cut whose facets follow from numbers becomes a list of planes.
+///
+/// # Errors
+/// A design without planes or a pavilion, a material without a critical angle, and angles that leave the possible range.
+pub fn retarget(
+    design: &Design,
+    material: MaterialRef,
+    rule: RetargetRule,
+) -> Result<Retargeted, RetargetError> {
+    let facets = design.facets()?;
+    let solid = solid(design, &facets)?;
+    let critical = [&design.material, &material].map(critical_of);
+    let [old, new] = critical;
+    let critical = [old?, new?];
+    let (main, main_angle) = main_tier(&solid, &facets).ok_or(RetargetError::NoPavilion)?;
+    let change = change(rule, &solid, main_angle, critical)?;
+    let mut notes = vec![];
+    let cut = match &design.cut {
+        Cut::RoundBrilliant(brilliant) => {
+            notes.push("the proportions change, so that all facets still meet".to_owned());
+            Cut::RoundBrilliant(changed_brilliant(brilliant, &change))
+        }
+        Cut::Tiers(tiers) => Cut::Tiers(changed_tiers(tiers, &change)?),
+        Cut::Planes(planes) => {
+            let names = planes.iter().map(|(name, _)| name.clone());
+            Cut::Planes(changed_planes(names.zip(facets.iter().map(|(_, plane)| *plane)), &change)?)
+        }
+        _ => {
+            notes.push(
+                "the facets become a list of planes, without the proportions they came from".to_owned(),
+            );
+            Cut::Planes(changed_planes(facets.iter().cloned(), &change)?)
+        }
+    };
+    if change.shift.is_some() && !matches!(cut, Cut::RoundBrilliant(_)) {
+        notes.push(
+            "every pavilion tier turns by the same angle about the girdle's lower edge; meets of tiers with different angles \
+             open by a little: solve them anew, or see `info --audit`"
+                .to_owned(),
+        );
+    }
+    if change.side < 0.0 {
+        notes.push("the crown stays as it is".to_owned());
+    }
+    let mut retargeted = Design { material, cut, ..design.clone() };
+    retargeted.notes = Some(noted(design, &retargeted, rule, change.factor));
+    retargeted.check()?;
+    let tiers = compared(&facets, &retargeted.facets()?);
+    let critical_deg = critical.map(f64::to_degrees);
+    Ok(Retargeted { design: retargeted, critical_deg, main, factor: change.factor, tiers, notes })
+}
+
+/// Returns the solid of a design in its own unit.
+fn solid(design: &Design, facets: &[(String, Plane)]) -> Result<Polytope, RetargetError> {
+    let planes = |facets: &[(String, Plane)]| facets.iter().map(|(_, plane)| *plane).collect::<Vec<_>>();
+    let told = |error: PolytopeError| {
+        RetargetError::Solid(error.message(|place| match facets.get(place) {
+            Some((name, _)) => format!("'{name}'"),
+            None => "the block".to_owned(),
+        }))
+    };
+    match (Polytope::from_planes(&planes(facets)), &design.cut) {
+        // A cutter's design that its facets leave open is closed by the block that it is cut from.
+        (Err(PolytopeError::Unbounded { .. }), Cut::Tiers(_)) => {
+            let closed: Vec<(String, Plane)> = facets.iter().cloned().chain(Tiers::block()).collect();
+            Polytope::from_planes(&planes(&closed)).map_err(told)
+        }
+        (solid, _) => solid.map_err(told),
+    }
+}
+
+/// Returns a material's critical angle in sodium light, radians.
+fn critical_of(material: &MaterialRef) -> Result<f64, RetargetError> {
+    let material = material.material().map_err(DesignError::from)?;
+    let index = material.dispersion.try_index(line::SODIUM_D).ok();
+    index.and_then(critical_angle).ok_or(RetargetError::NoCriticalAngle { material: material.name })
+}
+
+/// Returns the name and the angle, radians, of the flattest leaning facet that reaches the stone's lowest point.
+fn main_tier(solid: &Polytope, facets: &[(String, Plane)]) -> Option<(String, f64)> {
+    let (low, high) = solid.bounds();
+    let floor = low.z + AT_CULET * (high.z - low.z);
+    let angle = |normal: glam::DVec3| normal.truncate().length().atan2(-normal.z);
+    let reaching = solid.facets().iter().filter(|facet| {
+        let normal = facet.plane.normal;
+        let leans = normal.z < -UPRIGHT && normal.truncate().length() >= UPRIGHT;
+        leans && solid.corners(facet).any(|corner| corner.z <= floor)
+    });
+    let main = reaching.min_by(|a, b| angle(a.plane.normal).total_cmp(&angle(b.plane.normal)))?;
+    let name = facets.get(main.source).map_or("block", |(name, _)| tier_stem(name));
+    Some((name.to_owned(), angle(main.plane.normal)))
+}
+
+fn change(
+    rule: RetargetRule,
+    solid: &Polytope,
+    main_angle: f64,
+    [old, new]: [f64; 2],
+) -> Result<AngleChange, RetargetError> {
+    let outline = Outline::of(solid);
+    let margin = (main_angle + new - old).tan() / main_angle.tan();
+    let (side, level, factor, shift) = match rule {
+        RetargetRule::CriticalAngle => (-1.0, outline.girdle_bottom, margin, Some(new - old)),
+        RetargetRule::PavilionRatio(factor) => (-1.0, outline.girdle_bottom, factor.unwrap_or(margin), None),
+        RetargetRule::CrownRatio(factor) => (1.0, outline.girdle_top, factor, None),
+    };
+    if !FACTORS.contains(&factor) {
+        return Err(RetargetError::Factor { value: factor });
+    }
+    Ok(AngleChange { side, level, factor, shift })
+}
+
+fn changed_brilliant(given: &RoundBrilliant, change: &AngleChange) -> RoundBrilliant {
+    let factor = change.factor;
+    let angle = |degrees: f64| (factor * degrees.to_radians().tan()).atan().to_degrees();
+    let mut changed = *given;
+    if change.side > 0.0 {
+        changed.crown = match given.crown {
+            Crown::Angle(degrees) => Crown::Angle(angle(degrees)),
+            Crown::Height(percent) => Crown::Height(factor * percent),
+        };
+    } else {
+        changed.pavilion = match given.pavilion {
+            Pavilion::Angle(degrees) => Pavilion::Angle(angle(degrees)),
+            Pavilion::Depth(percent) => Pavilion::Depth(factor * percent),
+        };
+    }
+    changed
+}
+
+fn changed_tiers(tiers: &Tiers, change: &AngleChange) -> Result<Tiers, RetargetError> {
+    let mut changed = tiers.clone();
+    for (number, tier) in (1..).zip(&mut changed.tiers) {
+        let name = || tier.called(number);
+        let plane = tiers.plane(tier, 0.0);
+        let refused = |[before, after]: [f64; 2]| RetargetError::Angle { tier: name(), before, after };
+        let Some(plane) = change.plane(&plane).map_err(refused)? else { continue };
+        if plane.offset < 0.0 {
+            return Err(RetargetError::Origin { tier: name() });
+        }
+        if tier.angle != 0.0 {
+            let angle = plane.normal.truncate().length().atan2(plane.normal.z.abs()).to_degrees();
+            tier.angle = angle.copysign(tier.angle);
+        }
+        tier.distance = plane.offset.copysign(tier.distance);
+    }
+    Ok(changed)
+}
+
+fn changed_planes(
+    planes: impl Iterator<Item = (String, Plane)>,
+    change: &AngleChange,
+) -> Result<Vec<(String, Plane)>, RetargetError> {
+    let changed = |(name, plane): (String, Plane)| match change.plane(&plane) {
+        Ok(changed) => Ok((name, changed.unwrap_or(plane))),
+        Err([before, after]) => Err(RetargetError::Angle { tier: name, before, after }),
+    };
+    planes.map(changed).collect()
+}
+
+/// Returns the notes of the new design: those of the old one, and a sentence about the change.
+fn noted(old: &Design, new: &Design, rule: RetargetRule, factor: f64) -> String {
+    let called = |design: &Design| design.material.material().map_or_else(|_| "?".to_owned(), |m| m.name);
+    let by = match rule {
+        RetargetRule::CriticalAngle => "the difference of the critical angles".to_owned(),
+        RetargetRule::PavilionRatio(_) => format!("a tangent ratio of {factor:.4} of the pavilion"),
+        RetargetRule::CrownRatio(_) => format!("a tangent ratio of {factor:.4} of the crown"),
+    };
+    let sentence = format!("Fitted from {} to {} by {by}.", called(old), called(new));
+    match old.notes.as_deref().map(str::trim).filter(|notes| !notes.is_empty()) {
+        Some(notes) => format!("{notes} {sentence}"),
+        None => sentence,
+    }
+}
+
+/// Returns the tiers whose first facets differ.
+fn compared(before: &[(String, Plane)], after: &[(String, Plane)]) -> Vec<RetargetedTier> {
+    let angle = |plane: &Plane| {
+        let normal = plane.normal;
+        normal.truncate().length().atan2(normal.z.abs()).to_degrees().copysign(normal.z)
+    };
+    let pairs = before.iter().zip(after);
+    let tiers = grouped(pairs, |(a, _), (b, _)| {
+        tier_stem(&a.0) == tier_stem(&b.0) && a.1.normal.z.signum() == b.1.normal.z.signum()
+    });
+    let changed = tiers.into_iter().filter(|tier| tier.iter().any(|(a, b)| a.1 != b.1));
+    let reports = changed.map(|tier| {
+        let ((name, before), (_, after)) = tier[0];
+        RetargetedTier {
+            name: tier_stem(name).to_owned(),
+            facets: tier.len(),
+            before_deg: angle(before),
+            after_deg: angle(after),
+        }
+    });
+    reports.collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,75 @@
+//! What cutters ask of a design: an audit, another material, the size that a piece of rough gives.
+
+use super::desk::*;
+
+#[test]
+fn an_audit_lists_candidates_beside_the_stone_and_as_json() {
+    let desk = Desk::new();
+    let leaks = desk.done("info tolkowsky --audit --material quartz");
+    assert!(leaks.contains("below the critical angle") && leaks.contains("for you to judge"), "{leaks}");
+    assert!(leaks.contains("lower_half"), "the table of tiers stays: {leaks}");
+    assert!(desk.done("info tolkowsky --audit").contains("audit: nothing found"));
+    assert!(!desk.done("info tolkowsky --material quartz").contains("audit"));
+    let audit = &desk.json("info --json --audit tolkowsky --material quartz")["audit"];
+    assert_eq!((&audit["counts"]["below_critical"], &audit["counts"]["near_miss"]), (&2.into(), &0.into()));
+    let leak = &list(&audit["findings"])[0];
+    near(at(leak, "threshold"), 40.37, 0.05, "the critical angle of quartz");
+    near(at(leak, "size"), 40.58, 0.5, "the flattest tier");
+    assert_eq!(leak["unit"], "degrees");
+    let (code, printed, stderr) = desk.run("info --audit pill cube tolkowsky --json");
+    assert_eq!((code, printed.lines().count()), (0, 3), "{stderr}");
+    assert!(stderr.contains("only a convex stone"), "{stderr}");
+}
+
+#[test]
+fn a_design_is_fitted_to_another_material_written_and_measured_beside_the_old_one() {
+    let desk = Desk::new();
+    let line = "retarget tolkowsky --material sapphire --rule tangent-ratio --factor 1.02";
+    let value = desk.json(&format!("{line} --json --out fitted.toml"));
+    let light = list(&value["light"]);
+    let measured = desk.json("measure tolkowsky --json");
+    near(at(&light[0], "light_return"), at(&measured, "light_return"), 1e-9, "the old stone");
+    let fitted = desk.json("measure fitted.toml --json");
+    near(at(&light[2], "light_return"), at(&fitted, "light_return"), 1e-9, "the new stone");
+    let info = desk.json("info fitted.toml --json");
+    near(at(&info, "derived/pavilion_angle"), -at(&list(&value["tiers"])[1], "after_deg"), 1e-9, "its mains");
+    assert_eq!(info["material"], "sapphire");
+    assert!(info["notes"].as_str().unwrap().contains("tangent ratio of 1.0200"), "{info}");
+    let table = desk.done(&format!("{line} --no-light"));
+    assert!(table.contains("diamond to sapphire") && !table.contains("light return"), "{table}");
+}
+
+#[test]
+fn what_retarget_cannot_do_is_refused_with_what_to_give() {
+    let desk = Desk::new();
+    for (line, code, told) in [
+        ("tolkowsky --material ruby --rule critical-angle --factor 1.1", 2, "for --rule tangent-ratio"),
+        ("tolkowsky --material ruby --rule tangent-ratio --side crown", 2, "give it by --factor"),
+        ("tolkowsky --material ruby --rule tangent-ratio --factor 100", 2, "must be from 0.1 to 10"),
+        ("tolkowsky --material ruby --rule critical-angle --out a.stl", 2, ".toml, .asc, .gem or .gcs"),
+        ("tolkowsky --material rubby --rule critical-angle", 2, "did you mean 'ruby'"),
+        ("pill --material ruby --rule critical-angle", 1, "pill: "),
+    ] {
+        let stderr = desk.refused(&format!("retarget {line}"), code);
+        assert!(stderr.contains(told), "{line}: {stderr}");
+    }
+}
+
+#[test]
+fn rough_gives_size_weight_and_yield() {
+    let desk = Desk::new();
+    let value = desk.json("yield tolkowsky --rough 6.5x8x6 --rough-weight 6 --json");
+    near(at(&value, "finished/diameter_mm"), 6.5, 0.01, "as wide as the rough");
+    near(at(&value, "carats"), at(&desk.json("info tolkowsky --json"), "carats"), 0.01, "weight");
+    near(at(&value, "yield_of_weight_percent"), 100.0 * at(&value, "carats") / 6.0, 1e-9, "by weight");
+    let [depth, left] = [at(&value, "finished/size_mm/2"), at(&value, "finished/depth_left_mm")];
+    near(depth + left, 6.0, 1e-9, "depth");
+    let weight = desk.json("yield tolkowsky --weight 1.5 --girdle-mm 0.2 --json");
+    near(at(&weight, "carats"), 1.5, 1e-5, "weight");
+    near(at(&weight, "finished/girdle_mm"), 0.2, 1e-9, "girdle");
+    assert!(desk.done("yield tolkowsky --rough 9x9x3").contains("the rough's depth"));
+    assert!(desk.refused("yield tolkowsky --rough 9x9", 2).contains("as in 12x9x7"));
+    assert!(desk.refused("yield tolkowsky --weight -1", 2).contains("is not a weight"));
+    assert!(desk.refused("yield tolkowsky --rough 9x9x3 --girdle-mm 4", 2).contains("does not fit"));
+    assert!(desk.refused("yield tolkowsky", 2).contains("--rough"));
+}
