@@ -1,9 +1,14 @@
 //! All families of cuts, and which of them a cut belongs to.
 
+mod alternating;
 mod brilliant;
+mod briolette;
 mod girdle;
 mod oval;
+mod portuguese;
+mod rose;
 mod rows;
+mod single_cut;
 #[cfg(test)]
 mod tests;
 
@@ -13,10 +18,15 @@ use super::family_cut::FamilyCut;
 use super::glass_table::{CUBE, PILL, PLATE, PRISM};
 use super::round_brilliant_table::ROUND_BRILLIANT;
 use super::{Cut, Glass};
+use briolette::BRIOLETTE;
 use oval::OVAL;
+use portuguese::PORTUGUESE;
+use rose::ROSE;
+use single_cut::SINGLE_CUT;
 
 /// All families that are described by proportions, in the order in which messages list them.
-pub static FAMILIES: [&Family; 6] = [&ROUND_BRILLIANT, &OVAL, &PILL, &CUBE, &PRISM, &PLATE];
+pub static FAMILIES: [&Family; 10] =
+    [&ROUND_BRILLIANT, &SINGLE_CUT, &PORTUGUESE, &ROSE, &BRIOLETTE, &OVAL, &PILL, &CUBE, &PRISM, &PLATE];
 
 impl Family {
     /// Returns the family that has this key in cut files.
