@@ -36,7 +36,7 @@ mod warning;
 pub use beyond_gear::BeyondGear;
 pub use design::{DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFault};
 pub use facet_net::Unfit;
-pub use families::FAMILIES;
+pub use families::{FAMILIES, GROUPS};
 pub use family::{Bound, BoundAt, Family, ProfileHandle, Proportion, Unit};
 pub use family_cut::FamilyCut;
 pub use glass::{Glass, Plate, Sides};

@@ -1,9 +1,9 @@
 //! Rows of equal facets, each row turned by half a step against the one before, whose corners all meet in points.
 //!
 //! Corners lie on rings around the axis, from the girdle's corners to those of the last ring. The rings' radii shrink by one
-//! ratio q. A facet of the first row stands on a side of the girdle; each further one is a kite with its lower corner on
-//! the ring before the last row's, its sides on the next and its tip on the one after. A kite is flat where its corners lie
-//! on one line seen from the side, which leaves one freedom: all heights may be scaled together. With c the cosine of half a
+//! ratio q. A facet of the first row stands on a side of the girdle. Each further one is a kite, whose lower corner, side
+//! corners and tip lie on three rings in turn. A kite is flat where these corners lie on one line seen from the side. This
+//! fixes all heights but one factor, by which they may be scaled together. With c the cosine of half a
 //! step, the tangents of the slopes shrink by (c - q) / (1 - q c) from row to row. The construction is this program's own;
 //! printed Portuguese cuts (PC 01.028A, B, C) have rings whose ratios differ by a few percent.
 
@@ -11,9 +11,27 @@ use super::super::facet_net::FacetNet;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// The rows of one side of a stone. Lengths are in girdle radii.
+/// The most rows that one half of a stone may have.
+pub const MOST_ROWS: usize = 7;
+
+/// The names of the rows of a crown, from the girdle.
+const CROWN_ROWS: [&str; MOST_ROWS] =
+    ["crown_row_1", "crown_row_2", "crown_row_3", "crown_row_4", "crown_row_5", "crown_row_6", "crown_row_7"];
+
+/// The names of the rows of a pavilion, from the girdle.
+const PAVILION_ROWS: [&str; MOST_ROWS] = [
+    "pavilion_row_1",
+    "pavilion_row_2",
+    "pavilion_row_3",
+    "pavilion_row_4",
+    "pavilion_row_5",
+    "pavilion_row_6",
+    "pavilion_row_7",
+];
+
+/// The rows of one half of a stone. Lengths are in girdle radii.
 #[derive(Debug, Clone, Copy)]
-pub struct Rows {
+pub struct AlternatingRows {
     /// The number of facets in a row.
     pub facets: usize,
     /// The number of rows, at least 2.
@@ -22,16 +40,16 @@ pub struct Rows {
     pub inner: f64,
 }
 
-/// The side of the girdle on which rows lie.
+/// The half of a stone on one side of the girdle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Face {
+pub enum StoneHalf {
     /// Above the girdle.
     Crown,
     /// Below it.
     Pavilion,
 }
 
-impl Rows {
+impl AlternatingRows {
     /// Returns half a step between neighbouring facets, radians.
     fn half_step(&self) -> f64 {
         PI / self.facets as f64
@@ -39,12 +57,12 @@ impl Rows {
 
     /// Returns the ratio of the radii of neighbouring rings.
     fn shrinking(&self) -> f64 {
-        (self.inner / corner_radius(self.facets)).powf(1.0 / (self.count - 1) as f64)
+        (self.inner / corner_radius(self.facets, 0.5)).powf(1.0 / (self.count - 1) as f64)
     }
 
     /// Returns the radius of a ring; ring 0 has the corners of the girdle.
     fn radius(&self, ring: usize) -> f64 {
-        corner_radius(self.facets) * self.shrinking().powi(ring as i32)
+        corner_radius(self.facets, 0.5) * self.shrinking().powi(ring as i32)
     }
 
     /// Returns the tangent of a row's slope where that of the first is 1; 0 or less where the rows leave no room.
@@ -82,10 +100,13 @@ impl Rows {
         self.height(self.count - 2) + self.last_flattening() * self.radius(self.count - 2)
     }
 
-    /// Adds the facets, row by row from the girdle. `tiers` names the rows, `edge` is the height of the girdle's edge, and
-    /// `slope` the tangent of the first row's slope.
-    pub fn add_to(&self, net: &mut FacetNet, face: Face, tiers: &[&'static str], edge: f64, slope: f64) {
-        let up = if face == Face::Crown { 1.0 } else { -1.0 };
+    /// Adds the facets, row by row from the girdle, at most [`MOST_ROWS`] of them. `edge` is the height of the girdle's edge,
+    /// and `slope` the tangent of the first row's slope.
+    pub fn add_to(&self, net: &mut FacetNet, half: StoneHalf, edge: f64, slope: f64) {
+        let (up, tiers) = match half {
+            StoneHalf::Crown => (1.0, CROWN_ROWS),
+            StoneHalf::Pavilion => (-1.0, PAVILION_ROWS),
+        };
         for (row, tier) in tiers.iter().take(self.count).enumerate() {
             let tangent = slope * self.flattening(row);
             // The facet's lower end at its own azimuth: the middle of a girdle's side, or a corner of a ring.
@@ -106,7 +127,7 @@ impl Rows {
 pub fn add_girdle(net: &mut FacetNet, facets: usize) {
     for facet in 0..facets {
         let out = direction(facets, facet as f64);
-        let distance = corner_radius(facets) * (PI / facets as f64).cos();
+        let distance = corner_radius(facets, 0.5) * (PI / facets as f64).cos();
         net.plane("girdle", out.extend(0.0), (out * distance).extend(0.0));
     }
 }
@@ -125,10 +146,10 @@ pub fn direction(count: usize, place: f64) -> DVec2 {
     }
 }
 
-/// Returns the radius of the corners of a regular polygon with a side across y whose width, the lesser of its extents along x
-/// and y, is 2.
-pub fn corner_radius(sides: usize) -> f64 {
-    let corners = || (0..sides).map(|corner| direction(sides, corner as f64 + 0.5));
+/// Returns the radius of the corners of a regular polygon whose width, the lesser of its extents along x and y, is 2.
+/// `first` is the place of its first corner: 0 along y, 0.5 where a side lies across y.
+pub fn corner_radius(sides: usize, first: f64) -> f64 {
+    let corners = || (0..sides).map(|corner| direction(sides, corner as f64 + first));
     let [low, high] = [f64::min, f64::max].map(|end: fn(f64, f64) -> f64| {
         let x = corners().map(|at| at.x).reduce(end).unwrap_or_default();
         DVec2::new(x, corners().map(|at| at.y).reduce(end).unwrap_or_default())
@@ -149,7 +170,7 @@ mod tests {
     #[test]
     fn rows_of_a_printed_portuguese_are_found_within_two_degrees() {
         for (angles, inner) in PRINTED {
-            let rows = Rows { facets: 16, count: angles.len(), inner };
+            let rows = AlternatingRows { facets: 16, count: angles.len(), inner };
             for (row, angle) in angles.iter().enumerate() {
                 let found = (angles[0].to_radians().tan() * rows.flattening(row)).atan().to_degrees();
                 assert!((found - angle).abs() < 2.0, "row {row}: {found} for {angle}");
@@ -160,11 +181,10 @@ mod tests {
     #[test]
     fn every_corner_of_the_rings_is_a_point_where_the_stone_has_a_corner() {
         for (facets, count) in [(8, 2), (9, 3), (16, 5), (32, 7)] {
-            let rows = Rows { facets, count, inner: 0.3 };
+            let rows = AlternatingRows { facets, count, inner: 0.3 };
             let mut net = FacetNet::default();
-            let tiers = ["a", "b", "c", "d", "e", "f", "g"];
-            rows.add_to(&mut net, Face::Crown, &tiers, 0.0, 1.5);
-            rows.add_to(&mut net, Face::Pavilion, &tiers, 0.0, 0.5);
+            rows.add_to(&mut net, StoneHalf::Crown, 0.0, 1.5);
+            rows.add_to(&mut net, StoneHalf::Pavilion, 0.0, 0.5);
             let planes: Vec<_> = net.named().into_iter().map(|(_, plane)| plane).collect();
             let stone = Polytope::from_planes(&planes).unwrap();
             // The girdle's ring belongs to both sides; two points end the stone.
@@ -182,9 +202,10 @@ mod tests {
     fn outlines_are_two_wide_at_their_narrowest() {
         for (sides, radius) in [(4, 2.0_f64.sqrt()), (6, 1.0 / (PI / 6.0).cos()), (8, 1.0 / (PI / 8.0).cos())]
         {
-            assert!((corner_radius(sides) - radius).abs() < 1e-12, "{sides}");
+            assert!((corner_radius(sides, 0.5) - radius).abs() < 1e-12, "{sides}");
         }
-        // A triangle is as wide as its height.
-        assert!((corner_radius(3) * 1.5 - 2.0).abs() < 1e-12);
+        // A triangle is as wide as its height; a square on its corner as wide as its diagonal.
+        assert!((corner_radius(3, 0.5) * 1.5 - 2.0).abs() < 1e-12);
+        assert!((corner_radius(4, 0.0) - 1.0).abs() < 1e-12);
     }
 }

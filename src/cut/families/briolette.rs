@@ -7,8 +7,7 @@
 use super::super::facet_net::{FacetNet, Unfit};
 use super::super::family::{Family, Proportion};
 use super::super::family_cut::FamilyCut;
-use super::alternating::{Face, Rows};
-use super::portuguese::{CROWN_TIERS, PAVILION_TIERS};
+use super::alternating::{AlternatingRows, StoneHalf};
 use super::rows;
 
 const FACETS: usize = 0;
@@ -44,7 +43,7 @@ pub static BRIOLETTE: Family = Family {
 };
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
-    let rows = |count: usize, rosette: usize| Rows {
+    let rows = |count: usize, rosette: usize| AlternatingRows {
         facets: cut[FACETS] as usize,
         count: cut[count] as usize,
         inner: cut[rosette] / 100.0,
@@ -53,7 +52,7 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
     let length = 2.0 * cut[LENGTH];
     let above = length * cut[DROP] / 100.0;
     let mut net = FacetNet::default();
-    upper.add_to(&mut net, Face::Crown, &CROWN_TIERS, 0.0, above / upper.point());
-    lower.add_to(&mut net, Face::Pavilion, &PAVILION_TIERS, 0.0, (length - above) / lower.point());
+    upper.add_to(&mut net, StoneHalf::Crown, 0.0, above / upper.point());
+    lower.add_to(&mut net, StoneHalf::Pavilion, 0.0, (length - above) / lower.point());
     Ok(net)
 }

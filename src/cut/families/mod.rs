@@ -28,6 +28,15 @@ use single_cut::SINGLE_CUT;
 pub static FAMILIES: [&Family; 10] =
     [&ROUND_BRILLIANT, &SINGLE_CUT, &PORTUGUESE, &ROSE, &BRIOLETTE, &OVAL, &PILL, &CUBE, &PRISM, &PLATE];
 
+/// The families as the trade groups them: the name of each group, and the keys of its families.
+pub const GROUPS: [(&str, &[&str]); 5] = [
+    ("Rounds", &["round_brilliant", "single_cut", "portuguese", "rose", "briolette"]),
+    ("Fancy brilliant cuts", &["oval", "pear", "marquise", "heart", "cushion", "trillion"]),
+    ("Step cuts", &["emerald", "asscher", "baguette", "tapered_baguette", "kite", "hexagon"]),
+    ("Mixed cuts", &["princess", "radiant", "modified_cushion", "barion"]),
+    ("Glass", &["pill", "cube", "prism", "plate"]),
+];
+
 impl Family {
     /// Returns the family that has this key in cut files.
     pub fn of_key(key: &str) -> Option<&'static Self> {

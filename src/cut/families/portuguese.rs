@@ -8,7 +8,7 @@ use super::super::family::BoundAt::Fixed;
 use super::super::family::{Bound, Family, Proportion};
 use super::super::family_cut::FamilyCut;
 use super::super::shape::Cut;
-use super::alternating::{Face, Rows, add_girdle};
+use super::alternating::{AlternatingRows, StoneHalf, add_girdle};
 use super::rows;
 use glam::DVec3;
 
@@ -21,39 +21,11 @@ const PAVILION: usize = 5;
 const ROSETTE: usize = 6;
 const GIRDLE: usize = 7;
 
-/// The names of the rows of a crown, from the girdle.
-pub(super) const CROWN_TIERS: [&str; 10] = [
-    "crown_row_1",
-    "crown_row_2",
-    "crown_row_3",
-    "crown_row_4",
-    "crown_row_5",
-    "crown_row_6",
-    "crown_row_7",
-    "crown_row_8",
-    "crown_row_9",
-    "crown_row_10",
-];
-
-/// The names of the rows of a pavilion, from the girdle.
-pub(super) const PAVILION_TIERS: [&str; 10] = [
-    "pavilion_row_1",
-    "pavilion_row_2",
-    "pavilion_row_3",
-    "pavilion_row_4",
-    "pavilion_row_5",
-    "pavilion_row_6",
-    "pavilion_row_7",
-    "pavilion_row_8",
-    "pavilion_row_9",
-    "pavilion_row_10",
-];
-
 /// The family of the Portuguese cut.
 pub static PORTUGUESE: Family = Family {
     key: "portuguese",
     name: "Portuguese cut",
-    first: FamilyCut::first(&PORTUGUESE, &[16.0, 5.0, 6.0, 46.0, 52.0, 40.0, 27.0, 3.0]),
+    first: FamilyCut::first(&PORTUGUESE, &[16.0, 5.0, 6.0, 46.0, 52.0, 40.0, 26.5, 3.0]),
     net: Some(net),
     proportions: &[
         rows::facets_per_row::<FACETS>([12.0, 24.0]),
@@ -108,12 +80,20 @@ fn tangent(cut: &FamilyCut, place: usize) -> f64 {
     cut[place].to_radians().tan()
 }
 
-fn crown(cut: &FamilyCut) -> Rows {
-    Rows { facets: cut[FACETS] as usize, count: cut[CROWN_ROWS] as usize, inner: cut[TABLE] / 100.0 }
+fn crown(cut: &FamilyCut) -> AlternatingRows {
+    AlternatingRows {
+        facets: cut[FACETS] as usize,
+        count: cut[CROWN_ROWS] as usize,
+        inner: cut[TABLE] / 100.0,
+    }
 }
 
-fn pavilion(cut: &FamilyCut) -> Rows {
-    Rows { facets: cut[FACETS] as usize, count: cut[PAVILION_ROWS] as usize, inner: cut[ROSETTE] / 100.0 }
+fn pavilion(cut: &FamilyCut) -> AlternatingRows {
+    AlternatingRows {
+        facets: cut[FACETS] as usize,
+        count: cut[PAVILION_ROWS] as usize,
+        inner: cut[ROSETTE] / 100.0,
+    }
 }
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
@@ -121,12 +101,12 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
     let mut net = FacetNet::default();
     let slope = tangent(cut, CROWN);
     net.plane("table", DVec3::Z, DVec3::Z * slope * crown.last_ring());
-    crown.add_to(&mut net, Face::Crown, &CROWN_TIERS, 0.0, slope);
+    crown.add_to(&mut net, StoneHalf::Crown, 0.0, slope);
     let thickness = cut[GIRDLE] / 50.0;
     if thickness > 0.0 {
         add_girdle(&mut net, crown.facets);
     }
     let slope = tangent(cut, PAVILION) / pavilion.last_flattening();
-    pavilion.add_to(&mut net, Face::Pavilion, &PAVILION_TIERS, -thickness, slope);
+    pavilion.add_to(&mut net, StoneHalf::Pavilion, -thickness, slope);
     Ok(net)
 }

@@ -3,7 +3,7 @@
 //! With one row the dome is a pyramid. With two, a star of triangles around the point stands on a ring; below each of its sides hangs
 //! a triangle with its tip on the girdle, and two more fill each gap. Six sides make the Dutch rose of 24 = 6 + 18.
 //! Triangles in threes, 3, 6, 12, 24: the trade's count. The first cut has the angles of PC 45.063 (Double Holland Rose, 36.5,
-//! 34, 30), whose height is 34 percent of the width; the trade also quotes about half.
+//! 34, 30), whose height is 32 percent of the width; the trade also quotes about half.
 
 use super::super::facet_net::{FacetNet, Unfit};
 use super::super::family::BoundAt::{Fixed, Of};
@@ -13,6 +13,7 @@ use super::super::shape::Cut;
 use super::alternating::{corner_radius, direction};
 use super::rows;
 use glam::DVec3;
+use std::f64::consts::PI;
 
 const SIDES: usize = 0;
 const ROWS: usize = 1;
@@ -25,7 +26,7 @@ const GIRDLE: usize = 5;
 pub static ROSE: Family = Family {
     key: "rose",
     name: "Rose cut",
-    first: FamilyCut::first(&ROSE, &[6.0, 2.0, 33.6, 32.0, 30.0, 1.0]),
+    first: FamilyCut::first(&ROSE, &[6.0, 2.0, 32.43, 30.82, 30.0, 1.0]),
     net: Some(net),
     proportions: &[
         Proportion {
@@ -70,13 +71,15 @@ pub static ROSE: Family = Family {
 /// Returns the slope of a cone as high as the dome that stands on the girdle's corners, degrees: steeper stars would be no dome.
 fn steepest_star(cut: &Cut) -> f64 {
     match cut {
-        Cut::Family(cut) if cut[ROWS] > 1.0 => (cut[HEIGHT] / 50.0 / Dome::of(cut).edge).atan().to_degrees(),
+        Cut::Family(cut) if cut[ROWS] > 1.0 => {
+            (cut[HEIGHT] / 50.0 / RoseCorners::of(cut).edge).atan().to_degrees()
+        }
         _ => 90.0,
     }
 }
 
 /// The corners of a rose cut. Lengths are in girdle radii; heights are above the girdle's upper edge.
-struct Dome {
+struct RoseCorners {
     sides: usize,
     /// The number of the girdle's corners.
     corners: usize,
@@ -89,14 +92,14 @@ struct Dome {
     shoulder: f64,
 }
 
-impl Dome {
+impl RoseCorners {
     fn of(cut: &FamilyCut) -> Self {
         let sides = cut[SIDES] as usize;
-        let corners = if cut[ROWS] > 1.0 { 2 * sides } else { sides };
+        let (corners, first) = if cut[ROWS] > 1.0 { (2 * sides, 0.0) } else { (sides, 0.5) };
         let (height, star) = (cut[HEIGHT] / 50.0, cut[STAR] / 100.0);
-        let middle = star * (std::f64::consts::PI / sides as f64).cos();
+        let middle = star * (PI / sides as f64).cos();
         let shoulder = height - middle * cut[STAR_ANGLE].to_radians().tan();
-        Self { sides, corners, edge: corner_radius(corners), point: DVec3::Z * height, star, shoulder }
+        Self { sides, corners, edge: corner_radius(corners, first), point: DVec3::Z * height, star, shoulder }
     }
 
     /// Returns a corner of the girdle, at this many half sides from the middle of the first star triangle.
@@ -111,7 +114,7 @@ impl Dome {
 }
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
-    let dome = Dome::of(cut);
+    let dome = RoseCorners::of(cut);
     let thickness = cut[GIRDLE] / 50.0;
     // The middle of the dome.
     let inside = dome.point * 0.25;
@@ -140,4 +143,24 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
     }
     net.plane("base", DVec3::NEG_Z, DVec3::NEG_Z * thickness);
     Ok(net)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_cut_has_the_angles_of_the_double_holland_rose() {
+        let Cut::Family(first) = ROSE.first else { panic!("a family's cut") };
+        for (name, plane) in net(&first).unwrap().named() {
+            let angle = plane.normal.z.acos().to_degrees();
+            let printed = match name.split(' ').next() {
+                Some("star") => 30.0,
+                Some("middle") => 34.0,
+                Some("edge") => 36.5,
+                _ => angle,
+            };
+            assert!((angle - printed).abs() < 0.02, "{name}: {angle} for {printed}");
+        }
+    }
 }

@@ -162,6 +162,14 @@ fn impossible_numbers_name_a_limit_that_makes_a_stone() {
 }
 
 #[test]
+fn every_family_is_in_one_group() {
+    for family in FAMILIES {
+        let groups = GROUPS.iter().filter(|(_, families)| families.contains(&family.key));
+        assert_eq!(groups.count(), 1, "{}", family.key);
+    }
+}
+
+#[test]
 fn facets_are_named_by_tier() {
     for (family, cut) in made() {
         let (stone, names) = stone(&Cut::Family(cut)).unwrap();
