@@ -22,7 +22,7 @@ const LOWER_ROSETTE: usize = 6;
 pub static BRIOLETTE: Family = Family {
     key: "briolette",
     name: "Briolette",
-    first: FamilyCut::first(&BRIOLETTE, &[16.0, 7.0, 6.0, 1.8, 65.0, 20.0, 40.0]),
+    first: FamilyCut::first(&BRIOLETTE, &[16.0, 7.0, 6.0, 1.8, 62.0, 25.0, 60.0]),
     net: Some(net),
     proportions: &[
         rows::facets_per_row::<FACETS>([12.0, 24.0]),
@@ -38,7 +38,7 @@ pub static BRIOLETTE: Family = Family {
             ..rows::part::<DROP>("drop", "Drop", "of the length", [45.0, 75.0])
         },
         rows::rosette::<UPPER_ROSETTE>("upper_rosette", "Upper rosette", [15.0, 40.0]),
-        rows::rosette::<LOWER_ROSETTE>("lower_rosette", "Lower rosette", [20.0, 45.0]),
+        rows::rosette::<LOWER_ROSETTE>("lower_rosette", "Lower rosette", [25.0, 65.0]),
     ],
 };
 
