@@ -9,7 +9,6 @@ use super::model::preset::{Known, PRESETS};
 use super::model::session::{HeldKeys, Session};
 use super::setup::PaintedBy;
 use super::studio::Studio;
-use crate::io::{cut_file, library};
 use egui::{
     Align, Button, Context, Event, Key, Modifiers, Panel, Popup, Response, RichText, ThemePreference, Ui,
 };
@@ -69,7 +68,7 @@ fn entries(model: &Model, actions: &mut Actions, ui: &mut Ui, menu: &Menu) {
         group.iter().for_each(|&command| entry(model, actions, ui, command));
         if menu.title == "File" && k == 0 {
             opened_before(model, actions, ui);
-            from_library(actions, ui);
+            scenes_of_glass(actions, ui);
         }
     }
 }
@@ -124,19 +123,7 @@ fn opened_before(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     });
 }
 
-fn from_library(actions: &mut Actions, ui: &mut Ui) {
-    ui.menu_button("New from", |ui| {
-        for (name, text) in library::CUTS {
-            let design = cut_file::parse(text, name).ok();
-            let title = design.as_ref().map_or(name, |d| d.name.as_str());
-            let source = design
-                .as_ref()
-                .and_then(|d| d.source.as_deref())
-                .unwrap_or("A cut that comes with the program.");
-            let entry = ui.button(title).on_hover_text(source);
-            choose(actions, ui, &entry, FileAction::Ask(Then::Library(name.to_owned())));
-        }
-    });
+fn scenes_of_glass(actions: &mut Actions, ui: &mut Ui) {
     ui.menu_button("Scene of glass", |ui| {
         for Known { name, title, .. } in PRESETS {
             let about = "A preset that recreates a published demonstration of spectral refraction.";

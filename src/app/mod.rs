@@ -7,6 +7,7 @@ mod drops;
 mod editor;
 mod hands;
 mod icon;
+mod library_cuts;
 mod liquid;
 mod lookup;
 mod menus;

@@ -43,7 +43,7 @@ pub use audit::{Audit, AuditSubject, Finding, FindingKind, FindingUnit};
 pub use beyond_gear::BeyondGear;
 pub use design::{DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFault};
 pub use facet_net::Unfit;
-pub use families::FAMILIES;
+pub use families::{BY_TIERS, FAMILIES, GROUPS};
 pub use family::{Bound, BoundAt, Family, ProfileHandle, Proportion, Unit};
 pub use family_cut::FamilyCut;
 pub use glass::{Glass, Plate, Sides};

@@ -1,13 +1,19 @@
 //! The cuts and scenes that come with the program, as the texts of their files.
 
 /// The cuts that come with the program: the name of each, and the text of its file in `cuts/`.
-pub const CUTS: [(&str, &str); 12] = [
+pub const CUTS: [(&str, &str); 18] = [
     ("tolkowsky", include_str!("../../cuts/tolkowsky.toml")),
     ("modern-ideal", include_str!("../../cuts/modern-ideal.toml")),
     ("steep-deep", include_str!("../../cuts/steep-deep.toml")),
     ("shallow", include_str!("../../cuts/shallow.toml")),
     ("fisheye", include_str!("../../cuts/fisheye.toml")),
     ("sixty-sixty", include_str!("../../cuts/sixty-sixty.toml")),
+    ("old-european", include_str!("../../cuts/old-european.toml")),
+    ("transitional", include_str!("../../cuts/transitional.toml")),
+    ("single-cut", include_str!("../../cuts/single-cut.toml")),
+    ("portuguese", include_str!("../../cuts/portuguese.toml")),
+    ("rose", include_str!("../../cuts/rose.toml")),
+    ("briolette", include_str!("../../cuts/briolette.toml")),
     ("oval", include_str!("../../cuts/oval.toml")),
     ("block", include_str!("../../cuts/block.toml")),
     ("pill", include_str!("../../cuts/pill.toml")),

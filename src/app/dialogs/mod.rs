@@ -2,6 +2,7 @@
 
 pub mod about;
 pub mod asked_path;
+mod cut_chooser;
 pub mod export_dialog;
 
 use super::model::Model;
@@ -32,6 +33,7 @@ pub fn show(model: &Model, thumbnails: &HashMap<Shows, TextureHandle>, actions: 
             Dialog::ChangedOutside => changed_outside(actions, ui),
             Dialog::Export(export) => export_dialog::show(export, thumbnails, actions, ui),
             Dialog::Path(form) => asked_path::show(actions, ui, form),
+            Dialog::Cuts => cut_chooser::show(actions, ui),
             Dialog::Keys => keys(actions, ui),
             Dialog::About(about) => about::show(about, actions, ui),
         });

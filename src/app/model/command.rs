@@ -7,6 +7,7 @@ described! {
 /// Mac.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Command by keys {
+    New: "Ctrl+N", "New from a cut…", "Begins a design from one of the cuts that come with the program.";
     Open: "Ctrl+O", "Open…", "Opens a cut, a mesh or a scene. You can also drop the file on the window.";
     Save: "Ctrl+S", "Save", "Saves the design in its file.";
     SaveAs: "Ctrl+Shift+S", "Save as…", "Saves the design in another file.";
@@ -79,9 +80,9 @@ pub struct Menu {
 
 use Command::*;
 
-/// All menus. The File menu also lists recent files, and the cuts and scenes that come with the program.
+/// All menus. The File menu also lists recent files, and the scenes that come with the program.
 pub const MENUS: [Menu; 5] = [
-    Menu { title: "File", groups: &[&[Open], &[Save, SaveAs], &[Export, CopyPicture], &[Quit]] },
+    Menu { title: "File", groups: &[&[New, Open], &[Save, SaveAs], &[Export, CopyPicture], &[Quit]] },
     Menu { title: "Edit", groups: &[&[Undo, Redo], &[ViewBack, ViewOn], &[IntoTiers]] },
     Menu {
         title: "View",

@@ -41,6 +41,8 @@ pub enum Dialog {
     Moved(Then),
     /// Asks for a path, where the system does not.
     Path(PathForm),
+    /// Offers the cuts that come with the program.
+    Cuts,
     /// Lists keys and terms.
     Keys,
     /// Shows what the program is.
@@ -54,7 +56,7 @@ impl Dialog {
             Self::Unsaved(_) | Self::ChangedOutside | Self::Export(_) | Self::Moved(_) | Self::Path(_) => {
                 true
             }
-            Self::Recover(_) | Self::Keys | Self::About(_) => false,
+            Self::Recover(_) | Self::Cuts | Self::Keys | Self::About(_) => false,
         }
     }
 
@@ -65,7 +67,9 @@ impl Dialog {
         match self {
             Self::Recover(_) | Self::ChangedOutside => true,
             Self::Export(export) => export.is_busy(),
-            Self::Unsaved(_) | Self::Moved(_) | Self::Path(_) | Self::Keys | Self::About(_) => false,
+            Self::Unsaved(_) | Self::Moved(_) | Self::Path(_) | Self::Cuts | Self::Keys | Self::About(_) => {
+                false
+            }
         }
     }
 }

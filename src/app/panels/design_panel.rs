@@ -2,6 +2,7 @@
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit};
+use crate::app::model::command::Command;
 use crate::app::model::document::Document;
 use crate::app::model::impossible::{self, RowMessage};
 use crate::app::model::workspace::PanelSide;
@@ -11,7 +12,8 @@ use crate::app::theme;
 use crate::cut::{Cut, Design, DesignError, MaterialRef, Proportion, Unit, Warning};
 use crate::scene::{Copies, SpecimenError};
 use egui::{
-    Panel, Rect, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,
+    Button, Panel, Rect, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo,
+    pos2, vec2,
 };
 use std::ops::RangeInclusive;
 
@@ -76,14 +78,17 @@ fn identity(document: &Document, actions: &mut Actions, ui: &mut Ui) {
             "Cut",
             "The family of the cut. It sets which facets there are, and which numbers shape them.",
         );
-        ui.label(match design.cut {
+        let family = match design.cut {
             Cut::Tiers(_) => "Tiers on an index gear",
             Cut::Planes(_) => "Facets given by planes",
             Cut::Mesh(_) => "Triangles of a mesh",
             Cut::RoundBrilliant(_) | Cut::Family(_) | Cut::Glass(_) => {
                 design.cut.family().map_or("", |family| family.name)
             }
-        });
+        };
+        let button = Button::new(format!("{family}…")).truncate().min_size(vec2(field_width(ui), 0.0));
+        let response = ui.add(button).on_hover_text(Command::New.meaning());
+        actions.push_if(response.clicked(), Command::New);
     });
 }
 

@@ -87,12 +87,12 @@ fn what_is_edited_and_saved_opens_again_equal_and_its_figures_are_those_of_the_f
 fn unsaved_work_is_asked_about_before_it_is_lost() {
     let mut bench = Bench::new();
     bench.type_number("Table", "58");
-    bench.choose("File", "New from");
+    bench.choose("File", "New from a cut…");
     bench.harness.get_by_label("Modern ideal").click();
     bench.harness.run_steps(4);
     bench.click("Cancel");
     assert!((bench.brilliant().table - 58.0).abs() < 1e-12);
-    bench.choose("File", "New from");
+    bench.choose("File", "New from a cut…");
     bench.harness.get_by_label("Modern ideal").click();
     bench.harness.run_steps(4);
     bench.click("Don't save");

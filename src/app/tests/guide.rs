@@ -41,6 +41,14 @@ fn the_first_window_and_a_path() {
 
 #[test]
 #[ignore = "writes a picture into docs/images/editor"]
+fn the_cuts_to_begin_from() {
+    let mut bench = window("tolkowsky.toml", &Bench::small());
+    bench.choose("File", "New from a cut…");
+    draw(&mut bench, "cuts");
+}
+
+#[test]
+#[ignore = "writes a picture into docs/images/editor"]
 fn a_lower_crown() {
     let mut bench = window("tolkowsky.toml", &Workspace::default());
     bench.type_number("Crown angle", "32.5");

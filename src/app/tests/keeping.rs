@@ -76,7 +76,7 @@ fn what_is_put_off_until_work_is_saved_is_done_once_it_is() {
     let path = folder.path().join("mine.toml");
     let mut bench = Bench::new();
     bench.type_number("Table", "58");
-    bench.choose("File", "New from");
+    bench.choose("File", "New from a cut…");
     bench.harness.get_by_label("Modern ideal").click();
     bench.harness.run_steps(4);
     bench.choices.lock().unwrap().push(path.clone());

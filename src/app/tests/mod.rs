@@ -3,6 +3,7 @@
 
 mod asking;
 mod backgrounds;
+mod choosing;
 mod copies;
 mod drag;
 mod flows;

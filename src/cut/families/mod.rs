@@ -1,9 +1,14 @@
 //! All families of cuts, and which of them a cut belongs to.
 
+mod alternating;
 mod brilliant;
+mod briolette;
 mod girdle;
 mod oval;
+mod portuguese;
+mod rose;
 mod rows;
+mod single_cut;
 #[cfg(test)]
 mod tests;
 
@@ -13,10 +18,28 @@ use super::family_cut::FamilyCut;
 use super::glass_table::{CUBE, PILL, PLATE, PRISM};
 use super::round_brilliant_table::ROUND_BRILLIANT;
 use super::{Cut, Glass};
+use briolette::BRIOLETTE;
 use oval::OVAL;
+use portuguese::PORTUGUESE;
+use rose::ROSE;
+use single_cut::SINGLE_CUT;
 
 /// All families that are described by proportions, in the order in which messages list them.
-pub static FAMILIES: [&Family; 6] = [&ROUND_BRILLIANT, &OVAL, &PILL, &CUBE, &PRISM, &PLATE];
+pub static FAMILIES: [&Family; 10] =
+    [&ROUND_BRILLIANT, &SINGLE_CUT, &PORTUGUESE, &ROSE, &BRIOLETTE, &OVAL, &PILL, &CUBE, &PRISM, &PLATE];
+
+/// What stands for cuts without a family among [`GROUPS`].
+pub const BY_TIERS: &str = "tiers";
+
+/// The families as the trade groups them: the name of each group, and the keys of its families.
+pub const GROUPS: [(&str, &[&str]); 6] = [
+    ("Rounds", &["round_brilliant", "single_cut", "portuguese", "rose", "briolette"]),
+    ("Fancy brilliant cuts", &["oval", "pear", "marquise", "heart", "cushion", "trillion"]),
+    ("Step cuts", &["emerald", "asscher", "baguette", "tapered_baguette", "kite", "hexagon"]),
+    ("Mixed cuts", &["princess", "radiant", "modified_cushion", "barion"]),
+    ("By tiers", &[BY_TIERS]),
+    ("Glass", &["pill", "cube", "prism", "plate"]),
+];
 
 impl Family {
     /// Returns the family that has this key in cut files.

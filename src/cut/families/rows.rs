@@ -89,3 +89,62 @@ pub const fn part<const PLACE: usize>(
         ..of_width::<PLACE>(key, name, usual)
     }
 }
+
+/// A count, which has the same range everywhere; `ends` says what its least and its greatest value are.
+pub const fn count<const PLACE: usize>(
+    key: &'static str,
+    name: &'static str,
+    range: [f64; 2],
+    ends: [&'static str; 2],
+) -> Proportion {
+    Proportion {
+        key,
+        name,
+        unit: Unit::Count,
+        usual: range,
+        step: 1.0,
+        least: Bound::at(Fixed(range[0]), ends[0]),
+        most: Bound::at(Fixed(range[1]), ends[1]),
+        ..number::<PLACE>()
+    }
+}
+
+/// The number of facets in each row of a cut whose rows alternate by half a step.
+pub const fn facets_per_row<const PLACE: usize>(range: [f64; 2]) -> Proportion {
+    Proportion {
+        meaning: "How many facets each row has. The next row has as many, turned by half a step.",
+        ..count::<PLACE>(
+            "facets",
+            "Facets a row",
+            range,
+            ["the fewest facets a row", "the most facets a row"],
+        )
+    }
+}
+
+/// The number of rows of one side.
+pub const fn row_count<const PLACE: usize>(
+    key: &'static str,
+    name: &'static str,
+    range: [f64; 2],
+) -> Proportion {
+    Proportion {
+        meaning: "How many rows of equal facets lie between the girdle and the end of this side.",
+        ..count::<PLACE>(key, name, range, ["the fewest rows", "the most rows allowed"])
+    }
+}
+
+/// The size of the last row's star around the point in which a side ends.
+pub const fn rosette<const PLACE: usize>(
+    key: &'static str,
+    name: &'static str,
+    usual: [f64; 2],
+) -> Proportion {
+    Proportion {
+        meaning: "The ring of corners in the last row, around the point in which it ends: a larger one leaves less room for \
+                  the other rows, whose slopes then differ more.",
+        least: Bound::at(Fixed(2.0), "the smallest rosette allowed"),
+        most: Bound::at(Fixed(90.0), "the largest rosette allowed"),
+        ..of_width::<PLACE>(key, name, usual)
+    }
+}

@@ -157,6 +157,7 @@ fn look(model: &mut Model, command: Command) {
             session.framing.renew(document.specimen());
         }
         Command::LightPath => session.followed.is_open = !session.followed.is_open,
+        Command::New => session.dialog = Some(Dialog::Cuts),
         Command::Keys => session.dialog = Some(Dialog::Keys),
         Command::About => session.dialog = Some(Dialog::About(AboutForm::default())),
         _ => {}

@@ -1,0 +1,70 @@
+//! The single cut, or eight cut: an octagonal table, eight mains above and eight below on a round girdle; no stars, no halves.
+//!
+//! Its 17 facets, 18 with a culet, are the trade's (visualdictionaryonline.com). No numbers are published for it; the ranges
+//! are those of round brilliants, with the larger tables and flatter crowns of small stones as an estimate.
+
+use super::super::facet_net::{FacetNet, Unfit};
+use super::super::family::{Family, Proportion};
+use super::super::family_cut::FamilyCut;
+use super::girdle::{Girdle, Station};
+use super::oval::superellipse;
+use super::rows;
+use glam::DVec3;
+use std::f64::consts::FRAC_PI_8;
+
+const TABLE: usize = 0;
+const CROWN: usize = 1;
+const PAVILION: usize = 2;
+const GIRDLE: usize = 3;
+const CULET: usize = 4;
+
+/// The family of the single cut.
+pub static SINGLE_CUT: Family = Family {
+    key: "single_cut",
+    name: "Single cut",
+    first: FamilyCut::first(&SINGLE_CUT, &[60.0, 33.0, 40.5, 2.0, 0.0]),
+    net: Some(net),
+    proportions: &[
+        Proportion {
+            meaning: "The flat facet on top, corner to opposite corner.",
+            ..rows::table::<TABLE>([40.0, 70.0])
+        },
+        Proportion {
+            meaning: "How steep the eight facets around the table stand on the girdle plane.",
+            ..rows::slope::<CROWN>("crown_angle", "Crown angle", [25.0, 42.0])
+        },
+        Proportion {
+            meaning: "How steep the eight facets below stand on the girdle plane.",
+            ..rows::slope::<PAVILION>("pavilion_angle", "Pavilion angle", [38.0, 44.0])
+        },
+        Proportion {
+            meaning: "The girdle's thickness in the middle of a main, where it is least; it is greatest between two mains.",
+            ..rows::girdle_thickness::<GIRDLE>()
+        },
+        rows::culet::<CULET>(),
+    ],
+};
+
+fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+    let girdle = Girdle::new(8, 4, |way| superellipse(1.0, 2.0, way));
+    let [crown, pavilion] = [CROWN, PAVILION].map(|place| cut[place].to_radians().tan());
+    let thickness = cut[GIRDLE] / 50.0;
+    // The table's corners lie between the mains.
+    let side = cut[TABLE] / 100.0 * FRAC_PI_8.cos();
+    let mut net = FacetNet::default();
+    net.plane("table", DVec3::Z, DVec3::Z * (1.0 - side) * crown);
+    for main in girdle.mains() {
+        let Station { at, normal } = girdle.main(main);
+        net.plane("bezel", (normal * crown).extend(1.0), at.extend(0.0));
+    }
+    girdle.add_to(&mut net);
+    for main in girdle.mains() {
+        let Station { at, normal } = girdle.main(main);
+        net.plane("main", (normal * pavilion).extend(-1.0), at.extend(-thickness));
+    }
+    if cut[CULET] > 0.0 {
+        let depth = thickness + pavilion * (1.0 - cut[CULET] / 100.0);
+        net.plane("culet", DVec3::NEG_Z, DVec3::NEG_Z * depth);
+    }
+    Ok(net)
+}
