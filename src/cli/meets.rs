@@ -96,9 +96,13 @@ impl<'a> KnownMeets<'a> {
         for (place, tier) in self.design.tiers.iter().enumerate() {
             let name = if tier.name().is_empty() { (place + 1).to_string() } else { tier.name().to_owned() };
             let meet = self.met.tiers[place].meet.as_ref().map_or_else(|| "-".to_owned(), Meet::to_string);
+            // Rounded first, so that a tiny negative number does not print as -0.000000.
             let solved = self.solved.tiers.tiers[place].distance;
             let (solved, difference) = match &self.solved.outcomes[place] {
-                TierOutcome::Solved => (format!("{solved:.6}"), format!("{:.6}", solved - tier.distance)),
+                TierOutcome::Solved => (
+                    format!("{solved:.6}"),
+                    format!("{:.6}", ((solved - tier.distance) * 1e6).round() / 1e6 + 0.0),
+                ),
                 TierOutcome::Failed(_) => ("failed".to_owned(), String::new()),
                 TierOutcome::Kept | TierOutcome::Sets => ("given".to_owned(), String::new()),
             };
