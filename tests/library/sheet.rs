@@ -42,24 +42,20 @@ fn text_tiers(text: &str) -> (f64, Vec<TextTier>) {
 }
 
 fn text_tier(record: &str) -> TextTier {
-    let (settings, said) = record.split_once(" G ").unwrap_or((record, ""));
-    let mut words = settings.split_whitespace().skip(1);
-    let angle = words.next().unwrap().parse().unwrap();
-    let mut tier = TextTier {
-        angle,
-        indices: vec![],
-        name: String::new(),
-        instruction: said.split_whitespace().collect::<Vec<_>>().join(" "),
-    };
-    words.next();
+    let mut words = record.split_whitespace().skip(1);
+    let mut number = || words.next().unwrap().parse::<f64>().unwrap();
+    let (angle, _) = (number(), number());
+    let mut tier = TextTier { angle, indices: vec![], name: String::new(), instruction: String::new() };
     while let Some(word) = words.next() {
-        if word == "n" {
-            let name = words.next().unwrap_or_default();
-            if tier.name.is_empty() {
-                tier.name = name.to_owned();
+        match word {
+            "n" => {
+                let name = words.next().unwrap_or_default();
+                if tier.name.is_empty() {
+                    tier.name = name.to_owned();
+                }
             }
-        } else if let Ok(index) = word.parse() {
-            tier.indices.push(index);
+            "G" => tier.instruction = words.by_ref().collect::<Vec<_>>().join(" "),
+            index => tier.indices.extend(index.parse::<f64>().ok()),
         }
     }
     tier
@@ -73,7 +69,11 @@ fn expected(gear: f64, tier: &TextTier, chosen: &str) -> String {
     indices.sort_by(|a, b| (a % gear).total_cmp(&(b % gear)));
     let text = |index: &f64| if *index == 0.0 { gear } else { *index }.to_string();
     let indices: Vec<String> = indices.iter().map(text).collect();
-    let said = if flat && tier.instruction.is_empty() { "Table" } else { &tier.instruction };
+    let said = match (tier.instruction.as_str(), flat, tier.angle.is_sign_negative()) {
+        ("", true, false) => "Table",
+        ("", true, true) => "Culet",
+        (said, ..) => said,
+    };
     let name = if tier.name.is_empty() { chosen } else { &tier.name };
     format!("{name} {:.2} {} {said}", tier.angle.abs(), indices.join("-"))
 }
