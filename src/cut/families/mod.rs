@@ -1,9 +1,23 @@
 //! All families of cuts, and which of them a cut belongs to.
 
+mod asscher;
+mod baguette;
+mod barion;
 mod brilliant;
+mod chevrons;
+mod emerald;
 mod girdle;
+mod hexagon;
+mod kite;
 mod oval;
+mod princess;
+mod radiant;
 mod rows;
+mod step_rows;
+#[cfg(test)]
+mod step_tests;
+mod steps;
+mod tapered_baguette;
 #[cfg(test)]
 mod tests;
 
@@ -13,10 +27,35 @@ use super::family_cut::FamilyCut;
 use super::glass_table::{CUBE, PILL, PLATE, PRISM};
 use super::round_brilliant_table::ROUND_BRILLIANT;
 use super::{Cut, Glass};
+use asscher::ASSCHER;
+use baguette::BAGUETTE;
+use barion::BARION;
+use emerald::EMERALD;
+use hexagon::HEXAGON;
+use kite::KITE;
 use oval::OVAL;
+use princess::PRINCESS;
+use radiant::RADIANT;
+use tapered_baguette::TAPERED_BAGUETTE;
 
 /// All families that are described by proportions, in the order in which messages list them.
-pub static FAMILIES: [&Family; 6] = [&ROUND_BRILLIANT, &OVAL, &PILL, &CUBE, &PRISM, &PLATE];
+pub static FAMILIES: [&Family; 15] = [
+    &ROUND_BRILLIANT,
+    &OVAL,
+    &PRINCESS,
+    &RADIANT,
+    &EMERALD,
+    &ASSCHER,
+    &BAGUETTE,
+    &TAPERED_BAGUETTE,
+    &KITE,
+    &HEXAGON,
+    &BARION,
+    &PILL,
+    &CUBE,
+    &PRISM,
+    &PLATE,
+];
 
 impl Family {
     /// Returns the family that has this key in cut files.
