@@ -2,6 +2,7 @@
 
 /// The cuts that come with the program: the name of each, and the text of its file in `cuts/`.
 pub const CUTS: [(&str, &str); 18] = [
+pub const CUTS: [(&str, &str); 20] = [
     ("tolkowsky", include_str!("../../cuts/tolkowsky.toml")),
     ("modern-ideal", include_str!("../../cuts/modern-ideal.toml")),
     ("steep-deep", include_str!("../../cuts/steep-deep.toml")),
@@ -16,6 +17,15 @@ pub const CUTS: [(&str, &str); 18] = [
     ("briolette", include_str!("../../cuts/briolette.toml")),
     ("oval", include_str!("../../cuts/oval.toml")),
     ("block", include_str!("../../cuts/block.toml")),
+    ("princess", include_str!("../../cuts/princess.toml")),
+    ("radiant", include_str!("../../cuts/radiant.toml")),
+    ("emerald", include_str!("../../cuts/emerald.toml")),
+    ("asscher", include_str!("../../cuts/asscher.toml")),
+    ("baguette", include_str!("../../cuts/baguette.toml")),
+    ("tapered-baguette", include_str!("../../cuts/tapered-baguette.toml")),
+    ("kite", include_str!("../../cuts/kite.toml")),
+    ("hexagon", include_str!("../../cuts/hexagon.toml")),
+    ("barion", include_str!("../../cuts/barion.toml")),
     ("pill", include_str!("../../cuts/pill.toml")),
     ("prism", include_str!("../../cuts/prism.toml")),
     ("cube", include_str!("../../cuts/cube.toml")),

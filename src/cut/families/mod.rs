@@ -3,12 +3,28 @@
 mod alternating;
 mod brilliant;
 mod briolette;
+mod asscher;
+mod baguette;
+mod barion;
+mod brilliant;
+mod chevrons;
+mod emerald;
 mod girdle;
+mod hexagon;
+mod kite;
 mod oval;
 mod portuguese;
 mod rose;
 mod rows;
 mod single_cut;
+mod princess;
+mod radiant;
+mod rows;
+mod step_rows;
+#[cfg(test)]
+mod step_tests;
+mod steps;
+mod tapered_baguette;
 #[cfg(test)]
 mod tests;
 
@@ -39,6 +55,34 @@ pub const GROUPS: [(&str, &[&str]); 6] = [
     ("Mixed cuts", &["princess", "radiant", "modified_cushion", "barion"]),
     ("By tiers", &[BY_TIERS]),
     ("Glass", &["pill", "cube", "prism", "plate"]),
+use asscher::ASSCHER;
+use baguette::BAGUETTE;
+use barion::BARION;
+use emerald::EMERALD;
+use hexagon::HEXAGON;
+use kite::KITE;
+use oval::OVAL;
+use princess::PRINCESS;
+use radiant::RADIANT;
+use tapered_baguette::TAPERED_BAGUETTE;
+
+/// All families that are described by proportions, in the order in which messages list them.
+pub static FAMILIES: [&Family; 15] = [
+    &ROUND_BRILLIANT,
+    &OVAL,
+    &PRINCESS,
+    &RADIANT,
+    &EMERALD,
+    &ASSCHER,
+    &BAGUETTE,
+    &TAPERED_BAGUETTE,
+    &KITE,
+    &HEXAGON,
+    &BARION,
+    &PILL,
+    &CUBE,
+    &PRISM,
+    &PLATE,
 ];
 
 impl Family {

@@ -9,7 +9,7 @@ use proptest::test_runner::{Config, TestRng, TestRunner};
 use std::collections::BTreeMap;
 
 /// Returns the families that this folder makes.
-fn made() -> impl Iterator<Item = (&'static Family, FamilyCut)> {
+pub(super) fn made() -> impl Iterator<Item = (&'static Family, FamilyCut)> {
     FAMILIES.into_iter().filter_map(|family| match &family.first {
         Cut::Family(cut) => Some((family, *cut)),
         _ => None,
@@ -28,7 +28,7 @@ fn at(family: &'static Family, parts: &[f64]) -> Cut {
 
 /// Runs a check on 300 cuts of each family at random numbers inside their usual ranges; returns for each family how many make
 /// a stone.
-fn on_random_cuts(
+pub(super) fn on_random_cuts(
     check: impl Fn(&'static Family, &Cut) -> Result<bool, TestCaseError>,
 ) -> Vec<(&'static str, u32)> {
     let mut counts = vec![];
@@ -47,7 +47,7 @@ fn on_random_cuts(
     counts
 }
 
-fn stone(cut: &Cut) -> Option<(Polytope, Vec<String>)> {
+pub(super) fn stone(cut: &Cut) -> Option<(Polytope, Vec<String>)> {
     let Cut::Family(cut) = cut else { return None };
     let (names, planes): (Vec<_>, Vec<_>) = cut.facets().ok()?.into_iter().unzip();
     let stone = Polytope::from_planes(&planes).expect("a checked net is closed");
@@ -56,7 +56,7 @@ fn stone(cut: &Cut) -> Option<(Polytope, Vec<String>)> {
 }
 
 /// Counts the facets of each tier but the girdle.
-fn tiers(names: &[String]) -> BTreeMap<&str, usize> {
+pub(super) fn tiers(names: &[String]) -> BTreeMap<&str, usize> {
     let mut tiers = BTreeMap::new();
     for name in names.iter().map(|name| tier_stem(name)).filter(|name| *name != "girdle") {
         *tiers.entry(name).or_default() += 1;

@@ -1,0 +1,138 @@
+//! The princess cut: a square brilliant with bevelled corners, whose pavilion has mains in an X and rows of chevrons.
+//!
+//! Ranges: crown with two mains a side, stars at an azimuth of 6 degrees, equal widths at mid-side (B. Harding, on the AGS's
+//! model); 2, 3 or 4 rows of chevrons (briangavindiamonds.com); table 60 to 80, total depth 65 to 80 percent (brilliancelab).
+//! No figures are published of the mains' angles; those here give crowns 8 to 15 percent high. Beside its chevrons, each side
+//! has one facet along the girdle: a level girdle allows no two.
+
+use super::super::facet_net::{FacetNet, Unfit};
+use super::super::family::BoundAt::Fixed;
+use super::super::family::{Bound, Family, Proportion, Unit};
+use super::super::family_cut::{FamilyCut, number};
+use super::chevrons::{Chevrons, StarCrown};
+use super::steps::{self, Rectangle};
+use super::{rows, step_rows};
+
+const LENGTH: usize = 0;
+const CORNER: usize = 1;
+const TABLE: usize = 2;
+const MAIN_1: usize = 3;
+const MAIN_2: usize = 4;
+const STAR_AZIMUTH: usize = 5;
+const CHEVRONS: usize = 6;
+const DEPTH: usize = 7;
+const STEP: usize = 8;
+const SHOULDER: usize = 9;
+const GIRDLE: usize = 10;
+const CULET: usize = 11;
+
+/// The family of the princess cut.
+pub static PRINCESS: Family = Family {
+    key: "princess",
+    name: "Princess cut",
+    first: FamilyCut::first(&PRINCESS, &[1.0, 2.0, 70.0, 38.0, 26.0, 6.0, 3.0, 57.0, 7.0, 30.0, 3.0, 0.0]),
+    net: Some(net),
+    proportions: &[
+        rows::length_to_width::<LENGTH>([1.0, 1.3]),
+        step_rows::corner::<CORNER>([1.0, 5.0]),
+        rows::table::<TABLE>([60.0, 80.0]),
+        Proportion {
+            meaning: "How steep the mains of the sides stand that begin at the girdle.",
+            ..rows::slope::<MAIN_1>("main_1_angle", "First mains", [32.0, 46.0])
+        },
+        Proportion {
+            meaning: "How steep the mains of the sides stand that reach the table.",
+            ..rows::slope::<MAIN_2>("main_2_angle", "Second mains", [18.0, 30.0])
+        },
+        star_azimuth::<STAR_AZIMUTH>([4.0, 9.0]),
+        chevrons::<CHEVRONS>(),
+        pavilion_depth::<DEPTH>([50.0, 64.0]),
+        chevron_step::<STEP>(),
+        shoulder::<SHOULDER>(),
+        rows::girdle_thickness::<GIRDLE>(),
+        rows::culet::<CULET>(),
+    ],
+};
+
+/// The azimuth of the stars.
+pub(super) const fn star_azimuth<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
+    Proportion {
+        key: "star_azimuth",
+        name: "Star azimuth",
+        unit: Unit::Degrees,
+        of: "from the direction of the end of the stone",
+        meaning: "How far the two stars of an end turn away from each other: 0 would be a table with straight sides.",
+        usual,
+        least: Bound::before(Fixed(0.0), "where both stars of a side would be one"),
+        most: Bound::before(Fixed(45.0), "where the table's corners would vanish"),
+        ..number::<PLACE>()
+    }
+}
+
+/// The number of rows of chevrons.
+pub(super) const fn chevrons<const PLACE: usize>() -> Proportion {
+    Proportion {
+        meaning: "How many rows of chevrons, pairs of facets that form a V, each side of the pavilion has.",
+        ..step_rows::count::<PLACE>(
+            "chevrons",
+            "Chevrons",
+            [2.0, 4.0],
+            ["fewer than which no such cut has", "more than which no such cut has"],
+        )
+    }
+}
+
+/// The depth of the pavilion.
+pub(super) const fn pavilion_depth<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
+    Proportion {
+        meaning: "The depth of the mains' point below the girdle, in percent of the width of the stone.",
+        least: Bound::at(Fixed(2.0), "the shallowest pavilion allowed"),
+        most: Bound::at(Fixed(300.0), "the deepest pavilion allowed"),
+        ..rows::of_width::<PLACE>("pavilion_depth", "Pavilion depth", usual)
+    }
+}
+
+/// The angle between neighbouring chevrons.
+pub(super) const fn chevron_step<const PLACE: usize>() -> Proportion {
+    Proportion {
+        meaning: "How much steeper the pavilion is in each row than in the next inner one, along the middle of a side.",
+        ..step_rows::step::<PLACE>("chevron_step", "Chevron step", [4.0, 9.0])
+    }
+}
+
+/// How wide the mains are.
+pub(super) const fn shoulder<const PLACE: usize>() -> Proportion {
+    Proportion {
+        meaning: "How far from the middle, along the middle of a side, neighbouring mains touch and the chevrons begin.",
+        ..rows::part::<PLACE>(
+            "shoulder",
+            "Main shoulders",
+            "of the way from the middle to the girdle",
+            [18.0, 40.0],
+        )
+    }
+}
+
+fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+    let outline = Rectangle { length: cut[LENGTH], corner: cut[CORNER] / 50.0, keel: 1.0 };
+    let thickness = cut[GIRDLE] / 50.0;
+    let crown = StarCrown {
+        table: cut[TABLE] / 100.0,
+        mains: [MAIN_1, MAIN_2].map(|main| cut[main].to_radians().tan()),
+        star_azimuth: cut[STAR_AZIMUTH].to_radians(),
+        divided_corners: false,
+    };
+    let pavilion = Chevrons {
+        count: cut[CHEVRONS] as usize,
+        depth: cut[DEPTH] / 50.0,
+        step: cut[STEP],
+        shoulder: cut[SHOULDER] / 100.0,
+        corner_step: None,
+        culet: cut[CULET] / 100.0,
+    };
+    let mut net = FacetNet::default();
+    crown.add_to(&mut net, &outline, -0.5 * thickness)?;
+    steps::add_girdle(&mut net, &outline.sides(), thickness);
+    pavilion.add_to(&mut net, &outline, thickness)?;
+    Ok(net)
+}

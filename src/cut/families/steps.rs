@@ -1,0 +1,196 @@
+//! Step cuts on an outline of straight sides: rows of facets whose edges run level, parallel to the girdle.
+//!
+//! Between one level line and the next, each side moves inward at a steady rate of its own. With rates that bring all sides
+//! to one line or point together, the level lines shrink evenly: the edges between the sides run straight from the girdle's
+//! corners to the ends of this line, seen from above, and every row has a facet on every side. The rates follow from the
+//! outline and this line (the keel): a side at the distance d with the normal n moves by d minus the keel's reach along n.
+//! The profile is convex because each row is flatter than the one before. The construction is this program's own.
+
+use super::super::facet_net::{FacetNet, Unfit};
+use super::super::family_cut::FamilyCut;
+use glam::{DVec2, DVec3};
+
+const CROWN: [&str; 5] = ["crown_1", "crown_2", "crown_3", "crown_4", "crown_5"];
+const PAVILION: [&str; 5] = ["pavilion_1", "pavilion_2", "pavilion_3", "pavilion_4", "pavilion_5"];
+
+/// A straight side of the outline, seen from above. Lengths are in girdle radii.
+#[derive(Debug, Clone, Copy)]
+pub struct StepSide {
+    /// The unit normal, outward.
+    pub normal: DVec2,
+    /// The distance from the origin.
+    pub distance: f64,
+    /// How far the side moves inward in the crown while a side of rate 1 moves by 1.
+    pub crown_rate: f64,
+    /// The same for the pavilion.
+    pub pavilion_rate: f64,
+}
+
+impl StepSide {
+    /// Makes a side through a point. Level lines of the crown and of the pavilion shrink to segments along the width and
+    /// length, of these half-lengths, about the origin.
+    pub fn toward(normal: DVec2, through: DVec2, crown: DVec2, pavilion: DVec2) -> Self {
+        let normal = normal.normalize_or(DVec2::X);
+        let distance = normal.dot(through);
+        let rate = |segment: DVec2| distance - normal.abs().dot(segment);
+        Self { normal, distance, crown_rate: rate(crown), pavilion_rate: rate(pavilion) }
+    }
+}
+
+/// The rows of a crown or of a pavilion, equally wide seen from above.
+#[derive(Debug, Clone, Copy)]
+pub struct StepRows {
+    /// How many rows there are, 1 to 5.
+    pub count: usize,
+    /// The slope of all rows together, in degrees.
+    pub slope: f64,
+    /// How many degrees each row is steeper than the next.
+    pub step: f64,
+    /// How far a side of rate 1 moves inward in all rows.
+    pub reach: f64,
+}
+
+impl StepRows {
+    /// Takes count, slope and step from three places of a table.
+    pub fn of(cut: &FamilyCut, [count, slope, step]: [usize; 3], reach: f64) -> Self {
+        Self { count: cut[count] as usize, slope: cut[slope], step: cut[step], reach }
+    }
+
+    /// Returns the tangents of the rows' angles, the steepest first, whose mean is the tangent of the slope as a whole;
+    /// `None` where the steps leave no room between level and upright.
+    pub fn tangents(&self) -> Option<Vec<f64>> {
+        let count = self.count.max(1);
+        let spread = 0.5 * self.step * (count - 1) as f64;
+        let at = |middle: f64| -> Vec<f64> {
+            let angles = (0..count).map(|row| middle + spread - self.step * row as f64);
+            angles.map(|angle| angle.to_radians().tan()).collect()
+        };
+        let wanted = self.slope.to_radians().tan();
+        let excess = |middle: f64| at(middle).iter().sum::<f64>() / count as f64 - wanted;
+        if count == 1 {
+            return Some(vec![wanted]);
+        }
+        // The mean tangent rises with the middle angle, from the last row's being level to the first row's being upright.
+        let (mut low, mut high) = (spread, 90.0 - spread);
+        if low >= high || excess(low) >= 0.0 {
+            return None;
+        }
+        loop {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                return Some(at(low));
+            }
+            *(if excess(middle) < 0.0 { &mut low } else { &mut high }) = middle;
+        }
+    }
+
+    /// Returns how high the rows rise in all, in girdle radii.
+    pub fn height(&self) -> f64 {
+        self.reach * self.slope.to_radians().tan()
+    }
+
+    /// Adds a facet of each row on each side. The rows begin at the height `from`; `up` is 1 for a crown, -1 for a pavilion.
+    fn add_to(
+        &self,
+        net: &mut FacetNet,
+        tiers: [&'static str; 5],
+        sides: &[StepSide],
+        from: f64,
+        up: f64,
+    ) -> Result<(), Unfit> {
+        let rows = self.tangents().ok_or(Unfit { tier: tiers[0] })?;
+        let width = self.reach / rows.len() as f64;
+        let mut height = from;
+        for (row, (tier, tangent)) in tiers.into_iter().zip(rows).enumerate() {
+            let inset = width * row as f64;
+            for side in sides {
+                let rate = if up > 0.0 { side.crown_rate } else { side.pavilion_rate };
+                if rate <= 0.0 {
+                    return Err(Unfit { tier });
+                }
+                let edge = side.normal * (side.distance - rate * inset);
+                net.plane(tier, (side.normal * tangent).extend(up * rate), edge.extend(height));
+            }
+            height += up * tangent * width;
+        }
+        Ok(())
+    }
+
+    /// Adds the table and the rows of a crown.
+    ///
+    /// # Errors
+    /// The tier of the row that has no room.
+    pub fn add_crown(&self, net: &mut FacetNet, sides: &[StepSide]) -> Result<(), Unfit> {
+        net.plane("table", DVec3::Z, DVec3::Z * self.height());
+        self.add_to(net, CROWN, sides, 0.0, 1.0)
+    }
+
+    /// Adds the rows of a pavilion below a girdle of this thickness.
+    ///
+    /// # Errors
+    /// The tier of the row that has no room.
+    pub fn add_pavilion(&self, net: &mut FacetNet, sides: &[StepSide], thickness: f64) -> Result<(), Unfit> {
+        self.add_to(net, PAVILION, sides, -thickness, -1.0)
+    }
+}
+
+/// Adds an upright facet on each side.
+pub fn add_girdle(net: &mut FacetNet, sides: &[StepSide], thickness: f64) {
+    if thickness > 0.0 {
+        for side in sides {
+            net.plane("girdle", side.normal.extend(0.0), (side.normal * side.distance).extend(0.0));
+        }
+    }
+}
+
+/// Makes all facets of a step cut.
+///
+/// # Errors
+/// The tier that has no room.
+pub fn net(
+    sides: &[StepSide],
+    crown: StepRows,
+    thickness: f64,
+    pavilion: StepRows,
+) -> Result<FacetNet, Unfit> {
+    let mut net = FacetNet::default();
+    crown.add_crown(&mut net, sides)?;
+    add_girdle(&mut net, sides, thickness);
+    pavilion.add_pavilion(&mut net, sides, thickness)?;
+    Ok(net)
+}
+
+/// A rectangle of half the width 1, with or without its corners.
+#[derive(Debug, Clone, Copy)]
+pub struct Rectangle {
+    /// Half of the length.
+    pub length: f64,
+    /// How much of each side a corner takes away; 0 leaves the corners.
+    pub corner: f64,
+    /// The keel's length as a part of that between ends as steep as the sides.
+    pub keel: f64,
+}
+
+impl Rectangle {
+    /// Returns the half of the shorter side, which is how far sides move inward until they meet.
+    pub fn reach(&self) -> f64 {
+        self.length.min(1.0)
+    }
+
+    /// Returns the sides, counter-clockwise from +x.
+    pub fn sides(&self) -> Vec<StepSide> {
+        let Self { length, corner, keel } = *self;
+        let size = DVec2::new(1.0, length);
+        let even = size - self.reach();
+        let to = |normal: DVec2, through: DVec2| StepSide::toward(normal, through, even, even * keel);
+        let (across, along) = (DVec2::new(1.0, 0.0), DVec2::new(0.0, 1.0));
+        let signs =
+            [DVec2::new(1.0, 1.0), DVec2::new(-1.0, 1.0), DVec2::new(-1.0, -1.0), DVec2::new(1.0, -1.0)];
+        let straight = [across, along, -across, -along];
+        let quarter = |(main, sign): (DVec2, DVec2)| {
+            let cut = (corner > 0.0).then(|| to(sign, sign * size - DVec2::new(0.0, sign.y * corner)));
+            [Some(to(main, main * size)), cut].into_iter().flatten()
+        };
+        straight.into_iter().zip(signs).flat_map(quarter).collect()
+    }
+}
