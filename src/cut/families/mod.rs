@@ -1,11 +1,22 @@
 //! All families of cuts, and which of them a cut belongs to.
 
 mod brilliant;
+mod brilliant_rows;
+mod chevrons;
+mod curves;
+mod cushion;
+#[cfg(test)]
+mod documented;
 mod girdle;
+mod heart;
+mod marquise;
+mod modified_cushion;
 mod oval;
+mod pear;
 mod rows;
 #[cfg(test)]
 mod tests;
+mod trillion;
 
 use super::family::{Family, ProfileHandle, Proportion};
 #[cfg(test)]
@@ -13,10 +24,29 @@ use super::family_cut::FamilyCut;
 use super::glass_table::{CUBE, PILL, PLATE, PRISM};
 use super::round_brilliant_table::ROUND_BRILLIANT;
 use super::{Cut, Glass};
+use cushion::CUSHION;
+use heart::HEART;
+use marquise::MARQUISE;
+use modified_cushion::MODIFIED_CUSHION;
 use oval::OVAL;
+use pear::PEAR;
+use trillion::TRILLION;
 
 /// All families that are described by proportions, in the order in which messages list them.
-pub static FAMILIES: [&Family; 6] = [&ROUND_BRILLIANT, &OVAL, &PILL, &CUBE, &PRISM, &PLATE];
+pub static FAMILIES: [&Family; 12] = [
+    &ROUND_BRILLIANT,
+    &OVAL,
+    &MARQUISE,
+    &PEAR,
+    &HEART,
+    &CUSHION,
+    &MODIFIED_CUSHION,
+    &TRILLION,
+    &PILL,
+    &CUBE,
+    &PRISM,
+    &PLATE,
+];
 
 impl Family {
     /// Returns the family that has this key in cut files.

@@ -1,15 +1,15 @@
 //! What holds for every family whose facets a function makes: stones at random numbers, and what their limits say.
 
 use super::*;
-use crate::cut::{ProportionError, Unit, is_girdle, tier_stem};
-use crate::math::Polytope;
+use crate::cut::{ProportionError, Unit, tier_stem};
+use crate::math::{Plane, Polytope, bounds};
 use glam::DVec3;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRng, TestRunner};
 use std::collections::BTreeMap;
 
 /// Returns the families that this folder makes.
-fn made() -> impl Iterator<Item = (&'static Family, FamilyCut)> {
+pub(super) fn made() -> impl Iterator<Item = (&'static Family, FamilyCut)> {
     FAMILIES.into_iter().filter_map(|family| match &family.first {
         Cut::Family(cut) => Some((family, *cut)),
         _ => None,
@@ -47,29 +47,60 @@ fn on_random_cuts(
     counts
 }
 
-fn stone(cut: &Cut) -> Option<(Polytope, Vec<String>)> {
-    let Cut::Family(cut) = cut else { return None };
-    let (names, planes): (Vec<_>, Vec<_>) = cut.facets().ok()?.into_iter().unzip();
-    let stone = Polytope::from_planes(&planes).expect("a checked net is closed");
-    let names = stone.facets().iter().map(|facet| names[facet.source].clone()).collect();
-    Some((stone, names))
+/// What the laws look at of a stone, whether it is convex or not.
+pub(super) struct Solid {
+    pub vertices: Vec<DVec3>,
+    /// The planes of the facets, with their names.
+    pub facets: Vec<(String, Plane)>,
+    /// The number of facets of each tier.
+    pub tiers: BTreeMap<String, usize>,
+    pub volume: f64,
+    /// The extents along x, y and z.
+    pub size: DVec3,
 }
 
-/// Counts the facets of each tier but the girdle.
-fn tiers(names: &[String]) -> BTreeMap<&str, usize> {
-    let mut tiers = BTreeMap::new();
-    for name in names.iter().map(|name| tier_stem(name)).filter(|name| *name != "girdle") {
-        *tiers.entry(name).or_default() += 1;
+impl Solid {
+    /// Makes the stone of a cut; `None` where its numbers cross a limit.
+    pub fn of(cut: &Cut) -> Option<Self> {
+        let Cut::Family(family_cut) = cut else { return None };
+        let (facets, vertices, volume): (Vec<_>, _, _) = match family_cut.mesh().ok()? {
+            Some(mesh) => {
+                let names = mesh.facet_names();
+                assert!(
+                    names.len() == mesh.planes().len(),
+                    "{} has facets without names",
+                    family_cut.family.key
+                );
+                let facets = names.iter().map(|name| (*name).to_owned()).zip(mesh.planes().iter().copied());
+                (facets.collect(), mesh.vertices().to_vec(), mesh.volume())
+            }
+            None => {
+                let given = family_cut.facets().expect("it was checked");
+                let planes: Vec<Plane> = given.iter().map(|(_, plane)| *plane).collect();
+                let stone = Polytope::from_planes(&planes).expect("a checked net is closed");
+                let facets = stone.facets().iter().map(|facet| (given[facet.source].0.clone(), facet.plane));
+                (facets.collect(), stone.vertices().to_vec(), stone.volume())
+            }
+        };
+        let mut tiers = BTreeMap::new();
+        facets.iter().for_each(|(name, _)| *tiers.entry(tier_stem(name).to_owned()).or_default() += 1);
+        let (low, high) = bounds(vertices.iter().copied());
+        Some(Self { vertices, facets, tiers, volume, size: high - low })
     }
-    tiers
+
+    /// Returns the number of facets of each tier but girdle and culet.
+    fn lasting_tiers(&self) -> Vec<(&str, usize)> {
+        let tiers = self.tiers.iter().map(|(tier, count)| (tier.as_str(), *count));
+        tiers.filter(|(tier, _)| !["girdle", "culet"].contains(tier)).collect()
+    }
 }
 
 #[test]
 fn at_random_numbers_a_family_makes_a_stone_or_names_its_limit() {
     let made = on_random_cuts(|_, cut| match cut.check() {
         Ok(()) => {
-            let (stone, names) = stone(cut).expect("it was checked");
-            prop_assert!(stone.facets().len() == names.len() && stone.volume() > 0.0);
+            let solid = Solid::of(cut).expect("it was checked");
+            prop_assert!(solid.volume > 0.0 && solid.facets.iter().all(|(name, _)| !name.is_empty()));
             Ok(true)
         }
         Err(error) => {
@@ -85,9 +116,7 @@ fn at_random_numbers_a_family_makes_a_stone_or_names_its_limit() {
 #[test]
 fn length_to_width_is_as_given_and_half_the_width_is_one() {
     on_random_cuts(|family, cut| {
-        let Some((stone, _)) = stone(cut) else { return Ok(false) };
-        let (low, high) = stone.bounds();
-        let size = high - low;
+        let Some(Solid { size, .. }) = Solid::of(cut) else { return Ok(false) };
         let expected = family.proportion("length_to_width").map_or(f64::NAN, |row| (row.get)(cut));
         if !expected.is_nan() {
             prop_assert!((size.y / size.x - expected).abs() < 1e-9, "{} for {expected}", size.y / size.x);
@@ -100,18 +129,14 @@ fn length_to_width_is_as_given_and_half_the_width_is_one() {
 #[test]
 fn every_stone_has_the_facets_of_its_first_cut_and_its_mirror_symmetry() {
     on_random_cuts(|family, cut| {
-        let Some((stone, names)) = stone(cut) else { return Ok(false) };
-        let counts = family.editable().any(|row| row.unit == Unit::Count);
-        let mut expected = self::stone(&family.first).expect("the first cut is a stone").1;
-        expected.retain(|name| !name.starts_with("culet"));
-        let mut found = names.clone();
-        found.retain(|name| !name.starts_with("culet"));
-        if !counts {
-            prop_assert_eq!(tiers(&found), tiers(&expected));
+        let Some(solid) = Solid::of(cut) else { return Ok(false) };
+        if !family.editable().any(|row| row.unit == Unit::Count) {
+            let first = Solid::of(&family.first).expect("the first cut is a stone");
+            prop_assert_eq!(solid.lasting_tiers(), first.lasting_tiers());
         }
-        for corner in stone.vertices() {
+        for corner in &solid.vertices {
             let mirrored = DVec3::new(-corner.x, corner.y, corner.z);
-            let near = stone.vertices().iter().any(|other| other.distance(mirrored) < 1e-7);
+            let near = solid.vertices.iter().any(|other| other.distance(mirrored) < 1e-7);
             prop_assert!(near, "{corner} has no mirror image");
         }
         Ok(true)
@@ -147,9 +172,9 @@ fn impossible_numbers_name_a_limit_that_makes_a_stone() {
 #[test]
 fn facets_are_named_by_tier() {
     for (family, cut) in made() {
-        let (stone, names) = stone(&Cut::Family(cut)).unwrap();
-        assert!(names.iter().any(|name| name == "table") || family.key == "briolette", "{}", family.key);
-        let girdle = stone.facets().iter().zip(&names).filter(|(facet, _)| is_girdle(facet));
-        assert!(girdle.into_iter().all(|(_, name)| name.starts_with("girdle")), "{}", family.key);
+        let solid = Solid::of(&Cut::Family(cut)).unwrap();
+        assert!(solid.tiers.contains_key("table") || family.key == "briolette", "{}", family.key);
+        let mut girdle = solid.facets.iter().filter(|(_, plane)| plane.normal.z.abs() < 1e-9);
+        assert!(girdle.all(|(name, _)| name.starts_with("girdle")), "{}", family.key);
     }
 }
