@@ -8,7 +8,7 @@ use super::meets::KnownMeets;
 use super::mesh_options::MeshArguments;
 use super::names::is_scene;
 use super::specimen::LoadedSpecimen;
-use crate::cut::{AlongAxes, Audit, Cut, ProportionReport, Spread, Unit};
+use crate::cut::{AlongAxes, Audit, Cut, ProportionReport, Spread, Unit, tier_stem};
 use crate::io::Failure;
 use crate::io::STANDARD;
 use crate::math::{Facet, Polytope};
@@ -229,6 +229,17 @@ fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
     if let Body::Mesh(mesh) = &*specimen.body {
         value["triangles"] = json!(mesh.surface().triangles.len());
         value["corners"] = json!(mesh.vertices().len());
+        let mut tiers: Vec<(&str, usize)> = vec![];
+        for name in mesh.facet_names().into_iter().map(tier_stem) {
+            match tiers.iter_mut().find(|(tier, _)| *tier == name) {
+                Some((_, count)) => *count += 1,
+                None => tiers.push((name, 1)),
+            }
+        }
+        if !tiers.is_empty() {
+            let tier = |(name, facets)| json!({ "name": name, "facets": facets });
+            value["tiers"] = tiers.into_iter().map(tier).collect();
+        }
     }
     let Ok(stone) = specimen.stone() else { return Ok(value) };
     let polytope = &stone.polytope;
@@ -307,13 +318,20 @@ fn table(specimen: &LoadedSpecimen, value: &Value, with_facets: bool) -> String 
         let (low, high) = specimen.solid().bounds();
         let [x, y, z] = (high - low).to_array();
         line("size", format!("{x:.4} by {y:.4} by {z:.4} girdle radii"));
-        let is_mesh = matches!(specimen.design.cut, Cut::Mesh(_));
+        let is_mesh = matches!(&*specimen.body, Body::Mesh(_));
         if is_mesh {
             line("triangles, vertices", format!("{}, {}", value["triangles"], value["corners"]));
         }
         line("volume", format!("{:.6} girdle radii³", specimen.solid().volume()));
-        let why = if is_mesh { "traced as triangles" } else { "curved" };
-        let _ = write!(text, "\n  {why}: it has no facets to list");
+        for tier in value["tiers"].as_array().into_iter().flatten() {
+            line(tier["name"].as_str().unwrap_or_default(), format!("{} facets", tier["facets"]));
+        }
+        let why = match (is_mesh, value.get("tiers")) {
+            (true, Some(_)) => "not convex: traced as triangles",
+            (true, None) => "traced as triangles: it has no facets to list",
+            (false, _) => "curved: it has no facets to list",
+        };
+        let _ = write!(text, "\n  {why}");
         return text;
     };
     let polytope = &stone.polytope;

@@ -1,8 +1,7 @@
 //! The cuts and scenes that come with the program, as the texts of their files.
 
 /// The cuts that come with the program: the name of each, and the text of its file in `cuts/`.
-pub const CUTS: [(&str, &str); 18] = [
-pub const CUTS: [(&str, &str); 20] = [
+pub const CUTS: [(&str, &str); 33] = [
     ("tolkowsky", include_str!("../../cuts/tolkowsky.toml")),
     ("modern-ideal", include_str!("../../cuts/modern-ideal.toml")),
     ("steep-deep", include_str!("../../cuts/steep-deep.toml")),
@@ -26,6 +25,12 @@ pub const CUTS: [(&str, &str); 20] = [
     ("kite", include_str!("../../cuts/kite.toml")),
     ("hexagon", include_str!("../../cuts/hexagon.toml")),
     ("barion", include_str!("../../cuts/barion.toml")),
+    ("marquise", include_str!("../../cuts/marquise.toml")),
+    ("pear", include_str!("../../cuts/pear.toml")),
+    ("heart", include_str!("../../cuts/heart.toml")),
+    ("cushion", include_str!("../../cuts/cushion.toml")),
+    ("modified-cushion", include_str!("../../cuts/modified-cushion.toml")),
+    ("trillion", include_str!("../../cuts/trillion.toml")),
     ("pill", include_str!("../../cuts/pill.toml")),
     ("prism", include_str!("../../cuts/prism.toml")),
     ("cube", include_str!("../../cuts/cube.toml")),

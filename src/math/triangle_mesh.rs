@@ -79,6 +79,19 @@ impl TriangleMesh {
         if volume > 0.0 { Ok(mesh) } else { Err(TriangleMeshError::InsideOut(volume)) }
     }
 
+    /// Makes the mesh of a surface each of whose groups is one facet, flat and with at least one triangle.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn of_groups(surface: Surface) -> Result<Self, TriangleMeshError> {
+        checked(&surface)?;
+        neighbours(&surface.triangles)?;
+        let (facets, planes) = (surface.groups.clone(), planes_of(&surface, &surface.groups));
+        let mesh = Self::of_parts(surface, facets, planes);
+        let volume = mesh.volume();
+        if volume > 0.0 { Ok(mesh) } else { Err(TriangleMeshError::InsideOut(volume)) }
+    }
+
     /// Makes the mesh of a convex solid; the facets keep their order.
     pub fn of_polytope(polytope: &Polytope) -> Self {
         let mesh = triangulate(polytope);
@@ -117,6 +130,19 @@ impl TriangleMesh {
     /// Returns the facet that each triangle belongs to.
     pub fn facets(&self) -> &[u32] {
         &self.facets
+    }
+
+    /// Returns the names of the facets, where the surface has one group with a name for each facet; else none.
+    pub fn facet_names(&self) -> Vec<&str> {
+        let Surface { names, groups, .. } = &self.surface;
+        if names.len() != self.planes.len() || names.iter().any(String::is_empty) {
+            return vec![];
+        }
+        let mut found = vec![""; names.len()];
+        for (&facet, &group) in self.facets.iter().zip(groups) {
+            found[facet as usize] = names.get(group as usize).map_or("", String::as_str);
+        }
+        found
     }
 
     /// Returns the plane of each facet; its normal points outward.

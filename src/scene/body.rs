@@ -43,7 +43,7 @@ impl Body {
     pub fn names(&self) -> Vec<String> {
         match self {
             Self::Stone(stone) => stone.names().to_vec(),
-            Self::Mesh(_) => vec![],
+            Self::Mesh(mesh) => mesh.facet_names().into_iter().map(str::to_owned).collect(),
             Self::Glass(smooth) => smooth.field().facets().iter().map(|name| (*name).to_owned()).collect(),
         }
     }
@@ -54,7 +54,10 @@ impl Body {
         match self {
             Self::Stone(stone) => stone.name(facet).replace('_', " "),
             Self::Glass(smooth) => smooth.field().facets()[facet as usize].to_owned(),
-            Self::Mesh(_) => format!("facet {}", facet + 1),
+            Self::Mesh(mesh) => match mesh.facet_names().get(facet as usize) {
+                Some(name) => name.replace('_', " "),
+                None => format!("facet {}", facet + 1),
+            },
         }
     }
 }

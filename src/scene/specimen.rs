@@ -47,6 +47,7 @@ impl Specimen {
         let material = design.material.material().map_err(DesignError::from)?;
         let body = match &design.cut {
             Cut::Mesh(shape) => Some(Body::Mesh(Arc::clone(&shape.0))),
+            Cut::Family(cut) => cut.mesh().map_err(DesignError::from)?.map(|mesh| Body::Mesh(Arc::new(mesh))),
             Cut::Glass(glass) if glass.planes().is_none() => {
                 Some(Body::Glass(SmoothSolid::new(glass.field().map_err(DesignError::from)?)))
             }

@@ -9,6 +9,7 @@
 //! docs/optics.md.
 
 use super::super::facet_net::{FacetNet, Unfit};
+use super::super::family_cut::FamilyCut;
 use super::girdle::{Girdle, Station};
 use glam::{DVec2, DVec3};
 
@@ -33,19 +34,46 @@ pub struct Brilliant<'a> {
     pub culet: f64,
 }
 
-impl Brilliant<'_> {
+impl<'a> Brilliant<'a> {
+    /// Takes the numbers of a cut whose seven rows from `place` on are those of [`brilliant_rows`](super::brilliant_rows). Both
+    /// angles are those of facets at a distance of `reach` from the middle.
+    pub fn of(cut: &FamilyCut, place: usize, girdle: &'a Girdle, middle: DVec2, reach: f64) -> Self {
+        let [table, crown, pavilion, star, lower_half, thickness, culet] =
+            std::array::from_fn(|row| cut[place + row]);
+        Self {
+            girdle,
+            middle,
+            table: table / 100.0,
+            crown_height: (1.0 - table / 100.0) * reach * crown.to_radians().tan(),
+            star: star / 100.0,
+            thickness: thickness / 50.0,
+            pavilion_depth: reach * pavilion.to_radians().tan(),
+            lower_half: lower_half / 100.0,
+            culet: culet / 100.0,
+        }
+    }
+
     /// Makes all facets.
     ///
     /// # Errors
     /// The tier whose points give no plane.
     pub fn net(&self) -> Result<FacetNet, Unfit> {
-        let mut net = FacetNet::default();
+        let mut net = self.without_pavilion()?;
+        self.add_pavilion(&mut net)?;
+        Ok(net)
+    }
+
+    /// Makes table, crown, girdle and culet, for a pavilion of another kind that reaches as deep.
+    ///
+    /// # Errors
+    /// The tier whose points give no plane.
+    pub fn without_pavilion(&self) -> Result<FacetNet, Unfit> {
+        let mut net = self.girdle.empty_net();
         net.plane("table", DVec3::Z, DVec3::Z * self.crown_height);
         self.add_crown(&mut net)?;
         if self.thickness > 0.0 {
             self.girdle.add_to(&mut net);
         }
-        self.add_pavilion(&mut net)?;
         if self.culet > 0.0 {
             let depth = self.thickness + self.pavilion_depth * (1.0 - self.culet);
             net.plane("culet", DVec3::NEG_Z, DVec3::NEG_Z * depth);
@@ -54,7 +82,7 @@ impl Brilliant<'_> {
     }
 
     /// Returns a point inside the stone, near which no plane runs.
-    fn inside(&self) -> DVec3 {
+    pub fn inside(&self) -> DVec3 {
         self.middle.extend(-0.5 * self.thickness)
     }
 
@@ -65,7 +93,7 @@ impl Brilliant<'_> {
             let level = normal.perp().extend(0.0);
             net.through("bezel", [at.extend(0.0), at.extend(0.0) + level, top(main)], self.inside())?;
         }
-        let tips = self.girdle.mains().map(|main| self.star_tip(main)).collect::<Option<Vec<_>>>();
+        let tips = self.girdle.gaps().map(|main| self.star_tip(main)).collect::<Option<Vec<_>>>();
         let tips = tips.ok_or(Unfit { tier: "star" })?;
         for (main, tip) in tips.iter().enumerate() {
             net.through("star", [top(main), top(main + 1), *tip], self.inside())?;
@@ -78,7 +106,7 @@ impl Brilliant<'_> {
 
     fn add_pavilion(&self, net: &mut FacetNet) -> Result<(), Unfit> {
         let point = self.middle.extend(-self.thickness - self.pavilion_depth);
-        let tips = self.girdle.mains().map(|main| {
+        let tips = self.girdle.gaps().map(|main| {
             // The line from the culet's point to where the tangents of both mains meet.
             let outer = self.tangents_meet(main, 1.0)?.extend(-self.thickness);
             let reach = self.reach_of_halves(main, outer.truncate())?;
@@ -140,7 +168,7 @@ impl Brilliant<'_> {
     }
 
     /// Returns the point where the tangents of a main and of the next meet, in the outline of a part of its size.
-    fn tangents_meet(&self, main: usize, size: f64) -> Option<DVec2> {
+    pub fn tangents_meet(&self, main: usize, size: f64) -> Option<DVec2> {
         let [a, b] = [main, main + 1].map(|main| self.girdle.main(main));
         let [da, db] = [a, b].map(|station| station.normal.dot(station.at - self.middle) * size);
         let across = a.normal.perp_dot(b.normal);

@@ -13,7 +13,8 @@ pub struct Station {
     pub normal: DVec2,
 }
 
-/// A closed outline, counter-clockwise, with a main facet at every second station.
+/// An outline, counter-clockwise, with a main facet at every second station: closed, or the half on the side of +x of an
+/// outline that its mirror image completes.
 ///
 /// Stations alternate between those where a main touches the outline and those where two half facets part. Between two
 /// stations the girdle has a number of upright facets. They touch the curve in their middles, so that length and width are
@@ -22,6 +23,8 @@ pub struct Girdle {
     stations: Vec<Station>,
     /// The places where upright facets touch the curve.
     upright: Vec<Station>,
+    /// Whether the outline is one half, whose first and last stations lie at x = 0.
+    is_half: bool,
 }
 
 impl Girdle {
@@ -30,11 +33,34 @@ impl Girdle {
     pub fn new(mains: usize, upright: usize, curve: impl Fn(f64) -> Station) -> Self {
         let (stations, upright) = (2 * mains.max(2), upright.max(1));
         let places = |count: usize| (0..count).map(|place| curve(place as f64 / count as f64)).collect();
-        Self { stations: places(stations), upright: places(stations * upright) }
+        Self { stations: places(stations), upright: places(stations * upright), is_half: false }
+    }
+
+    /// Divides one half of an outline, on the side of +x: `curve` begins and ends at x = 0, with a main at both ends, and
+    /// this leaves `gaps` gaps between mains.
+    pub fn half(gaps: usize, upright: usize, curve: impl Fn(f64) -> Station) -> Self {
+        let (steps, upright) = (2 * gaps.max(2), upright.max(1));
+        let places = |count: usize| (0..=count).map(|place| curve(place as f64 / count as f64)).collect();
+        Self { stations: places(steps), upright: places(steps * upright), is_half: true }
+    }
+
+    /// Adds an upright facet that touches the outline at a place, so that the outline reaches no farther there.
+    pub fn touch(&mut self, place: Station) {
+        self.upright.push(place);
+    }
+
+    /// Returns a net without facets for a stone with this outline.
+    pub fn empty_net(&self) -> FacetNet {
+        if self.is_half { FacetNet::half() } else { FacetNet::default() }
     }
 
     /// Returns the places of the mains.
     pub fn mains(&self) -> Range<usize> {
+        0..self.stations.len().div_ceil(2)
+    }
+
+    /// Returns the places between a main and the next, each by the number of the first.
+    pub fn gaps(&self) -> Range<usize> {
         0..self.stations.len() / 2
     }
 

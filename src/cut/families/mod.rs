@@ -1,25 +1,33 @@
 //! All families of cuts, and which of them a cut belongs to.
 
 mod alternating;
-mod brilliant;
-mod briolette;
 mod asscher;
 mod baguette;
 mod barion;
 mod brilliant;
+mod brilliant_rows;
+mod briolette;
 mod chevrons;
+mod curves;
+mod cushion;
+mod cushion_chevrons;
+#[cfg(test)]
+mod documented;
 mod emerald;
 mod girdle;
+mod heart;
 mod hexagon;
 mod kite;
+mod marquise;
+mod modified_cushion;
 mod oval;
+mod pear;
 mod portuguese;
+mod princess;
+mod radiant;
 mod rose;
 mod rows;
 mod single_cut;
-mod princess;
-mod radiant;
-mod rows;
 mod step_rows;
 #[cfg(test)]
 mod step_tests;
@@ -27,6 +35,7 @@ mod steps;
 mod tapered_baguette;
 #[cfg(test)]
 mod tests;
+mod trillion;
 
 use super::family::{Family, ProfileHandle, Proportion};
 #[cfg(test)]
@@ -34,15 +43,55 @@ use super::family_cut::FamilyCut;
 use super::glass_table::{CUBE, PILL, PLATE, PRISM};
 use super::round_brilliant_table::ROUND_BRILLIANT;
 use super::{Cut, Glass};
+use asscher::ASSCHER;
+use baguette::BAGUETTE;
+use barion::BARION;
 use briolette::BRIOLETTE;
+use cushion::CUSHION;
+use emerald::EMERALD;
+use heart::HEART;
+use hexagon::HEXAGON;
+use kite::KITE;
+use marquise::MARQUISE;
+use modified_cushion::MODIFIED_CUSHION;
 use oval::OVAL;
+use pear::PEAR;
 use portuguese::PORTUGUESE;
+use princess::PRINCESS;
+use radiant::RADIANT;
 use rose::ROSE;
 use single_cut::SINGLE_CUT;
+use tapered_baguette::TAPERED_BAGUETTE;
+use trillion::TRILLION;
 
 /// All families that are described by proportions, in the order in which messages list them.
-pub static FAMILIES: [&Family; 10] =
-    [&ROUND_BRILLIANT, &SINGLE_CUT, &PORTUGUESE, &ROSE, &BRIOLETTE, &OVAL, &PILL, &CUBE, &PRISM, &PLATE];
+pub static FAMILIES: [&Family; 25] = [
+    &ROUND_BRILLIANT,
+    &SINGLE_CUT,
+    &PORTUGUESE,
+    &ROSE,
+    &BRIOLETTE,
+    &OVAL,
+    &MARQUISE,
+    &PEAR,
+    &HEART,
+    &CUSHION,
+    &TRILLION,
+    &EMERALD,
+    &ASSCHER,
+    &BAGUETTE,
+    &TAPERED_BAGUETTE,
+    &KITE,
+    &HEXAGON,
+    &PRINCESS,
+    &RADIANT,
+    &MODIFIED_CUSHION,
+    &BARION,
+    &PILL,
+    &CUBE,
+    &PRISM,
+    &PLATE,
+];
 
 /// What stands for cuts without a family among [`GROUPS`].
 pub const BY_TIERS: &str = "tiers";
@@ -55,34 +104,6 @@ pub const GROUPS: [(&str, &[&str]); 6] = [
     ("Mixed cuts", &["princess", "radiant", "modified_cushion", "barion"]),
     ("By tiers", &[BY_TIERS]),
     ("Glass", &["pill", "cube", "prism", "plate"]),
-use asscher::ASSCHER;
-use baguette::BAGUETTE;
-use barion::BARION;
-use emerald::EMERALD;
-use hexagon::HEXAGON;
-use kite::KITE;
-use oval::OVAL;
-use princess::PRINCESS;
-use radiant::RADIANT;
-use tapered_baguette::TAPERED_BAGUETTE;
-
-/// All families that are described by proportions, in the order in which messages list them.
-pub static FAMILIES: [&Family; 15] = [
-    &ROUND_BRILLIANT,
-    &OVAL,
-    &PRINCESS,
-    &RADIANT,
-    &EMERALD,
-    &ASSCHER,
-    &BAGUETTE,
-    &TAPERED_BAGUETTE,
-    &KITE,
-    &HEXAGON,
-    &BARION,
-    &PILL,
-    &CUBE,
-    &PRISM,
-    &PLATE,
 ];
 
 impl Family {

@@ -9,25 +9,20 @@ use super::super::family::{Bound, Family, Proportion, Unit};
 use super::super::family_cut::{FamilyCut, number};
 use super::brilliant::Brilliant;
 use super::girdle::{Girdle, Station};
-use super::rows;
+use super::{brilliant_rows, rows};
 use glam::DVec2;
 use std::f64::consts::TAU;
 
 const LENGTH: usize = 0;
 const FULLNESS: usize = 1;
 const TABLE: usize = 2;
-const CROWN: usize = 3;
-const PAVILION: usize = 4;
-const STAR: usize = 5;
-const LOWER_HALF: usize = 6;
-const GIRDLE: usize = 7;
-const CULET: usize = 8;
+const MAINS: usize = 9;
 
 /// The family of the oval brilliant.
 pub static OVAL: Family = Family {
     key: "oval",
     name: "Oval brilliant",
-    first: FamilyCut::first(&OVAL, &[1.4, 2.0, 57.0, 34.5, 40.75, 50.0, 75.0, 3.0, 0.0]),
+    first: FamilyCut::first(&OVAL, &[1.4, 2.0, 57.0, 34.5, 40.75, 50.0, 75.0, 3.0, 0.0, 2.0]),
     net: Some(net),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.2, 1.8]),
@@ -44,35 +39,14 @@ pub static OVAL: Family = Family {
             most: Bound::at(Fixed(4.0), "where the outline is nearly a rectangle"),
             ..number::<FULLNESS>()
         },
-        rows::table::<TABLE>([50.0, 68.0]),
-        Proportion {
-            meaning: "How steep the bezels at the sides stand on the girdle plane. Toward the ends they are flatter.",
-            ..rows::slope::<CROWN>("crown_angle", "Crown angle", [28.0, 40.0])
-        },
-        Proportion {
-            meaning: "How steep the mains at the sides stand on the girdle plane. Toward the ends they are flatter.",
-            ..rows::slope::<PAVILION>("pavilion_angle", "Pavilion angle", [38.0, 46.0])
-        },
-        Proportion {
-            meaning: "How far the stars reach from the table's edge to the girdle, seen from above.",
-            ..rows::part::<STAR>(
-                "star_length",
-                "Star length",
-                "of the way from the table's edge to the girdle",
-                [35.0, 65.0],
-            )
-        },
-        Proportion {
-            meaning: "How far the lower halves reach from the girdle to the middle, seen from below.",
-            ..rows::part::<LOWER_HALF>(
-                "lower_half_length",
-                "Lower halves",
-                "of the way from the girdle to the middle",
-                [50.0, 90.0],
-            )
-        },
-        rows::girdle_thickness::<GIRDLE>(),
-        rows::culet::<CULET>(),
+        rows::table::<2>([50.0, 68.0]),
+        brilliant_rows::crown_angle::<3>([28.0, 40.0]),
+        brilliant_rows::pavilion_angle::<4>([38.0, 46.0]),
+        brilliant_rows::star_length::<5>(),
+        brilliant_rows::lower_half_length::<6>(),
+        rows::girdle_thickness::<7>(),
+        rows::culet::<8>(),
+        brilliant_rows::mains_per_quarter::<9>(),
     ],
 };
 
@@ -93,18 +67,7 @@ pub(super) fn superellipse(length: f64, exponent: f64, way: f64) -> Station {
 }
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
-    let girdle = Girdle::new(8, 4, |way| superellipse(cut[LENGTH], cut[FULLNESS], way));
-    let table = cut[TABLE] / 100.0;
-    let brilliant = Brilliant {
-        girdle: &girdle,
-        middle: DVec2::ZERO,
-        table,
-        crown_height: (1.0 - table) * cut[CROWN].to_radians().tan(),
-        star: cut[STAR] / 100.0,
-        thickness: cut[GIRDLE] / 50.0,
-        pavilion_depth: cut[PAVILION].to_radians().tan(),
-        lower_half: cut[LOWER_HALF] / 100.0,
-        culet: cut[CULET] / 100.0,
-    };
-    brilliant.net()
+    let mains = 4 * cut[MAINS] as usize;
+    let girdle = Girdle::new(mains, 4, |way| superellipse(cut[LENGTH], cut[FULLNESS], way));
+    Brilliant::of(cut, TABLE, &girdle, DVec2::ZERO, 1.0).net()
 }

@@ -1,0 +1,102 @@
+//! Convex curves of which outlines are made, as places on them. Lengths are in girdle radii.
+
+use super::girdle::Station;
+use glam::DVec2;
+
+/// Returns the place at a part of the way around an outline that is symmetric about both axes, from +x. `quarter` takes a
+/// part of the way from +x to +y to its place.
+pub fn around(way: f64, quarter: impl Fn(f64) -> Station) -> Station {
+    let (number, part) = ((4.0 * way).floor(), (4.0 * way).fract());
+    let flipped = |place: Station, by: DVec2| Station { at: place.at * by, normal: place.normal * by };
+    match number as i64 % 4 {
+        0 => quarter(part),
+        1 => flipped(quarter(1.0 - part), DVec2::new(-1.0, 1.0)),
+        2 => flipped(quarter(part), DVec2::NEG_ONE),
+        _ => flipped(quarter(1.0 - part), DVec2::new(1.0, -1.0)),
+    }
+}
+
+/// A curve from (1, 0), where it runs along y, to a point at (0, `length`): the side of a marquise or a pear.
+pub struct Wing {
+    length: f64,
+    /// The height at which the tangents of both ends meet.
+    tangents_meet: f64,
+}
+
+impl Wing {
+    /// Makes the curve whose end tangents meet `fullness` times as high as those of an arc of a circle, which is an arc at 1;
+    /// `None` where it would not be convex.
+    pub fn new(length: f64, fullness: f64) -> Option<Self> {
+        let tangents_meet = fullness * (length * length + 1.0) / (2.0 * length);
+        (tangents_meet > 0.0 && tangents_meet < length).then_some(Self { length, tangents_meet })
+    }
+
+    /// Returns the place at a part of the way from the side to the point. The point's normal is +y.
+    ///
+    /// The curve is a conic section, written as a rational Bézier curve of degree 2 (Farin, Curves and Surfaces for CAGD); the
+    /// weight of its middle point is the cosine of half the angle by which it turns, as for an arc.
+    pub fn at(&self, part: f64) -> Station {
+        let middle = DVec2::new(1.0, self.tangents_meet);
+        let (start, end) = (DVec2::X, DVec2::Y * self.length);
+        let turn = DVec2::Y.angle_to(end - middle);
+        let weight = (0.5 * turn).cos();
+        let (back, on) = (1.0 - part, part);
+        let sum = back * back + 2.0 * back * on * weight + on * on;
+        let at = (start * (back * back) + middle * (2.0 * back * on * weight) + end * (on * on)) / sum;
+        let along = (middle - start) * (weight * back * back)
+            + (end - start) * (back * on)
+            + (end - middle) * (weight * on * on);
+        let normal = if part == 1.0 { DVec2::Y } else { -along.perp().normalize_or(DVec2::NEG_X) };
+        Station { at, normal }
+    }
+}
+
+/// A quarter of a rectangle with bulged sides and rounded corners, made of three arcs.
+pub struct RoundedQuarter {
+    /// The arcs at +x, at the corner and at +y: centre, radius, and the angles of the normals from +x at both ends.
+    arcs: [(DVec2, f64, [f64; 2]); 3],
+}
+
+impl RoundedQuarter {
+    /// Makes the quarter of an outline that is 2 wide and `2 * length` long. `bulge` is how far the sides bulge between the
+    /// corners that they would have without rounding, `corner` the radius of the corners. `None` where the arcs do not
+    /// follow one another.
+    pub fn new(length: f64, bulge: f64, corner: f64) -> Option<Self> {
+        let radius = |half: f64| (half * half + bulge * bulge) / (2.0 * bulge);
+        let (right, upper) = (radius(length), radius(1.0));
+        let (a, b) = (DVec2::new(1.0 - right, 0.0), DVec2::new(0.0, length - upper));
+        // The corner's centre is as far from both sides.
+        let ([to_a, to_b], between) = ([right - corner, upper - corner], b - a);
+        let apart = between.length();
+        let along = (to_a * to_a - to_b * to_b + apart * apart) / (2.0 * apart);
+        let off = (to_a * to_a - along * along).sqrt();
+        let centre = a + between / apart * along + between.perp() / apart * off;
+        let [begin, end] = [(centre - a).to_angle(), (centre - b).to_angle()];
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let is_whole = to_a > 0.0 && to_b > 0.0 && begin > 0.0 && begin < end && end < quarter;
+        let arcs = [(a, right, [0.0, begin]), (centre, corner, [begin, end]), (b, upper, [end, quarter])];
+        is_whole.then_some(Self { arcs })
+    }
+
+    /// Returns the place at a part of the way from +x to +y; the middle of the corner is at half of the way.
+    pub fn at(&self, part: f64) -> Station {
+        let [side, corner, end] = self.arcs;
+        let middle = 0.5 * (corner.2[0] + corner.2[1]);
+        let [first, second] = [[corner.2[0], middle], [middle, corner.2[1]]];
+        let halves = [[side, (corner.0, corner.1, first)], [(corner.0, corner.1, second), end]];
+        let half = halves[usize::from(part > 0.5)];
+        let lengths = half.map(|(_, radius, [from, to])| radius * (to - from));
+        let mut way = (2.0 * part - f64::from(part > 0.5)) * (lengths[0] + lengths[1]);
+        let arc = usize::from(way > lengths[0]);
+        if arc == 1 {
+            way -= lengths[0];
+        }
+        let (centre, radius, [from, _]) = half[arc];
+        let normal = match part {
+            0.0 => DVec2::X,
+            1.0 => DVec2::Y,
+            _ => DVec2::from_angle(from + way / radius),
+        };
+        Station { at: centre + normal * radius, normal }
+    }
+}

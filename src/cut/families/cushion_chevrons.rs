@@ -1,0 +1,112 @@
+//! A pavilion of chevrons on a bulged outline: on each side rows of facets in pairs, which run from near a corner to the middle
+//! of the side and down toward the culet like a V, and one main at each corner. The four mains form an X.
+//!
+//! The rows of half a side share one point, the tip, on the edge of the corner's main. Each of them goes through the tip and
+//! two points of the line down the middle of the side, so that all rows meet in points. Between the tip and the girdle, the
+//! first row and the half facet of the corner part at the place between two stations. The construction is this program's own.
+
+use super::super::facet_net::{FacetNet, Unfit};
+use super::girdle::{Girdle, Station};
+use glam::{DMat3, DVec3};
+
+/// The tiers of the rows, from the girdle to the culet.
+const TIERS: [&str; 4] = ["chevron_1", "chevron_2", "chevron_3", "chevron_4"];
+
+/// The numbers of a pavilion of chevrons.
+pub struct CushionChevrons<'a> {
+    /// The outline, with mains at the middles of sides (even places) and at corners (odd places).
+    pub girdle: &'a Girdle,
+    /// The girdle's thickness.
+    pub thickness: f64,
+    /// The slopes of the lines down the middles of the sides, from the girdle to the culet, at sides as far as half the width
+    /// from the axis: tangents of angles, one for each row.
+    pub slopes: Vec<f64>,
+    /// The depth of the tips, as a part of the pavilion's depth.
+    pub tip: f64,
+}
+
+/// Half of a side, with the points that its facets go through.
+struct HalfSide {
+    /// The points down the middle of the side, from the girdle to the culet.
+    middles: Vec<DVec3>,
+    /// The place of the girdle between side and corner.
+    between: DVec3,
+    /// The place of the girdle at the corner.
+    corner: DVec3,
+    tip: DVec3,
+}
+
+impl CushionChevrons<'_> {
+    /// Returns the depth of the pavilion. Its rows are equally wide, seen from below.
+    pub fn depth(&self) -> f64 {
+        self.slopes.iter().sum::<f64>() / self.slopes.len().max(1) as f64
+    }
+
+    /// Adds the pavilion.
+    ///
+    /// # Errors
+    /// The tier whose points give no plane.
+    pub fn add_to(&self, net: &mut FacetNet) -> Result<(), Unfit> {
+        let inside = DVec3::NEG_Z * (0.5 * self.thickness);
+        let around = self.girdle.mains().len();
+        let sides = || self.girdle.mains().step_by(2);
+        let mut halves = vec![];
+        for side in sides() {
+            let (next, last) = (side + 1, side + around - 1);
+            halves.push(self.half_side(side, next, side)?);
+            halves.push(self.half_side(side, last, last)?);
+        }
+        for HalfSide { between, corner, tip, .. } in &halves {
+            net.through("corner_half", [*tip, *corner, *between], inside)?;
+        }
+        for (row, tier) in TIERS.iter().enumerate().take(self.slopes.len()) {
+            for HalfSide { middles, between, tip, .. } in &halves {
+                let third = if row == 0 { between } else { tip };
+                net.through(tier, [middles[row], middles[row + 1], *third], inside)?;
+            }
+        }
+        for side in sides() {
+            net.through("main", self.main(side + 1), inside)?;
+        }
+        Ok(())
+    }
+
+    /// Returns a station's place on the lower edge of the girdle.
+    fn edge(&self, place: usize) -> DVec3 {
+        self.girdle.main(place).at.extend(-self.thickness)
+    }
+
+    /// Returns three points of a corner's main.
+    fn main(&self, corner: usize) -> [DVec3; 3] {
+        let Station { normal, .. } = self.girdle.main(corner);
+        let edge = self.edge(corner);
+        [edge, edge + normal.perp().extend(0.0), DVec3::NEG_Z * (self.thickness + self.depth())]
+    }
+
+    /// Returns the half of a side toward a corner, with the girdle's place in the gap between both.
+    fn half_side(&self, side: usize, corner: usize, gap: usize) -> Result<HalfSide, Unfit> {
+        let (edge, rows) = (self.edge(side), self.slopes.len().max(1) as f64);
+        let mut middles = vec![edge];
+        let mut depth = self.thickness;
+        for (row, slope) in self.slopes.iter().enumerate() {
+            depth += slope / rows;
+            let size = 1.0 - (row + 1) as f64 / rows;
+            middles.push((edge.truncate() * size).extend(-depth));
+        }
+        let between = self.girdle.between(gap).extend(-self.thickness);
+        let tip = self.tip([middles[0], middles[1], between], self.main(corner));
+        let tip = tip.ok_or(Unfit { tier: "corner_half" })?;
+        Ok(HalfSide { middles, between, corner: self.edge(corner), tip })
+    }
+
+    /// Returns the point at the tips' depth where two planes through three points each meet.
+    fn tip(&self, row: [DVec3; 3], main: [DVec3; 3]) -> Option<DVec3> {
+        let normal = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).normalize_or_zero();
+        let (row_normal, main_normal) = (normal(row), normal(main));
+        let planes = DMat3::from_cols(row_normal, main_normal, DVec3::Z).transpose();
+        let depth = self.thickness + self.tip * self.depth();
+        let offsets = DVec3::new(row_normal.dot(row[0]), main_normal.dot(main[0]), -depth);
+        let tip = planes.inverse() * offsets;
+        tip.is_finite().then_some(tip)
+    }
+}

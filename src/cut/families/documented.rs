@@ -1,0 +1,126 @@
+//! Keeps docs/families.md current: the tables of all families whose facets a function makes, and what their first cuts weigh.
+//!
+//! `BRILLIANTEER_RECORD=1 cargo test --lib documented` writes the file.
+
+use super::tests::{Solid, made};
+use crate::cut::{Bound, BoundAt, Cut, Family, Proportion, Unit};
+use std::fmt::Write;
+
+const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/families.md");
+
+const BEGINNING: &str = "\
+# Families of cuts
+
+A cut file shapes a stone of a family by the table that bears the family's key, such as `[oval]`. This page is made of the
+tables in `src/cut/families`, and a test keeps it current. [Formats](formats.md#cut-files) describes the rest of a cut file
+and `[round_brilliant]`.
+
+W, the *width*, is the shorter extent of the outline along x and y. Lengths are percent of W where nothing else is said,
+and angles are degrees from the girdle plane. The length is measured along y, which is up in pictures. \"Usual\" is the
+range of the editor's slider; \"possible\" is what the program takes if the facets still have room. All keys are required but those
+that have a default.
+
+## What the families weigh
+
+The trade estimates the weight of a set diamond from its dimensions: carats = length · width · depth · k, in mm. Diamond has
+0.017575 carats per cubic millimetre, so k / 0.017575 is the share of the box around the stone that is filled. The
+trade's k are for thin to medium girdles; thick girdles, high shoulders and bulging pavilions add up to 10 % each.
+
+| family | facets without the girdle | length to width | depth, % of W | volume / (L W D) | the trade's | why it differs |
+|---|---|---|---|---|---|---|
+";
+
+/// The trade's factor k of a family at the length to width of its first cut, its source, and why the first cut differs.
+const TRADE: [(&str, f64, &str, &str); 5] = [
+    (
+        "oval",
+        0.0062 * 1.44 / 1.4,
+        "esslinger.com: 0.0062 times the square of the mean of length and width",
+        "",
+    ),
+    ("marquise", 0.0058, "esslinger.com", ""),
+    ("pear", 0.00594, "esslinger.com", ""),
+    ("heart", 0.0059, "esslinger.com", ""),
+    ("trillion", 0.0057, "esslinger.com: triangle", ""),
+];
+
+/// The carats of a cubic millimetre of diamond.
+const CARATS: f64 = 0.017_575;
+
+/// Returns the number of facets but the girdle's and the row of weights of a family's first cut.
+fn weight(family: &Family) -> String {
+    let solid = Solid::of(&family.first).expect("the first cut is a stone");
+    let size = solid.size;
+    let facets = solid.tiers.iter().filter(|(tier, _)| *tier != "girdle").map(|(_, count)| count);
+    let trade = TRADE.iter().find(|(key, ..)| *key == family.key);
+    let trade = trade.map_or("none found | ".to_owned(), |(_, k, source, why)| {
+        format!("{:.3} ({source}) | {why}", k / CARATS)
+    });
+    format!(
+        "| [{}](#{}) | {} | {:.2} | {:.1} | {:.3} | {trade} |\n",
+        family.name,
+        family.key,
+        facets.sum::<usize>(),
+        size.y / size.x,
+        100.0 * size.z / size.x.min(size.y),
+        solid.volume / (size.x * size.y * size.z),
+    )
+}
+
+/// Writes a bound with what happens there.
+fn bound(word: [&str; 2], bound: Option<Bound>) -> Option<String> {
+    let Bound { at, inclusive, reason } = bound?;
+    let BoundAt::Fixed(at) = at else { return Some(format!("a limit that depends on other keys: {reason}")) };
+    Some(format!("{} {at} ({reason})", if inclusive { word[0] } else { word[1] }))
+}
+
+fn row(row: &Proportion, first: &Cut) -> String {
+    let unit = match row.unit {
+        Unit::Count => "whole number".to_owned(),
+        _ => row.hint(),
+    };
+    let bounds = [bound(["from", "above"], row.least), bound(["to", "below"], row.most)];
+    let bounds = bounds.into_iter().flatten().collect::<Vec<_>>().join(", ");
+    let default = row.default.map_or(String::new(), |value| format!(" Default {value}."));
+    let [least, most] = row.usual;
+    let value = (row.get)(first);
+    format!(
+        "| `{}` | {unit} | {least} to {most} | {bounds} | {value} | {}{default} |\n",
+        row.key, row.meaning
+    )
+}
+
+fn section(family: &'static Family) -> String {
+    let mut text = format!("\n## {}\n\n", family.key);
+    let _ = write!(text, "{}. The table is `[{}]`.\n\n", family.name, family.key);
+    text.push_str("| key | unit | usual | possible | first | meaning |\n|---|---|---|---|---|---|\n");
+    family.editable().for_each(|given| text.push_str(&row(given, &family.first)));
+    let derived = family.proportions.iter().filter(|row| row.give.is_none());
+    let derived: Vec<String> =
+        derived.map(|row| format!("`{}` ({}): {}", row.key, row.hint(), row.meaning)).collect();
+    if !derived.is_empty() {
+        let _ = write!(text, "\nThese follow: {}\n", derived.join(" "));
+    }
+    let solid = Solid::of(&family.first).expect("the first cut is a stone");
+    let tiers: Vec<String> = solid.tiers.iter().map(|(tier, count)| format!("{count} `{tier}`")).collect();
+    let _ = write!(text, "\nFacets of the first cut: {}.\n", tiers.join(", "));
+    text
+}
+
+fn page() -> String {
+    let mut text = BEGINNING.to_owned();
+    made().for_each(|(family, _)| text.push_str(&weight(family)));
+    made().for_each(|(family, _)| text.push_str(&section(family)));
+    text
+}
+
+#[test]
+fn the_page_of_families_is_current() {
+    let page = page();
+    if std::env::var_os("BRILLIANTEER_RECORD").is_some() {
+        std::fs::write(FILE, &page).unwrap();
+    }
+    let found = std::fs::read_to_string(FILE).unwrap_or_default();
+    let differs = page.lines().zip(found.lines()).find(|(new, old)| new != old);
+    assert!(page == found, "write docs/families.md anew (BRILLIANTEER_RECORD=1); it differs at {differs:?}");
+}

@@ -1,0 +1,127 @@
+//! The heart: a brilliant with two lobes, a cleft and a point, 59 facets. It is not convex at its cleft.
+//!
+//! Both halves are convex brilliants, made alike, and meet in the plane x = 0. Each half has a bezel and a main of its own at
+//! the cleft.
+//!
+//! Ranges: L/W 0.90 to 1.10 (yourjewel.com), library of cutters' designs 1.00 to 1.06; cleft, lobes and fullness are chosen to
+//! look like the trade's pictures.
+
+use super::super::facet_net::{FacetNet, Unfit};
+use super::super::family::BoundAt::{Fixed, Of};
+use super::super::family::{Bound, Family, Proportion};
+use super::super::family_cut::FamilyCut;
+use super::super::shape::Cut;
+use super::brilliant::Brilliant;
+use super::curves::Wing;
+use super::girdle::{Girdle, Station};
+use super::{brilliant_rows, rows};
+use glam::DVec2;
+use std::f64::consts::FRAC_PI_2;
+
+const LENGTH: usize = 0;
+const CLEFT: usize = 1;
+const LOBE: usize = 2;
+const FULLNESS: usize = 3;
+const MIDDLE: usize = 4;
+const TABLE: usize = 5;
+
+/// The stations from the point to the widest place, as parts of the way from there to the point. Mains and places between
+/// them alternate; the first is a main.
+const SIDE: [f64; 4] = [1.0, 0.68, 0.34, 0.0];
+
+/// The stations from the widest place to the top of the lobe, in quarter turns; the first lies between two mains, and the last
+/// is a main. Widest place and top are stations, so that length and width are exact.
+const OUTER_LOBE: [f64; 4] = [0.0, 0.42, 0.71, 1.0];
+
+/// The family of the heart.
+pub static HEART: Family = Family {
+    key: "heart",
+    name: "Heart",
+    first: FamilyCut::first(&HEART, &[1.0, 14.0, 30.0, 100.0, 8.0, 56.0, 34.5, 40.75, 50.0, 75.0, 3.0, 0.0]),
+    net: Some(net),
+    proportions: &[
+        rows::length_to_width::<LENGTH>([0.9, 1.1]),
+        Proportion {
+            meaning: "How deep the cleft is below the lobes.",
+            least: Bound::at(Fixed(0.5), "where the lobes are one"),
+            most: Bound::before(Of(lobe), "where both lobes are half circles or ellipses"),
+            ..rows::of_width::<CLEFT>("cleft", "Cleft", [8.0, 20.0])
+        },
+        Proportion {
+            meaning: "How far the lobes rise above the widest place.",
+            least: Bound::at(Fixed(5.0), "the flattest lobes allowed"),
+            most: Bound::at(Fixed(70.0), "the highest lobes allowed"),
+            ..rows::of_width::<LOBE>("lobe_height", "Lobe height", [25.0, 35.0])
+        },
+        brilliant_rows::fullness::<FULLNESS>(),
+        Proportion {
+            meaning: "How far the culet and the middle of the table lie from the widest place toward the point.",
+            least: Bound::at(Fixed(-30.0), "the highest middle allowed"),
+            most: Bound::at(Fixed(60.0), "the lowest middle allowed"),
+            ..rows::of_width::<MIDDLE>("middle", "Middle", [0.0, 15.0])
+        },
+        rows::table::<TABLE>([50.0, 66.0]),
+        Proportion {
+            meaning: "How steep bezels at half the width from the middle stand on the girdle plane. Those farther away are \
+                      flatter.",
+            ..brilliant_rows::crown_angle::<6>([28.0, 40.0])
+        },
+        Proportion {
+            meaning: "How steep mains at half the width from the middle stand on the girdle plane. Those farther away are \
+                      flatter.",
+            ..brilliant_rows::pavilion_angle::<7>([38.0, 46.0])
+        },
+        brilliant_rows::star_length::<8>(),
+        brilliant_rows::lower_half_length::<9>(),
+        rows::girdle_thickness::<10>(),
+        rows::culet::<11>(),
+    ],
+};
+
+/// Returns the height of the lobes, percent of the width.
+fn lobe(cut: &Cut) -> f64 {
+    match cut {
+        Cut::Family(cut) => cut[LOBE],
+        _ => f64::NAN,
+    }
+}
+
+fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+    // Numbers are percent of the shorter extent, half of which is 1 in the end; the curve is made with half the width as 1.
+    let (length, scale) = (cut[LENGTH], 1.0 / cut[LENGTH].min(1.0));
+    let lobe = cut[LOBE] / 50.0 / scale;
+    let point = 2.0 * length - lobe;
+    let wing = Wing::new(point, cut[FULLNESS] / 100.0).ok_or(Unfit { tier: "girdle" })?;
+    let widest = DVec2::new(0.0, point - length) * scale;
+    // Each lobe is an arc of an ellipse, from the widest place over its top to the cleft.
+    let sine = 1.0 - cut[CLEFT] / cut[LOBE];
+    let across = 1.0 / (1.0 + (1.0 - sine * sine).sqrt());
+    let place =
+        |at: DVec2, normal: DVec2| Station { at: widest + at * scale, normal: normal.normalize_or(DVec2::X) };
+    let side = |part: f64| {
+        let (Station { at, normal }, below) = (wing.at(part), DVec2::new(1.0, -1.0));
+        place(at * below, normal * below)
+    };
+    let lobe_at = |quarters: f64| {
+        let (sin, cos) = if quarters == 1.0 { (1.0, 0.0) } else { (quarters * FRAC_PI_2).sin_cos() };
+        let at = DVec2::new(1.0 - across + across * cos, lobe * sin);
+        place(at, DVec2::new(cos * lobe, sin * across))
+    };
+    let cleft = 2.0 - sine.asin() / FRAC_PI_2;
+    let curve = |way: f64| {
+        let (step, part) = ((way * 8.0).floor(), (way * 8.0).fract());
+        let between = |from: f64, to: f64| from + (to - from) * part;
+        match step as usize {
+            step @ 0..3 => side(between(SIDE[step], SIDE[step + 1])),
+            step @ 3..6 => lobe_at(between(OUTER_LOBE[step - 3], OUTER_LOBE[step - 2])),
+            step @ 6..8 => lobe_at(1.0 + (cleft - 1.0) * between(step as f64 - 6.0, step as f64 - 5.0) / 2.0),
+            _ => {
+                let Station { at, normal } = lobe_at(cleft);
+                Station { at: DVec2::new(0.0, at.y), normal }
+            }
+        }
+    };
+    let girdle = Girdle::half(4, 4, curve);
+    let middle = widest - DVec2::Y * (cut[MIDDLE] / 50.0);
+    Brilliant::of(cut, TABLE, &girdle, middle, scale).net()
+}

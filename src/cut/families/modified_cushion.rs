@@ -1,0 +1,104 @@
+//! The modified cushion: the crown of a brilliant on a pavilion of chevrons, 61 to 77 facets.
+//!
+//! CushionChevrons instead of pavilion mains, 2 to 4 rows (caratwire.com); L/W, table and depth as of the cushion with mains. No
+//! source gives angles of the rows: they are chosen so that the depth is 61 to 68 (gemmology.dev).
+
+use super::super::facet_net::{FacetNet, Unfit};
+use super::super::family::BoundAt::{Fixed, Of};
+use super::super::family::{Bound, Family, Proportion, Unit};
+use super::super::family_cut::{FamilyCut, number};
+use super::super::shape::Cut;
+use super::brilliant::Brilliant;
+use super::cushion_chevrons::CushionChevrons;
+use super::{brilliant_rows, cushion, rows};
+use glam::DVec2;
+
+const LENGTH: usize = 0;
+const BULGE: usize = 1;
+const CORNER: usize = 2;
+const TABLE: usize = 3;
+const CROWN: usize = 4;
+const UPPER: usize = 5;
+const LOWER: usize = 6;
+const STAR: usize = 7;
+const TIP: usize = 8;
+const GIRDLE: usize = 9;
+const CULET: usize = 10;
+const ROWS: usize = 11;
+
+/// The family of the modified cushion.
+pub static MODIFIED_CUSHION: Family = Family {
+    key: "modified_cushion",
+    name: "Modified cushion",
+    first: FamilyCut::first(
+        &MODIFIED_CUSHION,
+        &[1.05, 6.0, 20.0, 62.0, 34.0, 50.0, 37.0, 50.0, 25.0, 3.0, 0.0, 3.0],
+    ),
+    net: Some(net),
+    proportions: &[
+        rows::length_to_width::<LENGTH>([1.0, 1.4]),
+        cushion::bulge::<BULGE>(),
+        cushion::corner::<CORNER>(),
+        rows::table::<TABLE>([50.0, 70.0]),
+        brilliant_rows::crown_angle::<CROWN>([28.0, 40.0]),
+        Proportion {
+            meaning: "How steep the first row of chevrons, at the girdle, is along the middle of a long side.",
+            least: Bound::before(Of(lower), "where the rows would be one"),
+            ..rows::slope::<UPPER>("upper_angle", "Angle of the first row", [47.0, 58.0])
+        },
+        Proportion {
+            meaning: "How steep the last row of chevrons, at the culet, is along the middle of a long side. Rows between lie between both.",
+            ..rows::slope::<LOWER>("lower_angle", "Angle of the last row", [33.0, 42.0])
+        },
+        brilliant_rows::star_length::<STAR>(),
+        Proportion {
+            meaning: "How deep the tips lie from which the rows of half a side run out.",
+            ..rows::part::<TIP>("tip_depth", "Depth of the tips", "of the pavilion's depth", [18.0, 32.0])
+        },
+        rows::girdle_thickness::<GIRDLE>(),
+        rows::culet::<CULET>(),
+        Proportion {
+            key: "rows",
+            name: "Rows",
+            unit: Unit::Count,
+            of: "on each side of the pavilion",
+            meaning: "The number of rows of chevrons on each side of the pavilion: few make broad flashes, many small ones.",
+            usual: [2.0, 4.0],
+            step: 1.0,
+            speed: 0.02,
+            least: Bound::at(Fixed(2.0), "the fewest rows that a chevron has"),
+            most: Bound::at(Fixed(4.0), "the most rows allowed"),
+            ..number::<ROWS>()
+        },
+    ],
+};
+
+/// Returns the angle of the last row, degrees.
+fn lower(cut: &Cut) -> f64 {
+    match cut {
+        Cut::Family(cut) => cut[LOWER],
+        _ => f64::NAN,
+    }
+}
+
+fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+    let girdle = cushion::girdle(cut[LENGTH], cut[BULGE], cut[CORNER], 8)?;
+    let (table, thickness, rows) = (cut[TABLE] / 100.0, cut[GIRDLE] / 50.0, cut[ROWS] as usize);
+    let angle = |row: usize| cut[UPPER] + (cut[LOWER] - cut[UPPER]) * row as f64 / (rows - 1).max(1) as f64;
+    let slopes = (0..rows).map(|row| angle(row).to_radians().tan()).collect();
+    let chevrons = CushionChevrons { girdle: &girdle, thickness, slopes, tip: cut[TIP] / 100.0 };
+    let brilliant = Brilliant {
+        girdle: &girdle,
+        middle: DVec2::ZERO,
+        table,
+        crown_height: (1.0 - table) * cut[CROWN].to_radians().tan(),
+        star: cut[STAR] / 100.0,
+        thickness,
+        pavilion_depth: chevrons.depth(),
+        lower_half: 0.0,
+        culet: cut[CULET] / 100.0,
+    };
+    let mut net = brilliant.without_pavilion()?;
+    chevrons.add_to(&mut net)?;
+    Ok(net)
+}

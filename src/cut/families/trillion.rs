@@ -1,0 +1,103 @@
+//! The trillion: a brilliant on a triangle with bulged sides, 43 facets.
+//!
+//! Ranges: L/W 0.90 to 1.10 (yourjewel.com); 31 to 50 facets; library of cutters' designs: table 30 to 59, pavilion depth 38 to
+//! 51. The length follows from the bulge.
+
+use super::super::facet_net::{FacetNet, Unfit};
+use super::super::family::BoundAt::Fixed;
+use super::super::family::{Bound, Family, Proportion, Unit};
+use super::super::family_cut::{FamilyCut, number};
+use super::super::shape::Cut;
+use super::brilliant::Brilliant;
+use super::girdle::{Girdle, Station};
+use super::{brilliant_rows, rows};
+use glam::DVec2;
+use std::f64::consts::{FRAC_PI_3, FRAC_PI_6, TAU};
+
+const BULGE: usize = 0;
+const TABLE: usize = 1;
+
+/// The distance of the middle of a triangle's side from its centre, in halves of a side.
+const INNER: f64 = 0.577_350_269_189_625_8;
+
+/// The family of the trillion.
+pub static TRILLION: Family = Family {
+    key: "trillion",
+    name: "Trillion",
+    first: FamilyCut::first(&TRILLION, &[9.0, 55.0, 34.0, 41.0, 50.0, 70.0, 3.0, 0.0]),
+    net: Some(net),
+    proportions: &[
+        Proportion {
+            key: "bulge",
+            name: "Bulge of the sides",
+            of: "of the distance between two corners",
+            meaning: "How far the sides bulge out between the corners.",
+            usual: [3.0, 12.0],
+            least: Bound::at(Fixed(0.5), "where the sides are straight"),
+            most: Bound::at(Fixed(13.3), "where the stone is as wide in all directions"),
+            ..number::<BULGE>()
+        },
+        rows::table::<TABLE>([45.0, 65.0]),
+        brilliant_rows::crown_angle::<2>([28.0, 42.0]),
+        brilliant_rows::pavilion_angle::<3>([38.0, 46.0]),
+        brilliant_rows::star_length::<4>(),
+        brilliant_rows::lower_half_length::<5>(),
+        rows::girdle_thickness::<6>(),
+        rows::culet::<7>(),
+        Proportion {
+            key: "length_to_width",
+            name: "Length to width",
+            unit: Unit::Ratio,
+            of: "the length as a multiple of the width",
+            meaning: "The length of the outline, from a corner to the opposite side, as a multiple of its width.",
+            get: |cut| match cut {
+                Cut::Family(cut) => length(cut),
+                _ => f64::NAN,
+            },
+            ..Proportion::BLANK
+        },
+    ],
+};
+
+/// Returns the length as a multiple of the width.
+fn length(cut: &FamilyCut) -> f64 {
+    1.5 * INNER + bulge(cut) / 2.0
+}
+
+/// Returns the bulge in halves of the distance between two corners.
+fn bulge(cut: &FamilyCut) -> f64 {
+    cut[BULGE] / 50.0
+}
+
+fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+    let (bulge, length) = (bulge(cut), length(cut));
+    let radius = (1.0 + bulge * bulge) / (2.0 * bulge);
+    let widest = (1.0 / radius).asin();
+    // The length is shorter than the width, so that half of it is 1.
+    let centre = DVec2::Y * ((INNER + bulge) / length - 1.0);
+    let place = |corner: DVec2, normal: f64| Station {
+        at: centre + corner / length,
+        normal: DVec2::from_angle(normal),
+    };
+    let corner = |number: f64| {
+        let angle = number * TAU / 3.0 + 3.0 * FRAC_PI_6;
+        (DVec2::from_angle(angle) * (2.0 * INNER), angle)
+    };
+    let curve = |way: f64| {
+        let (number, part) = ((3.0 * way).floor(), (3.0 * way).fract());
+        let (at, angle) = corner(number);
+        if part == 0.0 {
+            return place(at, angle);
+        }
+        let (side, turn) = (angle + FRAC_PI_3, (2.0 * part - 1.0) * widest);
+        let arc = DVec2::from_angle(side) * (INNER + bulge - radius);
+        place(arc + DVec2::from_angle(side + turn) * radius, side + turn)
+    };
+    let mut girdle = Girdle::new(6, 4, curve);
+    for number in [0.0, 1.0, 2.0] {
+        let (at, angle) = corner(number);
+        [-FRAC_PI_6, FRAC_PI_6].into_iter().for_each(|turn| girdle.touch(place(at, angle + turn)));
+    }
+    let reach = (INNER + bulge) / length;
+    Brilliant::of(cut, TABLE, &girdle, centre, reach).net()
+}
