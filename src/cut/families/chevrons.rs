@@ -154,7 +154,7 @@ impl Chevrons {
         let corner = corner.tangents().ok_or(Unfit { tier: "pavilion_corner" })?;
         let main = corner[corner.len() - 1];
         let (side, end) = (outline.side_end().extend(below(0.0)), outline.end_end().extend(below(0.0)));
-        let profile = |size: f64| self.profile(size, main);
+        let profile = |size: f64| self.profile(size, main, far / FRAC_1_SQRT_2);
         for (from, way, points) in
             [(side, DVec3::X, profile(1.0)?), (end, DVec3::Y, profile(outline.length)?)]
         {
@@ -185,8 +185,9 @@ impl Chevrons {
     }
 
     /// Returns the profile in the middle of a side of half the stone's size across it, from the girdle to the mains' shoulder,
-    /// as distances from the axis and depths below the girdle. `main` is the tangent of the mains' angle.
-    fn profile(&self, size: f64, main: f64) -> Result<Vec<[f64; 2]>, Unfit> {
+    /// as distances from the axis and depths below the girdle. `main` is the tangent of the mains' angle; `edge` is where the
+    /// level line through both ends of a cut corner crosses the middle of the side.
+    fn profile(&self, size: f64, main: f64, edge: f64) -> Result<Vec<[f64; 2]>, Unfit> {
         let shoulder = self.shoulder * size;
         let reach = size - shoulder;
         let depth = self.depth - shoulder * main * FRAC_1_SQRT_2;
@@ -194,6 +195,11 @@ impl Chevrons {
         let rows = StepRows { count: self.count + 1, slope, step: self.step, reach };
         let tangents = rows.tangents().ok_or(Unfit { tier: CHEVRONS[1] })?;
         let width = reach / tangents.len() as f64;
+        // The innermost chevron has to be steeper than the mains, and to leave the corners of the girdle to their facets.
+        let inner = tangents[tangents.len() - 1];
+        if inner <= main * FRAC_1_SQRT_2 || shoulder + depth / inner >= edge {
+            return Err(Unfit { tier: CHEVRONS[1] });
+        }
         let mut at = [size, 0.0];
         let mut points = vec![at];
         for tangent in tangents {
