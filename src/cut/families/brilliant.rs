@@ -24,6 +24,8 @@ pub struct Brilliant<'a> {
     pub crown_height: f64,
     /// The part of the way from the table's edge to the outline that the stars reach, seen from above.
     pub star: f64,
+    /// Whether that way begins where the stars would lie flat with the table, so that any part of it makes stars.
+    pub is_star_free: bool,
     /// The girdle's thickness at the mains.
     pub thickness: f64,
     /// The depth of the mains' point below the girdle.
@@ -46,6 +48,7 @@ impl<'a> Brilliant<'a> {
             table: table / 100.0,
             crown_height: (1.0 - table / 100.0) * reach * crown.to_radians().tan(),
             star: star / 100.0,
+            is_star_free: false,
             thickness: thickness / 50.0,
             pavilion_depth: reach * pavilion.to_radians().tan(),
             lower_half: lower_half / 100.0,
@@ -144,12 +147,10 @@ impl<'a> Brilliant<'a> {
     /// the star's part of the way from the table's edge to the outline. `None` where the bezels have no such line.
     fn star_tip(&self, main: usize) -> Option<DVec3> {
         let (outer, inner) = (self.tangents_meet(main, 1.0)?, self.tangents_meet(main, self.table)?);
-        let edge = 0.5 * (self.toward_middle(main, self.table) + self.toward_middle(main + 1, self.table));
-        // Both ends of the way lie on the line from the middle to where the tangents meet, or, without mirror symmetry, near it.
-        let size = (outer - self.middle).length();
-        let [near, far] = [edge, self.girdle.between(main)]
-            .map(|point| (point - self.middle).dot((outer - self.middle) / size) / size);
-        let reached = near + self.star * (far - near);
+        let edge = [main, main + 1].map(|main| self.toward_middle(main, self.table));
+        // Both ends of the way lie on the line from the middle to where the tangents meet.
+        let near = if self.is_star_free { self.table } else { self.crossing(outer, edge) };
+        let reached = near + self.star * (self.to_girdle(main, outer) - near);
         let rise = (1.0 - reached) / (1.0 - self.table);
         let at = outer + (inner - outer) * rise;
         Some(at.extend(self.crown_height * rise))
@@ -157,9 +158,22 @@ impl<'a> Brilliant<'a> {
 
     /// Returns how far the lower halves' tip lies from the culet's point, as a part of the way to where the tangents meet.
     fn reach_of_halves(&self, main: usize, outer: DVec2) -> Option<f64> {
-        let size = (outer - self.middle).length_squared();
-        let edge = (self.girdle.between(main) - self.middle).dot(outer - self.middle) / size;
-        Some((1.0 - self.lower_half) * edge).filter(|reach| *reach > 0.0)
+        Some((1.0 - self.lower_half) * self.to_girdle(main, outer)).filter(|reach| *reach > 0.0)
+    }
+
+    /// Returns where the way from the middle to a point beyond the outline crosses the line through two points, as a part of
+    /// that way.
+    fn crossing(&self, outer: DVec2, [a, b]: [DVec2; 2]) -> f64 {
+        let across = b - a;
+        across.perp_dot(a - self.middle) / across.perp_dot(outer - self.middle)
+    }
+
+    /// Returns where the way from the middle to where the tangents of a main and the next meet crosses the nearer of the
+    /// lines from both to the point between them, as a part of that way.
+    fn to_girdle(&self, main: usize, outer: DVec2) -> f64 {
+        let between = self.girdle.between(main);
+        let side = |main| self.crossing(outer, [self.girdle.main(main).at, between]);
+        side(main).min(side(main + 1))
     }
 
     /// Returns the point on the way from a main's station to the middle at a part of the outline's size.

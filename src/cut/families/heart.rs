@@ -29,15 +29,15 @@ const TABLE: usize = 5;
 /// them alternate; the first is a main.
 const SIDE: [f64; 4] = [1.0, 0.68, 0.34, 0.0];
 
-/// The stations from the widest place to the top of the lobe, in quarter turns; the first lies between two mains, and the last
-/// is a main. Widest place and top are stations, so that length and width are exact.
-const OUTER_LOBE: [f64; 4] = [0.0, 0.42, 0.71, 1.0];
+/// The stations from the widest place to the cleft, as parts of the angle by which the outline turns; the first lies between
+/// two mains, and the last is a main.
+const LOBES: [f64; 6] = [0.0, 0.22, 0.415, 0.61, 0.805, 1.0];
 
 /// The family of the heart.
 pub static HEART: Family = Family {
     key: "heart",
     name: "Heart",
-    first: FamilyCut::first(&HEART, &[1.0, 14.0, 30.0, 100.0, 8.0, 56.0, 34.5, 40.75, 50.0, 75.0, 3.0, 0.0]),
+    first: FamilyCut::first(&HEART, &[1.0, 14.0, 30.0, 100.0, 8.0, 56.0, 34.5, 40.75, 35.0, 75.0, 3.0, 0.0]),
     net: Some(net),
     proportions: &[
         rows::length_to_width::<LENGTH>([0.9, 1.1]),
@@ -71,7 +71,12 @@ pub static HEART: Family = Family {
                       flatter.",
             ..brilliant_rows::pavilion_angle::<7>([38.0, 46.0])
         },
-        brilliant_rows::star_length::<8>(),
+        Proportion {
+            of: "of the way from where they would lie flat to the girdle",
+            meaning: "How far the stars reach toward the girdle, from where they would lie flat with the table.",
+            usual: [20.0, 50.0],
+            ..brilliant_rows::star_length::<8>()
+        },
         brilliant_rows::lower_half_length::<9>(),
         rows::girdle_thickness::<10>(),
         rows::culet::<11>(),
@@ -102,26 +107,26 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
         let (Station { at, normal }, below) = (wing.at(part), DVec2::new(1.0, -1.0));
         place(at * below, normal * below)
     };
-    let lobe_at = |quarters: f64| {
-        let (sin, cos) = if quarters == 1.0 { (1.0, 0.0) } else { (quarters * FRAC_PI_2).sin_cos() };
-        let at = DVec2::new(1.0 - across + across * cos, lobe * sin);
-        place(at, DVec2::new(cos * lobe, sin * across))
+    let lobe_at = |normal: f64| {
+        let (sin, cos) = (normal.sin() / across, normal.cos() / lobe);
+        let size = sin.hypot(cos);
+        let at = DVec2::new(1.0 - across + across * cos / size, lobe * sin / size);
+        place(at, DVec2::from_angle(normal))
     };
-    let cleft = 2.0 - sine.asin() / FRAC_PI_2;
+    // The angle of the normal at the cleft.
+    let cleft = (sine * across).atan2(-(1.0 - sine * sine).sqrt() * lobe);
     let curve = |way: f64| {
-        let (step, part) = ((way * 8.0).floor(), (way * 8.0).fract());
-        let between = |from: f64, to: f64| from + (to - from) * part;
-        match step as usize {
-            step @ 0..3 => side(between(SIDE[step], SIDE[step + 1])),
-            step @ 3..6 => lobe_at(between(OUTER_LOBE[step - 3], OUTER_LOBE[step - 2])),
-            step @ 6..8 => lobe_at(1.0 + (cleft - 1.0) * between(step as f64 - 6.0, step as f64 - 5.0) / 2.0),
-            _ => {
-                let Station { at, normal } = lobe_at(cleft);
-                Station { at: DVec2::new(0.0, at.y), normal }
-            }
-        }
+        let (step, part) = ((way * 8.0).floor() as usize, (way * 8.0).fract());
+        let between = |stations: &[f64], from: usize| match stations.get(from + 1) {
+            Some(to) => stations[from] + (to - stations[from]) * part,
+            None => stations[from],
+        };
+        let place =
+            if step < 3 { side(between(&SIDE, step)) } else { lobe_at(cleft * between(&LOBES, step - 3)) };
+        if step == 8 { Station { at: DVec2::new(0.0, place.at.y), ..place } } else { place }
     };
-    let girdle = Girdle::half(4, 4, curve);
+    let mut girdle = Girdle::half(4, 4, curve);
+    girdle.touch(lobe_at(FRAC_PI_2));
     let middle = widest - DVec2::Y * (cut[MIDDLE] / 50.0);
-    Brilliant::of(cut, TABLE, &girdle, middle, scale).net()
+    Brilliant { is_star_free: true, ..Brilliant::of(cut, TABLE, &girdle, middle, scale) }.net()
 }

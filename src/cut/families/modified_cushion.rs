@@ -93,6 +93,7 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
         table,
         crown_height: (1.0 - table) * cut[CROWN].to_radians().tan(),
         star: cut[STAR] / 100.0,
+        is_star_free: false,
         thickness,
         pavilion_depth: chevrons.depth(),
         lower_half: 0.0,
