@@ -28,7 +28,7 @@ const MIRROR: Plane = Plane { normal: DVec3::NEG_X, offset: 0.0 };
 
 /// What the numbers of a family leave no room for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Unfit {
+pub struct NoRoom {
     /// The tier of the facets that have no room; empty where it is the whole stone.
     pub tier: &'static str,
 }
@@ -55,13 +55,13 @@ impl FacetNet {
     ///
     /// # Errors
     /// The tier, if the points lie on one line or the plane runs through `inside`.
-    pub fn through(&mut self, tier: &'static str, points: [DVec3; 3], inside: DVec3) -> Result<(), Unfit> {
+    pub fn through(&mut self, tier: &'static str, points: [DVec3; 3], inside: DVec3) -> Result<(), NoRoom> {
         let [a, b, c] = points;
         let across = (b - a).cross(c - a);
         let longest = (b - a).length().max((c - a).length()).max((c - b).length());
         let side = across.dot(inside - a);
         if across.length() <= FLAT * longest * longest || !side.is_normal() {
-            return Err(Unfit { tier });
+            return Err(NoRoom { tier });
         }
         self.plane(tier, -across * side.signum(), a);
         Ok(())
@@ -74,21 +74,21 @@ impl FacetNet {
     }
 
     /// Returns the convex solid between the facets: the stone, or one half of it.
-    fn solid(&self) -> Result<Polytope, Unfit> {
+    fn solid(&self) -> Result<Polytope, NoRoom> {
         let mirror = self.is_half.then_some(MIRROR);
         let planes: Vec<Plane> = self.facets.iter().map(|(_, plane)| *plane).chain(mirror).collect();
-        Polytope::from_planes(&planes).map_err(|_| Unfit::default())
+        Polytope::from_planes(&planes).map_err(|_| NoRoom::default())
     }
 
     /// Returns the closed surface of both halves: a group of triangles with a name of its own for each facet.
     ///
     /// # Errors
     /// The facets close no solid.
-    pub fn both_halves(&self) -> Result<Surface, Unfit> {
+    pub fn both_halves(&self) -> Result<Surface, NoRoom> {
         let half = self.solid()?;
         let (sides, mirror) = (triangulate(&half), self.facets.len());
         let mirrored = half.facets().iter().find(|facet| facet.source == mirror);
-        let seam = mirrored.ok_or(Unfit::default())?.outline.as_slice();
+        let seam = mirrored.ok_or(NoRoom::default())?.outline.as_slice();
         let mut vertices = sides.vertices;
         seam.iter().for_each(|corner| vertices[*corner as usize].x = 0.0);
         // The mirror image of each corner; those of the seam are their own.
@@ -122,7 +122,7 @@ impl FacetNet {
     ///
     /// # Errors
     /// The first tier with a facet that has no room.
-    pub fn check(&self) -> Result<(), Unfit> {
+    pub fn check(&self) -> Result<(), NoRoom> {
         let stone = self.solid()?;
         let leaning = |index: &usize| self.facets.get(*index).is_some_and(|(_, plane)| plane.normal.z != 0.0);
         let merged = stone.merged().iter().map(|(dropped, _)| *dropped);
@@ -132,7 +132,7 @@ impl FacetNet {
             facets.into_iter().find(|facet| width(&stone, facet) < NARROWEST).map(|facet| facet.source)
         };
         match unseen.or_else(narrow) {
-            Some(index) => Err(Unfit { tier: self.facets.get(index).map_or("", |(tier, _)| tier) }),
+            Some(index) => Err(NoRoom { tier: self.facets.get(index).map_or("", |(tier, _)| tier) }),
             None => Ok(()),
         }
     }

@@ -1,11 +1,8 @@
 //! A cut of a family whose facets a function makes out of the numbers of its table.
 
-use super::design::DesignError;
-use super::facet_net::{FacetNet, Unfit};
+use super::facet_net::{FacetNet, NoRoom};
 use super::family::{Family, Proportion};
-use super::proportion_error::ProportionError;
 use super::shape::Cut;
-use crate::math::{NotConvex, Plane, TriangleMesh};
 use std::fmt;
 use std::ops::Index;
 
@@ -16,7 +13,7 @@ pub const MOST_NUMBERS: usize = 16;
 ///
 /// # Errors
 /// What the numbers leave no room for.
-pub type MakeNet = fn(&FamilyCut) -> Result<FacetNet, Unfit>;
+pub type MakeNet = fn(&FamilyCut) -> Result<FacetNet, NoRoom>;
 
 /// A cut of a family, as the numbers of its table in their units. Numbers are taken by their place among the rows of the
 /// table, which the file of the family names by constants.
@@ -44,48 +41,16 @@ impl FamilyCut {
     ///
     /// # Errors
     /// What the numbers leave no room for.
-    pub(super) fn net(&self) -> Result<FacetNet, Unfit> {
-        let Some(make) = self.family.net else { return Err(Unfit::default()) };
+    pub(super) fn net(&self) -> Result<FacetNet, NoRoom> {
+        let Some(make) = self.family.net else { return Err(NoRoom::default()) };
         make(self)
-    }
-
-    /// Returns every facet's name, no two alike, and its plane with a unit normal. Half of the stone's width is 1.
-    ///
-    /// # Errors
-    /// The first limit crossed, and by how much; [`DesignError::NotConvex`] where the stone is a [`mesh`](Self::mesh).
-    pub fn facets(&self) -> Result<Vec<(String, Plane)>, DesignError> {
-        let net = self.checked()?;
-        if net.is_half() { Err(NotConvex.into()) } else { Ok(net.named()) }
-    }
-
-    /// Returns the triangles of a stone that is not convex, with the names of its facets; `None` for a family whose stones
-    /// are convex. Half of the stone's width is 1.
-    ///
-    /// # Errors
-    /// The first limit crossed, and by how much.
-    pub fn mesh(&self) -> Result<Option<TriangleMesh>, ProportionError> {
-        let net = self.checked()?;
-        if !net.is_half() {
-            return Ok(None);
-        }
-        let mesh = net
-            .both_halves()
-            .and_then(|surface| TriangleMesh::of_groups(surface).map_err(|_| Unfit::default()));
-        mesh.map(Some).map_err(|unfit| Cut::Family(*self).without_room(unfit))
-    }
-
-    /// Returns the net of a cut that crosses no limit.
-    fn checked(&self) -> Result<FacetNet, ProportionError> {
-        let cut = Cut::Family(*self);
-        cut.check()?;
-        self.net().map_err(|unfit| cut.without_room(unfit))
     }
 
     /// Checks that every facet of the net has its place on the stone.
     ///
     /// # Errors
     /// The first facet without room.
-    pub(super) fn check_net(&self) -> Result<(), Unfit> {
+    pub(super) fn check_net(&self) -> Result<(), NoRoom> {
         self.net()?.check()
     }
 }

@@ -1,7 +1,7 @@
 //! Checks proportions against the bounds of their family's table.
 
 use super::Cut;
-use super::facet_net::Unfit;
+use super::facet_net::NoRoom;
 use super::family::{Bound, BoundAt, Proportion};
 use super::proportion_error::{Limit, ProportionError};
 
@@ -29,7 +29,7 @@ impl Cut {
 
     /// Returns the error of facets without room as one of the given proportion that is farthest from its usual range among
     /// those that alone make room when they are usual, with its limit; of all where none makes room alone.
-    pub(super) fn without_room(&self, unfit: Unfit) -> ProportionError {
+    pub(super) fn without_room(&self, unfit: NoRoom) -> ProportionError {
         let given: Vec<(&'static Proportion, f64)> = self.given().collect();
         let first = self.family().map(|family| &family.first);
         let usual = |row: &Proportion| first.map_or(f64::NAN, |first| (row.get)(first));

@@ -1,6 +1,6 @@
 //! The About dialog: the program's version, its licences, and the crates it is built of.
 
-use super::{answer, buttons};
+use super::answers::{answer, buttons};
 use crate::app::icon::icon;
 use crate::app::model::action::{Actions, DialogAction, FileAction};
 use crate::app::model::dialog::{AboutForm, AboutPage};

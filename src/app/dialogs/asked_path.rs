@@ -1,6 +1,6 @@
 //! The dialog that asks for a file by its path, where the system has no file dialog.
 
-use super::buttons_alone;
+use super::answers::buttons_alone;
 use crate::app::model::action::{Actions, DialogAction};
 use crate::app::model::choosing::Purpose;
 use crate::app::model::dialog::PathForm;

@@ -1,6 +1,6 @@
 //! The chooser of cuts: begins a design from a cut that comes with the program.
 
-use super::{answer, buttons_alone};
+use super::answers::{answer, buttons_alone};
 use crate::app::library_cuts::{LibraryCut, library_cuts};
 use crate::app::model::action::{Actions, DialogAction, FileAction};
 use crate::app::model::dialog::Then;

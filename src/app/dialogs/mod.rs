@@ -1,6 +1,7 @@
 //! Draws the dialogs.
 
 pub mod about;
+mod answers;
 pub mod asked_path;
 mod cut_chooser;
 pub mod export_dialog;
@@ -12,6 +13,7 @@ use super::model::dialog::Dialog;
 use super::model::recovery::RecoveredWork;
 use super::shows::Shows;
 use crate::cut::FAMILIES;
+use answers::{answer, buttons};
 use egui::{Context, Grid, Id, Key, Modal, RichText, ScrollArea, TextureHandle, Ui};
 use std::collections::HashMap;
 use std::time::Duration;
@@ -48,29 +50,6 @@ pub fn show(model: &Model, thumbnails: &HashMap<Shows, TextureHandle>, actions: 
     }
 }
 
-/// Draws buttons in a row; returns the one that was chosen.
-///
-/// The first is the one that is meant most often; Return presses it as well.
-fn buttons(ui: &mut Ui, names: &[&str]) -> Option<usize> {
-    let is_answered = ui.memory(|m| m.focused().is_none()) && ui.input(|i| i.key_pressed(Key::Enter));
-    buttons_alone(ui, names).or(is_answered.then_some(0))
-}
-
-/// Draws buttons in a row; returns the one that was chosen.
-fn buttons_alone(ui: &mut Ui, names: &[&str]) -> Option<usize> {
-    ui.add_space(10.0);
-    ui.horizontal(|ui| {
-        let mut chosen = None;
-        for (k, name) in names.iter().enumerate() {
-            if ui.button(*name).clicked() {
-                chosen = Some(k);
-            }
-        }
-        chosen
-    })
-    .inner
-}
-
 /// Asks before something is lost: the user can keep it, discard it, or cancel.
 fn parting(actions: &mut Actions, ui: &mut Ui, heading: &str, text: &str, [kept, left]: [&str; 2]) {
     ui.set_width(380.0);
@@ -78,11 +57,6 @@ fn parting(actions: &mut Actions, ui: &mut Ui, heading: &str, text: &str, [kept,
     ui.label(text);
     let answers = [DialogAction::Keep, DialogAction::GiveUp, DialogAction::Leave];
     answer(actions, answers, buttons(ui, &[kept, left, "Cancel"]));
-}
-
-/// Adds the answer of the button that was chosen, if any.
-fn answer<const N: usize>(actions: &mut Actions, answers: [DialogAction; N], chosen: Option<usize>) {
-    answers.into_iter().nth(chosen.unwrap_or(N)).into_iter().for_each(|answer| actions.push(answer));
 }
 
 fn unsaved(model: &Model, actions: &mut Actions, ui: &mut Ui) {

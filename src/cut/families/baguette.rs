@@ -3,7 +3,7 @@
 //! Ranges: a design of 17 facets and four girdle facets has L/W 2.0, one crown row at 35 degrees and two pavilion rows at 51
 //! and 41 (GemCad's library, PC 12.001); table and lengths around it are chosen.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::Family;
 use super::super::family_cut::FamilyCut;
 use super::steps::{self, Rectangle, StepRows};
@@ -40,7 +40,7 @@ pub static BAGUETTE: Family = Family {
     ],
 };
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let outline = Rectangle { length: cut[LENGTH], corner: 0.0, keel: cut[KEEL] / 100.0 };
     let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - cut[TABLE] / 100.0);
     let pavilion = StepRows::of(cut, [PAVILION_ROWS, PAVILION, PAVILION_STEP], outline.reach());

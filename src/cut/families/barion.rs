@@ -7,7 +7,7 @@
 //! pavilion and a culet, 8 in the girdle. Ranges are those of emerald cuts above and of round brilliants below; that of the
 //! half-moons is chosen.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::{Family, Proportion};
 use super::super::family_cut::FamilyCut;
 use super::chevrons::Quarters;
@@ -62,7 +62,7 @@ pub static BARION: Family = Family {
     ],
 };
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let outline = Rectangle { length: cut[LENGTH], corner: cut[CORNER] / 50.0, keel: 1.0 };
     let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - cut[TABLE] / 100.0);
     let thickness = cut[GIRDLE] / 50.0;
@@ -148,10 +148,10 @@ impl Pavilion {
     }
 
     /// Adds half-moon, main and halves of the side toward `way`, +x or +y.
-    fn add_side(&self, net: &mut Quarters<'_>, way: DVec2, size: DVec2, corner: f64) -> Result<(), Unfit> {
+    fn add_side(&self, net: &mut Quarters<'_>, way: DVec2, size: DVec2, corner: f64) -> Result<(), NoRoom> {
         let edge = way * way.dot(size);
         net.pair("half_moon", way.extend(-self.cotangent), edge.extend(-self.thickness));
-        let unfit = Unfit { tier: "half_moon" };
+        let unfit = NoRoom { tier: "half_moon" };
         let along = way.yx().dot(size) - corner;
         let middle = self.on_half_moon(way, size, 0.0).ok_or(unfit)?;
         let between = self.on_half_moon(way, size, 0.5 * along).ok_or(unfit)?;
@@ -165,7 +165,7 @@ impl Pavilion {
         let line = main.cross((a - point).cross(b - point));
         let line = line * line.z.signum();
         let tip = point + line * (self.reach * between.truncate().length() / line.truncate().length());
-        let halves = Unfit { tier: "lower_half" };
+        let halves = NoRoom { tier: "lower_half" };
         if !tip.is_finite() {
             return Err(halves);
         }

@@ -8,9 +8,9 @@
 //! of a convex curve meet outside it. The construction is this program's own; on a circle it is the round brilliant of
 //! docs/optics.md.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family_cut::FamilyCut;
-use super::girdle::{Girdle, Station};
+use super::girdle::{Girdle, GirdlePlace};
 use glam::{DVec2, DVec3};
 
 /// The numbers of a brilliant on an outline. Lengths are in girdle radii, heights are above the girdle's upper edge.
@@ -60,7 +60,7 @@ impl<'a> Brilliant<'a> {
     ///
     /// # Errors
     /// The tier whose points give no plane.
-    pub fn net(&self) -> Result<FacetNet, Unfit> {
+    pub fn net(&self) -> Result<FacetNet, NoRoom> {
         let mut net = self.without_pavilion()?;
         self.add_pavilion(&mut net)?;
         Ok(net)
@@ -70,7 +70,7 @@ impl<'a> Brilliant<'a> {
     ///
     /// # Errors
     /// The tier whose points give no plane.
-    pub fn without_pavilion(&self) -> Result<FacetNet, Unfit> {
+    pub fn without_pavilion(&self) -> Result<FacetNet, NoRoom> {
         let mut net = self.girdle.empty_net();
         net.plane("table", DVec3::Z, DVec3::Z * self.crown_height);
         self.add_crown(&mut net)?;
@@ -89,15 +89,15 @@ impl<'a> Brilliant<'a> {
         self.middle.extend(-0.5 * self.thickness)
     }
 
-    fn add_crown(&self, net: &mut FacetNet) -> Result<(), Unfit> {
+    fn add_crown(&self, net: &mut FacetNet) -> Result<(), NoRoom> {
         let top = |main| self.toward_middle(main, self.table).extend(self.crown_height);
         for main in self.girdle.mains() {
-            let Station { at, normal } = self.girdle.main(main);
+            let GirdlePlace { at, normal } = self.girdle.main(main);
             let level = normal.perp().extend(0.0);
             net.through("bezel", [at.extend(0.0), at.extend(0.0) + level, top(main)], self.inside())?;
         }
         let tips = self.girdle.gaps().map(|main| self.star_tip(main)).collect::<Option<Vec<_>>>();
-        let tips = tips.ok_or(Unfit { tier: "star" })?;
+        let tips = tips.ok_or(NoRoom { tier: "star" })?;
         for (main, tip) in tips.iter().enumerate() {
             net.through("star", [top(main), top(main + 1), *tip], self.inside())?;
         }
@@ -107,7 +107,7 @@ impl<'a> Brilliant<'a> {
         Ok(())
     }
 
-    fn add_pavilion(&self, net: &mut FacetNet) -> Result<(), Unfit> {
+    fn add_pavilion(&self, net: &mut FacetNet) -> Result<(), NoRoom> {
         let point = self.middle.extend(-self.thickness - self.pavilion_depth);
         let tips = self.girdle.gaps().map(|main| {
             // The line from the culet's point to where the tangents of both mains meet.
@@ -115,12 +115,12 @@ impl<'a> Brilliant<'a> {
             let reach = self.reach_of_halves(main, outer.truncate())?;
             Some(point + (outer - point) * reach)
         });
-        let tips = tips.collect::<Option<Vec<_>>>().ok_or(Unfit { tier: "lower_half" })?;
+        let tips = tips.collect::<Option<Vec<_>>>().ok_or(NoRoom { tier: "lower_half" })?;
         for (main, tip) in tips.iter().enumerate() {
             self.add_halves(net, "lower_half", main, *tip, -self.thickness)?;
         }
         for main in self.girdle.mains() {
-            let Station { at, normal } = self.girdle.main(main);
+            let GirdlePlace { at, normal } = self.girdle.main(main);
             let (edge, level) = (at.extend(-self.thickness), normal.perp().extend(0.0));
             net.through("main", [edge, edge + level, point], self.inside())?;
         }
@@ -135,7 +135,7 @@ impl<'a> Brilliant<'a> {
         main: usize,
         tip: DVec3,
         z: f64,
-    ) -> Result<(), Unfit> {
+    ) -> Result<(), NoRoom> {
         let middle = self.girdle.between(main).extend(z);
         for side in [main, main + 1] {
             net.through(tier, [tip, self.girdle.main(side).at.extend(z), middle], self.inside())?;

@@ -4,7 +4,7 @@
 //! The rows are those of PC 01.386 in kind: 16 facets a row, five rows below and four above. Its shape is a barrel; the
 //! drop here, its length and the sizes of the rosettes are estimates of what is worn as an earring.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::{Family, Proportion};
 use super::super::family_cut::FamilyCut;
 use super::alternating::{AlternatingRows, StoneHalf};
@@ -42,7 +42,7 @@ pub static BRIOLETTE: Family = Family {
     ],
 };
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let rows = |count: usize, rosette: usize| AlternatingRows {
         facets: cut[FACETS] as usize,
         count: cut[count] as usize,

@@ -12,7 +12,7 @@
 //! through the fan is the convex profile again, seen from the corner, so that the stone is convex. Both constructions are this
 //! program's own.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::steps::{Rectangle, StepRows};
 use glam::{DVec2, DVec3};
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -52,7 +52,7 @@ impl Quarters<'_> {
     ///
     /// # Errors
     /// The tier, if the points give no plane.
-    pub fn through(&mut self, tier: &'static str, points: [DVec3; 3]) -> Result<(), Unfit> {
+    pub fn through(&mut self, tier: &'static str, points: [DVec3; 3]) -> Result<(), NoRoom> {
         for sign in QUARTERS {
             let image = points.map(|point| point * sign.extend(1.0));
             self.net.through(tier, image, DVec3::Z * self.inside)?;
@@ -86,7 +86,7 @@ impl StarCrown {
     ///
     /// # Errors
     /// The tier whose points give no plane.
-    pub fn add_to(&self, net: &mut FacetNet, outline: &Rectangle, inside: f64) -> Result<(), Unfit> {
+    pub fn add_to(&self, net: &mut FacetNet, outline: &Rectangle, inside: f64) -> Result<(), NoRoom> {
         let width = 0.5 * (1.0 - self.table);
         let [break_height, rise] = self.mains.map(|tangent| tangent * width);
         let height = break_height + rise;
@@ -144,14 +144,14 @@ impl Chevrons {
     ///
     /// # Errors
     /// The tier that has no room.
-    pub fn add_to(&self, net: &mut FacetNet, outline: &Rectangle, thickness: f64) -> Result<(), Unfit> {
+    pub fn add_to(&self, net: &mut FacetNet, outline: &Rectangle, thickness: f64) -> Result<(), NoRoom> {
         let mut quarters = Quarters { net, inside: -0.5 * thickness };
         let below = |depth: f64| -thickness - depth;
         let far = outline.corner_distance();
         let slope = (self.depth / far).atan().to_degrees();
         let count = 1 + usize::from(self.corner_step.is_some());
         let corner = StepRows { count, slope, step: self.corner_step.unwrap_or(0.0), reach: far };
-        let corner = corner.tangents().ok_or(Unfit { tier: "pavilion_corner" })?;
+        let corner = corner.tangents().ok_or(NoRoom { tier: "pavilion_corner" })?;
         let main = corner[corner.len() - 1];
         let (side, end) = (outline.side_end().extend(below(0.0)), outline.end_end().extend(below(0.0)));
         let profile = |size: f64| self.profile(size, main, far / FRAC_1_SQRT_2);
@@ -187,18 +187,18 @@ impl Chevrons {
     /// Returns the profile in the middle of a side of half the stone's size across it, from the girdle to the mains' shoulder,
     /// as distances from the axis and depths below the girdle. `main` is the tangent of the mains' angle; `edge` is where the
     /// level line through both ends of a cut corner crosses the middle of the side.
-    fn profile(&self, size: f64, main: f64, edge: f64) -> Result<Vec<[f64; 2]>, Unfit> {
+    fn profile(&self, size: f64, main: f64, edge: f64) -> Result<Vec<[f64; 2]>, NoRoom> {
         let shoulder = self.shoulder * size;
         let reach = size - shoulder;
         let depth = self.depth - shoulder * main * FRAC_1_SQRT_2;
         let slope = (depth / reach).atan().to_degrees();
         let rows = StepRows { count: self.count + 1, slope, step: self.step, reach };
-        let tangents = rows.tangents().ok_or(Unfit { tier: CHEVRONS[1] })?;
+        let tangents = rows.tangents().ok_or(NoRoom { tier: CHEVRONS[1] })?;
         let width = reach / tangents.len() as f64;
         // The innermost chevron has to be steeper than the mains, and to leave the corners of the girdle to their facets.
         let inner = tangents[tangents.len() - 1];
         if inner <= main * FRAC_1_SQRT_2 || shoulder + depth / inner >= edge {
-            return Err(Unfit { tier: CHEVRONS[1] });
+            return Err(NoRoom { tier: CHEVRONS[1] });
         }
         let mut at = [size, 0.0];
         let mut points = vec![at];

@@ -1,13 +1,14 @@
 //! Convex curves of which outlines are made, as places on them. Lengths are in girdle radii.
 
-use super::girdle::Station;
+use super::girdle::GirdlePlace;
 use glam::DVec2;
 
 /// Returns the place at a part of the way around an outline that is symmetric about both axes, from +x. `quarter` takes a
 /// part of the way from +x to +y to its place.
-pub fn around(way: f64, quarter: impl Fn(f64) -> Station) -> Station {
+pub fn around(way: f64, quarter: impl Fn(f64) -> GirdlePlace) -> GirdlePlace {
     let (number, part) = ((4.0 * way).floor(), (4.0 * way).fract());
-    let flipped = |place: Station, by: DVec2| Station { at: place.at * by, normal: place.normal * by };
+    let flipped =
+        |place: GirdlePlace, by: DVec2| GirdlePlace { at: place.at * by, normal: place.normal * by };
     match number as i64 % 4 {
         0 => quarter(part),
         1 => flipped(quarter(1.0 - part), DVec2::new(-1.0, 1.0)),
@@ -35,7 +36,7 @@ impl Wing {
     ///
     /// The curve is a conic section, written as a rational Bézier curve of degree 2 (Farin, Curves and Surfaces for CAGD); the
     /// weight of its middle point is the cosine of half the angle by which it turns, as for an arc.
-    pub fn at(&self, part: f64) -> Station {
+    pub fn at(&self, part: f64) -> GirdlePlace {
         let middle = DVec2::new(1.0, self.tangents_meet);
         let (start, end) = (DVec2::X, DVec2::Y * self.length);
         let turn = DVec2::Y.angle_to(end - middle);
@@ -47,7 +48,7 @@ impl Wing {
             + (end - start) * (back * on)
             + (end - middle) * (weight * on * on);
         let normal = if part == 1.0 { DVec2::Y } else { -along.perp().normalize_or(DVec2::NEG_X) };
-        Station { at, normal }
+        GirdlePlace { at, normal }
     }
 }
 
@@ -79,7 +80,7 @@ impl RoundedQuarter {
     }
 
     /// Returns the place at a part of the way from +x to +y; the middle of the corner is at half of the way.
-    pub fn at(&self, part: f64) -> Station {
+    pub fn at(&self, part: f64) -> GirdlePlace {
         let [side, corner, end] = self.arcs;
         let middle = 0.5 * (corner.2[0] + corner.2[1]);
         let [first, second] = [[corner.2[0], middle], [middle, corner.2[1]]];
@@ -97,6 +98,6 @@ impl RoundedQuarter {
             1.0 => DVec2::Y,
             _ => DVec2::from_angle(from + way / radius),
         };
-        Station { at: centre + normal * radius, normal }
+        GirdlePlace { at: centre + normal * radius, normal }
     }
 }

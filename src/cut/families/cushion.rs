@@ -4,7 +4,7 @@
 //! L/W 1.00 to 1.05 square, to 1.30 long; library of cutters' designs: table 45 to 62. Bulge and corners are chosen to look
 //! like the trade's pictures.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
 use super::super::family::{Bound, Family, Proportion};
 use super::super::family_cut::{FamilyCut, number};
@@ -69,13 +69,13 @@ pub(super) const fn corner<const PLACE: usize>() -> Proportion {
 ///
 /// # Errors
 /// The sides and corners do not follow one another.
-pub(super) fn girdle(length: f64, bulge: f64, corner: f64, mains: usize) -> Result<Girdle, Unfit> {
+pub(super) fn girdle(length: f64, bulge: f64, corner: f64, mains: usize) -> Result<Girdle, NoRoom> {
     let quarter = RoundedQuarter::new(length, bulge / 50.0, corner / 50.0);
-    let quarter = quarter.ok_or(Unfit { tier: "girdle" })?;
+    let quarter = quarter.ok_or(NoRoom { tier: "girdle" })?;
     Ok(Girdle::new(mains, 4, |way| around(way, |part| quarter.at(part))))
 }
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let girdle = girdle(cut[LENGTH], cut[BULGE], cut[CORNER], 4 * cut[MAINS] as usize)?;
     Brilliant::of(cut, TABLE, &girdle, DVec2::ZERO, 1.0).net()
 }

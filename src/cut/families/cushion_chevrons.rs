@@ -5,8 +5,8 @@
 //! two points of the line down the middle of the side, so that all rows meet in points. Between the tip and the girdle, the
 //! first row and the half facet of the corner part at the place between two stations. The construction is this program's own.
 
-use super::super::facet_net::{FacetNet, Unfit};
-use super::girdle::{Girdle, Station};
+use super::super::facet_net::{FacetNet, NoRoom};
+use super::girdle::{Girdle, GirdlePlace};
 use glam::{DMat3, DVec3};
 
 /// The tiers of the rows, from the girdle to the culet.
@@ -46,7 +46,7 @@ impl CushionChevrons<'_> {
     ///
     /// # Errors
     /// The tier whose points give no plane.
-    pub fn add_to(&self, net: &mut FacetNet) -> Result<(), Unfit> {
+    pub fn add_to(&self, net: &mut FacetNet) -> Result<(), NoRoom> {
         let inside = DVec3::NEG_Z * (0.5 * self.thickness);
         let around = self.girdle.mains().len();
         let sides = || self.girdle.mains().step_by(2);
@@ -78,13 +78,13 @@ impl CushionChevrons<'_> {
 
     /// Returns three points of a corner's main.
     fn main(&self, corner: usize) -> [DVec3; 3] {
-        let Station { normal, .. } = self.girdle.main(corner);
+        let GirdlePlace { normal, .. } = self.girdle.main(corner);
         let edge = self.edge(corner);
         [edge, edge + normal.perp().extend(0.0), DVec3::NEG_Z * (self.thickness + self.depth())]
     }
 
     /// Returns the half of a side toward a corner, with the girdle's place in the gap between both.
-    fn half_side(&self, side: usize, corner: usize, gap: usize) -> Result<HalfSide, Unfit> {
+    fn half_side(&self, side: usize, corner: usize, gap: usize) -> Result<HalfSide, NoRoom> {
         let (edge, rows) = (self.edge(side), self.slopes.len().max(1) as f64);
         let mut middles = vec![edge];
         let mut depth = self.thickness;
@@ -95,7 +95,7 @@ impl CushionChevrons<'_> {
         }
         let between = self.girdle.between(gap).extend(-self.thickness);
         let tip = self.tip([middles[0], middles[1], between], self.main(corner));
-        let tip = tip.ok_or(Unfit { tier: "corner_half" })?;
+        let tip = tip.ok_or(NoRoom { tier: "corner_half" })?;
         Ok(HalfSide { middles, between, corner: self.edge(corner), tip })
     }
 

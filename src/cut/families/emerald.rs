@@ -4,7 +4,7 @@
 //! 46.8 degrees (diamondcuttersintl.com), table 55 to 75 (gemmology.dev). Three rows of eight facets on either side make the
 //! usual 49 facets with the table; corners and steps have no published figures.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::Family;
 use super::super::family_cut::FamilyCut;
 use super::steps::{self, Rectangle, StepRows};
@@ -43,7 +43,7 @@ pub static EMERALD: Family = Family {
     ],
 };
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let outline = Rectangle { length: cut[LENGTH], corner: cut[CORNER] / 50.0, keel: cut[KEEL] / 100.0 };
     let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - cut[TABLE] / 100.0);
     let pavilion = StepRows::of(cut, [PAVILION_ROWS, PAVILION, PAVILION_STEP], outline.reach());

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 /// A place on the outline, seen from above. Lengths are in girdle radii.
 #[derive(Debug, Clone, Copy)]
-pub struct Station {
+pub struct GirdlePlace {
     /// The point of the outline.
     pub at: DVec2,
     /// The unit normal of the outline there, outward. Where the outline has a corner, it lies between those of both sides.
@@ -20,9 +20,9 @@ pub struct Station {
 /// stations the girdle has a number of upright facets. They touch the curve in their middles, so that length and width are
 /// the distances of opposite facets.
 pub struct Girdle {
-    stations: Vec<Station>,
+    stations: Vec<GirdlePlace>,
     /// The places where upright facets touch the curve.
-    upright: Vec<Station>,
+    upright: Vec<GirdlePlace>,
     /// Whether the outline is one half, whose first and last stations lie at x = 0.
     is_half: bool,
 }
@@ -30,7 +30,7 @@ pub struct Girdle {
 impl Girdle {
     /// Divides a curve into stations. `curve` takes the way around, from 0 to 1, to a place; equal parts of this way lie
     /// between the stations of `mains` main facets, and `upright` girdle facets belong to each station.
-    pub fn new(mains: usize, upright: usize, curve: impl Fn(f64) -> Station) -> Self {
+    pub fn new(mains: usize, upright: usize, curve: impl Fn(f64) -> GirdlePlace) -> Self {
         let (stations, upright) = (2 * mains.max(2), upright.max(1));
         let places = |count: usize| (0..count).map(|place| curve(place as f64 / count as f64)).collect();
         Self { stations: places(stations), upright: places(stations * upright), is_half: false }
@@ -38,14 +38,14 @@ impl Girdle {
 
     /// Divides one half of an outline, on the side of +x: `curve` begins and ends at x = 0, with a main at both ends, and
     /// this leaves `gaps` gaps between mains.
-    pub fn half(gaps: usize, upright: usize, curve: impl Fn(f64) -> Station) -> Self {
+    pub fn half(gaps: usize, upright: usize, curve: impl Fn(f64) -> GirdlePlace) -> Self {
         let (steps, upright) = (2 * gaps.max(2), upright.max(1));
         let places = |count: usize| (0..=count).map(|place| curve(place as f64 / count as f64)).collect();
         Self { stations: places(steps), upright: places(steps * upright), is_half: true }
     }
 
     /// Adds an upright facet that touches the outline at a place, so that the outline reaches no farther there.
-    pub fn touch(&mut self, place: Station) {
+    pub fn touch(&mut self, place: GirdlePlace) {
         self.upright.push(place);
     }
 
@@ -65,7 +65,7 @@ impl Girdle {
     }
 
     /// Returns the station of a main; numbers run on around the outline.
-    pub fn main(&self, number: usize) -> Station {
+    pub fn main(&self, number: usize) -> GirdlePlace {
         self.stations[2 * number % self.stations.len()]
     }
 
@@ -76,7 +76,7 @@ impl Girdle {
 
     /// Adds the upright facets.
     pub fn add_to(&self, net: &mut FacetNet) {
-        for Station { at, normal } in &self.upright {
+        for GirdlePlace { at, normal } in &self.upright {
             net.plane("girdle", normal.extend(0.0), at.extend(0.0));
         }
     }

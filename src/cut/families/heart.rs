@@ -6,14 +6,14 @@
 //! Ranges: L/W 0.90 to 1.10 (yourjewel.com), library of cutters' designs 1.00 to 1.06; cleft, lobes and fullness are chosen to
 //! look like the trade's pictures.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::{Fixed, Of};
 use super::super::family::{Bound, Family, Proportion};
 use super::super::family_cut::FamilyCut;
 use super::super::shape::Cut;
 use super::brilliant::Brilliant;
 use super::curves::Wing;
-use super::girdle::{Girdle, Station};
+use super::girdle::{Girdle, GirdlePlace};
 use super::{brilliant_rows, rows};
 use glam::DVec2;
 use std::f64::consts::FRAC_PI_2;
@@ -91,20 +91,22 @@ fn lobe(cut: &Cut) -> f64 {
     }
 }
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     // Numbers are percent of the shorter extent, half of which is 1 in the end; the curve is made with half the width as 1.
     let (length, scale) = (cut[LENGTH], 1.0 / cut[LENGTH].min(1.0));
     let lobe = cut[LOBE] / 50.0 / scale;
     let point = 2.0 * length - lobe;
-    let wing = Wing::new(point, cut[FULLNESS] / 100.0).ok_or(Unfit { tier: "girdle" })?;
+    let wing = Wing::new(point, cut[FULLNESS] / 100.0).ok_or(NoRoom { tier: "girdle" })?;
     let widest = DVec2::new(0.0, point - length) * scale;
     // Each lobe is an arc of an ellipse, from the widest place over its top to the cleft.
     let sine = 1.0 - cut[CLEFT] / cut[LOBE];
     let across = 1.0 / (1.0 + (1.0 - sine * sine).sqrt());
-    let place =
-        |at: DVec2, normal: DVec2| Station { at: widest + at * scale, normal: normal.normalize_or(DVec2::X) };
+    let place = |at: DVec2, normal: DVec2| GirdlePlace {
+        at: widest + at * scale,
+        normal: normal.normalize_or(DVec2::X),
+    };
     let side = |part: f64| {
-        let (Station { at, normal }, below) = (wing.at(part), DVec2::new(1.0, -1.0));
+        let (GirdlePlace { at, normal }, below) = (wing.at(part), DVec2::new(1.0, -1.0));
         place(at * below, normal * below)
     };
     let lobe_at = |normal: f64| {
@@ -123,7 +125,7 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
         };
         let place =
             if step < 3 { side(between(&SIDE, step)) } else { lobe_at(cleft * between(&LOBES, step - 3)) };
-        if step == 8 { Station { at: DVec2::new(0.0, place.at.y), ..place } } else { place }
+        if step == 8 { GirdlePlace { at: DVec2::new(0.0, place.at.y), ..place } } else { place }
     };
     let mut girdle = Girdle::half(4, 4, curve);
     girdle.touch(lobe_at(FRAC_PI_2));

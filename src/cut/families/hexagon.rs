@@ -3,7 +3,7 @@
 //! Ranges are chosen: a regular hexagon has L/W 1.155 and points of 120 degrees; slopes and table are those of emerald cuts
 //! (diamondcuttersintl.com).
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
 use super::super::family::{Bound, Family, Proportion, Unit};
 use super::super::family_cut::{FamilyCut, number};
@@ -54,12 +54,12 @@ pub static HEXAGON: Family = Family {
     ],
 };
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let (length, keel) = (cut[LENGTH], cut[KEEL] / 100.0);
     // How far a point reaches beyond the ends of the straight sides.
     let point = 1.0 / (0.5 * cut[POINT]).to_radians().tan();
     if point >= length {
-        return Err(Unfit { tier: "girdle" });
+        return Err(NoRoom { tier: "girdle" });
     }
     // With this keel, the sides of the points are as steep as those along the stone.
     let even = DVec2::new(0.0, (length - point.hypot(1.0)).max(0.0));

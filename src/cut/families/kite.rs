@@ -3,7 +3,7 @@
 //! Ranges are chosen; slopes and table are those of emerald cuts (diamondcuttersintl.com). At a shoulder of 50 % the outline
 //! is a lozenge.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::{Family, Proportion};
 use super::super::family_cut::FamilyCut;
 use super::steps::{self, StepRows, StepSide};
@@ -49,7 +49,7 @@ pub static KITE: Family = Family {
     ],
 };
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let length = cut[LENGTH];
     let widest = length * (2.0 * cut[SHOULDER] / 100.0 - 1.0);
     // The circle that touches all four sides has its middle on the axis, at the same distance from long and short sides.

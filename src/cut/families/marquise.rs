@@ -3,7 +3,7 @@
 //! Ranges: L/W 1.80 to 2.20 (yourjewel.com), library of cutters' designs 1.61 to 2.67; table 53 to 60, crown 34 to 35, pavilion
 //! 39.25 to 40.75 degrees (diamondcuttersintl.com, class I).
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::Family;
 use super::super::family_cut::FamilyCut;
 use super::brilliant::Brilliant;
@@ -35,8 +35,8 @@ pub static MARQUISE: Family = Family {
     ],
 };
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
-    let wing = Wing::new(cut[LENGTH], cut[FULLNESS] / 100.0).ok_or(Unfit { tier: "girdle" })?;
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
+    let wing = Wing::new(cut[LENGTH], cut[FULLNESS] / 100.0).ok_or(NoRoom { tier: "girdle" })?;
     let girdle = Girdle::new(8, 4, |way| around(way, |part| wing.at(part)));
     Brilliant::of(cut, TABLE, &girdle, DVec2::ZERO, 1.0).net()
 }

@@ -3,7 +3,7 @@
 //! CushionChevrons instead of pavilion mains, 2 to 4 rows (caratwire.com); L/W, table and depth as of the cushion with mains. No
 //! source gives angles of the rows: they are chosen so that the depth is 61 to 68 (gemmology.dev).
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::{Fixed, Of};
 use super::super::family::{Bound, Family, Proportion, Unit};
 use super::super::family_cut::{FamilyCut, number};
@@ -81,7 +81,7 @@ fn lower(cut: &Cut) -> f64 {
     }
 }
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let girdle = cushion::girdle(cut[LENGTH], cut[BULGE], cut[CORNER], 8)?;
     let (table, thickness, rows) = (cut[TABLE] / 100.0, cut[GIRDLE] / 50.0, cut[ROWS] as usize);
     let angle = |row: usize| cut[UPPER] + (cut[LOWER] - cut[UPPER]) * row as f64 / (rows - 1).max(1) as f64;

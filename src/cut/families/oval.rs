@@ -3,12 +3,12 @@
 //! Ranges: L/W 1.30 to 1.65 (yourjewel.com), table 53 to 62, crown 33 to 36 and pavilion 40 to 42 degrees at the width
 //! (gemmology.dev); the outline is an ellipse at an exponent of 2, and squarer above.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
 use super::super::family::{Bound, Family, Proportion, Unit};
 use super::super::family_cut::{FamilyCut, number};
 use super::brilliant::Brilliant;
-use super::girdle::{Girdle, Station};
+use super::girdle::{Girdle, GirdlePlace};
 use super::{brilliant_rows, rows};
 use glam::DVec2;
 use std::f64::consts::TAU;
@@ -52,7 +52,7 @@ pub static OVAL: Family = Family {
 
 /// Returns the place on a superellipse of half-axes 1 and `length` at a part of the way around, from +x. Equal parts of
 /// the way are equal angles of the circle from which it is stretched.
-pub(super) fn superellipse(length: f64, exponent: f64, way: f64) -> Station {
+pub(super) fn superellipse(length: f64, exponent: f64, way: f64) -> GirdlePlace {
     // Quarters are exact, so that stones are symmetric to the last bit of their extents.
     let (sin, cos) = match (way * 4.0).fract() {
         0.0 => [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)][(way * 4.0) as usize % 4],
@@ -60,13 +60,13 @@ pub(super) fn superellipse(length: f64, exponent: f64, way: f64) -> Station {
     };
     let radius = (cos.abs().powf(exponent) + sin.abs().powf(exponent)).powf(-1.0 / exponent);
     let slope = |part: f64| part.signum() * (radius * part.abs()).powf(exponent - 1.0);
-    Station {
+    GirdlePlace {
         at: DVec2::new(cos, sin * length) * radius,
         normal: DVec2::new(slope(cos), slope(sin) / length).normalize_or(DVec2::X),
     }
 }
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let mains = 4 * cut[MAINS] as usize;
     let girdle = Girdle::new(mains, 4, |way| superellipse(cut[LENGTH], cut[FULLNESS], way));
     Brilliant::of(cut, TABLE, &girdle, DVec2::ZERO, 1.0).net()

@@ -3,13 +3,13 @@
 //! Ranges: L/W 1.50 to 1.75 (yourjewel.com), library of cutters' designs 1.23 to 1.72; table 53 to 60, crown 34 to 35, pavilion
 //! 39.25 to 40.75 degrees (diamondcuttersintl.com, class I).
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
 use super::super::family::{Bound, Family, Proportion};
 use super::super::family_cut::{FamilyCut, number};
 use super::brilliant::Brilliant;
 use super::curves::{Wing, around};
-use super::girdle::{Girdle, Station};
+use super::girdle::{Girdle, GirdlePlace};
 use super::{brilliant_rows, rows};
 use glam::DVec2;
 use std::f64::consts::FRAC_PI_2;
@@ -57,18 +57,18 @@ pub static PEAR: Family = Family {
     ],
 };
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let head = cut[HEAD] / 100.0;
     let point = 2.0 * cut[LENGTH] - head;
-    let wing = Wing::new(point, cut[FULLNESS] / 100.0).ok_or(Unfit { tier: "girdle" })?;
+    let wing = Wing::new(point, cut[FULLNESS] / 100.0).ok_or(NoRoom { tier: "girdle" })?;
     // The widest place lies this far from the middle of the length.
     let widest = DVec2::new(0.0, head - cut[LENGTH]);
     let curve = |way: f64| {
-        let Station { at, normal } = around(way, |part| match way < 0.5 {
+        let GirdlePlace { at, normal } = around(way, |part| match way < 0.5 {
             true => wing.at(part),
             false => ellipse(head, part),
         });
-        Station { at: at + widest, normal }
+        GirdlePlace { at: at + widest, normal }
     };
     let girdle = Girdle::new(8, 4, curve);
     let middle = widest + DVec2::Y * (cut[MIDDLE] / 50.0);
@@ -76,8 +76,8 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
 }
 
 /// Returns the place at a part of the way from (1, 0) to (0, `height`) on an ellipse.
-fn ellipse(height: f64, part: f64) -> Station {
+fn ellipse(height: f64, part: f64) -> GirdlePlace {
     let (sin, cos) = if part == 1.0 { (1.0, 0.0) } else { (part * FRAC_PI_2).sin_cos() };
     let normal = DVec2::new(cos * height, sin).normalize_or(DVec2::X);
-    Station { at: DVec2::new(cos, sin * height), normal }
+    GirdlePlace { at: DVec2::new(cos, sin * height), normal }
 }

@@ -3,7 +3,7 @@
 //! Source of the first cut: PC 01.028A, 16 facets a row, crown 52/45/40/35/30, pavilion 60/56/52/48/44/40, table .45. The trade
 //! quotes 161 to 193 facets. Ranges of angles and sizes: PC 01.028A, B and C, widened by an estimate.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
 use super::super::family::{Bound, Family, Proportion};
 use super::super::family_cut::FamilyCut;
@@ -96,7 +96,7 @@ fn pavilion(cut: &FamilyCut) -> AlternatingRows {
     }
 }
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let (crown, pavilion) = (crown(cut), pavilion(cut));
     let mut net = FacetNet::default();
     let slope = tangent(cut, CROWN);

@@ -5,7 +5,7 @@
 //! No figures are published of the mains' angles; those here give crowns 8 to 15 percent high. Beside its chevrons, each side
 //! has one facet along the girdle: a level girdle allows no two.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
 use super::super::family::{Bound, Family, Proportion, Unit};
 use super::super::family_cut::{FamilyCut, number};
@@ -113,7 +113,7 @@ pub(super) const fn shoulder<const PLACE: usize>() -> Proportion {
     }
 }
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let outline = Rectangle { length: cut[LENGTH], corner: cut[CORNER] / 50.0, keel: 1.0 };
     let thickness = cut[GIRDLE] / 50.0;
     let crown = StarCrown {

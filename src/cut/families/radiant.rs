@@ -4,7 +4,7 @@
 //! culet the 70 facets of the trade (yourjewel.com) are those of this construction: 25 above, 8 in the girdle and 37 below.
 //! L/W and depth are those of weight tables (1.0 to 1.5); other figures are chosen.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::{Family, Proportion};
 use super::super::family_cut::FamilyCut;
 use super::chevrons::{Chevrons, StarCrown};
@@ -66,7 +66,7 @@ pub static RADIANT: Family = Family {
     ],
 };
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let outline = Rectangle { length: cut[LENGTH], corner: cut[CORNER] / 50.0, keel: 1.0 };
     let (thickness, table) = (cut[GIRDLE] / 50.0, cut[TABLE] / 100.0);
     let steps = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - table);
@@ -74,7 +74,7 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
     if steps.count > 0 {
         steps.add_crown(&mut net, &outline.sides())?;
     } else {
-        let mains = StepRows { count: 2, ..steps }.tangents().ok_or(Unfit { tier: "main_1" })?;
+        let mains = StepRows { count: 2, ..steps }.tangents().ok_or(NoRoom { tier: "main_1" })?;
         let crown = StarCrown {
             table,
             mains: [mains[0], mains[1]],

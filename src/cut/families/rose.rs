@@ -5,7 +5,7 @@
 //! Triangles in threes, 3, 6, 12, 24: the trade's count. The first cut has the angles of PC 45.063 (Double Holland Rose, 36.5,
 //! 34, 30), whose height is 32 percent of the width; the trade also quotes about half.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::{Fixed, Of};
 use super::super::family::{Bound, Family, Proportion};
 use super::super::family_cut::FamilyCut;
@@ -113,7 +113,7 @@ impl RoseCorners {
     }
 }
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let dome = RoseCorners::of(cut);
     let thickness = cut[GIRDLE] / 50.0;
     // The middle of the dome.

@@ -3,10 +3,10 @@
 //! Its 17 facets, 18 with a culet, are the trade's (visualdictionaryonline.com). No numbers are published for it; the ranges
 //! are those of round brilliants, with the larger tables and flatter crowns of small stones as an estimate.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::{Family, Proportion};
 use super::super::family_cut::FamilyCut;
-use super::girdle::{Girdle, Station};
+use super::girdle::{Girdle, GirdlePlace};
 use super::oval::superellipse;
 use super::rows;
 use glam::DVec3;
@@ -45,7 +45,7 @@ pub static SINGLE_CUT: Family = Family {
     ],
 };
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let girdle = Girdle::new(8, 4, |way| superellipse(1.0, 2.0, way));
     let [crown, pavilion] = [CROWN, PAVILION].map(|place| cut[place].to_radians().tan());
     let thickness = cut[GIRDLE] / 50.0;
@@ -54,12 +54,12 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
     let mut net = FacetNet::default();
     net.plane("table", DVec3::Z, DVec3::Z * (1.0 - side) * crown);
     for main in girdle.mains() {
-        let Station { at, normal } = girdle.main(main);
+        let GirdlePlace { at, normal } = girdle.main(main);
         net.plane("bezel", (normal * crown).extend(1.0), at.extend(0.0));
     }
     girdle.add_to(&mut net);
     for main in girdle.mains() {
-        let Station { at, normal } = girdle.main(main);
+        let GirdlePlace { at, normal } = girdle.main(main);
         net.plane("main", (normal * pavilion).extend(-1.0), at.extend(-thickness));
     }
     if cut[CULET] > 0.0 {

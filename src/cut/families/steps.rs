@@ -6,7 +6,7 @@
 //! outline and this line (the keel): a side at the distance d with the normal n moves by d minus the keel's reach along n.
 //! The profile is convex because each row is flatter than the one before. The construction is this program's own.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family_cut::FamilyCut;
 use glam::{DVec2, DVec3};
 
@@ -97,8 +97,8 @@ impl StepRows {
         sides: &[StepSide],
         from: f64,
         up: f64,
-    ) -> Result<(), Unfit> {
-        let rows = self.tangents().ok_or(Unfit { tier: tiers[0] })?;
+    ) -> Result<(), NoRoom> {
+        let rows = self.tangents().ok_or(NoRoom { tier: tiers[0] })?;
         let width = self.reach / rows.len() as f64;
         let mut height = from;
         for (row, (tier, tangent)) in tiers.into_iter().zip(rows).enumerate() {
@@ -106,7 +106,7 @@ impl StepRows {
             for side in sides {
                 let rate = if up > 0.0 { side.crown_rate } else { side.pavilion_rate };
                 if rate <= 0.0 {
-                    return Err(Unfit { tier });
+                    return Err(NoRoom { tier });
                 }
                 let edge = side.normal * (side.distance - rate * inset);
                 net.plane(tier, (side.normal * tangent).extend(up * rate), edge.extend(height));
@@ -120,7 +120,7 @@ impl StepRows {
     ///
     /// # Errors
     /// The tier of the row that has no room.
-    pub fn add_crown(&self, net: &mut FacetNet, sides: &[StepSide]) -> Result<(), Unfit> {
+    pub fn add_crown(&self, net: &mut FacetNet, sides: &[StepSide]) -> Result<(), NoRoom> {
         net.plane("table", DVec3::Z, DVec3::Z * self.height());
         self.add_to(net, CROWN, sides, 0.0, 1.0)
     }
@@ -129,7 +129,7 @@ impl StepRows {
     ///
     /// # Errors
     /// The tier of the row that has no room.
-    pub fn add_pavilion(&self, net: &mut FacetNet, sides: &[StepSide], thickness: f64) -> Result<(), Unfit> {
+    pub fn add_pavilion(&self, net: &mut FacetNet, sides: &[StepSide], thickness: f64) -> Result<(), NoRoom> {
         self.add_to(net, PAVILION, sides, -thickness, -1.0)
     }
 }
@@ -152,7 +152,7 @@ pub fn net(
     crown: StepRows,
     thickness: f64,
     pavilion: StepRows,
-) -> Result<FacetNet, Unfit> {
+) -> Result<FacetNet, NoRoom> {
     let mut net = FacetNet::default();
     crown.add_crown(&mut net, sides)?;
     add_girdle(&mut net, sides, thickness);

@@ -3,7 +3,7 @@
 //! Ranges are chosen around those of the straight baguette (GemCad's library, PC 12.001: L/W 2.0, crown 35 degrees, pavilion
 //! 51 and 41). All rows are as steep on each side, so the keel rises toward the narrow end, where the stone is less deep.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
 use super::super::family::{Bound, Family, Proportion};
 use super::super::family_cut::FamilyCut;
@@ -50,7 +50,7 @@ pub static TAPERED_BAGUETTE: Family = Family {
     ],
 };
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let (length, narrow) = (cut[LENGTH], cut[NARROW] / 100.0);
     let lean = 0.5 * (1.0 - narrow) / length;
     let to = |x: f64, y: f64, through: DVec2| StepSide {

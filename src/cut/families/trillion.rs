@@ -3,13 +3,13 @@
 //! Ranges: L/W 0.90 to 1.10 (yourjewel.com); 31 to 50 facets; library of cutters' designs: table 30 to 59, pavilion depth 38 to
 //! 51. The length follows from the bulge.
 
-use super::super::facet_net::{FacetNet, Unfit};
+use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
 use super::super::family::{Bound, Family, Proportion, Unit};
 use super::super::family_cut::{FamilyCut, number};
 use super::super::shape::Cut;
 use super::brilliant::Brilliant;
-use super::girdle::{Girdle, Station};
+use super::girdle::{Girdle, GirdlePlace};
 use super::{brilliant_rows, rows};
 use glam::DVec2;
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_6, TAU};
@@ -69,13 +69,13 @@ fn bulge(cut: &FamilyCut) -> f64 {
     cut[BULGE] / 50.0
 }
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, Unfit> {
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let (bulge, length) = (bulge(cut), length(cut));
     let radius = (1.0 + bulge * bulge) / (2.0 * bulge);
     let widest = (1.0 / radius).asin();
     // The length is shorter than the width, so that half of it is 1.
     let centre = DVec2::Y * ((INNER + bulge) / length - 1.0);
-    let place = |corner: DVec2, normal: f64| Station {
+    let place = |corner: DVec2, normal: f64| GirdlePlace {
         at: centre + corner / length,
         normal: DVec2::from_angle(normal),
     };
