@@ -20,6 +20,8 @@ pub enum Command by keys {
     ViewBack: "Backspace", "Previous view",
         "Undoes the last change of tilt, zoom, layout or overlay; the design stays.";
     ViewOn: "Shift+Backspace", "Next view", "Redoes the view change that was undone last.";
+    IntoTiers: "", "Turn into tiers",
+        "Lists the facets as tiers on an index gear, so that each can be cut otherwise. Proportions end with it.";
     Top: "T", "Top", "Looks at the table.";
     Side: "S", "Side", "Looks along the girdle.";
     Bottom: "B", "Bottom", "Looks at the culet.";
@@ -52,8 +54,6 @@ pub enum Command by keys {
         "Opens a table below the views, in which tiers are added, placed and named.";
     BenchMode: "Shift+B", "Bench mode",
         "Shows one step of the cutting at a time, in large letters, and marks what has been cut.";
-    IntoTiers: "", "Turn into tiers",
-        "Lists the facets as tiers on an index gear, so that each can be cut otherwise. Proportions end with it.";
     Panels: "H", "Hide panels", "Hides the panels at both sides, or shows them again.";
     FullScreen: "F11", "Full screen", "Fills the screen with the window, or makes it smaller again.";
     ResetView: "", "Reset view",

@@ -161,7 +161,6 @@ pub fn corner_radius(sides: usize, first: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::math::Polytope;
-    use glam::DVec3;
 
     /// The angles of PC 01.028A in degrees, row by row from the girdle, and the size of its last ring; then which angle is
     /// given to the rows here.

@@ -50,6 +50,9 @@ impl Tiers {
 
     /// Returns the design with meets that its geometry shows, for tiers without one: points through which the tier passes, and
     /// by which [`solved`](Self::solved) finds its distance again. All numbers stay.
+    ///
+    /// A meet that fits by itself may choose another corner once all are followed together, where more facets have been cut. Such
+    /// meets are dropped, so that following the design moves no tier by a meet that nobody stated.
     pub fn with_found_meets(&self) -> Self {
         let mut design = self.clone();
         let mut bench = Bench::of(self);
@@ -63,7 +66,24 @@ impl Tiers {
             }
             bench.cut(place, tier);
         }
+        let scale = bench.stone().scale();
+        while design.drop_a_moving_meet(self, scale) {}
         design
+    }
+
+    /// Drops the first meet that `before` does not have and that fails or moves its tier when all are followed; returns whether
+    /// there was one.
+    fn drop_a_moving_meet(&mut self, before: &Self, scale: f64) -> bool {
+        let solved = self.solved();
+        let moves = |place: &usize| {
+            let moved = (solved.tiers.tiers[*place].distance - before.tiers[*place].distance).abs();
+            matches!(solved.outcomes[*place], TierOutcome::Failed(_)) || moved > PASSES * scale
+        };
+        let is_found =
+            |place: &usize| before.tiers[*place].meet.is_none() && self.tiers[*place].meet.is_some();
+        let Some(place) = (0..self.tiers.len()).filter(is_found).find(moves) else { return false };
+        self.tiers[place].meet = None;
+        true
     }
 }
 

@@ -140,7 +140,7 @@ fn what_liquid_glass_cannot_be_is_told() {
         ("photo.png --compare --gap 0", 2, "--gap 0: give 0.001 to 100"),
         ("photo.png --compare --gap -1", 2, "--gap -1: give 0.001 to 100"),
         ("photo.png --gap 0.5", 2, "--compare"),
-        ("photo.png --out pane.png", 2, "give a folder"),
+        ("photo.png --out pane.jpg", 2, "give a .png, or a folder"),
         ("none.png", 1, "none.png: there is no such file"),
         ("mauve", 2, "or a photograph's file"),
         ("transparent", 2, "needs something behind it"),
