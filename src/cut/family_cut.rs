@@ -5,7 +5,7 @@ use super::facet_net::{FacetNet, Unfit};
 use super::family::{Family, Proportion};
 use super::proportion_error::ProportionError;
 use super::shape::Cut;
-use crate::math::{NotConvex, Plane, TriangleMesh};
+use crate::math::{NotConvex, Plane, Polytope, TriangleMesh};
 use std::fmt;
 use std::ops::Index;
 
@@ -26,6 +26,15 @@ pub struct FamilyCut {
     pub family: &'static Family,
     /// The numbers, in the order of the rows; those past the last row are 0.
     pub numbers: [f64; MOST_NUMBERS],
+}
+
+/// The stone of a family.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FamilySolid {
+    /// A convex stone, and the names of its facets in their order.
+    Convex(Polytope, Vec<String>),
+    /// A stone that is not convex: its triangles, with the names of its facets.
+    Mesh(TriangleMesh),
 }
 
 impl FamilyCut {
@@ -52,26 +61,32 @@ impl FamilyCut {
     /// Returns every facet's name, no two alike, and its plane with a unit normal. Half of the stone's width is 1.
     ///
     /// # Errors
-    /// The first limit crossed, and by how much; [`DesignError::NotConvex`] where the stone is a [`mesh`](Self::mesh).
+    /// The first limit crossed, and by how much; [`DesignError::NotConvex`] where the stone is not convex.
     pub fn facets(&self) -> Result<Vec<(String, Plane)>, DesignError> {
         let net = self.checked()?;
         if net.is_half() { Err(NotConvex.into()) } else { Ok(net.named()) }
     }
 
-    /// Returns the triangles of a stone that is not convex, with the names of its facets; `None` for a family whose stones
-    /// are convex. Half of the stone's width is 1.
+    /// Builds the stone. Half of its width is 1.
     ///
     /// # Errors
     /// The first limit crossed, and by how much.
-    pub fn mesh(&self) -> Result<Option<TriangleMesh>, ProportionError> {
-        let net = self.checked()?;
-        if !net.is_half() {
-            return Ok(None);
+    pub fn solid(&self) -> Result<FamilySolid, ProportionError> {
+        let cut = Cut::Family(*self);
+        cut.check_numbers()?;
+        self.made().map_err(|unfit| cut.without_room(unfit))
+    }
+
+    fn made(&self) -> Result<FamilySolid, Unfit> {
+        let net = self.net()?;
+        let solid = net.solid()?;
+        if net.is_half() {
+            let mesh = TriangleMesh::of_groups(net.both_halves(&solid)?).map_err(|_| Unfit::default())?;
+            return Ok(FamilySolid::Mesh(mesh));
         }
-        let mesh = net
-            .both_halves()
-            .and_then(|surface| TriangleMesh::of_groups(surface).map_err(|_| Unfit::default()));
-        mesh.map(Some).map_err(|unfit| Cut::Family(*self).without_room(unfit))
+        let named = net.named();
+        let names = solid.facets().iter().map(|facet| named[facet.source].0.clone()).collect();
+        Ok(FamilySolid::Convex(solid, names))
     }
 
     /// Returns the net of a cut that crosses no limit.
@@ -86,7 +101,7 @@ impl FamilyCut {
     /// # Errors
     /// The first facet without room.
     pub(super) fn check_net(&self) -> Result<(), Unfit> {
-        self.net()?.check()
+        self.net()?.solid().map(|_| ())
     }
 }
 

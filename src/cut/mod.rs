@@ -38,7 +38,7 @@ pub use design::{DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFaul
 pub use facet_net::Unfit;
 pub use families::FAMILIES;
 pub use family::{Bound, BoundAt, Family, ProfileHandle, Proportion, Unit};
-pub use family_cut::FamilyCut;
+pub use family_cut::{FamilyCut, FamilySolid};
 pub use glass::{Glass, Plate, Sides};
 pub use material::{MaterialError, MaterialRef};
 pub use mesh_shape::MeshShape;
