@@ -35,7 +35,7 @@ pub struct NoRoom {
 
 impl FacetNet {
     /// Returns an empty net for the facets of one half, at x of 0 and more, of a stone. The other half is its mirror image. Each
-    /// half is convex; the stone need not be so. A facet square to the plane x = 0 lies on both.
+    /// half is convex; the stone need not be so. A facet that crosses x = 0 square to it lies on both.
     pub fn half() -> Self {
         Self { is_half: true, ..Self::default() }
     }
@@ -73,20 +73,35 @@ impl FacetNet {
         names.into_iter().zip(self.facets.iter().map(|(_, plane)| *plane)).collect()
     }
 
-    /// Returns the convex solid between the facets: the stone, or one half of it.
-    fn solid(&self) -> Result<Polytope, NoRoom> {
-        let mirror = self.is_half.then_some(MIRROR);
-        let planes: Vec<Plane> = self.facets.iter().map(|(_, plane)| *plane).chain(mirror).collect();
-        Polytope::from_planes(&planes).map_err(|_| NoRoom::default())
-    }
-
-    /// Returns the closed surface of both halves: a group of triangles with a name of its own for each facet.
+    /// Returns the solid between the facets, the stone or one half of it, and checks that each facet is on it and is no sliver.
+    /// Upright facets may vanish where the girdle is a knife edge.
     ///
     /// # Errors
-    /// The facets close no solid.
-    pub fn both_halves(&self) -> Result<Surface, NoRoom> {
-        let half = self.solid()?;
-        let (sides, mirror) = (triangulate(&half), self.facets.len());
+    /// The first tier with a facet that has no room.
+    pub fn solid(&self) -> Result<Polytope, NoRoom> {
+        let mirror = self.is_half.then_some(MIRROR);
+        let planes: Vec<Plane> = self.facets.iter().map(|(_, plane)| *plane).chain(mirror).collect();
+        let stone = Polytope::from_planes(&planes).map_err(|_| NoRoom::default())?;
+        let leaning = |index: &usize| planes[*index].normal.z != 0.0;
+        let merged = stone.merged().iter().map(|(dropped, _)| *dropped);
+        let unseen = stone.redundant().iter().copied().chain(merged).find(leaning);
+        let narrow = || {
+            let facets = stone.facets().iter().filter(|facet| facet.plane.normal.z != 0.0);
+            facets.into_iter().find(|facet| width(&stone, facet) < NARROWEST).map(|facet| facet.source)
+        };
+        match unseen.or_else(narrow) {
+            Some(index) => Err(NoRoom { tier: self.facets.get(index).map_or("", |(tier, _)| tier) }),
+            None => Ok(stone),
+        }
+    }
+
+    /// Returns the closed surface of both halves, given the solid of one: a group of triangles with a name of its own for each
+    /// facet.
+    ///
+    /// # Errors
+    /// The half does not reach the plane x = 0.
+    pub fn both_halves(&self, half: &Polytope) -> Result<Surface, NoRoom> {
+        let (sides, mirror) = (triangulate(half), self.facets.len());
         let mirrored = half.facets().iter().find(|facet| facet.source == mirror);
         let seam = mirrored.ok_or(NoRoom::default())?.outline.as_slice();
         let mut vertices = sides.vertices;
@@ -102,7 +117,8 @@ impl FacetNet {
         let mut surface = Surface::default();
         let mut tiers = vec![];
         for (place, facet) in half.facets().iter().enumerate().filter(|(_, facet)| facet.source != mirror) {
-            let is_both = facet.plane.normal.x.abs() < SQUARE;
+            let on_seam = facet.outline.iter().filter(|corner| seam.contains(corner)).count();
+            let is_both = facet.plane.normal.x.abs() < SQUARE && on_seam > 1;
             let own = tiers.len() as u32;
             let other = if is_both { own } else { own + 1 };
             tiers.extend(vec![self.facets[facet.source].0; (other - own + 1) as usize]);
@@ -115,26 +131,6 @@ impl FacetNet {
         surface.names = names::unique(tiers.into_iter());
         surface.vertices = vertices;
         Ok(surface)
-    }
-
-    /// Checks that the facets close a stone, and that each of them is on it and is no sliver. Upright facets may vanish
-    /// where the girdle is a knife edge.
-    ///
-    /// # Errors
-    /// The first tier with a facet that has no room.
-    pub fn check(&self) -> Result<(), NoRoom> {
-        let stone = self.solid()?;
-        let leaning = |index: &usize| self.facets.get(*index).is_some_and(|(_, plane)| plane.normal.z != 0.0);
-        let merged = stone.merged().iter().map(|(dropped, _)| *dropped);
-        let unseen = stone.redundant().iter().copied().chain(merged).find(leaning);
-        let narrow = || {
-            let facets = stone.facets().iter().filter(|facet| facet.plane.normal.z != 0.0);
-            facets.into_iter().find(|facet| width(&stone, facet) < NARROWEST).map(|facet| facet.source)
-        };
-        match unseen.or_else(narrow) {
-            Some(index) => Err(NoRoom { tier: self.facets.get(index).map_or("", |(tier, _)| tier) }),
-            None => Ok(()),
-        }
     }
 }
 

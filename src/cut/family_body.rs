@@ -1,36 +1,51 @@
-//! The facets or the triangles of a cut that a family's function makes, after its limits have been checked.
+//! The facets and the stone of a cut that a family's function makes, after its limits have been checked.
 
 use super::design::DesignError;
 use super::facet_net::{FacetNet, NoRoom};
 use super::family_cut::FamilyCut;
 use super::proportion_error::ProportionError;
 use super::shape::Cut;
-use crate::math::{NotConvex, Plane, TriangleMesh};
+use crate::math::{NotConvex, Plane, Polytope, TriangleMesh};
+
+/// The stone of a family.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FamilySolid {
+    /// A convex stone, and the names of its facets in their order.
+    Convex(Polytope, Vec<String>),
+    /// A stone that is not convex: its triangles, with the names of its facets.
+    Mesh(TriangleMesh),
+}
 
 impl FamilyCut {
     /// Returns every facet's name, no two alike, and its plane with a unit normal. Half of the stone's width is 1.
     ///
     /// # Errors
-    /// The first limit crossed, and by how much; [`DesignError::NotConvex`] where the stone is a [`mesh`](Self::mesh).
+    /// The first limit crossed, and by how much; [`DesignError::NotConvex`] where the stone is not convex.
     pub fn facets(&self) -> Result<Vec<(String, Plane)>, DesignError> {
         let net = self.checked()?;
         if net.is_half() { Err(NotConvex.into()) } else { Ok(net.named()) }
     }
 
-    /// Returns the triangles of a stone that is not convex, with the names of its facets; `None` for a family whose stones
-    /// are convex. Half of the stone's width is 1.
+    /// Builds the stone. Half of its width is 1.
     ///
     /// # Errors
     /// The first limit crossed, and by how much.
-    pub fn mesh(&self) -> Result<Option<TriangleMesh>, ProportionError> {
-        let net = self.checked()?;
-        if !net.is_half() {
-            return Ok(None);
+    pub fn solid(&self) -> Result<FamilySolid, ProportionError> {
+        let cut = Cut::Family(*self);
+        cut.check_numbers()?;
+        self.made().map_err(|unfit| cut.without_room(unfit))
+    }
+
+    fn made(&self) -> Result<FamilySolid, NoRoom> {
+        let net = self.net()?;
+        let solid = net.solid()?;
+        if net.is_half() {
+            let mesh = TriangleMesh::of_groups(net.both_halves(&solid)?).map_err(|_| NoRoom::default())?;
+            return Ok(FamilySolid::Mesh(mesh));
         }
-        let mesh = net
-            .both_halves()
-            .and_then(|surface| TriangleMesh::of_groups(surface).map_err(|_| NoRoom::default()));
-        mesh.map(Some).map_err(|unfit| Cut::Family(*self).without_room(unfit))
+        let named = net.named();
+        let names = solid.facets().iter().map(|facet| named[facet.source].0.clone()).collect();
+        Ok(FamilySolid::Convex(solid, names))
     }
 
     /// Returns the net of a cut that crosses no limit.

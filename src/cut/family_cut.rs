@@ -51,7 +51,7 @@ impl FamilyCut {
     /// # Errors
     /// The first facet without room.
     pub(super) fn check_net(&self) -> Result<(), NoRoom> {
-        self.net()?.check()
+        self.net()?.solid().map(|_| ())
     }
 }
 

@@ -13,6 +13,15 @@ impl Cut {
     /// of derived numbers at last, so that they are computed from what is possible by itself. Where a derived number
     /// crosses its bound, the error names the given proportion that leads to it.
     pub fn check(&self) -> Result<(), ProportionError> {
+        self.check_numbers()?;
+        match self {
+            Self::Family(cut) => cut.check_net().map_err(|unfit| self.without_room(unfit)),
+            _ => Ok(()),
+        }
+    }
+
+    /// Checks the proportions as [`check`](Self::check) does, but for the room of the facets of a [`FamilyCut`](super::FamilyCut).
+    pub(super) fn check_numbers(&self) -> Result<(), ProportionError> {
         if let Some((row, value)) = self.given().find(|(_, value)| !value.is_finite()) {
             return Err(ProportionError::NotFinite { row, value });
         }
@@ -21,10 +30,7 @@ impl Cut {
         for row in all.filter(|row| row.least.is_some() || row.most.is_some()) {
             row.check((row.get)(self), Some(self)).map_err(|error| self.in_given_terms(row, error))?;
         }
-        match self {
-            Self::Family(cut) => cut.check_net().map_err(|unfit| self.without_room(unfit)),
-            _ => Ok(()),
-        }
+        Ok(())
     }
 
     /// Returns the error of facets without room as one of the given proportion that is farthest from its usual range among

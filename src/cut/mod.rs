@@ -46,6 +46,7 @@ pub use design::{DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFaul
 pub use facet_net::NoRoom;
 pub use families::{BY_TIERS, FAMILIES, GROUPS};
 pub use family::{Bound, BoundAt, Family, ProfileHandle, Proportion, Unit};
+pub use family_body::FamilySolid;
 pub use family_cut::FamilyCut;
 pub use glass::{Glass, Plate, Sides};
 pub use material::{MaterialError, MaterialRef};

@@ -1,7 +1,7 @@
 //! A specimen: a stone made from a design, with its solid, its material, and warnings about anything unusual.
 
 use super::{Body, Medium, Stone};
-use crate::cut::{Audit, AuditSubject, Cut, Design, DesignError, Tiers, Warning};
+use crate::cut::{Audit, AuditSubject, Cut, Design, DesignError, FamilySolid, Tiers, Warning};
 use crate::math::{NotConvex, Plane, Polytope, PolytopeError, SmoothSolid, SolidRef};
 use crate::optics::{Material, critical_angle, line};
 use glam::DVec3;
@@ -47,7 +47,10 @@ impl Specimen {
         let material = design.material.material().map_err(DesignError::from)?;
         let body = match &design.cut {
             Cut::Mesh(shape) => Some(Body::Mesh(Arc::clone(&shape.0))),
-            Cut::Family(cut) => cut.mesh().map_err(DesignError::from)?.map(|mesh| Body::Mesh(Arc::new(mesh))),
+            Cut::Family(cut) => Some(match cut.solid().map_err(DesignError::from)? {
+                FamilySolid::Convex(polytope, names) => Body::Stone(Stone::named(polytope, names)),
+                FamilySolid::Mesh(mesh) => Body::Mesh(Arc::new(mesh)),
+            }),
             Cut::Glass(glass) if glass.planes().is_none() => {
                 Some(Body::Glass(SmoothSolid::new(glass.field().map_err(DesignError::from)?)))
             }

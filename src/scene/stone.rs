@@ -29,6 +29,11 @@ impl Stone {
         Ok(Self { polytope, names })
     }
 
+    /// Makes a stone of a solid and the names of its facets, in their order.
+    pub fn named(polytope: Polytope, names: Vec<String>) -> Self {
+        Self { polytope, names }
+    }
+
     /// Returns the name of a facet of the polytope, by its place in [`Polytope::facets`]; facets without names are numbered
     /// from 1.
     pub fn name(&self, facet: u32) -> Cow<'_, str> {

@@ -24,7 +24,7 @@ const MAINS: usize = 10;
 pub static CUSHION: Family = Family {
     key: "cushion",
     name: "Cushion brilliant",
-    first: FamilyCut::first(&CUSHION, &[1.1, 6.0, 22.0, 60.0, 35.0, 41.0, 50.0, 75.0, 3.0, 0.0, 2.0]),
+    first: FamilyCut::first(&CUSHION, &[1.1, 6.0, 22.0, 60.0, 35.0, 41.0, 50.0, 75.0, 4.0, 0.0, 2.0]),
     net: Some(net),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.0, 1.4]),

@@ -29,15 +29,15 @@ const TABLE: usize = 5;
 /// them alternate; the first is a main.
 const SIDE: [f64; 4] = [1.0, 0.68, 0.34, 0.0];
 
-/// The stations from the widest place to the cleft, as parts of the angle by which the outline turns; the first lies between
-/// two mains, and the last is a main.
-const LOBES: [f64; 6] = [0.0, 0.22, 0.415, 0.61, 0.805, 1.0];
+/// The stations from the widest place to the top of the lobe, as parts of the quarter by which the outline turns; the first lies
+/// between two mains, and the last is a main. Widest place and top are stations, so that length and width are exact.
+const OUTER_LOBE: [f64; 4] = [0.0, 0.4, 0.7, 1.0];
 
 /// The family of the heart.
 pub static HEART: Family = Family {
     key: "heart",
     name: "Heart",
-    first: FamilyCut::first(&HEART, &[1.0, 14.0, 30.0, 100.0, 8.0, 56.0, 34.5, 40.75, 35.0, 75.0, 3.0, 0.0]),
+    first: FamilyCut::first(&HEART, &[1.0, 14.0, 30.0, 100.0, 8.0, 56.0, 34.5, 40.75, 35.0, 75.0, 4.0, 0.0]),
     net: Some(net),
     proportions: &[
         rows::length_to_width::<LENGTH>([0.9, 1.1]),
@@ -109,26 +109,33 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
         let (GirdlePlace { at, normal }, below) = (wing.at(part), DVec2::new(1.0, -1.0));
         place(at * below, normal * below)
     };
-    let lobe_at = |normal: f64| {
-        let (sin, cos) = (normal.sin() / across, normal.cos() / lobe);
+    let lobe_at = |angle: f64| {
+        // The top is exact to the last bit.
+        let (sin, cos) = if angle == FRAC_PI_2 { (1.0, 0.0) } else { angle.sin_cos() };
+        let normal = DVec2::new(cos, sin);
+        let (sin, cos) = (sin / across, cos / lobe);
         let size = sin.hypot(cos);
         let at = DVec2::new(1.0 - across + across * cos / size, lobe * sin / size);
-        place(at, DVec2::from_angle(normal))
+        place(at, normal)
     };
     // The angle of the normal at the cleft.
     let cleft = (sine * across).atan2(-(1.0 - sine * sine).sqrt() * lobe);
+    let [a, b, c, top] = OUTER_LOBE.map(|part| part * FRAC_PI_2);
+    let lobes = [a, b, c, top, 0.5 * (top + cleft), cleft];
     let curve = |way: f64| {
         let (step, part) = ((way * 8.0).floor() as usize, (way * 8.0).fract());
-        let between = |stations: &[f64], from: usize| match stations.get(from + 1) {
-            Some(to) => stations[from] + (to - stations[from]) * part,
-            None => stations[from],
-        };
-        let place =
-            if step < 3 { side(between(&SIDE, step)) } else { lobe_at(cleft * between(&LOBES, step - 3)) };
-        if step == 8 { GirdlePlace { at: DVec2::new(0.0, place.at.y), ..place } } else { place }
+        let between =
+            |stations: &[f64], from: usize| stations[from] + (stations[from + 1] - stations[from]) * part;
+        match step {
+            0..3 => side(between(&SIDE, step)),
+            3..8 => lobe_at(between(&lobes, step - 3)),
+            _ => {
+                let GirdlePlace { at, normal } = lobe_at(cleft);
+                GirdlePlace { at: DVec2::new(0.0, at.y), normal }
+            }
+        }
     };
-    let mut girdle = Girdle::half(4, 4, curve);
-    girdle.touch(lobe_at(FRAC_PI_2));
+    let girdle = Girdle::half(4, 4, curve);
     let middle = widest - DVec2::Y * (cut[MIDDLE] / 50.0);
     Brilliant { is_star_free: true, ..Brilliant::of(cut, TABLE, &girdle, middle, scale) }.net()
 }

@@ -32,7 +32,7 @@ pub static MODIFIED_CUSHION: Family = Family {
     name: "Modified cushion",
     first: FamilyCut::first(
         &MODIFIED_CUSHION,
-        &[1.05, 6.0, 20.0, 62.0, 34.0, 50.0, 37.0, 50.0, 25.0, 3.0, 0.0, 3.0],
+        &[1.05, 6.0, 20.0, 62.0, 34.0, 50.0, 37.0, 50.0, 25.0, 4.0, 0.0, 3.0],
     ),
     net: Some(net),
     proportions: &[

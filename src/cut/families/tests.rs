@@ -1,8 +1,9 @@
 //! What holds for every family whose facets a function makes: stones at random numbers, and what their limits say.
 
 use super::*;
-use crate::cut::{ProportionError, Unit, tier_stem};
-use crate::math::{Plane, Polytope, bounds};
+use crate::cut::{FamilySolid, ProportionError, Unit, tier_stem};
+use crate::math::Polytope;
+use crate::math::{Plane, bounds};
 use glam::DVec3;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRng, TestRunner};
@@ -63,25 +64,17 @@ impl Solid {
     /// Makes the stone of a cut; `None` where its numbers cross a limit.
     pub fn of(cut: &Cut) -> Option<Self> {
         let Cut::Family(family_cut) = cut else { return None };
-        let (facets, vertices, volume): (Vec<_>, _, _) = match family_cut.mesh().ok()? {
-            Some(mesh) => {
-                let names = mesh.facet_names();
-                assert!(
-                    names.len() == mesh.planes().len(),
-                    "{} has facets without names",
-                    family_cut.family.key
-                );
-                let facets = names.iter().map(|name| (*name).to_owned()).zip(mesh.planes().iter().copied());
-                (facets.collect(), mesh.vertices().to_vec(), mesh.volume())
+        let (planes, names, vertices, volume) = match family_cut.solid().ok()? {
+            FamilySolid::Mesh(mesh) => {
+                let names = mesh.facet_names().into_iter().map(str::to_owned).collect();
+                (mesh.planes().to_vec(), names, mesh.vertices().to_vec(), mesh.volume())
             }
-            None => {
-                let given = family_cut.facets().expect("it was checked");
-                let planes: Vec<Plane> = given.iter().map(|(_, plane)| *plane).collect();
-                let stone = Polytope::from_planes(&planes).expect("a checked net is closed");
-                let facets = stone.facets().iter().map(|facet| (given[facet.source].0.clone(), facet.plane));
-                (facets.collect(), stone.vertices().to_vec(), stone.volume())
+            FamilySolid::Convex(stone, names) => {
+                (stone.planes().collect(), names, stone.vertices().to_vec(), stone.volume())
             }
         };
+        assert_eq!(names.len(), planes.len(), "{} has facets without names", family_cut.family.key);
+        let facets: Vec<_> = names.into_iter().zip(planes).collect();
         let mut tiers = BTreeMap::new();
         facets.iter().for_each(|(name, _)| *tiers.entry(tier_stem(name).to_owned()).or_default() += 1);
         let (low, high) = bounds(vertices.iter().copied());
@@ -161,11 +154,12 @@ fn length_to_width_is_as_given_and_half_the_width_is_one() {
 
 #[test]
 fn every_stone_has_the_facets_of_its_first_cut_and_its_mirror_symmetry() {
+    let first = |family: &Family| Solid::of(&family.first).expect("the first cut is a stone");
+    let firsts: BTreeMap<&str, Solid> = made().map(|(family, _)| (family.key, first(family))).collect();
     on_random_cuts(|family, cut| {
         let Some(solid) = Solid::of(cut) else { return Ok(false) };
         if !family.editable().any(|row| row.unit == Unit::Count) {
-            let first = Solid::of(&family.first).expect("the first cut is a stone");
-            prop_assert_eq!(solid.lasting_tiers(), first.lasting_tiers());
+            prop_assert_eq!(solid.lasting_tiers(), firsts[family.key].lasting_tiers());
         }
         if let Some(expected) = counted(family, cut) {
             let count: usize = solid.lasting_tiers().into_iter().map(|(_, count)| count).sum();
@@ -222,5 +216,31 @@ fn facets_are_named_by_tier() {
         assert_eq!(solid.tiers.contains_key("table"), has_table, "{}", family.key);
         let mut girdle = solid.facets.iter().filter(|(_, plane)| plane.normal.z.abs() < 1e-9);
         assert!(girdle.all(|(name, _)| name.starts_with("girdle")), "{}", family.key);
+    }
+}
+
+#[test]
+fn counts_make_as_many_facets_as_they_say() {
+    let tests = [
+        ("oval", "mains_per_quarter", 3.0, "main", 12),
+        ("cushion", "mains_per_quarter", 4.0, "bezel", 16),
+        ("modified_cushion", "rows", 2.0, "chevron_2", 8),
+        ("modified_cushion", "rows", 4.0, "chevron_4", 8),
+    ];
+    for (key, row, value, tier, expected) in tests {
+        let family = Family::of_key(key).unwrap();
+        let mut cut = family.first.clone();
+        family.proportion(row).unwrap().set(&mut cut, value);
+        assert_eq!(Solid::of(&cut).unwrap().tiers[tier], expected, "{key} {row} {value}");
+    }
+}
+
+#[test]
+fn a_heart_has_a_cleft_and_others_are_convex() {
+    for (family, _) in made() {
+        let solid = Solid::of(&family.first).unwrap();
+        let beyond = |plane: &Plane| solid.vertices.iter().any(|corner| plane.distance(*corner) > 1e-6);
+        let overtopped = solid.facets.iter().filter(|(_, plane)| beyond(plane)).count();
+        assert_eq!(overtopped > 0, family.key == "heart", "{}: {overtopped}", family.key);
     }
 }
