@@ -94,7 +94,8 @@ mod tests {
         assert_eq!(cuts.len(), library::CUTS.len());
         for LibraryCut { key, lines, .. } in cuts {
             let reach = lines.iter().flatten().map(|end| end.abs().max_element()).fold(0.0, f64::max);
-            assert!((reach - 1.0).abs() < 1e-9 && lines.len() >= 4, "{key}: {reach}, {} lines", lines.len());
+            // Smooth shapes are drawn by points of their surface.
+            assert!((reach - 1.0).abs() < 5e-3 && lines.len() >= 4, "{key}: {reach}, {} lines", lines.len());
         }
     }
 

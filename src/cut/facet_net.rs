@@ -35,7 +35,7 @@ pub struct NoRoom {
 
 impl FacetNet {
     /// Returns an empty net for the facets of one half, at x of 0 and more, of a stone. The other half is its mirror image. Each
-    /// half is convex; the stone need not be so. A facet that crosses x = 0 square to it lies on both.
+    /// half is convex; the stone need not be so. A facet square to the plane x = 0 lies on both.
     pub fn half() -> Self {
         Self { is_half: true, ..Self::default() }
     }
@@ -117,8 +117,7 @@ impl FacetNet {
         let mut surface = Surface::default();
         let mut tiers = vec![];
         for (place, facet) in half.facets().iter().enumerate().filter(|(_, facet)| facet.source != mirror) {
-            let on_seam = facet.outline.iter().filter(|corner| seam.contains(corner)).count();
-            let is_both = facet.plane.normal.x.abs() < SQUARE && on_seam > 1;
+            let is_both = facet.plane.normal.x.abs() < SQUARE;
             let own = tiers.len() as u32;
             let other = if is_both { own } else { own + 1 };
             tiers.extend(vec![self.facets[facet.source].0; (other - own + 1) as usize]);
