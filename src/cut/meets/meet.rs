@@ -39,7 +39,7 @@ pub enum MeetPoint {
     LevelGirdle,
     /// A corner of the girdle, on the side of the tier.
     GirdlePoint,
-    /// The corner where facets of these tiers meet; a name that is given twice means two facets of its tier. [`ANY_GIRDLE`] is
+    /// The corner where facets of these tiers meet; a name that is given twice means two facets of its tier. The name `girdle` is
     /// any upright facet.
     Corner(Vec<String>),
 }
