@@ -12,11 +12,11 @@ use egui::{Align2, Rect, RichText, Role, Sense, Stroke, StrokeKind, TextStyle, U
 const DRAWING: f32 = 84.0;
 
 /// The width of a cut with its name, points.
-const CARD: f32 = 104.0;
+const CARD: f32 = 120.0;
 
 /// Draws the dialog.
 pub fn show(actions: &mut Actions, ui: &mut Ui) {
-    ui.set_width(580.0_f32.min(ui.ctx().content_rect().width() - 60.0));
+    ui.set_width(776.0_f32.min(ui.ctx().content_rect().width() - 60.0));
     ui.heading("New from a cut");
     let cuts = library_cuts();
     for (group, (name, _)) in GROUPS.iter().enumerate() {
@@ -45,6 +45,9 @@ fn card(ui: &mut Ui, cut: &LibraryCut) -> bool {
     if ui.memory(|memory| memory.focused().is_none()) {
         // The first cut takes the focus, from which the keys go on.
         response.request_focus();
+    }
+    if response.gained_focus() {
+        response.scroll_to_me(None);
     }
     let visuals = ui.style().interact(&response);
     ui.painter().rect_filled(rect, 5.0, visuals.weak_bg_fill);
