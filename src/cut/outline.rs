@@ -34,7 +34,9 @@ const SAME_CORNER: f64 = 1e-7;
 pub struct Outline {
     /// The extent square to the width, seen along the axis.
     pub length: f64,
-    /// The least distance between two parallel lines that hold the stone, seen along the axis.
+    /// The least distance between two parallel lines that hold the stone, seen along the axis. Where the outline is its own
+    /// mirror image and this direction is oblique to it, as on a kite, it is the smaller of the extents along the mirror
+    /// line and square to it.
     pub width: f64,
     /// The length by which sizes and percentages are measured.
     ///
@@ -66,16 +68,17 @@ impl Outline {
         let across = high - low;
         // A solid so thin that rounding leaves no outline is measured along its axes.
         let outline = hull(stone.vertices().iter().map(|v| v.truncate()).collect());
-        let Calipers { length, width, middle, .. } = Calipers::of(&outline).unwrap_or_else(|| Calipers {
-            length: across.max_element(),
-            width: across.truncate().min_element(),
-            across: DVec2::X,
-            middle: ((low + high) / 2.0).truncate(),
-        });
+        let Calipers { length, width, middle, .. } =
+            Calipers::along_mirror(&outline).unwrap_or_else(|| Calipers {
+                length: across.max_element(),
+                width: across.truncate().min_element(),
+                across: DVec2::X,
+                middle: ((low + high) / 2.0).truncate(),
+            });
         let (girdle_bottom, girdle_top) = girdle(stone, SAME_CORNER * width);
         let facet = table(stone);
         let flat = |facet| hull(stone.corners(facet).map(DVec3::truncate).collect());
-        let table = facet.and_then(|facet| Calipers::of(&flat(facet)));
+        let table = facet.and_then(|facet| Calipers::along_mirror(&flat(facet)));
         Self {
             length,
             width,

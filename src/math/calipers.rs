@@ -6,6 +6,13 @@ use glam::DVec2;
 /// Widths, or lengths, whose ratio is nearer to 1 than this count as equal: a hundred roundings of f32.
 const EQUAL: f64 = 1e-5;
 
+/// An outline whose mirror image leaves it by more than this, widths, has no mirror line. Designs are rounded more finely.
+const MIRRORED: f64 = 1e-3;
+
+/// The two principal moments of an outline differ by at least this part of their sum where they set a direction. It is that
+/// of an ellipse whose length is 1.01 widths.
+const LONG: f64 = 0.01;
+
 /// Returns the convex hull of points, counter-clockwise (Andrew's monotone chain).
 pub fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -67,6 +74,56 @@ impl Calipers {
             long.map(|(.., across)| *across).max_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)))?;
         Some(Self { width, length, across, middle: polygon::centroid(outline) })
     }
+
+    /// Measures a convex outline as people measure a stone: along its mirror line and square to it.
+    ///
+    /// This is [`Calipers::of`] unless the outline is mirror symmetric and its narrowest direction is oblique to the mirror
+    /// line, as that of a kite is, which is narrowest square to a side. `width` is then the smaller of the two extents. The
+    /// mirror line is found by the principal axes of the area; an outline of three or more equal turns has none, and its
+    /// narrowest direction is square to one of its mirror lines anyway.
+    pub fn along_mirror(outline: &[DVec2]) -> Option<Self> {
+        let least = Self::of(outline)?;
+        Some(Self::in_mirror(outline, least.middle, least.width).unwrap_or(least))
+    }
+
+    /// Measures an outline along its mirror line and square to it; `None` unless it has one and is wider so than `least`.
+    fn in_mirror(outline: &[DVec2], middle: DVec2, least: f64) -> Option<Self> {
+        let axis = principal_axis(outline, middle)?;
+        let [one, other] =
+            [axis, axis.perp()].map(|along| (length(extent(outline, along)), rightward(along)));
+        let (narrow, wide) = if one.0 <= other.0 { (one, other) } else { (other, one) };
+        let is_mirror = |normal| beyond_mirrored(outline, middle, normal) <= MIRRORED * least;
+        let found = narrow.0 > least * (1.0 + EQUAL) && (is_mirror(axis) || is_mirror(axis.perp()));
+        found.then_some(Self { width: narrow.0, length: wide.0, across: narrow.1, middle })
+    }
+}
+
+/// Returns the direction in which the area of an outline extends farthest from its middle; `None` where no direction stands
+/// out.
+fn principal_axis(outline: &[DVec2], middle: DVec2) -> Option<DVec2> {
+    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+    for (&a, &b) in outline.iter().zip(outline.iter().cycle().skip(1)) {
+        let (a, b) = (a - middle, b - middle);
+        // Twelve times the second moments of the triangle from the middle to this side, weighted by twice its area.
+        let (twice, c) = (a.perp_dot(b), a + b);
+        xx += twice * (a.x * a.x + b.x * b.x + c.x * c.x);
+        xy += twice * (a.x * a.y + b.x * b.y + c.x * c.y);
+        yy += twice * (a.y * a.y + b.y * b.y + c.y * c.y);
+    }
+    let across = DVec2::new(xx - yy, 2.0 * xy);
+    (across.length() > LONG * (xx + yy)).then(|| DVec2::from_angle(0.5 * across.to_angle()))
+}
+
+/// Returns how far the mirror image of a convex outline, in a line through its middle with this normal, reaches beyond it.
+fn beyond_mirrored(outline: &[DVec2], middle: DVec2, normal: DVec2) -> f64 {
+    let image = |p: &DVec2| *p - 2.0 * (*p - middle).dot(normal) * normal;
+    let beyond = |p: DVec2| {
+        let sides = outline.iter().zip(outline.iter().cycle().skip(1));
+        // The corners go round counter-clockwise, so that the outside lies to the right of each side.
+        let outside = sides.filter_map(|(&a, &b)| Some((p - a).dot(-(b - a).try_normalize()?.perp())));
+        outside.fold(f64::NEG_INFINITY, f64::max)
+    };
+    outline.iter().map(|p| beyond(image(p))).fold(0.0, f64::max)
 }
 
 /// Returns whichever of a direction and its opposite has x > 0, or x = 0 and y > 0.
@@ -125,6 +182,54 @@ mod tests {
                 let off = (again.width - plain.width).abs().max((again.length - plain.length).abs());
                 assert!(off < 1e-12, "{step}: {again:?} {plain:?}");
                 assert!(again.across.x >= 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn a_mirror_image_is_measured_along_its_mirror_line_however_it_is_turned() {
+        let kite = [[1.0, 0.5], [0.0, 1.5], [-1.0, 0.5], [0.0, -1.5]];
+        let lozenge = [[1.0, 0.0], [0.0, 1.3], [-1.0, 0.0], [0.0, -1.3]];
+        let taper = [[1.0, 1.5], [-1.0, 1.5], [-0.5, -1.5], [0.5, -1.5]];
+        for (shape, length) in [(kite, 3.0), (lozenge, 2.6), (taper, 3.0)] {
+            for step in 0..50 {
+                let angle = 0.37 * f64::from(step);
+                let outline = turned(&shape, angle);
+                let (least, found) =
+                    (Calipers::of(&outline).unwrap(), Calipers::along_mirror(&outline).unwrap());
+                assert!((found.width - 2.0).abs().max((found.length - length).abs()) < 1e-12, "{found:?}");
+                assert!(found.across.perp_dot(DVec2::from_angle(angle)).abs() < 1e-12, "{found:?}");
+                assert!(least.width < 1.98, "the outline is narrower square to a side: {least:?}");
+                // A corner out of its place leaves no mirror line.
+                let mut uneven = shape;
+                uneven[0][1] += 0.15;
+                let uneven = turned(&uneven, angle);
+                assert_eq!(Calipers::along_mirror(&uneven), Calipers::of(&uneven));
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_narrowest_along_or_across_its_mirror_line_or_has_none_is_measured_as_by_calipers() {
+        let ring = |n: i32, long: f64| -> Vec<[f64; 2]> {
+            let corner =
+                |k: i32| DVec2::from_angle(TAU * f64::from(k) / f64::from(n)) * DVec2::new(1.0, long);
+            (0..n).map(|k| corner(k).to_array()).collect()
+        };
+        let shapes = [
+            ring(3, 1.0),
+            ring(4, 1.0),
+            ring(5, 1.0),
+            ring(8, 1.0),
+            ring(16, 1.0),
+            vec![[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [0.0, 1.0]],
+            vec![[0.0, 0.0], [3.0, 0.0], [3.5, 1.0], [0.5, 1.0]],
+            vec![[0.0, 0.0], [2.0, 0.1], [1.7, 1.4], [0.3, 1.1]],
+        ];
+        for (index, shape) in shapes.iter().enumerate() {
+            for step in 0..20 {
+                let outline = turned(shape, 0.37 * f64::from(step));
+                assert_eq!(Calipers::along_mirror(&outline), Calipers::of(&outline), "shape {index}");
             }
         }
     }
