@@ -11,6 +11,10 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::PathBuf;
 
+/// Why a body that is not convex has no yield, and what can be done.
+const NOT_CONVEX: &str = "the yield is found of convex stones between planes alone; a heart is a mesh that is not convex, and \
+                          a glass shape is curved: `info` prints the size, volume and weight of any body";
+
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("wanted").required(true).args(["rough", "weight"]))]
 pub struct RoughYield {
@@ -46,7 +50,7 @@ impl RoughYield {
         let specimen =
             LoadedSpecimen::load(&self.file, self.mesh.options())?.made_of(self.material.as_deref(), None)?;
         let path = &specimen.path;
-        let stone = specimen.stone().map_err(|e| Failure::Input(format!("{path}: {e}")))?;
+        let stone = specimen.stone().map_err(|_| Failure::Input(format!("{path}: {NOT_CONVEX}")))?;
         let found = match (&self.rough, self.weight) {
             (Some(rough), _) => Finished::from_rough(&stone.polytope, rough, self.girdle_mm),
             (None, carats) => Finished::of_weight(

@@ -206,7 +206,7 @@ mod tests {
 
     #[test]
     fn a_stone_that_is_too_deep_is_the_fault_of_the_number_that_was_given() {
-        let depth = "beyond which the total depth is more than 300 %";
+        let depth = "above which the total depth is more than 300 %";
         for (key, value, limit) in [
             ("crown_angle", 89.9, "85.04°"),
             ("crown_height", 1e9, "253.84 %"),

@@ -73,11 +73,14 @@ pub struct Limit {
 }
 
 impl Limit {
-    /// Returns what happens at the limit, as a clause for a message.
+    /// Returns what happens at the limit, as a clause for a message. Reasons say "beyond" of either side; the clause says
+    /// "above" of a maximum and "below" of a minimum.
     pub fn clause(&self) -> String {
+        let side = if self.value > self.limit { "above which" } else { "below which" };
+        let reason = self.reason.replacen("beyond which", side, 1);
         match self.tier {
-            "" => self.reason.to_owned(),
-            tier => format!("{} for the facets '{tier}'", self.reason),
+            "" => reason,
+            tier => format!("{reason} for the facets '{tier}'"),
         }
     }
 
@@ -137,10 +140,22 @@ fn four_decimals(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::round_brilliant::{Crown, MODERN, RoundBrilliant};
-    use super::super::round_brilliant_table::least_star_length;
+    use super::super::round_brilliant_table::{ROUND_BRILLIANT, least_star_length};
+    use super::Limit;
 
     fn text(given: RoundBrilliant) -> String {
         given.derived().unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_minimum_is_what_nothing_fits_below_and_a_maximum_above() {
+        let row = ROUND_BRILLIANT.proportion("table").unwrap();
+        let clause = |value| {
+            let reason = "beyond which no room is left";
+            Limit { row, value, limit: 50.0, inclusive: true, reason, tier: "star" }.clause()
+        };
+        assert_eq!(clause(40.0), "below which no room is left for the facets 'star'");
+        assert_eq!(clause(60.0), "above which no room is left for the facets 'star'");
     }
 
     #[test]

@@ -108,7 +108,7 @@ mod tests {
         assert!(said.text.starts_with("Crown angle: 89° is impossible."), "{}", said.text);
         assert!(
             said.text.contains("it can be at most 84.")
-                && said.text.contains("The limit is 84.71°, beyond which the total depth is more than 300 %"),
+                && said.text.contains("The limit is 84.71°, above which the total depth is more than 300 %"),
             "{}",
             said.text
         );

@@ -72,6 +72,12 @@ pub enum RetargetError {
     /// The design is at fault, before or afterwards.
     #[error(transparent)]
     Design(#[from] DesignError),
+    /// A body that is not convex and between planes, so that no tier has an angle to change.
+    #[error(
+        "only convex stones between planes have tiers whose angles can follow a material; a heart is a mesh that is not \
+         convex, and a glass shape is curved: change the angles in the cut file, and compare by `measure --material`"
+    )]
+    NotConvex,
     /// The planes of the design enclose nothing.
     #[error("{0}")]
     Solid(String),
@@ -171,7 +177,10 @@ pub fn retarget(
     material: MaterialRef,
     rule: RetargetRule,
 ) -> Result<Retargeted, RetargetError> {
-    let facets = design.facets()?;
+    let facets = design.facets().map_err(|error| match error {
+        DesignError::NotConvex(_) => RetargetError::NotConvex,
+        error => error.into(),
+    })?;
     let solid = solid(design, &facets)?;
     let critical = [&design.material, &material].map(critical_of);
     let [old, new] = critical;

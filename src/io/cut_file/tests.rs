@@ -285,12 +285,12 @@ fn what_is_out_of_range_is_told_with_its_line() {
     }
     assert_message(
         &with("crown_angle = 34.5", "crown_angle = 89.9"),
-        "x.toml:7: crown_angle: 89.9° must be at most 84.71°, beyond which the total depth is more than 300 %, that of a \
+        "x.toml:7: crown_angle: 89.9° must be at most 84.71°, above which the total depth is more than 300 %, that of a \
          needle and not of a brilliant; lower it by at least 5.2",
     );
     assert_message(
         &with("pavilion_angle = 40.75", "pavilion_angle = 85"),
-        "x.toml:8: pavilion_angle: 85° must be at most 79.9°, beyond which the total depth is more than 300 %, that of a \
+        "x.toml:8: pavilion_angle: 85° must be at most 79.9°, above which the total depth is more than 300 %, that of a \
          needle and not of a brilliant; lower it by at least 5.1",
     );
     assert_message(

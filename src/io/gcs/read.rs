@@ -24,6 +24,11 @@ const FOOTERS: [&str; 2] = ["footer1", "footer2"];
 /// When the file is no such design; the error has a line where there is one.
 pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
     let (text, spoilt) = guard::text(bytes)?;
+    if !text.trim_start_matches('\u{feff}').trim_start().starts_with('<') {
+        let problem = "this is not a Gem Cut Studio file: such a file is XML and begins with `<`; check what the file holds, or \
+                       its name's ending";
+        return Err(problem.into());
+    }
     let options = ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(&text, options)
         .map_err(|error| Fault::line(error.pos().row as usize, error))?;

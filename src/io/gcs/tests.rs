@@ -168,6 +168,7 @@ fn faults_are_told_with_their_line() {
     let cases = [
         (with("</tier>", ""), "box.gcs:15: "),
         ("<x/>".to_owned(), "box.gcs:1: <GemCutStudio> is expected; this is another kind of XML"),
+        ("gear 96\na 41 0.65".to_owned(), "box.gcs: this is not a Gem Cut Studio file"),
         ("<!DOCTYPE x [<!ENTITY a 'b'>]><GemCutStudio/>".to_owned(), "DTD"),
         (
             with("depth=\"0.7\" name=\"P\"", ""),

@@ -48,7 +48,8 @@ fn what_retarget_cannot_do_is_refused_with_what_to_give() {
         ("tolkowsky --material ruby --rule tangent-ratio --factor 100", 2, "must be from 0.1 to 10"),
         ("tolkowsky --material ruby --rule critical-angle --out a.stl", 2, ".toml, .asc, .gem or .gcs"),
         ("tolkowsky --material rubby --rule critical-angle", 2, "did you mean 'ruby'"),
-        ("pill --material ruby --rule critical-angle", 1, "pill: "),
+        ("pill --material ruby --rule critical-angle", 1, "a glass shape is curved"),
+        ("heart --material ruby --rule critical-angle", 1, "a heart is a mesh that is not convex"),
     ] {
         let stderr = desk.refused(&format!("retarget {line}"), code);
         assert!(stderr.contains(told), "{line}: {stderr}");
@@ -72,4 +73,5 @@ fn rough_gives_size_weight_and_yield() {
     assert!(desk.refused("yield tolkowsky --weight -1", 2).contains("is not a weight"));
     assert!(desk.refused("yield tolkowsky --rough 9x9x3 --girdle-mm 4", 2).contains("does not fit"));
     assert!(desk.refused("yield tolkowsky", 2).contains("--rough"));
+    assert!(desk.refused("yield heart --weight 1", 1).contains("a heart is a mesh that is not convex"));
 }
