@@ -7,7 +7,7 @@ use super::model::ordering::Seen;
 use super::model::task::WindowTask;
 use super::model::workspace::Workspace;
 use super::model::{Action, Model, Task, update};
-use super::panels::{side_panels, tier_table};
+use super::panels::{audit_panel, side_panels, tier_table};
 use super::setup::{PaintedBy, Setup};
 use super::shows::Shows;
 use super::state_file::StateFile;
@@ -253,6 +253,7 @@ impl Editor {
             self.run();
         }
         tier_table::show(&self.model, &mut self.actions, ui);
+        audit_panel::show(&self.model, &mut self.actions, ui);
         self.run();
         let seen = if self.model.is_at_bench() {
             bench_mode::show(&self.model, &mut self.actions, ui);

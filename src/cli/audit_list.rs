@@ -1,6 +1,6 @@
 //! How `info` prints what an audit found: as a list for people, and as JSON.
 
-use crate::cut::{Audit, Finding, FindingKind, FindingUnit, tier_stem};
+use crate::cut::{Audit, Finding, FindingKind, tier_stem};
 use crate::math::grouped;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -33,7 +33,8 @@ pub fn audit_list(audit: &Audit) -> String {
     for kind in FindingKind::ALL {
         let findings: Vec<&Finding> = audit.of_kind(kind).collect();
         let Some(first) = findings.first() else { continue };
-        let _ = write!(text, "\n  {kind}{}: {}", limit(first), kind.meaning());
+        let limit = first.limit_text().map(|limit| format!(" ({limit})")).unwrap_or_default();
+        let _ = write!(text, "\n  {kind}{limit}: {}", kind.meaning());
         for alike in grouped(findings, |a, b| key(a) == key(b)) {
             let _ = write!(text, "\n    {}", line(&alike));
         }
@@ -45,32 +46,12 @@ pub fn audit_list(audit: &Audit) -> String {
 fn key(finding: &Finding) -> (Vec<&str>, String) {
     let mut tiers: Vec<&str> = finding.facets.iter().map(|name| tier_stem(name)).collect();
     tiers.sort_unstable();
-    (tiers, size(finding.size, finding.unit))
-}
-
-fn size(value: f64, unit: FindingUnit) -> String {
-    match unit {
-        FindingUnit::Degrees => format!("{value:.2}{unit}"),
-        FindingUnit::Planes => format!("{value} {unit}"),
-        _ => format!("{value:.2} {unit}"),
-    }
-}
-
-/// Returns the threshold of a kind, in brackets; nothing where any size counts.
-fn limit(finding: &Finding) -> String {
-    let side = match finding.kind {
-        FindingKind::UnevenGirdle | FindingKind::Outline | FindingKind::Symmetry => "above",
-        FindingKind::UnusedPlane => return String::new(),
-        _ => "below",
-    };
-    // The name of this kind says already that its sizes lie below.
-    let side = if finding.kind == FindingKind::BelowCritical { "" } else { side };
-    format!(" ({})", format!("{side} {}", size(finding.threshold, finding.unit)).trim_start())
+    (tiers, finding.size_text())
 }
 
 fn line(alike: &[&Finding]) -> String {
     let first = alike[0];
-    let mut text = size(first.size, first.unit);
+    let mut text = first.size_text();
     if alike.len() > 1 {
         let _ = write!(text, ", {} times", alike.len());
     }

@@ -15,12 +15,12 @@ use super::workspace::PanelSide;
 use crate::app::liquid::Liquid;
 use crate::app::shows::Shows;
 use crate::app::studio::{FiguresOrder, Grade, Order, Smoothing, Tilts, Which};
-use crate::cut::{Cut, MaterialRef, TierChange};
+use crate::cut::{Audit, Cut, MaterialRef, TierChange};
 use crate::io::Failure;
 use crate::io::lighting::Lighting;
 use crate::io::mesh_options::MeshOptions;
 use crate::measure::Figures;
-use crate::scene::Pose;
+use crate::scene::{Pose, Specimen};
 use glam::DVec2;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -105,6 +105,8 @@ pub enum ViewAction {
     Cutting(CuttingProgress),
     /// Selects the tier at a place of the design's list, or none.
     Tier(Option<usize>),
+    /// Selects the finding at a place of the audit's list, or none.
+    Finding(Option<usize>),
     /// The pointer is over a view; commands act on it.
     Hover(usize),
     /// The text of the status line about what is under the pointer.
@@ -245,6 +247,8 @@ pub enum Computed {
     /// Figures of the present or of the other design, with the order that they answer.
     Figures(Which, FiguresOrder, Grade, Box<Figures>),
     Tilts(FiguresOrder, Tilts),
+    /// The audit of a stone.
+    Audit(Arc<Specimen>, Result<Audit, Failure>),
     /// The width and height of a picture that is in the clipboard now, pixels.
     Copied(Result<[usize; 2], Failure>),
     /// The order of all that is in sight, which the studio then traces.

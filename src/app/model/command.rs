@@ -54,6 +54,8 @@ pub enum Command by keys {
         "Opens a table below the views, in which tiers are added, placed and named.";
     BenchMode: "Shift+B", "Bench mode",
         "Shows one step of the cutting at a time, in large letters, and marks what has been cut.";
+    Audit: "Shift+A", "Audit",
+        "Lists places of the stone that may not be what its designer meant.";
     Panels: "H", "Hide panels", "Hides the panels at both sides, or shows them again.";
     FullScreen: "F11", "Full screen", "Fills the screen with the window, or makes it smaller again.";
     ResetView: "", "Reset view",
@@ -93,7 +95,7 @@ pub const MENUS: [Menu; 5] = [
             &[Wireframe, Facets, Bounces, Unresolved, Total, Strongest, Glare],
             &[LightPath],
             &[Play, LayOut, NextBehind],
-            &[Tiers, BenchMode],
+            &[Tiers, BenchMode, Audit],
             &[Panels, FullScreen],
             &[ResetView, ResetLayout],
         ],

@@ -4,6 +4,7 @@
 //! [`Action`]s, and carries out the [`Task`]s that come of them, whose answers are actions again.
 
 pub mod action;
+pub mod audit;
 pub mod choosing;
 pub mod command;
 pub mod compare;

@@ -1,5 +1,6 @@
 //! The part of the state that ends with the window.
 
+use super::audit::SessionAudit;
 use super::choosing::Purpose;
 use super::compare::Compared;
 use super::dialog::{Dialog, Then};
@@ -117,6 +118,8 @@ pub struct Session {
     pub tier: Option<usize>,
     /// Why the meet of each tier could not be followed after the last change; `None` where it was.
     pub meet_faults: Vec<Option<String>>,
+    /// The audit of the stone, while its list is open.
+    pub audit: SessionAudit,
     /// How often copies were laid out; this seeds the next layout.
     pub layings: u64,
     /// The text of the status line while the pointer is over a picture.
@@ -168,6 +171,7 @@ impl Session {
             edited: None,
             tier: None,
             meet_faults: vec![],
+            audit: SessionAudit::default(),
             layings: 0,
             message: String::new(),
             notes: Notes::default(),

@@ -41,6 +41,8 @@ pub enum Task {
     StopExport,
     /// Make a picture for the clipboard.
     MakeCopy(CopyRequest),
+    /// Audit a stone.
+    Audit(Arc<Specimen>),
     /// Trace the pictures and figures of all views in sight.
     Trace(Box<Order>),
     Window(WindowTask),

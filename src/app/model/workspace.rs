@@ -157,6 +157,8 @@ pub struct Workspace {
     pub hides_panels: bool,
     /// Whether the table of tiers is open below the views.
     pub shows_tiers: bool,
+    /// Whether the list of the audit is open below the views.
+    pub shows_audit: bool,
     /// Progress at the faceting machine.
     pub cutting: CuttingProgress,
     /// Which panels are open where they are not hidden.
@@ -218,6 +220,7 @@ impl Default for Workspace {
             smoothing: Smoothing::None,
             hides_panels: false,
             shows_tiers: false,
+            shows_audit: false,
             cutting: CuttingProgress::default(),
             panels: Panels::default(),
             liquid: Liquid::default(),

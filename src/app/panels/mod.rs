@@ -1,5 +1,6 @@
 //! The panels beside the views, made of rows.
 
+pub mod audit_panel;
 pub mod copy_rows;
 pub mod design_panel;
 pub mod figure_lines;

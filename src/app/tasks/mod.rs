@@ -25,6 +25,7 @@ use crate::app::shows::Shows;
 use crate::app::studio::{Slot, TakenPicture, Wake};
 use crate::io::Failure;
 use crate::io::lighting::Lighting;
+use crate::scene::Specimen;
 use autosave::Autosave;
 use egui::ColorImage;
 use files::Chooser;
@@ -49,6 +50,7 @@ enum Key {
     Thumbnails,
     Export,
     Copy,
+    Audit,
     LookUp(Slot),
 }
 
@@ -123,6 +125,7 @@ impl Outside {
             Task::Export(plan) => self.export(*plan),
             Task::StopExport => self.runner.stop(Key::Export),
             Task::MakeCopy(request) => self.make_copy(request),
+            Task::Audit(specimen) => self.audit(specimen),
             Task::Trace(_) | Task::Window(_) => {}
         }
     }
@@ -215,6 +218,14 @@ impl Outside {
         let failed = TaskAnswer::Copied(Err(Failure::Output(why.to_owned())));
         self.run(Key::Copy, failed, move |job| {
             TaskAnswer::Copied(copying::make(&request, &|| job.is_stopped()))
+        });
+    }
+
+    fn audit(&mut self, specimen: Arc<Specimen>) {
+        let failed = Computed::Audit(Arc::clone(&specimen), Err(fault("the audit failed")));
+        self.run(Key::Audit, failed, move |_| {
+            let found = specimen.audit().map_err(|why| Failure::Input(why.to_string()));
+            Computed::Audit(specimen, found)
         });
     }
 

@@ -2,6 +2,7 @@
 #![allow(clippy::print_stdout, reason = "tests print what they skip or measure")]
 
 mod asking;
+mod audit;
 mod backgrounds;
 mod choosing;
 mod copies;

@@ -44,20 +44,36 @@ impl PaneView {
 
     /// Outlines a facet of a solid that lies where `place` puts its points.
     pub fn outline(&self, ui: &Ui, solid: SolidRef, facet: u32, place: impl Fn(DVec3) -> DVec3) {
+        self.outline_in(ui, (solid, facet), Color32::from_white_alpha(220), place);
+    }
+
+    /// Outlines a facet of a solid in a colour; the facet lies where `place` puts its points.
+    pub fn outline_in(
+        &self,
+        ui: &Ui,
+        (solid, facet): (SolidRef, u32),
+        colour: Color32,
+        place: impl Fn(DVec3) -> DVec3,
+    ) {
         let camera = Camera::reaching(&self.view, 1.0);
         let painter = ui.painter().with_clip_rect(self.body);
         let at = |corner| Some(self.point(camera.project(place(corner))?.0));
         let rim = solid.rim(facet);
-        for stroke in [
-            Stroke::new(3.0, Color32::from_black_alpha(120)),
-            Stroke::new(1.2, Color32::from_white_alpha(220)),
-        ] {
+        for stroke in [Stroke::new(3.0, Color32::from_black_alpha(120)), Stroke::new(1.2, colour)] {
             for [from, to] in &rim {
                 if let (Some(from), Some(to)) = (at(*from), at(*to)) {
                     painter.line_segment([from, to], stroke);
                 }
             }
         }
+    }
+
+    /// Marks a point of the stone with a ring; a point behind the eye has none.
+    pub fn mark_corner(&self, ui: &Ui, corner: DVec3, colour: Color32) {
+        let Some((image, _)) = Camera::reaching(&self.view, 1.0).project(corner) else { return };
+        let (at, painter) = (self.point(image), ui.painter().with_clip_rect(self.body));
+        painter.circle_stroke(at, 7.0, Stroke::new(3.5, Color32::from_black_alpha(160)));
+        painter.circle_stroke(at, 7.0, Stroke::new(1.8, colour));
     }
 
     /// Marks a point of the image.

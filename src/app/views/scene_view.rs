@@ -5,6 +5,7 @@ use super::pane_view::PaneView;
 use super::view_menu::attend;
 use super::{copies, eye_hand, refraction_view};
 use crate::app::model::action::ViewAction;
+use crate::app::model::audit::finding_facets;
 use crate::app::shows::Shows;
 use crate::app::studio::Which;
 use crate::cut::Cut;
@@ -13,6 +14,9 @@ use crate::scene::Scope;
 use egui::{
     Align2, Color32, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, vec2,
 };
+
+/// The colour in which a finding is shown: bright on any picture, and not that of a tier that is selected.
+const FOUND: Color32 = Color32::from_rgb(255, 176, 40);
 
 /// Draws the view; `size` is that of its picture in pixels.
 pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect, size: [u32; 2]) {
@@ -43,6 +47,7 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect, size: [u32; 2]) {
     clicked(cx, ui, is_alone, &response, &sight);
     if is_alone {
         selected(cx, ui, &response, &sight);
+        found(cx, ui, &sight);
     }
     match is_alone {
         true => hover(cx, ui, &response, &sight),
@@ -89,6 +94,20 @@ fn selected(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneView
     let hit = at.and_then(|at| cx.tools.probe.of(specimen).facet(&sight.view, sight.image(at)));
     if let Some(place) = hit.and_then(tier_of) {
         cx.actions.push(ViewAction::Tier(Some(place)));
+    }
+}
+
+/// Outlines the facets of the finding that is selected in the audit's list, and marks its corners.
+fn found(cx: &PaneContext, ui: &Ui, sight: &PaneView) {
+    let audit = &cx.model.session.audit;
+    let specimen = cx.model.document.specimen();
+    let Some(finding) = audit.selected_finding().filter(|_| cx.model.shows_audit()) else { return };
+    let Ok(stone) = specimen.stone() else { return };
+    for facet in finding_facets(stone, finding) {
+        sight.outline_in(ui, (specimen.solid(), facet as u32), FOUND, |corner| corner);
+    }
+    if finding.kind.is_about_corners() {
+        finding.points.iter().for_each(|corner| sight.mark_corner(ui, *corner, FOUND));
     }
 }
 

@@ -82,11 +82,36 @@ impl FindingKind {
             Self::UnusedPlane => "These planes lie wholly outside the stone; they may be cut too shallow.",
         }
     }
+
+    /// Whether the places of such findings are corners of the stone; otherwise they are the middles of facets.
+    pub fn is_about_corners(self) -> bool {
+        matches!(self, Self::NearMiss | Self::SplitMeet | Self::UnevenGirdle)
+    }
 }
 
 impl fmt::Display for FindingKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
+    }
+}
+
+impl Finding {
+    /// Returns the size with its unit, as people read it.
+    pub fn size_text(&self) -> String {
+        self.unit.text(self.size)
+    }
+
+    /// Returns the threshold with its unit and the side on which findings lie, as people read it; `None` where any size
+    /// counts.
+    pub fn limit_text(&self) -> Option<String> {
+        let side = match self.kind {
+            FindingKind::UnevenGirdle | FindingKind::Outline | FindingKind::Symmetry => "above ",
+            FindingKind::UnusedPlane => return None,
+            // The name of this kind says already that its sizes lie below.
+            FindingKind::BelowCritical => "",
+            _ => "below ",
+        };
+        Some(format!("{side}{}", self.unit.text(self.threshold)))
     }
 }
 
@@ -104,6 +129,17 @@ pub enum FindingUnit {
     Degrees,
     /// A number of planes.
     Planes,
+}
+
+impl FindingUnit {
+    /// Returns a value in this unit, as people read it.
+    fn text(self, value: f64) -> String {
+        match self {
+            Self::Degrees => format!("{value:.2}{self}"),
+            Self::Planes => format!("{value} {self}"),
+            _ => format!("{value:.2} {self}"),
+        }
+    }
 }
 
 impl fmt::Display for FindingUnit {

@@ -2,6 +2,7 @@
 
 use super::safe;
 use crate::app::model::Model;
+use crate::app::model::audit::SessionAudit;
 use crate::app::model::document::Document;
 use crate::app::model::preset::{PRESETS, Preset};
 use crate::app::model::task::Task;
@@ -22,6 +23,7 @@ pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
     session.held = None;
     session.tier = None;
     session.meet_faults.clear();
+    session.audit = SessionAudit::default();
     // Figures of the stone before do not belong to this one.
     session.measured.figures.retain(|which, _| *which != Which::Present);
     session.measured.tilts = None;

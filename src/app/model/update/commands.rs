@@ -47,6 +47,11 @@ impl Model {
         self.workspace.shows_tiers && self.has_tiers() && !self.is_at_bench()
     }
 
+    /// Whether the list of the audit is in sight.
+    pub fn shows_audit(&self) -> bool {
+        self.workspace.shows_audit && !self.is_at_bench()
+    }
+
     /// Whether a command is switched on, as menus show it.
     pub fn is_chosen(&self, command: Command) -> bool {
         let workspace = &self.workspace;
@@ -70,6 +75,7 @@ impl Model {
             Command::Panels => workspace.hides_panels,
             Command::Tiers => workspace.shows_tiers,
             Command::BenchMode => workspace.cutting.is_open,
+            Command::Audit => workspace.shows_audit,
             _ => false,
         }
     }
@@ -151,6 +157,7 @@ fn look(model: &mut Model, command: Command) {
         Command::NextBehind => workspace.next_behind(),
         Command::Panels => workspace.hides_panels = !workspace.hides_panels,
         Command::BenchMode => workspace.cutting.is_open = !workspace.cutting.is_open,
+        Command::Audit => workspace.shows_audit = !workspace.shows_audit,
         Command::Tiers => workspace.shows_tiers = !workspace.shows_tiers,
         Command::ResetView => {
             workspace.reset_view();

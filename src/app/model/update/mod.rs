@@ -15,12 +15,14 @@ use super::action::{Action, Computed, FrameEnd, NoteAction};
 use super::figures::ShownFigures;
 use super::task::Task;
 use crate::app::studio::Which;
+use std::sync::Arc;
 
 /// Changes a model by an action; returns what is to be done outside because of it.
 pub fn update(model: &mut Model, action: Action) -> Vec<Task> {
     let mut tasks = vec![];
     perform(model, &mut tasks, action);
     files::wanted(model, &mut tasks);
+    want_audit(model, &mut tasks);
     tasks
 }
 
@@ -34,6 +36,14 @@ fn perform(model: &mut Model, tasks: &mut Vec<Task>, action: Action) {
         Action::Note(note) => noted(model, note),
         Action::Computed(computed) => computed_is(model, tasks, computed),
         Action::Frame(end) => end_frame(model, tasks, end),
+    }
+}
+
+/// Asks for the audit of the present stone where its list is open.
+fn want_audit(model: &mut Model, tasks: &mut Vec<Task>) {
+    let specimen = model.document.specimen();
+    if model.shows_audit() && specimen.stone().is_ok() && model.session.audit.want(specimen) {
+        tasks.push(Task::Audit(Arc::clone(specimen)));
     }
 }
 
@@ -77,6 +87,8 @@ fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
             session.measured.tilts = Some((order, tilts));
         }
         Computed::Tilts(..) => {}
+        Computed::Audit(specimen, Ok(found)) => session.audit.take(&specimen, found),
+        Computed::Audit(_, Err(why)) => session.notes.trouble(why),
         Computed::Copied(made) => {
             let name = session.awaited.copying.take().unwrap_or("The picture");
             match made {

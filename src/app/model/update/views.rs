@@ -48,6 +48,7 @@ fn pass(model: &mut Model, change: ViewAction) {
     match change {
         ViewAction::Hover(pane) => session.hovered = pane,
         ViewAction::Tier(place) => session.tier = place,
+        ViewAction::Finding(place) => session.audit.selected = place,
         ViewAction::Message(text) => session.message = text,
         ViewAction::Keys(keys) => session.keys = keys,
         ViewAction::Flowing(pane, flowing) => session.flowing[pane] = flowing,
