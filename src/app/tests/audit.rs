@@ -132,7 +132,7 @@ fn the_list_follows_the_design_and_says_that_there_are_no_candidates() {
     audited(&mut bench);
     assert_eq!(bench.editor().model.session.audit.found, before);
     bench.choose("File", "New from a cut");
-    bench.click("Tolkowsky");
+    bench.click("Tolkowsky 1919");
     bench.settle();
     audited(&mut bench);
     assert!(bench.harness.query_by_label_contains("No candidates").is_some());
