@@ -15,7 +15,7 @@ pub(super) const LEVEL: f64 = 1e-5;
 const ON_CIRCLE: f64 = 0.99;
 
 /// The width of a round outline is at least this part of its diameter.
-const ROUND: f64 = 0.95;
+pub(super) const ROUND: f64 = 0.95;
 
 /// The part of the corners of the girdle's facets that lie beyond each of its edges.
 ///

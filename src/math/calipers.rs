@@ -13,6 +13,9 @@ const MIRRORED: f64 = 1e-3;
 /// of an ellipse whose length is 1.01 widths.
 const LONG: f64 = 0.01;
 
+/// A side shorter than this, widths, may come of rounding.
+const LEAST_SIDE: f64 = 0.01;
+
 /// Returns the convex hull of points, counter-clockwise (Andrew's monotone chain).
 pub fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -78,11 +81,15 @@ impl Calipers {
     /// Measures a convex outline as people measure a stone: along its mirror line and square to it.
     ///
     /// This is [`Calipers::of`] unless the outline is mirror symmetric and its narrowest direction is oblique to the mirror
-    /// line, as that of a kite is, which is narrowest square to a side. `width` is then the smaller of the two extents. The
+    /// line, as that of a kite is, which is narrowest square to a side. `width` is then the smaller of the two extents. An
+    /// outline that has a side on each side of its narrowest rectangle keeps that rectangle: a square without one corner. The
     /// mirror line is found by the principal axes of the area; an outline of three or more equal turns has none, and its
     /// narrowest direction is square to one of its mirror lines anyway.
     pub fn along_mirror(outline: &[DVec2]) -> Option<Self> {
         let least = Self::of(outline)?;
+        if fills_its_sides(outline, least.across, EQUAL * least.width) {
+            return Some(least);
+        }
         Some(Self::in_mirror(outline, least.middle, least.width).unwrap_or(least))
     }
 
@@ -96,6 +103,15 @@ impl Calipers {
         let found = narrow.0 > least * (1.0 + EQUAL) && (is_mirror(axis) || is_mirror(axis.perp()));
         found.then_some(Self { width: narrow.0, length: wide.0, across: narrow.1, middle })
     }
+}
+
+/// Returns whether an outline has a side on each side of the rectangle that holds it and lies square to `across`.
+fn fills_its_sides(outline: &[DVec2], across: DVec2, rounding: f64) -> bool {
+    [across, -across, across.perp(), -across.perp()].iter().all(|out| {
+        let (_, most) = extent(outline, *out);
+        let on_it = outline.iter().filter(|p| p.dot(*out) >= most - rounding);
+        length(span(on_it.map(|p| p.dot(out.perp())))) > rounding / EQUAL * LEAST_SIDE
+    })
 }
 
 /// Returns the direction in which the area of an outline extends farthest from its middle; `None` where no direction stands
@@ -224,6 +240,7 @@ mod tests {
             ring(16, 1.0),
             vec![[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [0.0, 1.0]],
             vec![[0.0, 0.0], [3.0, 0.0], [3.5, 1.0], [0.5, 1.0]],
+            vec![[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 2.0], [0.0, 2.0]],
             vec![[0.0, 0.0], [2.0, 0.1], [1.7, 1.4], [0.3, 1.1]],
         ];
         for (index, shape) in shapes.iter().enumerate() {

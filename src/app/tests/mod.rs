@@ -179,6 +179,9 @@ impl Bench {
     pub fn choose(&mut self, menu: &str, entry: &str) {
         self.click(menu);
         self.harness.run_steps(4);
+        // A menu that is higher than the window is scrolled.
+        self.harness.get_by_label_contains(entry).scroll_to_me();
+        self.harness.run_steps(SCROLLED);
         self.harness.get_by_label_contains(entry).click();
         self.harness.run_steps(4);
     }

@@ -8,6 +8,7 @@
 //! printed Portuguese cuts (PC 01.028A, B, C) have rings whose ratios differ by a few percent.
 
 use super::super::facet_net::FacetNet;
+use super::super::outline::ROUND;
 use glam::DVec2;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -57,12 +58,12 @@ impl AlternatingRows {
 
     /// Returns the ratio of the radii of neighbouring rings.
     fn shrinking(&self) -> f64 {
-        (self.inner / corner_radius(self.facets, 0.5)).powf(1.0 / (self.count - 1) as f64)
+        (self.inner / corner_radius(self.facets)).powf(1.0 / (self.count - 1) as f64)
     }
 
     /// Returns the radius of a ring; ring 0 has the corners of the girdle.
     fn radius(&self, ring: usize) -> f64 {
-        corner_radius(self.facets, 0.5) * self.shrinking().powi(ring as i32)
+        corner_radius(self.facets) * self.shrinking().powi(ring as i32)
     }
 
     /// Returns the tangent of a row's slope where that of the first is 1; 0 or less where the rows leave no room.
@@ -127,7 +128,7 @@ impl AlternatingRows {
 pub fn add_girdle(net: &mut FacetNet, facets: usize) {
     for facet in 0..facets {
         let out = direction(facets, facet as f64);
-        let distance = corner_radius(facets, 0.5) * (PI / facets as f64).cos();
+        let distance = corner_radius(facets) * (PI / facets as f64).cos();
         net.plane("girdle", out.extend(0.0), (out * distance).extend(0.0));
     }
 }
@@ -146,15 +147,12 @@ pub fn direction(count: usize, place: f64) -> DVec2 {
     }
 }
 
-/// Returns the radius of the corners of a regular polygon whose width, the lesser of its extents along x and y, is 2.
-/// `first` is the place of its first corner: 0 along y, 0.5 where a side lies across y.
-pub fn corner_radius(sides: usize, first: f64) -> f64 {
-    let corners = || (0..sides).map(|corner| direction(sides, corner as f64 + first));
-    let [low, high] = [f64::min, f64::max].map(|end: fn(f64, f64) -> f64| {
-        let x = corners().map(|at| at.x).reduce(end).unwrap_or_default();
-        DVec2::new(x, corners().map(|at| at.y).reduce(end).unwrap_or_default())
-    });
-    2.0 / (high - low).min_element().max(f64::MIN_POSITIVE)
+/// Returns the radius of the corners of a regular polygon whose [diameter](crate::cut::Outline::diameter) is 2: 1 where it is
+/// round by that definition; otherwise its width is 2.
+pub fn corner_radius(sides: usize) -> f64 {
+    let inner = (PI / sides as f64).cos();
+    let width = if sides.is_multiple_of(2) { 2.0 * inner } else { 1.0 + inner };
+    if width >= 2.0 * ROUND { 1.0 } else { 2.0 / width.max(f64::MIN_POSITIVE) }
 }
 
 #[cfg(test)]
@@ -199,13 +197,13 @@ mod tests {
     }
 
     #[test]
-    fn outlines_are_two_wide_at_their_narrowest() {
+    fn outlines_are_two_wide_at_their_narrowest_or_round() {
         for (sides, radius) in [(4, 2.0_f64.sqrt()), (6, 1.0 / (PI / 6.0).cos()), (8, 1.0 / (PI / 8.0).cos())]
         {
-            assert!((corner_radius(sides, 0.5) - radius).abs() < 1e-12, "{sides}");
+            assert!((corner_radius(sides) - radius).abs() < 1e-12, "{sides}");
         }
-        // A triangle is as wide as its height; a square on its corner as wide as its diagonal.
-        assert!((corner_radius(3, 0.5) * 1.5 - 2.0).abs() < 1e-12);
-        assert!((corner_radius(4, 0.0) - 1.0).abs() < 1e-12);
+        // A triangle is as wide as its height.
+        assert!((corner_radius(3) * 1.5 - 2.0).abs() < 1e-12);
+        assert_eq!([7, 9, 10, 16].map(|sides| corner_radius(sides)), [1.0; 4]);
     }
 }

@@ -13,6 +13,13 @@ pub struct GirdlePlace {
     pub normal: DVec2,
 }
 
+impl GirdlePlace {
+    /// Returns the place of an outline that is larger by a factor.
+    pub fn scaled(self, factor: f64) -> Self {
+        Self { at: factor * self.at, ..self }
+    }
+}
+
 /// An outline, counter-clockwise, with a main facet at every second station: closed, or the half on the side of +x of an
 /// outline that its mirror image completes.
 ///

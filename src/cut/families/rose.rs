@@ -95,11 +95,11 @@ struct RoseCorners {
 impl RoseCorners {
     fn of(cut: &FamilyCut) -> Self {
         let sides = cut[SIDES] as usize;
-        let (corners, first) = if cut[ROWS] > 1.0 { (2 * sides, 0.0) } else { (sides, 0.5) };
+        let corners = if cut[ROWS] > 1.0 { 2 * sides } else { sides };
         let (height, star) = (cut[HEIGHT] / 50.0, cut[STAR] / 100.0);
         let middle = star * (PI / sides as f64).cos();
         let shoulder = height - middle * cut[STAR_ANGLE].to_radians().tan();
-        Self { sides, corners, edge: corner_radius(corners, first), point: DVec3::Z * height, star, shoulder }
+        Self { sides, corners, edge: corner_radius(corners), point: DVec3::Z * height, star, shoulder }
     }
 
     /// Returns a corner of the girdle, at this many half sides from the middle of the first star triangle.

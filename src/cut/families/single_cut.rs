@@ -10,7 +10,7 @@ use super::girdle::{Girdle, GirdlePlace};
 use super::oval::superellipse;
 use super::rows;
 use glam::DVec3;
-use std::f64::consts::FRAC_PI_8;
+use std::f64::consts::{FRAC_PI_8, PI};
 
 const TABLE: usize = 0;
 const CROWN: usize = 1;
@@ -46,13 +46,15 @@ pub static SINGLE_CUT: Family = Family {
 };
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
-    let girdle = Girdle::new(8, 4, |way| superellipse(1.0, 2.0, way));
+    // A round stone is measured by the circle through its corners, so that the girdle's 64 sides touch a smaller one.
+    let inner = (PI / 64.0).cos();
+    let girdle = Girdle::new(8, 4, |way| superellipse(1.0, 2.0, way).scaled(inner));
     let [crown, pavilion] = [CROWN, PAVILION].map(|place| cut[place].to_radians().tan());
     let thickness = cut[GIRDLE] / 50.0;
     // The table's corners lie between the mains.
     let side = cut[TABLE] / 100.0 * FRAC_PI_8.cos();
     let mut net = FacetNet::default();
-    net.plane("table", DVec3::Z, DVec3::Z * (1.0 - side) * crown);
+    net.plane("table", DVec3::Z, DVec3::Z * (inner - side) * crown);
     for main in girdle.mains() {
         let GirdlePlace { at, normal } = girdle.main(main);
         net.plane("bezel", (normal * crown).extend(1.0), at.extend(0.0));
@@ -63,7 +65,7 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
         net.plane("main", (normal * pavilion).extend(-1.0), at.extend(-thickness));
     }
     if cut[CULET] > 0.0 {
-        let depth = thickness + pavilion * (1.0 - cut[CULET] / 100.0);
+        let depth = thickness + pavilion * (inner - cut[CULET] / 100.0);
         net.plane("culet", DVec3::NEG_Z, DVec3::NEG_Z * depth);
     }
     Ok(net)

@@ -1,9 +1,9 @@
 //! What holds for every family whose facets a function makes: stones at random numbers, and what their limits say.
 
+use super::super::outline::diameter;
 use super::*;
 use crate::cut::{FamilySolid, ProportionError, Unit, tier_stem};
-use crate::math::Polytope;
-use crate::math::{Plane, bounds};
+use crate::math::{Calipers, Plane, Polytope, bounds, hull};
 use glam::DVec3;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRng, TestRunner};
@@ -137,17 +137,20 @@ fn at_random_numbers_a_family_makes_a_stone_or_names_its_limit() {
 }
 
 #[test]
-fn length_to_width_is_as_given_and_half_the_width_is_one() {
+fn length_to_width_is_as_given_and_half_the_diameter_is_one() {
     on_random_cuts(|family, cut| {
-        let Some(Solid { size, .. }) = Solid::of(cut) else { return Ok(false) };
+        let Some(Solid { size, vertices, .. }) = Solid::of(cut) else { return Ok(false) };
         let expected = family.proportion("length_to_width").map_or(f64::NAN, |row| (row.get)(cut));
         if !expected.is_nan() {
-            // A drop is long along its axis, and its width is that between opposite facets.
-            let across = size.truncate().min_element();
-            let found = if family.key == "briolette" { size.z / across } else { size.y / size.x };
+            // A drop is long along its axis and as wide as its diameter.
+            let found = if family.key == "briolette" { size.z / 2.0 } else { size.y / size.x };
             prop_assert!((found - expected).abs() < 1e-9, "{found} for {expected}");
         }
-        prop_assert!((size.truncate().min_element() - 2.0).abs() < 1e-9, "{size}");
+        // A stone that is read from another format is measured so, and must have the same size.
+        let outline = hull(vertices.iter().map(|corner| corner.truncate()).collect());
+        let Some(Calipers { width, middle, .. }) = Calipers::along_mirror(&outline) else { return Ok(false) };
+        let diameter = diameter(&outline, middle, width);
+        prop_assert!((diameter - 2.0).abs() < 1e-9, "{diameter} in {size}");
         Ok(true)
     });
 }
