@@ -204,6 +204,6 @@ mod tests {
         }
         // A triangle is as wide as its height.
         assert!((corner_radius(3) * 1.5 - 2.0).abs() < 1e-12);
-        assert_eq!([7, 9, 10, 16].map(|sides| corner_radius(sides)), [1.0; 4]);
+        assert_eq!([7, 9, 10, 16].map(corner_radius), [1.0; 4]);
     }
 }
