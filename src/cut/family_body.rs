@@ -17,7 +17,8 @@ pub enum FamilySolid {
 }
 
 impl FamilyCut {
-    /// Returns every facet's name, no two alike, and its plane with a unit normal. Half of the stone's width is 1.
+    /// Returns every facet's name, no two alike, and its plane with a unit normal. Half of the stone's
+    /// [diameter](super::Outline::diameter) is 1.
     ///
     /// # Errors
     /// The first limit crossed, and by how much; [`DesignError::NotConvex`] where the stone is not convex.
@@ -26,7 +27,7 @@ impl FamilyCut {
         if net.is_half() { Err(NotConvex.into()) } else { Ok(net.named()) }
     }
 
-    /// Builds the stone. Half of its width is 1.
+    /// Builds the stone. Half of its [diameter](super::Outline::diameter) is 1.
     ///
     /// # Errors
     /// The first limit crossed, and by how much.

@@ -86,7 +86,7 @@ impl Calipers {
     /// mirror line is one of the principal axes of the area, where these are set.
     pub fn along_mirror(outline: &[DVec2]) -> Option<Self> {
         let least = Self::of(outline)?;
-        if fills_its_sides(outline, least.across, EQUAL * least.width) {
+        if fills_its_sides(outline, &least) {
             return Some(least);
         }
         Some(Self::in_mirror(outline, least.middle, least.width).unwrap_or(least))
@@ -120,12 +120,12 @@ impl Calipers {
     }
 }
 
-/// Returns whether an outline has a side on each side of the rectangle that holds it and lies square to `across`.
-fn fills_its_sides(outline: &[DVec2], across: DVec2, rounding: f64) -> bool {
+/// Returns whether an outline has a side on each side of its narrowest rectangle.
+fn fills_its_sides(outline: &[DVec2], &Calipers { across, width, .. }: &Calipers) -> bool {
     [across, -across, across.perp(), -across.perp()].iter().all(|out| {
         let (_, most) = extent(outline, *out);
-        let on_it = outline.iter().filter(|p| p.dot(*out) >= most - rounding);
-        length(span(on_it.map(|p| p.dot(out.perp())))) > rounding / EQUAL * LEAST_SIDE
+        let on_it = outline.iter().filter(|p| p.dot(*out) >= most - EQUAL * width);
+        length(span(on_it.map(|p| p.dot(out.perp())))) > LEAST_SIDE * width
     })
 }
 

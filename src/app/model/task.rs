@@ -41,7 +41,7 @@ pub enum Task {
     StopExport,
     /// Make a picture for the clipboard.
     MakeCopy(CopyRequest),
-    /// Audit a stone.
+    /// Look for what may not be meant in a stone, for the list of the audit.
     Audit(Arc<Specimen>),
     /// Trace the pictures and figures of all views in sight.
     Trace(Box<Order>),

@@ -121,7 +121,7 @@ fn sentence(finding: &Finding, unit_mm: f64) -> String {
     text
 }
 
-/// Lists the names of facets.
+/// Returns the first names of a list of facets, and how many more there are.
 fn names(facets: &[String]) -> String {
     let shown = facets.iter().take(MOST_NAMES).map(String::as_str).collect::<Vec<_>>().join(", ");
     match facets.len().saturating_sub(MOST_NAMES) {

@@ -15,15 +15,17 @@ A cut file shapes a stone of a family by the table that bears the family's key, 
 tables in `src/cut/families`, and a test keeps it current. [Formats](formats.md#cut-files) describes the rest of a cut file
 and `[round_brilliant]`.
 
-W, the *width*, is the shorter extent of the outline along x and y. Lengths are percent of W where nothing else is said,
-and angles are degrees from the girdle plane. The length is measured along y, which is up in pictures. \"Usual\" is the
+W is the [diameter](formats.md#diameter-length-and-width): of a round outline that of the circle through its corners, otherwise
+the shorter extent of the outline along x and y. Lengths are percent of W where nothing else is said, and angles are degrees
+from the girdle plane. The length is measured along y, which is up in pictures. \"Usual\" is the
 range of the editor's slider; \"possible\" is what the program takes if the facets still have room. All keys are required but those
 that have a default.
 
 ## What the families weigh
 
 The trade estimates the weight of a set diamond from its dimensions: carats = length · width · depth · k, in mm. Diamond has
-0.017575 carats per cubic millimetre, so k / 0.017575 is the share of the box around the stone that is filled. The
+0.017575 carats per cubic millimetre, so k / 0.017575 is the share of the box around the stone that is filled: length by
+width by depth. The
 trade's k are for thin to medium girdles; thick girdles, high shoulders and bulging pavilions add up to 10 % each.
 
 | family | facets without the girdle | length to width | depth, % of W | volume / (L W D) | the trade's | why it differs |
@@ -31,7 +33,7 @@ trade's k are for thin to medium girdles; thick girdles, high shoulders and bulg
 ";
 
 /// The trade's factor k of a family at the length to width of its first cut, its source, and why the first cut differs.
-const TRADE: [(&str, f64, &str, &str); 5] = [
+const TRADE: [(&str, f64, &str, &str); 9] = [
     (
         "oval",
         0.0062 * 1.44 / 1.4,
@@ -59,7 +61,14 @@ const TRADE: [(&str, f64, &str, &str); 5] = [
         "esslinger.com: triangle",
         "corners far from the culet are shallow; a bulge of 12 makes 0.311, a girdle of 6 0.312",
     ),
+    ("emerald", 0.0086 + 0.8 * (0.009_26 - 0.0086), GEMWEST, ""),
+    ("asscher", 0.0080, GEMWEST, "the trade's is of square emerald cuts"),
+    ("baguette", 0.0100, GEMWEST, "the trade's is of emerald cuts of the same length to width"),
+    ("radiant", 0.0081 + 0.4 * (0.0084 - 0.0081), GEMWEST, ""),
 ];
+
+/// The source of the factors of long cuts, which are given at a few lengths to width; between these they are interpolated.
+const GEMWEST: &str = "dnaldoog/Gemwest";
 
 /// The carats of a cubic millimetre of diamond.
 const CARATS: f64 = 0.017_575;
@@ -79,7 +88,8 @@ fn weight(family: &Family) -> String {
         family.key,
         facets.sum::<usize>(),
         size.y / size.x,
-        100.0 * size.z / size.x.min(size.y),
+        // Half the diameter is 1.
+        50.0 * size.z,
         solid.volume / (size.x * size.y * size.z),
     )
 }
