@@ -77,6 +77,7 @@ impl<'a> KnownMeets<'a> {
                 "instructions": tier.instructions,
                 "meet": self.met.tiers[place].meet.as_ref().map(Meet::to_string),
                 "source": self.sources[place],
+                "choices": self.solved.choices[place],
                 "outcome": outcome,
                 "error": error,
                 "angle": solved.angle,
@@ -107,9 +108,13 @@ impl<'a> KnownMeets<'a> {
                 TierOutcome::Kept | TierOutcome::Sets => ("given".to_owned(), String::new()),
             };
             let source = self.sources[place];
+            let ambiguous = match self.solved.choices[place] {
+                0 | 1 => String::new(),
+                choices => format!(" (ambiguous: {choices} corners fit these names)"),
+            };
             let _ = write!(
                 text,
-                "\n  {name:<14}{:>12.6}{solved:>12}{difference:>13}  {source:<8}{meet}",
+                "\n  {name:<14}{:>12.6}{solved:>12}{difference:>13}  {source:<8}{meet}{ambiguous}",
                 tier.distance
             );
         }

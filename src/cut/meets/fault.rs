@@ -66,6 +66,9 @@ pub enum MeetFault {
 
 fn no_point(point: &MeetPoint) -> String {
     match point {
+        MeetPoint::LaterCorner { names, reached } => {
+            format!("{} meet in fewer than {reached} points that this tier can reach", names.join(", "))
+        }
         MeetPoint::Corner(names) => match &names[..] {
             [] => "no facet is named to meet".to_owned(),
             [one] => format!("no corner of {one} can be reached"),

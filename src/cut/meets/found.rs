@@ -4,11 +4,10 @@ use super::super::tiers::{Tier, Tiers};
 use super::meet::{Meet, MeetPoint};
 use super::solve::{Bench, TierOutcome, cutting_order};
 use super::stone::StoneCorner;
-use super::words;
 
 /// A tier passes through a point that is this near to it, in lengths of the largest distance: half of the fifth digit that
 /// most files carry, and what comes of it where facets lean.
-const PASSES: f64 = 2e-5;
+pub(super) const PASSES: f64 = 2e-5;
 
 /// Directions this near to one another are one; machines are set to about 1e-3.
 const SAME_WAY: f64 = 1e-6;
@@ -20,34 +19,6 @@ const NAMES: std::ops::RangeInclusive<usize> = 3..=6;
 const MOST_LISTS: usize = 60;
 
 impl Tiers {
-    /// Returns the design with the meets that its instructions state. Tiers that have a meet keep it, and all numbers stay.
-    ///
-    /// Where an instruction names a corner by too few facets, so that another one would be reached first, those that meet there
-    /// as well are added.
-    pub fn with_stated_meets(&self) -> Self {
-        let mut design = self.clone();
-        for (tier, stated) in design.tiers.iter_mut().zip(words::stated(self)) {
-            tier.meet = tier.meet.take().or(stated);
-        }
-        let given = design.clone();
-        let mut bench = Bench::of(&given);
-        for place in cutting_order(&given) {
-            let tier = &given.tiers[place];
-            if !tier.is_cut {
-                continue;
-            }
-            if self.tiers[place].meet.is_none()
-                && let Some(Meet::Points(points)) = &tier.meet
-                && let [MeetPoint::Corner(named)] = &points[..]
-                && let Some(more) = bench.named_more(place, tier, named)
-            {
-                design.tiers[place].meet = Some(more);
-            }
-            bench.cut(place, tier);
-        }
-        design
-    }
-
     /// Returns the design with meets that its geometry shows, for tiers without one: points through which the tier passes, and
     /// by which [`solved`](Self::solved) finds its distance again. All numbers stay.
     ///
@@ -110,7 +81,7 @@ impl Bench<'_> {
     }
 
     /// Returns whether a meet gives a tier the distance that it has.
-    fn gives(&self, place: usize, tier: &Tier, meet: &Meet) -> bool {
+    pub fn gives(&self, place: usize, tier: &Tier, meet: &Meet) -> bool {
         let mut followed = tier.clone();
         let outcome = self.follow(place, &mut followed, meet);
         outcome == Ok(TierOutcome::Solved)
@@ -127,7 +98,7 @@ impl Bench<'_> {
     }
 
     /// Returns the corners through which the first facet of a tier passes, first the one beside its middle.
-    fn passed(&self, tier: &Tier) -> Vec<&StoneCorner> {
+    pub fn passed(&self, tier: &Tier) -> Vec<&StoneCorner> {
         let Some(first) = tier.facets.first() else { return vec![] };
         let plane = self.plane(tier, first.index);
         let near = PASSES * self.stone().scale();
@@ -137,38 +108,6 @@ impl Bench<'_> {
         let aside = |corner: &StoneCorner| out.perp_dot(corner.at.truncate()).abs();
         corners.sort_by(|a, b| aside(a).total_cmp(&aside(b)));
         corners
-    }
-
-    /// Returns a meet of more names than these at a corner where they meet, which gives the tier the distance that it has;
-    /// `None` where these names give it, or where no such corner is there.
-    fn named_more(&self, place: usize, tier: &Tier, named: &[String]) -> Option<Meet> {
-        let meet = |names: Vec<String>| Meet::Points(vec![MeetPoint::Corner(names)]);
-        if self.gives(place, tier, &meet(named.to_vec())) {
-            return None;
-        }
-        let meant = self.meant(place, named).ok()?;
-        let corners = self.passed(tier).into_iter().filter(|corner| self.is_corner_of(corner, &meant));
-        let mut lists = corners.flat_map(|corner| {
-            let spare = self.beyond(corner, &meant);
-            (1..=spare.len()).map(move |count| spare[..count].to_vec()).collect::<Vec<_>>()
-        });
-        lists.find_map(|more| {
-            let more = more.iter().map(|&tier| self.names().written(tier, place));
-            Some(meet(named.iter().cloned().chain(more).collect()))
-                .filter(|meet| self.gives(place, tier, meet))
-        })
-    }
-
-    /// Returns the tiers of the facets that meet at a corner besides one for each name.
-    fn beyond(&self, corner: &StoneCorner, meant: &[Vec<usize>]) -> Vec<usize> {
-        let mut tiers: Vec<usize> =
-            corner.planes.iter().map(|&plane| self.stone().plane(plane).tier).collect();
-        for named in meant {
-            if let Some(at) = tiers.iter().position(|tier| named.contains(tier)) {
-                tiers.remove(at);
-            }
-        }
-        tiers
     }
 
     /// Returns lists of so many names of facets that meet at a corner.

@@ -25,6 +25,8 @@ pub enum GivenSize {
     Size,
     /// The thickness of the girdle.
     GirdleThickness,
+    /// How deep a new centre point lies, which cuts an older one away.
+    CentrePoint,
 }
 
 /// A point through which a facet passes, on the stone as it is cut so far.
@@ -40,11 +42,28 @@ pub enum MeetPoint {
     /// A corner of the girdle, on the side of the tier.
     GirdlePoint,
     /// The corner where facets of these tiers meet; a name that is given twice means two facets of its tier. The name `girdle` is
-    /// any upright facet.
+    /// any upright facet. Where several corners fit, a facet goes to the first that it reaches as it is cut deeper.
     Corner(Vec<String>),
+    /// Of several corners that fit the same names, one that a facet reaches after others.
+    LaterCorner {
+        /// The names, as in [`Corner`](Self::Corner).
+        names: Vec<String>,
+        /// The corner's number in the order in which a facet reaches them as it is cut deeper, from 1. Corners at one depth
+        /// count once.
+        reached: usize,
+    },
 }
 
 impl MeetPoint {
+    /// Returns the names of a corner, and its number among the corners that fit them; `None` for another point.
+    pub fn named(&self) -> Option<(&[String], usize)> {
+        match self {
+            Self::Corner(names) => Some((names, 1)),
+            Self::LaterCorner { names, reached } => Some((names, *reached)),
+            _ => None,
+        }
+    }
+
     /// The points that are written in words, with their words.
     pub const IN_WORDS: [(&str, Self); 4] = [
         ("centre point", Self::Centre { temporary: false }),
@@ -56,8 +75,11 @@ impl MeetPoint {
 
 impl GivenSize {
     /// The sizes with their words.
-    pub const IN_WORDS: [(&str, Self); 2] =
-        [("size", Self::Size), ("girdle thickness", Self::GirdleThickness)];
+    pub const IN_WORDS: [(&str, Self); 3] = [
+        ("size", Self::Size),
+        ("girdle thickness", Self::GirdleThickness),
+        ("new centre point", Self::CentrePoint),
+    ];
 }
 
 impl fmt::Display for MeetPoint {
@@ -68,6 +90,9 @@ impl fmt::Display for MeetPoint {
             Self::LevelGirdle => f.write_str("Level girdle"),
             Self::GirdlePoint => f.write_str("Meet girdle point"),
             Self::Corner(names) => write!(f, "Meet {}", names.join("-")),
+            Self::LaterCorner { names, reached } => {
+                write!(f, "Meet {} (reached as number {reached})", names.join("-"))
+            }
         }
     }
 }
@@ -78,6 +103,7 @@ impl fmt::Display for Meet {
         match self {
             Self::Given(GivenSize::Size) => f.write_str("Set size"),
             Self::Given(GivenSize::GirdleThickness) => f.write_str("Set girdle thickness"),
+            Self::Given(GivenSize::CentrePoint) => f.write_str("New centre point below old"),
             Self::CentreAngle(angle) => write!(f, "CAM {angle}°"),
             Self::Points(points) => {
                 for (place, point) in points.iter().enumerate() {

@@ -1,5 +1,6 @@
 //! Meets: where the facets of a tier go, as cutters say it. `meet` is what a tier keeps, `words` reads it from instructions,
-//! `found` finds it in the geometry, and `solve` follows it.
+//! `stated` takes the reading that the design's numbers bear out, `found` finds it in the geometry, and `solve` follows it
+//! to the corners that a facet can `reach`.
 //!
 //! A meet is a point on the stone as it is cut so far (`stone`): a corner where named tiers meet (`names`), a corner of the
 //! girdle, the girdle line, or the point where the axis leaves the stone. Names may be written as cutters write them: P1 is
@@ -9,7 +10,11 @@ mod fault;
 mod found;
 mod meet;
 mod names;
+mod reach;
 mod solve;
+mod stated;
+#[cfg(test)]
+mod stated_tests;
 mod stone;
 #[cfg(test)]
 mod tests;

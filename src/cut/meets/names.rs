@@ -39,7 +39,7 @@ impl TierNames {
     /// name.
     ///
     /// A name is that of a tier; or, after the letter P, C or G, that of a pavilion, crown or girdle tier; or else the number of
-    /// a tier on that side, or any nameless girdle tier. Where a pavilion and a crown tier share a name, that on the side of `from` is meant.
+    /// a tier on that side, where all girdle tiers without names have each number. Where a pavilion and a crown tier share a name, that on the side of `from` is meant.
     pub fn meant(&self, name: &str, from: usize) -> Vec<usize> {
         let name = name.to_lowercase();
         let with_name = |name: &str| -> Vec<usize> {
@@ -70,10 +70,27 @@ impl TierNames {
         }
         // Girdle tiers without names are numbered in another order than they are listed in as often as not.
         if letter == "g" {
-            return self.on_side(is_girdle).filter(|&place| self.tiers[place].name.is_empty()).collect();
+            let nameless: Vec<usize> =
+                self.on_side(is_girdle).filter(|&place| self.tiers[place].name.is_empty()).collect();
+            if !nameless.is_empty() {
+                return nameless;
+            }
         }
         let number = rest.parse::<usize>().ok().filter(|&number| number > 0);
         number.and_then(|number| self.on_side(on_side).nth(number - 1)).into_iter().collect()
+    }
+
+    /// Returns a name that begins with the letter of the other side than that of the tier at `from` with the letter of its own
+    /// side; `None` for other names, or where nothing is meant by it. Cutters who copy an instruction leave such letters.
+    pub fn on_own_side(&self, name: &str, from: usize) -> Option<String> {
+        let (letter, rest) = name.split_at_checked(1)?;
+        let own = match letter {
+            "p" if is_crown(self.tiers[from].zone) => "c",
+            "c" if is_pavilion(self.tiers[from].zone) => "p",
+            _ => return None,
+        };
+        let name = format!("{own}{rest}");
+        (!rest.is_empty() && !self.meant(&name, from).is_empty()).then_some(name)
     }
 
     /// Returns the name of a tier by which it is meant in a meet of the tier at `from`: its own, or else the one by which it is

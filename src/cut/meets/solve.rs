@@ -12,13 +12,10 @@ use std::f64::consts::TAU;
 
 /// The largest difference between the facets of a tier, in lengths of the largest distance: files whose distances were found
 /// by hand leave so much.
-const AGREE: f64 = 1e-3;
-
-/// A corner this much below the highest, in lengths of the largest distance, is one that a facet can be cut to.
-const REACHABLE: f64 = 1e-6;
+pub(super) const AGREE: f64 = 1e-3;
 
 /// Depths this near to one another, in lengths of the largest distance, are one depth.
-const SAME_DEPTH: f64 = 1e-4;
+pub(super) const SAME_DEPTH: f64 = 1e-4;
 
 /// How often the corners are chosen anew for an angle that follows from them.
 const MOST_TRIES: usize = 8;
@@ -30,6 +27,9 @@ pub struct SolvedTiers {
     pub tiers: Tiers,
     /// What became of each tier, in their order.
     pub outcomes: Vec<TierOutcome>,
+    /// For each tier the number of corners, at different depths, that fit the names of its meet; 0 where its meet names none. Above
+    /// 1 the names alone are ambiguous.
+    pub choices: Vec<usize>,
 }
 
 /// What became of a tier.
@@ -74,8 +74,9 @@ impl Tiers {
     /// Follows all meets, each on a stone whose tiers lie where their meets say, or where their own numbers say.
     fn followed(&self, by_meets: bool) -> SolvedTiers {
         let mut bench = Bench::of(self);
-        let mut solved =
-            SolvedTiers { tiers: self.clone(), outcomes: vec![TierOutcome::Kept; self.tiers.len()] };
+        let count = self.tiers.len();
+        let (outcomes, choices) = (vec![TierOutcome::Kept; count], vec![0; count]);
+        let mut solved = SolvedTiers { tiers: self.clone(), outcomes, choices };
         for place in cutting_order(self) {
             let given = &self.tiers[place];
             if !given.is_cut {
@@ -83,6 +84,7 @@ impl Tiers {
             }
             let tier = &mut solved.tiers.tiers[place];
             if let Some(meet) = &given.meet {
+                solved.choices[place] = bench.choices(place, tier, meet);
                 solved.outcomes[place] = bench.follow(place, tier, meet).unwrap_or_else(|fault| {
                     TierOutcome::Failed(MeetError { tier: place + 1, name: tier.name().to_owned(), fault })
                 });
@@ -98,12 +100,9 @@ pub(super) fn cutting_order(tiers: &Tiers) -> Vec<usize> {
     let names = TierNames::of(tiers);
     let needs = |place: usize| -> Vec<Vec<usize>> {
         let Some(Meet::Points(points)) = &tiers.tiers[place].meet else { return vec![] };
-        let corners = points.iter().filter_map(|point| match point {
-            MeetPoint::Corner(names) => Some(names),
-            _ => None,
-        });
-        let listed_later = |meant: &Vec<usize>| !meant.is_empty() && meant.iter().all(|&other| other > place);
-        corners.flatten().map(|name| names.meant(name, place)).filter(listed_later).collect()
+        let corners = points.iter().filter_map(|point| point.named().map(|(names, _)| names));
+        let of_others = |meant: &Vec<usize>| !meant.is_empty() && !meant.contains(&place);
+        corners.flatten().map(|name| names.meant(name, place)).filter(of_others).collect()
     };
     let mut waiting: Vec<(usize, Vec<Vec<usize>>)> =
         (0..tiers.tiers.len()).map(|place| (place, needs(place))).collect();
@@ -231,7 +230,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Returns the planes of a tier's facets at another angle.
-    fn planes(&self, tier: &Tier, angle: f64) -> Vec<Plane> {
+    pub fn planes(&self, tier: &Tier, angle: f64) -> Vec<Plane> {
         let bare = Tier { angle, instructions: String::new(), facets: vec![], meet: None, ..*tier };
         tier.facets.iter().map(|facet| self.design.plane(&bare, facet.index)).collect()
     }
@@ -295,12 +294,14 @@ impl<'a> Bench<'a> {
             }
             MeetPoint::GirdlePoint => {
                 let fits = |corner: &StoneCorner| self.is_girdle_corner(corner, side);
-                self.first_reached(planes, facet, fits).ok_or_else(missing)
+                self.reached(planes, facet, fits).first().copied().ok_or_else(missing)
             }
-            MeetPoint::Corner(named) => {
+            MeetPoint::Corner(named) | MeetPoint::LaterCorner { names: named, .. } => {
+                let number = point.named().map_or(1, |(_, number)| number);
                 let meant = self.meant(place, named)?;
                 let fits = |corner: &StoneCorner| self.is_corner_of(corner, &meant);
-                self.first_reached(planes, facet, fits).ok_or_else(missing)
+                let reached = self.reached(planes, facet, fits);
+                reached.get(number.saturating_sub(1)).copied().ok_or_else(missing)
             }
         }
     }
@@ -318,49 +319,6 @@ impl<'a> Bench<'a> {
             }
         };
         named.iter().map(of_name).collect()
-    }
-
-    /// Returns whether two upright facets meet at a corner on a side.
-    fn is_girdle_corner(&self, corner: &StoneCorner, side: Option<StoneSide>) -> bool {
-        let sides = || corner.planes.iter().map(|&plane| StoneSide::of(self.stone.plane(plane).plane.normal));
-        sides().filter(Option::is_none).count() >= 2 && (side.is_none() || sides().any(|other| other == side))
-    }
-
-    /// Returns whether facets of all these tiers meet at a corner, a facet for each.
-    pub fn is_corner_of(&self, corner: &StoneCorner, meant: &[Vec<usize>]) -> bool {
-        let mut is_taken = vec![false; corner.planes.len()];
-        meant.iter().all(|tiers| {
-            let free = corner
-                .planes
-                .iter()
-                .enumerate()
-                .position(|(at, &plane)| !is_taken[at] && tiers.contains(&self.stone.plane(plane).tier));
-            free.inspect(|&at| is_taken[at] = true).is_some()
-        })
-    }
-
-    /// Returns the corner that a facet reaches first as it is cut deeper, of those that fit. All facets of the tier are cut as
-    /// deep, and leave the corner on the stone.
-    fn first_reached(
-        &self,
-        planes: &[Plane],
-        facet: usize,
-        fits: impl Fn(&StoneCorner) -> bool,
-    ) -> Option<DVec3> {
-        let (normal, scale) = (planes[facet].normal, self.stone.scale());
-        let highest = self.stone.support(normal) - REACHABLE * scale;
-        let is_left = |at: DVec3, depth: f64| {
-            planes.iter().all(|plane| plane.normal.dot(at) <= depth + SAME_DEPTH * scale)
-        };
-        let mut best: Option<(f64, DVec3)> = None;
-        for corner in self.stone.corners() {
-            let depth = normal.dot(corner.at);
-            let is_first = depth < highest && best.is_none_or(|(before, _)| depth > before);
-            if is_first && is_left(corner.at, depth) && fits(corner) {
-                best = Some((depth, corner.at));
-            }
-        }
-        best.map(|(_, at)| at)
     }
 
     /// Returns the setting of a facet whose plane passes through one to three places. One keeps its angle and index, two keep

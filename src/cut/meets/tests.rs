@@ -7,19 +7,19 @@ use super::*;
 /// The tolerance of a distance that follows from others by some steps of arithmetic, in lengths of about 1.
 const EXACT: f64 = 1e-9;
 
-fn tier(name: &str, angle: f64, indices: &[f64], instructions: &str, distance: f64) -> Tier {
+pub(super) fn tier(name: &str, angle: f64, indices: &[f64], instructions: &str, distance: f64) -> Tier {
     let mut facets: Vec<Indexed> =
         indices.iter().map(|&index| Indexed { index, name: String::new() }).collect();
     facets[0].name = name.to_owned();
     Tier { angle, distance, instructions: instructions.to_owned(), meet: None, is_cut: true, facets }
 }
 
-fn every(step: usize, first: f64) -> Vec<f64> {
+pub(super) fn every(step: usize, first: f64) -> Vec<f64> {
     (0..96 / step).map(|k| (k * step) as f64 + first).collect()
 }
 
 /// A round brilliant as cutters write it, whose free sizes are right and whose other distances are not.
-fn written() -> Tiers {
+pub(super) fn written() -> Tiers {
     let wrong = 0.9;
     let tiers = vec![
         tier("1", -43.0, &every(6, 3.0), "Cut to TCP", 0.75),
@@ -35,7 +35,7 @@ fn written() -> Tiers {
 }
 
 /// The same design, solved.
-fn brilliant() -> Tiers {
+pub(super) fn brilliant() -> Tiers {
     let solved = written().solved();
     assert_eq!(solved.errors().collect::<Vec<_>>(), [] as [&MeetError; 0]);
     solved.tiers
@@ -46,7 +46,7 @@ fn distances(tiers: &Tiers) -> Vec<f64> {
 }
 
 #[track_caller]
-fn assert_near(found: &[f64], expected: &[f64]) {
+pub(super) fn assert_near(found: &[f64], expected: &[f64]) {
     let apart = found.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     assert!(found.len() == expected.len() && apart < EXACT, "{found:?} is not {expected:?}");
 }
@@ -268,7 +268,7 @@ fn instructions_are_read_as_cutters_write_them() {
         design.tiers.iter_mut().for_each(|tier| tier.meet = None);
         design.tiers[4].instructions = text.to_owned();
         // Only the words are asked for here, not what the geometry adds.
-        words::stated(&design)[4].as_ref().map(Meet::to_string)
+        words::stated(&design)[4].first().map(Meet::to_string)
     };
     for (text, expected) in [
         ("Meet A-A-G1", "Meet a-a-g1"),
@@ -303,12 +303,13 @@ fn an_instruction_that_is_written_reads_back() {
     let words = MeetPoint::IN_WORDS.map(|(_, point)| Meet::Points(vec![point]));
     let sizes = GivenSize::IN_WORDS.map(|(_, size)| Meet::Given(size));
     let corners = [
+        Meet::Points(vec![MeetPoint::LaterCorner { names: names.clone(), reached: 2 }]),
         Meet::Points(vec![MeetPoint::Corner(names.clone())]),
         Meet::Points(vec![MeetPoint::Corner(names.clone()), MeetPoint::Corner(names)]),
     ];
     for meet in words.into_iter().chain(sizes).chain(corners) {
         let mut design = written();
         design.tiers[4].instructions = meet.to_string();
-        assert_eq!(words::stated(&design)[4], Some(meet));
+        assert_eq!(words::stated(&design)[4].first(), Some(&meet));
     }
 }

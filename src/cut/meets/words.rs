@@ -64,69 +64,82 @@ const CHOSEN: [&str; 16] = [
 /// Words after which the names of a corner come.
 const BEFORE_NAMES: [&str; 6] = ["meet", "meets", "mp", "to", "from", "with"];
 
-/// Returns for each tier the meet that its instruction states; `None` where it states none.
-pub(super) fn stated(tiers: &Tiers) -> Vec<Option<Meet>> {
+/// Words of a point that the tier makes, rather than meets.
+const MADE: [&str; 4] = ["form", "make", "create", "new"];
+
+/// Returns for each tier what its instruction may mean, first what it says by the letter; none where it states no meet.
+pub(super) fn stated(tiers: &Tiers) -> Vec<Vec<Meet>> {
     let names = TierNames::of(tiers);
-    let mut meets: Vec<Option<Meet>> = vec![];
+    let mut meets: Vec<Vec<Meet>> = vec![];
     for (place, tier) in tiers.tiers.iter().enumerate() {
-        let above = meets.last().cloned().flatten();
-        meets.push(read(&tier.instructions, tier.zone(), &names, place, above));
+        let above = meets.last().cloned().unwrap_or_default();
+        meets.push(readings(&tier.instructions, tier.zone(), &names, place, above));
     }
     meets
 }
 
 impl Tiers {
-    /// Reads what an instruction would mean for the tier at a place, from 0; `None` where it states no meet.
+    /// Reads what an instruction would mean for the tier at a place, from 0, by the letter; `None` where it states no meet.
     pub fn meet_in_words(&self, place: usize, text: &str) -> Option<Meet> {
         let tier = self.tiers.get(place)?;
-        read(text, tier.zone(), &TierNames::of(self), place, None)
+        readings(text, tier.zone(), &TierNames::of(self), place, vec![]).into_iter().next()
     }
 }
 
-/// Reads one instruction; `above` is the meet of the tier before, which a ditto mark repeats.
-fn read(text: &str, zone: TierZone, names: &TierNames, from: usize, above: Option<Meet>) -> Option<Meet> {
+/// Reads one instruction; `above` are the readings of the tier before, which a ditto mark repeats.
+fn readings(text: &str, zone: TierZone, names: &TierNames, from: usize, above: Vec<Meet>) -> Vec<Meet> {
     let text = text.to_lowercase();
     if text.contains(['"', '“', '”']) && !text.contains(|c: char| c.is_alphanumeric() && c != 'g') {
         return above;
     }
     if let Some(angle) = centre_angle(&text) {
-        return Some(match zone {
+        return vec![match zone {
             TierZone::Girdle => Meet::CentreAngle(angle),
             _ => Meet::Points(vec![MeetPoint::Centre { temporary: true }]),
-        });
+        }];
     }
     let (mut corners, ends_at_centre) = corners(&text, names, from);
     corners.truncate(MOST_POINTS);
     let has = |words: &[&str]| words.iter().any(|word| has_words(&text, word));
-    let centre = if has(&TEMPORARY) {
-        Some(MeetPoint::Centre { temporary: true })
-    } else {
-        has(&CENTRE).then_some(MeetPoint::Centre { temporary: false })
+    let centre = match () {
+        () if has(&TEMPORARY) => Some(MeetPoint::Centre { temporary: true }),
+        () => has(&CENTRE).then_some(MeetPoint::Centre { temporary: false }),
     };
-    let is_level = has_words(&text, "level") && text.contains("girdle");
+    let is_new_centre = centre.is_some() && has(&MADE);
     let is_chosen = has(&CHOSEN);
-    let point = |point| Some(Meet::Points(vec![point]));
-    if ends_at_centre && let Some(centre) = centre {
-        return point(centre);
-    }
-    if !corners.is_empty() {
-        return Some(Meet::Points(corners));
-    }
-    let has_girdle_point = GIRDLE_POINT.iter().any(|words| text.contains(words));
-    if has_girdle_point && !is_chosen {
-        return point(MeetPoint::GirdlePoint);
-    }
-    if let Some(centre) = centre.filter(|_| !text.contains("w from") && !text.contains("below")) {
-        return point(centre);
-    }
-    if is_chosen {
+    let is_at_girdle = GIRDLE_POINT.iter().any(|words| text.contains(words)) && !is_chosen;
+    let is_level = has_words(&text, "level") && text.contains("girdle") && !has_words(&text, "not level");
+    let centre = centre.filter(|_| ends_at_centre || !(text.contains("w from") || text.contains("below")));
+
+    let mut points: Vec<Vec<MeetPoint>> = vec![];
+    points.extend(centre.clone().filter(|_| ends_at_centre).map(|centre| vec![centre]));
+    points.extend((!corners.is_empty()).then(|| corners.clone()));
+    points.extend(is_at_girdle.then(|| vec![MeetPoint::GirdlePoint]));
+    points.extend(centre.filter(|_| !ends_at_centre).map(|centre| vec![centre]));
+    points.extend((is_level && !(points.is_empty() && is_chosen)).then(|| vec![MeetPoint::LevelGirdle]));
+    points.extend(other_corners(&corners, names, from));
+    let chosen = is_chosen.then(|| {
         let is_girdle = text.contains("girdle") || text.contains("thick");
-        return Some(Meet::Given(match is_girdle && zone != TierZone::Girdle {
-            true => GivenSize::GirdleThickness,
-            false => GivenSize::Size,
-        }));
+        if is_girdle && zone != TierZone::Girdle { GivenSize::GirdleThickness } else { GivenSize::Size }
+    });
+    let chosen = chosen.or(is_new_centre.then_some(GivenSize::CentrePoint));
+    points.into_iter().map(Meet::Points).chain(chosen.map(Meet::Given)).collect()
+}
+
+/// Returns what the names of corners may mean but by the letter: each of several corners alone, or tiers on the side of the
+/// tier where the names have the letter of the other side.
+fn other_corners(corners: &[MeetPoint], names: &TierNames, from: usize) -> Vec<Vec<MeetPoint>> {
+    let mut others: Vec<Vec<MeetPoint>> = vec![];
+    if corners.len() > 1 {
+        others.extend(corners.iter().map(|corner| vec![corner.clone()]));
     }
-    if is_level { point(MeetPoint::LevelGirdle) } else { None }
+    let on_own_side = |corner: &MeetPoint| {
+        let (named, _) = corner.named()?;
+        let moved = named.iter().map(|name| names.on_own_side(name, from).unwrap_or_else(|| name.clone()));
+        Some(MeetPoint::Corner(moved.collect())).filter(|moved| moved != corner)
+    };
+    others.extend(corners.iter().filter_map(on_own_side).map(|corner| vec![corner]));
+    others
 }
 
 /// Returns whether a text holds these words, not as a part of longer ones.
@@ -172,7 +185,8 @@ fn pieces(text: &str) -> Vec<Piece<'_>> {
         }
         match letter {
             ';' | '.' => pieces.push(Piece::Stop),
-            ',' | '&' => pieces.push(Piece::Comma),
+            ',' => pieces.push(Piece::Comma),
+            '&' => pieces.push(Piece::Word("and")),
             '-' => pieces.push(Piece::Hyphen),
             _ => {}
         }
@@ -191,7 +205,7 @@ fn is_name(word: &str) -> bool {
 /// Returns the corners whose names an instruction lists, and whether such a list ends at the centre point.
 fn corners(text: &str, names: &TierNames, from: usize) -> (Vec<MeetPoint>, bool) {
     let pieces = pieces(text);
-    let mut lists: Vec<Vec<String>> = vec![];
+    let mut lists: Vec<(Vec<String>, usize)> = vec![];
     let mut ends_at_centre = false;
     let mut at = 0;
     while at < pieces.len() {
@@ -208,13 +222,24 @@ fn corners(text: &str, names: &TierNames, from: usize) -> (Vec<MeetPoint>, bool)
             found.retain(|list| list.iter().all(|name| !names.meant(name, from).is_empty()));
         }
         ends_at_centre |= is_centre;
-        lists.extend(found);
+        lists.extend(found.into_iter().map(|list| (list, 1)));
+        if let (
+            [Piece::Word("reached"), Piece::Word("as"), Piece::Word("number"), Piece::Word(number), ..],
+            Some(last),
+        ) = (&pieces[next..], lists.last_mut())
+        {
+            last.1 = number.parse().unwrap_or(1);
+        }
         at = next.max(at + 1);
     }
     let own = |name: &String| names.meant(name, from) == [from];
-    lists.iter_mut().for_each(|list| list.retain(|name| !own(name)));
-    lists.retain(|list| !list.is_empty() && list.iter().any(|name| name != ANY_GIRDLE));
-    (lists.into_iter().map(MeetPoint::Corner).collect(), ends_at_centre)
+    lists.iter_mut().for_each(|(list, _)| list.retain(|name| !own(name)));
+    lists.retain(|(list, _)| list.iter().any(|name| name != ANY_GIRDLE));
+    let corner = |(names, reached)| match reached {
+        0 | 1 => MeetPoint::Corner(names),
+        _ => MeetPoint::LaterCorner { names, reached },
+    };
+    (lists.into_iter().map(corner).collect(), ends_at_centre)
 }
 
 fn known(word: &str, names: &TierNames, from: usize) -> bool {
@@ -229,12 +254,11 @@ fn lists_from(
     from: usize,
 ) -> (Vec<Vec<String>>, usize, bool) {
     let mut lists: Vec<Vec<String>> = vec![vec![]];
-    // Names behind "and", which make a corner of their own where they are several and joined by hyphens.
-    let (mut has_comma, mut ends_at_centre) = (false, false);
+    let mut ends_at_centre = false;
     while let Some(piece) = pieces.get(at) {
         let last = lists.len() - 1;
         match *piece {
-            Piece::Comma => has_comma = true,
+            Piece::Comma => {}
             Piece::Stop => {
                 let follows =
                     matches!(pieces.get(at + 1), Some(Piece::Word(word)) if known(word, names, from));
@@ -243,7 +267,7 @@ fn lists_from(
                 }
                 lists.push(vec![]);
             }
-            Piece::Word("and") if !has_comma && !lists[last].is_empty() => lists.push(vec![]),
+            Piece::Word("and") if !lists[last].is_empty() => lists.push(vec![]),
             Piece::Word("pcp" | "tcp" | "cp" | "centerpoint" | "center" | "centrepoint" | "culet") => {
                 ends_at_centre |= !lists[0].is_empty() && pieces[at - 1] != Piece::Comma;
             }

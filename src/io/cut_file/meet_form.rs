@@ -25,11 +25,20 @@ pub(super) enum MeetForm {
 #[derive(Serialize, Deserialize)]
 #[serde(
     untagged,
-    expecting = "a point is words such as \"level girdle\", or a list of the names of tiers that meet"
+    expecting = "a point is words such as \"level girdle\", a list of the names of tiers that meet, or { corner = names, reached = number }"
 )]
 pub(super) enum PointForm {
     Words(String),
     Names(Vec<String>),
+    Later(LaterForm),
+}
+
+/// One of several corners of the same names.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LaterForm {
+    corner: Vec<String>,
+    reached: usize,
 }
 
 impl MeetForm {
@@ -41,6 +50,7 @@ impl MeetForm {
                 [MeetPoint::Corner(names)] => {
                     Self::List(names.iter().cloned().map(PointForm::Words).collect())
                 }
+                [point @ MeetPoint::LaterCorner { .. }] => Self::List(vec![PointForm::of(point)]),
                 [point] => Self::Words(words_of(&MeetPoint::IN_WORDS, point)),
                 points => Self::List(points.iter().map(PointForm::of).collect()),
             },
@@ -74,7 +84,7 @@ impl MeetForm {
         if !points.is_empty() && points.iter().all(is_name) {
             let names = points.into_iter().filter_map(|form| match form {
                 PointForm::Words(name) => Some(name),
-                PointForm::Names(_) => None,
+                PointForm::Names(_) | PointForm::Later(_) => None,
             });
             return Ok(Meet::Points(vec![corner(names.collect())?]));
         }
@@ -89,6 +99,9 @@ impl PointForm {
     fn of(point: &MeetPoint) -> Self {
         match point {
             MeetPoint::Corner(names) => Self::Names(names.clone()),
+            MeetPoint::LaterCorner { names, reached } => {
+                Self::Later(LaterForm { corner: names.clone(), reached: *reached })
+            }
             point => Self::Words(words_of(&MeetPoint::IN_WORDS, point)),
         }
     }
@@ -97,6 +110,13 @@ impl PointForm {
         match self {
             Self::Words(words) => point_of(&words),
             Self::Names(names) => corner(names),
+            Self::Later(LaterForm { reached: 0, .. }) => {
+                Err("reached is 0; the corner that a facet reaches first is 1".to_owned())
+            }
+            Self::Later(LaterForm { corner: names, reached: 1 }) => corner(names),
+            Self::Later(LaterForm { corner: names, reached }) => {
+                corner(names.clone()).map(|_| MeetPoint::LaterCorner { names, reached })
+            }
         }
     }
 }

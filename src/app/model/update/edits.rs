@@ -57,7 +57,7 @@ fn keep_tiers_in_place(model: &mut Model, change: impl FnOnce(&mut Cut)) {
 /// Changes the list of tiers and follows all meets; notes which of them could not be followed.
 fn change_tiers(model: &mut Model, change: TierChange) {
     let Cut::Tiers(tiers) = &model.document.work.design.cut else { return };
-    let SolvedTiers { tiers, outcomes } = tiers.changed(change);
+    let SolvedTiers { tiers, outcomes, .. } = tiers.changed(change);
     let fault = |outcome| match outcome {
         TierOutcome::Failed(error) => Some(error.fault.to_string()),
         _ => None,

@@ -23,11 +23,15 @@ fn read(meet: &str) -> Result<Meet, String> {
 fn a_meet_reads_as_written() {
     let corner = |names: &[&str]| MeetPoint::Corner(names.iter().map(|&name| name.to_owned()).collect());
     let centre = MeetPoint::Centre { temporary: false };
+    let second = MeetPoint::LaterCorner { names: ["1", "G"].map(str::to_owned).to_vec(), reached: 2 };
     for (text, meet) in [
         ("\"level girdle\"", Meet::Points(vec![MeetPoint::LevelGirdle])),
         ("\"girdle point\"", Meet::Points(vec![MeetPoint::GirdlePoint])),
         ("\"temporary centre point\"", Meet::Points(vec![MeetPoint::Centre { temporary: true }])),
         ("\"girdle thickness\"", Meet::Given(GivenSize::GirdleThickness)),
+        ("\"new centre point\"", Meet::Given(GivenSize::CentrePoint)),
+        ("[{ corner = [\"1\", \"G\"], reached = 2 }]", Meet::Points(vec![second])),
+        ("[{ corner = [\"1\", \"G\"], reached = 1 }]", Meet::Points(vec![corner(&["1", "G"])])),
         ("\"centre angle 41.7\"", Meet::CentreAngle(41.7)),
         ("[\"1\", \"girdle-2\", \"1\"]", Meet::Points(vec![corner(&["1", "girdle-2", "1"])])),
         ("[[\"1\", \"G\"], \"centre point\"]", Meet::Points(vec![corner(&["1", "G"]), centre])),
@@ -42,12 +46,16 @@ fn a_meet_at_fault_is_named_with_its_line() {
         (
             "\"level\"",
             "x.toml:10: meet: 'level' is no meet; give centre point, temporary centre point, level girdle, girdle \
-             point, size, girdle thickness, centre angle 41.7, or a list of names of tiers",
+             point, size, girdle thickness, new centre point, centre angle 41.7, or a list of names of tiers",
         ),
         (
             "\"centre angle 90\"",
             "x.toml:10: meet: 'centre angle 90' has no angle above 0 and below 90 degrees, as in \"centre angle \
              41.7\"",
+        ),
+        (
+            "[{ corner = [\"1\"], reached = 0 }]",
+            "x.toml:10: meet: reached is 0; the corner that a facet reaches first is 1",
         ),
         ("[]", "x.toml:10: meet: 0 points are given; from 1 to 3 are expected"),
         (

@@ -1,0 +1,65 @@
+//! Which corners of the stone so far a facet can be cut to, and in which order it reaches them.
+
+use super::super::tiers::Tier;
+use super::meet::Meet;
+use super::solve::{Bench, SAME_DEPTH};
+use super::stone::{StoneCorner, StoneSide};
+use crate::math::Plane;
+use glam::DVec3;
+
+/// A corner this much below the highest, in lengths of the largest distance, is one that a facet can be cut to.
+const REACHABLE: f64 = 1e-6;
+
+impl Bench<'_> {
+    /// Returns whether two upright facets meet at a corner on a side.
+    pub fn is_girdle_corner(&self, corner: &StoneCorner, side: Option<StoneSide>) -> bool {
+        let sides =
+            || corner.planes.iter().map(|&plane| StoneSide::of(self.stone().plane(plane).plane.normal));
+        sides().filter(Option::is_none).count() >= 2 && (side.is_none() || sides().any(|other| other == side))
+    }
+
+    /// Returns whether facets of all these tiers meet at a corner, a facet for each.
+    pub fn is_corner_of(&self, corner: &StoneCorner, meant: &[Vec<usize>]) -> bool {
+        let mut is_taken = vec![false; corner.planes.len()];
+        meant.iter().all(|tiers| {
+            let free =
+                corner.planes.iter().enumerate().position(|(at, &plane)| {
+                    !is_taken[at] && tiers.contains(&self.stone().plane(plane).tier)
+                });
+            free.inspect(|&at| is_taken[at] = true).is_some()
+        })
+    }
+
+    /// Returns the corners that fit, in the order in which a facet reaches them as it is cut deeper, one for each depth. All
+    /// facets of the tier are cut as deep, and leave the corner on the stone.
+    pub fn reached(&self, planes: &[Plane], facet: usize, fits: impl Fn(&StoneCorner) -> bool) -> Vec<DVec3> {
+        let (normal, scale) = (planes[facet].normal, self.stone().scale());
+        let highest = self.stone().support(normal) - REACHABLE * scale;
+        let is_left = |at: DVec3, depth: f64| {
+            planes.iter().all(|plane| plane.normal.dot(at) <= depth + SAME_DEPTH * scale)
+        };
+        let can_be_reached = |corner: &&StoneCorner| {
+            let depth = normal.dot(corner.at);
+            depth < highest && is_left(corner.at, depth) && fits(corner)
+        };
+        let mut places: Vec<DVec3> =
+            self.stone().corners().iter().filter(can_be_reached).map(|corner| corner.at).collect();
+        places.sort_by(|a, b| normal.dot(*b).total_cmp(&normal.dot(*a)));
+        places.dedup_by(|next, before| normal.dot(*before - *next) <= SAME_DEPTH * scale);
+        places
+    }
+
+    /// Returns the number of corners, at different depths, that fit the names of a meet beside the first facet of a tier; of several
+    /// points the largest, and 0 where the meet names no corner.
+    pub fn choices(&self, place: usize, tier: &Tier, meet: &Meet) -> usize {
+        let Meet::Points(points) = meet else { return 0 };
+        let planes = self.planes(tier, tier.angle);
+        let Some(first) = planes.first() else { return 0 };
+        let count = |(named, _): (&[String], usize)| {
+            let meant = self.meant(place, named).ok()?;
+            let reached = self.reached(&planes, 0, |corner| self.is_corner_of(corner, &meant));
+            Some(reached.iter().filter(|at| first.normal.dot(**at) > 0.0).count())
+        };
+        points.iter().filter_map(|point| point.named().and_then(count)).max().unwrap_or(0)
+    }
+}

@@ -1,0 +1,109 @@
+//! Takes of what an instruction may mean what the design's own numbers bear out.
+
+use super::super::tiers::{Tier, Tiers};
+use super::found::PASSES;
+use super::meet::{Meet, MeetPoint};
+use super::solve::{AGREE, Bench, SAME_DEPTH, TierOutcome, cutting_order};
+use super::stone::StoneCorner;
+use super::words;
+
+/// The most corners that are tried of those that fit the same names.
+const MOST_REACHED: usize = 12;
+
+impl Tiers {
+    /// Returns the design with the meets that its instructions state. Tiers that have a meet keep it, and all numbers stay.
+    ///
+    /// Where words fit several points, the tier's own distance says which is meant: of several readings it is the first that
+    /// gives this distance; the facets that meet at a corner as well are added to its names; of several corners of the same
+    /// names, its number is kept ([`MeetPoint::LaterCorner`]). Where no reading comes near, what the words say by the letter
+    /// stands, unless they also leave a size to the cutter.
+    pub fn with_stated_meets(&self) -> Self {
+        let readings = words::stated(self);
+        let mut design = self.clone();
+        for (tier, readings) in design.tiers.iter_mut().zip(&readings) {
+            tier.meet = tier.meet.take().or(readings.first().cloned());
+        }
+        let given = design.clone();
+        let mut bench = Bench::of(&given);
+        for place in cutting_order(&given) {
+            let tier = &given.tiers[place];
+            if !tier.is_cut {
+                continue;
+            }
+            if self.tiers[place].meet.is_none() {
+                design.tiers[place].meet = bench.meant_by(place, tier, &readings[place]);
+            }
+            bench.cut(place, tier);
+        }
+        design
+    }
+}
+
+impl Bench<'_> {
+    /// Returns what an instruction means by the tier's own distance.
+    fn meant_by(&self, place: usize, tier: &Tier, readings: &[Meet]) -> Option<Meet> {
+        let first = readings.first()?;
+        if matches!(first, Meet::Given(_)) || self.miss(place, tier, first).is_some_and(|miss| miss <= PASSES)
+        {
+            return Some(first.clone());
+        }
+        let mut others: Vec<Meet> = readings.to_vec();
+        for reading in readings {
+            if let Meet::Points(points) = reading
+                && let [MeetPoint::Corner(names)] = &points[..]
+            {
+                others.extend(self.named_more(place, tier, names));
+                let later = |reached| MeetPoint::LaterCorner { names: names.clone(), reached };
+                let most = self.choices(place, tier, reading).min(MOST_REACHED);
+                others.extend((2..=most).map(|reached| Meet::Points(vec![later(reached)])));
+            }
+        }
+        let missed: Vec<f64> =
+            others.iter().map(|meet| self.miss(place, tier, meet).unwrap_or(f64::INFINITY)).collect();
+        let near =
+            [PASSES, SAME_DEPTH, AGREE].iter().find_map(|most| missed.iter().position(|miss| miss <= most));
+        let chosen = readings.last().filter(|last| matches!(last, Meet::Given(_)));
+        near.map(|at| others[at].clone()).or_else(|| chosen.or(Some(first)).cloned())
+    }
+
+    /// Returns how far a meet moves a tier from its own distance, in lengths of the largest distance; `None` for a size that the
+    /// cutter chooses, and where the meet cannot be followed.
+    fn miss(&self, place: usize, tier: &Tier, meet: &Meet) -> Option<f64> {
+        let mut followed = tier.clone();
+        match self.follow(place, &mut followed, meet) {
+            Ok(TierOutcome::Solved | TierOutcome::Sets) => {
+                Some((followed.distance - tier.distance).abs() / self.stone().scale())
+            }
+            _ => None,
+        }
+    }
+
+    /// Returns a meet of more names than these at a corner where they meet, which gives the tier the distance that it has;
+    /// `None` where no such corner is there.
+    fn named_more(&self, place: usize, tier: &Tier, named: &[String]) -> Option<Meet> {
+        let meet = |names: Vec<String>| Meet::Points(vec![MeetPoint::Corner(names)]);
+        let meant = self.meant(place, named).ok()?;
+        let corners = self.passed(tier).into_iter().filter(|corner| self.is_corner_of(corner, &meant));
+        let mut lists = corners.flat_map(|corner| {
+            let spare = self.beyond(corner, &meant);
+            (1..=spare.len()).map(move |count| spare[..count].to_vec()).collect::<Vec<_>>()
+        });
+        lists.find_map(|more| {
+            let more = more.iter().map(|&tier| self.names().written(tier, place));
+            Some(meet(named.iter().cloned().chain(more).collect()))
+                .filter(|meet| self.gives(place, tier, meet))
+        })
+    }
+
+    /// Returns the tiers of the facets that meet at a corner besides one for each name.
+    fn beyond(&self, corner: &StoneCorner, meant: &[Vec<usize>]) -> Vec<usize> {
+        let mut tiers: Vec<usize> =
+            corner.planes.iter().map(|&plane| self.stone().plane(plane).tier).collect();
+        for named in meant {
+            if let Some(at) = tiers.iter().position(|tier| named.contains(tier)) {
+                tiers.remove(at);
+            }
+        }
+        tiers
+    }
+}
