@@ -61,11 +61,11 @@ impl Ring {
 impl Mounting {
     /// Checks that no metal lies inside a stone.
     fn check(&self, stones: &[MountedStone]) -> Result<(), RingError> {
-        let depth = |point| stones.iter().map(|stone: &MountedStone| stone.depth(point)).fold(0.0, f64::max);
         for part in &self.metal {
             let surface = &part.surface;
-            let middles = (0..surface.corners.len()).map(|k| surface.triangle(k).iter().sum::<DVec3>() / 3.0);
-            let by_mm = middles.chain(surface.points.iter().copied()).map(depth).fold(0.0, f64::max);
+            let triangles = (0..surface.corners.len()).map(|k| surface.triangle(k));
+            let depth = |triangle: [DVec3; 3]| stones.iter().map(move |stone| stone.depth_of(triangle));
+            let by_mm = triangles.flat_map(depth).fold(0.0, f64::max);
             if by_mm > TOUCHING_MM {
                 return Err(RingError::InsideStone { part: part.name, by_mm });
             }
