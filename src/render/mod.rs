@@ -19,8 +19,8 @@ mod tests;
 pub use card::{Backend, Card, NoCard};
 pub use check::{JobError, OutOfRange};
 pub use job::{
-    FiguresProduct, Job, LightProduct, MapProduct, PaneProduct, Product, Quality, Reading, ScopeProduct,
-    Steps, USUAL_BOUNCES, mixture_note,
+    FiguresProduct, Job, LightProduct, MapProduct, MeasuresProduct, PaneProduct, Product, Quality, Reading,
+    ScopeProduct, Steps, USUAL_BOUNCES, mixture_note,
 };
 pub use measure::{MeasureError, MeasureOptions, measure};
 pub use plan::{CardWorth, Demands, Plan, Unfit, Wanted};
