@@ -148,7 +148,9 @@ impl LightMeasures {
         let unresolved = beams.unresolved();
         let (extinction, contrast) =
             (extinction(beams, settings.head_deg), contrast(beams, settings.head_deg));
-        sums.finish(settings, unresolved, [extinction, contrast])
+        let absorbed = if beams.medium.is_clear() { 0.0 } else { unresolved };
+        let absorbed = Interval::from(sums.absorbed, absorbed);
+        sums.finish(settings, unresolved, [extinction, contrast, absorbed])
     }
 }
 
@@ -225,7 +227,7 @@ impl ExitSums {
         self,
         settings: &MeasureSettings,
         unresolved: f64,
-        [extinction, contrast]: [Interval; 2],
+        [extinction, contrast, absorbed]: [Interval; 3],
     ) -> LightMeasures {
         let open = |least: f64| Interval::from(least, unresolved);
         let light = self.inside.iter().zip(&self.glare);
@@ -244,7 +246,7 @@ impl ExitSums {
             contrast,
             fire: open(self.fire),
             spread_deg: (weights > 0.0).then(|| (angles / weights).to_degrees()),
-            absorbed: open(self.absorbed),
+            absorbed,
             unresolved,
         }
     }

@@ -12,6 +12,7 @@ mod plan;
 mod renderer;
 mod scope;
 mod surroundings;
+mod sweep;
 
 #[cfg(test)]
 mod tests;
@@ -26,3 +27,4 @@ pub use measure::{MeasureError, MeasureOptions, measure};
 pub use plan::{CardWorth, Demands, Plan, Unfit, Wanted};
 pub use renderer::{EachPart, Output, Partial, RenderError, Rendered, Renderer};
 pub use surroundings::{HungPicture, Surroundings};
+pub use sweep::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue, SweptStone};

@@ -53,7 +53,7 @@ pub fn light_measures<'a>(
     let product = MeasuresProduct { settings: settings.clone(), medium: viewing.medium };
     let mut job = viewing.job(Film::NONE, Product::Measures(product), UNRESOLVED);
     job.quality.samples = None;
-    renderer.plan(&job).map_err(|why| Failure::of_unfit(&why, viewing.file))?;
+    renderer.plan(&job).map_err(|why| Failure::Usage(format!("{}: {why}", viewing.file)))?;
     let measures = renderer.run(&job, watch, &mut |part| note(&part, tell))?.measures()?;
     Ok(MeasureReport { viewing: *viewing, settings, measures })
 }
