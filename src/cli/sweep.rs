@@ -4,15 +4,17 @@ use super::console::say;
 use super::mesh_options::MeshArguments;
 use super::options::{ViewOptions, number};
 use super::progress::WorkProgress;
-use super::specimen::LoadedSpecimen;
+use super::specimen::{LoadedSpecimen, stem};
+use super::sweep_plot::SweepPlot;
 use super::sweep_table::{SweepTable, another_sweep};
 use crate::cut::Size;
 use crate::io::Failure;
 use crate::io::design_file::DesignFormat;
 use crate::measure::{MEASURES_HEAD_DEG, MeasureName, MeasureSettings};
 use crate::optics::line;
-use crate::render::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue};
+use crate::render::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue, SweptStone};
 use clap::Args;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -46,6 +48,10 @@ pub struct SweepArguments {
     /// Go on with the file of --out, where the same command was stopped
     #[arg(long, requires = "out")]
     resume: bool,
+    /// Draw the measures over one axis as curves with their bounds, or one measure over two axes as a map, as .svg, .png or .pdf; without
+    /// --out and --json no table is printed
+    #[arg(long, value_name = "FILE", conflicts_with = "resume")]
+    plot: Option<PathBuf>,
     /// Print JSON lines to standard output
     #[arg(long, conflicts_with = "out")]
     json: bool,
@@ -124,61 +130,90 @@ fn range(text: &str) -> Result<Vec<f64>, AxisError> {
     Ok((0..count).map(|k| from + k as f64 * step).collect())
 }
 
+/// Where the numbers of a sweep go.
+struct SweepOutputs<'a> {
+    measures: &'a [MeasureName],
+    /// The number of files.
+    files: usize,
+    table: Option<SweepTable>,
+    plot: Option<SweepPlot<'a>>,
+    /// The number of points without measures.
+    failed: usize,
+}
+
 impl SweepArguments {
     pub fn run(&self) -> Result<(), Failure> {
-        if !(self.unresolved > 0.0 && self.unresolved < 1.0) {
-            return Err(Failure::Usage(format!(
-                "--unresolved {}: give a part between 0 and 1",
-                self.unresolved
-            )));
-        }
-        if !(0.0..=90.0).contains(&self.head) {
-            return Err(Failure::Usage(format!("--head {}: give 0 to 90 degrees", self.head)));
-        }
-        let files = expanded(&self.files)?;
-        let measures = self.measures();
+        self.check()?;
+        let (files, measures) = (expanded(&self.files)?, self.measures());
         // What is wrong with the first design, often the only one, is said before a file is begun or replaced.
         let first = files.first().map(|file| self.sweep(file, &measures));
         let mut loaded = match first {
             Some(Err(failure)) if files.len() == 1 => return Err(failure),
             first => first,
         };
-        let mut table = self.table(&measures)?;
-        let points: usize = self.over.iter().map(|axis| axis.0.values.len()).product();
-        if points > MOST_POINTS {
-            return Err(Failure::Usage(format!(
-                "{points} points are more than {MOST_POINTS}; take larger steps"
-            )));
-        }
-        let (all, mut failed) = (files.len() * points, 0);
-        if table.kept > 0 {
-            let (number, point) = ((table.kept - 1) / points, (table.kept - 1) % points);
-            let file = files.get(number).ok_or_else(|| another_sweep(table.path()))?;
-            table.follows(&file.display().to_string(), &self.labels(point))?;
-        }
-        for (number, file) in files.iter().enumerate() {
-            let first = number * points;
-            if table.kept >= first + points && table.kept < all {
-                continue;
-            }
-            let from = table.kept.saturating_sub(first).min(points);
+        let mut outputs =
+            self.outputs(&files, loaded.as_ref().and_then(|sweep| sweep.as_ref().ok()), &measures)?;
+        let points = self.points();
+        let kept = outputs.table.as_ref().map_or(0, |table| table.kept);
+        for (number, file) in files.iter().enumerate().skip(kept / points) {
             let sweep = loaded.take().filter(|_| number == 0).unwrap_or_else(|| self.sweep(file, &measures));
-            failed += self.sweep_file((file, sweep), (from..points, files.len()), &measures, &mut table)?;
+            let from = kept.saturating_sub(number * points);
+            self.sweep_file(file, sweep, from..points, &mut outputs)?;
         }
-        match failed {
-            0 => Ok(()),
-            _ if failed < all => {
+        if let Some(plot) = &outputs.plot {
+            plot.write(&stem(&files[0]))?;
+        }
+        match (outputs.failed, files.len() * points) {
+            (0, _) => Ok(()),
+            (failed, all) if failed == all => {
+                Err(Failure::Input("no point has measures; the column error says why".into()))
+            }
+            (failed, all) => {
                 say(&format!("note: {failed} of {all} points have no measures; the column error says why"));
                 Ok(())
             }
-            _ => Err(Failure::Input("no point has measures; the column error says why".into())),
         }
     }
 
-    /// Returns what a row says of its point.
-    fn labels(&self, point: usize) -> Vec<String> {
-        let axes: Vec<SweepAxis> = self.over.iter().map(|axis| axis.0.clone()).collect();
-        labels(&axes, point)
+    fn check(&self) -> Result<(), Failure> {
+        let refused = |text: String| Err(Failure::Usage(text));
+        if !(self.unresolved > 0.0 && self.unresolved < 1.0) {
+            return refused(format!("--unresolved {}: give a part between 0 and 1", self.unresolved));
+        }
+        if !(0.0..=90.0).contains(&self.head) {
+            return refused(format!("--head {}: give 0 to 90 degrees", self.head));
+        }
+        if self.points() > MOST_POINTS {
+            return refused(format!(
+                "{} points are more than {MOST_POINTS}; take larger steps",
+                self.points()
+            ));
+        }
+        Ok(())
+    }
+
+    /// Returns the number of points of one design.
+    fn points(&self) -> usize {
+        self.over.iter().fold(1, |count: usize, axis| count.saturating_mul(axis.0.values.len()))
+    }
+
+    /// Opens the table, unless only a plot is wanted, and begins the plot.
+    fn outputs<'a>(
+        &self,
+        files: &[PathBuf],
+        sweep: Option<&Sweep>,
+        measures: &'a [MeasureName],
+    ) -> Result<SweepOutputs<'a>, Failure> {
+        let plot = match (&self.plot, sweep, files) {
+            (None, ..) => None,
+            (Some(path), Some(sweep), [_]) => {
+                Some(SweepPlot::new(path, (&sweep.design.cut, &sweep.axes), measures)?)
+            }
+            (Some(_), ..) => return Err(Failure::Usage("--plot is of one design; give one".into())),
+        };
+        let is_wanted = plot.is_none() || self.out.is_some() || self.json;
+        let table = is_wanted.then(|| self.table(files, measures)).transpose()?;
+        Ok(SweepOutputs { measures, files: files.len(), table, plot, failed: 0 })
     }
 
     fn measures(&self) -> Vec<MeasureName> {
@@ -188,51 +223,51 @@ impl SweepArguments {
         }
     }
 
-    fn table(&self, measures: &[MeasureName]) -> Result<SweepTable, Failure> {
+    fn table(&self, files: &[PathBuf], measures: &[MeasureName]) -> Result<SweepTable, Failure> {
         let axes = self.over.iter().map(|axis| axis.0.key.to_string());
         let of_measures = measures.iter().flat_map(|name| [name.to_string(), format!("{name}_error")]);
-        let ends = ["unresolved", "error"].map(String::from);
-        let columns: Vec<String> = ["file".to_owned()]
-            .into_iter()
-            .chain(axes)
-            .chain(["carats".to_owned()])
-            .chain(of_measures)
-            .chain(ends)
-            .collect();
-        SweepTable::open(columns, self.over.len(), (self.out.as_deref(), self.json, self.resume))
+        let before = ["file".to_owned()].into_iter().chain(axes).chain(["carats".to_owned()]);
+        let columns = before.chain(of_measures).chain(["unresolved", "error"].map(String::from)).collect();
+        let table =
+            SweepTable::open(columns, self.over.len(), (self.out.as_deref(), self.json, self.resume))?;
+        if table.kept > 0 {
+            let (number, point) = ((table.kept - 1) / self.points(), (table.kept - 1) % self.points());
+            let file = files.get(number).ok_or_else(|| another_sweep(table.path()))?;
+            table.follows(&file.display().to_string(), &self.labels(point))?;
+        }
+        Ok(table)
     }
 
-    /// Measures the points of one file and writes their rows; returns how many have no measures.
+    /// Returns what a row says of its point.
+    fn labels(&self, point: usize) -> Vec<String> {
+        let axes: Vec<SweepAxis> = self.over.iter().map(|axis| axis.0.clone()).collect();
+        SweepAxis::values_at(&axes, point).into_iter().map(ToString::to_string).collect()
+    }
+
+    /// Measures points of one file. Of several files, one with an error has it in the rows of its points.
     fn sweep_file(
         &self,
-        (file, sweep): (&Path, Result<Sweep, Failure>),
-        (points, files): (std::ops::Range<usize>, usize),
-        measures: &[MeasureName],
-        table: &mut SweepTable,
-    ) -> Result<usize, Failure> {
+        file: &Path,
+        sweep: Result<Sweep, Failure>,
+        points: Range<usize>,
+        outputs: &mut SweepOutputs,
+    ) -> Result<(), Failure> {
         let name = file.display().to_string();
         let sweep = match sweep {
             Ok(sweep) => sweep,
-            Err(Failure::Input(message) | Failure::Usage(message)) if files > 1 => {
+            Err(Failure::Input(message) | Failure::Usage(message)) if outputs.files > 1 => {
                 say(&format!("error: {message}"));
-                let failed = points.len();
-                let empty = vec![String::new(); self.over.len()];
-                for _ in points {
-                    table.write(&name, &empty, measures, (None, &message))?;
-                }
-                return Ok(failed);
+                return points
+                    .into_iter()
+                    .try_for_each(|point| outputs.put(&name, &self.labels(point), (None, &message)));
             }
             Err(failure) => return Err(failure),
         };
         let progress = WorkProgress::new(&format!("sweeping {name}"));
-        let mut failed = 0;
         sweep.run(points, &progress.watch(), |point, found| {
-            failed += usize::from(found.is_err());
             let error = found.as_ref().err().map_or(String::new(), SweepError::to_string);
-            let found = (found.as_ref().ok(), error.as_str());
-            table.write(&name, &labels(&sweep.axes, point), measures, found)
-        })?;
-        Ok(failed)
+            outputs.put(&name, &self.labels(point), (found.as_ref().ok(), &error))
+        })
     }
 
     fn sweep(&self, file: &Path, measures: &[MeasureName]) -> Result<Sweep, Failure> {
@@ -260,9 +295,23 @@ impl SweepArguments {
     }
 }
 
-/// Returns what a row says of its point.
-fn labels(axes: &[SweepAxis], point: usize) -> Vec<String> {
-    SweepAxis::values_at(axes, point).into_iter().map(ToString::to_string).collect()
+impl SweepOutputs<'_> {
+    /// Puts a point into the table and the plot.
+    fn put(
+        &mut self,
+        file: &str,
+        point: &[String],
+        found: (Option<&SweptStone>, &str),
+    ) -> Result<(), Failure> {
+        self.failed += usize::from(found.0.is_none());
+        if let Some(plot) = &mut self.plot {
+            plot.take_in(found.0);
+        }
+        match &mut self.table {
+            Some(table) => table.write(file, point, self.measures, found),
+            None => Ok(()),
+        }
+    }
 }
 
 /// Returns the files, with those of each folder in its place, sorted by name.

@@ -28,11 +28,10 @@ impl SweepTable {
     pub fn open(
         columns: Vec<String>,
         axes: usize,
-        (out, json, resume): (Option<&Path>, bool, bool),
+        (out, is_json, resume): (Option<&Path>, bool, bool),
     ) -> Result<Self, Failure> {
         let Some(path) = out else {
-            let mut table =
-                Self { columns, is_json: json, file: None, kept: 0, last_kept: vec![], end: None };
+            let mut table = Self { columns, is_json, file: None, kept: 0, last_kept: vec![], end: None };
             table.write_columns()?;
             return Ok(table);
         };

@@ -65,7 +65,7 @@ proptest! {
         index in 1.3..2.7_f64,
         absorption in prop_oneof![Just(0.0), 0.0..0.5_f64],
         tilt in 0.0..0.7_f64,
-        azimuth in 0.0..6.28_f64,
+        azimuth in 0.0..std::f64::consts::TAU,
     ) {
         let stone = nameless(&planes);
         let view = View { tilt, azimuth, ..View::default() };

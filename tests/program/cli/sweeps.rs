@@ -152,3 +152,39 @@ fn folders_and_several_designs_are_measured_at_once() {
     assert!(rows[0][2].is_empty() && !rows[0].last().unwrap().is_empty(), "{printed}");
     assert!(stderr.contains("1 of 4 points"), "{stderr}");
 }
+
+#[test]
+fn plots_are_curves_over_one_axis_and_a_map_over_two() {
+    let desk = Desk::new();
+    let line = "sweep tolkowsky --over tilt=0:8:4 --unresolved 0.05 --of fire --of extinction --plot";
+    assert_eq!(desk.done(&format!("{line} tilt.svg")).trim(), "tilt.svg");
+    let drawn = desk.read("tilt.svg");
+    assert!(["tilt, degrees", "fire", "extinction"].iter().all(|text| drawn.contains(text)), "{drawn}");
+    let (_, _, stderr) = desk.run(&format!("{line} tilt.pdf --out tilt.csv"));
+    assert!(std::fs::read(desk.at("tilt.pdf")).unwrap().starts_with(b"%PDF"), "{stderr}");
+    assert_eq!(table(&desk.read("tilt.csv")).1.len(), 3);
+    let map = "sweep tolkowsky --over table=52:92:20 --over pavilion_angle=40:42:1 --of fire --plot map.png";
+    let (code, _, stderr) = desk.run(map);
+    assert!(code == 0 && stderr.contains("3 of 9 points"), "{stderr}");
+    let ((width, height), pixels, _) = png(&desk.at("map.png"));
+    let at = |x: f64, y: f64| {
+        pixels[(y * f64::from(height)) as usize * width as usize + (x * f64::from(width)) as usize]
+    };
+    // The places with a table of 92 %, on the right, have no stone and are grey.
+    let (grey, filled) = (at(0.7, 0.5), at(0.3, 0.5));
+    assert!(
+        (grey.max_element() - grey.min_element()) < 1e-9
+            && filled.max_element() > filled.min_element() + 0.05
+    );
+    for (line, told) in [
+        ("tolkowsky --plot a.svg", "one --over or two"),
+        ("tolkowsky --over table=50:60:5 --plot a.txt", ".svg, .png or .pdf"),
+        ("tolkowsky --over table=50:60:5 --over tilt=0,5 --plot a.svg", "shows one measure"),
+        ("tolkowsky --over material=diamond,quartz --plot a.svg", "are numbers"),
+        ("tolkowsky --over table=50,60,55 --plot a.svg", "rise or fall"),
+        ("tolkowsky emerald --over tilt=0,5 --plot a.svg", "one design"),
+    ] {
+        let stderr = desk.refused(&format!("sweep {line}"), 2);
+        assert!(stderr.contains(told), "{line}: {stderr}");
+    }
+}
