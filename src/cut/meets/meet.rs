@@ -54,6 +54,20 @@ pub enum MeetPoint {
     },
 }
 
+impl Meet {
+    /// Returns the names of tiers in the meet, to change them.
+    pub(in crate::cut) fn names_mut(&mut self) -> impl Iterator<Item = &mut String> {
+        let points = match self {
+            Self::Points(points) => points.as_mut_slice(),
+            _ => &mut [],
+        };
+        points.iter_mut().flat_map(|point| match point {
+            MeetPoint::Corner(names) | MeetPoint::LaterCorner { names, .. } => names.as_mut_slice(),
+            _ => &mut [],
+        })
+    }
+}
+
 impl MeetPoint {
     /// Returns the names of a corner, and its number among the corners that fit them; `None` for another point.
     pub fn named(&self) -> Option<(&[String], usize)> {

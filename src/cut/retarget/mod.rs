@@ -8,7 +8,8 @@
 
 use super::outline::UPRIGHT;
 use super::{
-    Crown, Cut, Design, DesignError, MaterialRef, Outline, Pavilion, RoundBrilliant, Tiers, tier_stem,
+    Crown, Cut, Design, DesignError, MaterialRef, Outline, Pavilion, RoundBrilliant, TierOutcome, Tiers,
+    tier_stem,
 };
 use crate::math::{Plane, Polytope, PolytopeError, grouped};
 use crate::optics::{critical_angle, line};
@@ -23,11 +24,15 @@ const ANGLES_DEG: std::ops::RangeInclusive<f64> = 0.5..=89.5;
 /// A vertex nearer to the lowest one than this, in units of the stone's depth, is at the culet.
 const AT_CULET: f64 = 1e-6;
 
+/// Planes nearer to one another than this, in their normals and in parts of their distance, differ by rounding alone.
+const ROUNDING: f64 = 1e-12;
+
 /// The rule by which a design is fitted to another material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RetargetRule {
     /// Every tier of the pavilion turns by the difference of the critical angles, each about the line where it crosses the
-    /// height of the girdle's lower edge. Meets of tiers that had different angles open by a little.
+    /// height of the girdle's lower edge. Then the meets that tiers keep are solved anew; without them, meets of tiers that
+    /// had different angles open by a little.
     CriticalAngle,
     /// The tangents of all pavilion angles are multiplied by a factor, 0.1 to 10. Without one, the main tier, the flattest of
     /// those that reach the lowest point, keeps its margin over the critical angle.
@@ -193,7 +198,10 @@ pub fn retarget(
             notes.push("the proportions change, so that all facets still meet".to_owned());
             Cut::RoundBrilliant(changed_brilliant(brilliant, &change))
         }
-        Cut::Tiers(tiers) => Cut::Tiers(changed_tiers(tiers, &change)?),
+        Cut::Tiers(tiers) => {
+            let changed = changed_tiers(tiers, &change)?;
+            Cut::Tiers(if change.shift.is_some() { met_anew(changed, &mut notes) } else { changed })
+        }
         Cut::Planes(planes) => {
             let names = planes.iter().map(|(name, _)| name.clone());
             Cut::Planes(changed_planes(names.zip(facets.iter().map(|(_, plane)| *plane)), &change)?)
@@ -205,10 +213,10 @@ pub fn retarget(
             Cut::Planes(changed_planes(facets.iter().cloned(), &change)?)
         }
     };
-    if change.shift.is_some() && !matches!(cut, Cut::RoundBrilliant(_)) {
+    if change.shift.is_some() && !has_meets(&cut) && !matches!(cut, Cut::RoundBrilliant(_)) {
         notes.push(
             "every pavilion tier turns by the same angle about the girdle's lower edge; meets of tiers with different angles \
-             open by a little: solve them anew, or see `info --audit`"
+             open by a little: solve them anew, or see the audit"
                 .to_owned(),
         );
     }
@@ -320,6 +328,22 @@ fn changed_tiers(tiers: &Tiers, change: &AngleChange) -> Result<Tiers, RetargetE
     Ok(changed)
 }
 
+fn has_meets(cut: &Cut) -> bool {
+    matches!(cut, Cut::Tiers(tiers) if tiers.tiers.iter().any(|tier| tier.meet.is_some()))
+}
+
+/// Follows the meets of a design whose angles have changed, and notes what became of them.
+fn met_anew(changed: Tiers, notes: &mut Vec<String>) -> Tiers {
+    let solved = changed.solved();
+    let count = solved.outcomes.iter().filter(|outcome| matches!(outcome, TierOutcome::Solved)).count();
+    if count > 0 {
+        let tiers = if count == 1 { "tier was" } else { "tiers were" };
+        notes.push(format!("the meets of {count} {tiers} solved anew; the other pavilion tiers turn about the girdle's lower edge"));
+    }
+    notes.extend(solved.errors().map(|error| format!("a meet can no longer be followed: {error}")));
+    solved.tiers
+}
+
 fn changed_planes(
     planes: impl Iterator<Item = (String, Plane)>,
     change: &AngleChange,
@@ -346,7 +370,7 @@ fn noted(old: &Design, new: &Design, rule: RetargetRule, factor: f64) -> String 
     }
 }
 
-/// Returns the tiers whose first facets differ.
+/// Returns the tiers of which a facet differs by more than rounding.
 fn compared(before: &[(String, Plane)], after: &[(String, Plane)]) -> Vec<RetargetedTier> {
     let angle = |plane: &Plane| {
         let normal = plane.normal;
@@ -356,7 +380,11 @@ fn compared(before: &[(String, Plane)], after: &[(String, Plane)]) -> Vec<Retarg
     let tiers = grouped(pairs, |(a, _), (b, _)| {
         tier_stem(&a.0) == tier_stem(&b.0) && a.1.normal.z.signum() == b.1.normal.z.signum()
     });
-    let changed = tiers.into_iter().filter(|tier| tier.iter().any(|(a, b)| a.1 != b.1));
+    let differs = |(a, b): &(&(String, Plane), &(String, Plane))| {
+        !a.1.normal.abs_diff_eq(b.1.normal, ROUNDING)
+            || (a.1.offset - b.1.offset).abs() > ROUNDING * a.1.offset.abs()
+    };
+    let changed = tiers.into_iter().filter(|tier| tier.iter().any(differs));
     let reports = changed.map(|tier| {
         let ((name, before), (_, after)) = tier[0];
         RetargetedTier {
