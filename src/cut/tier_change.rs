@@ -135,6 +135,7 @@ impl Tiers {
             instructions: String::new(),
             meet: None,
             is_cut: true,
+            frosting: 0.0,
             facets: vec![],
         };
         tier.change(TierChange::Indices(0, indices));
@@ -238,6 +239,7 @@ mod tests {
                 instructions: String::new(),
                 meet: None,
                 is_cut: true,
+                frosting: 0.0,
                 facets: indices.iter().enumerate().map(facet).collect(),
             }
         };
