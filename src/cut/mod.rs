@@ -57,7 +57,7 @@ pub use mesh_shape::MeshShape;
 pub use outline::{AlongAxes, Outline, is_girdle, is_table, round_diameter};
 pub use proportion_error::{Limit, ProportionError};
 pub use proportions::Derived;
-pub use report::{ProportionReport, Spread, TierReport};
+pub use report::{MeshHeights, ProportionReport, Spread, TierReport};
 pub use retarget::{RetargetError, RetargetRule, Retargeted, RetargetedTier, retarget};
 pub use rough::{Finished, FitLimit, Rough, RoughError};
 pub use round_brilliant::{Crown, LowerHalf, Pavilion, RoundBrilliant};

@@ -86,7 +86,7 @@ impl FrostedSurface {
             }
             let [u, v, chance] = luck.take().unwrap_or_else(|| [more(), more(), more()]);
             let facet = visible_normal(self.alpha, -way, [u, v]);
-            let cos_i = (-way.dot(facet)).max(LEAST_COS).min(1.0);
+            let cos_i = (-way.dot(facet)).clamp(LEAST_COS, 1.0);
             match cos_transmitted(cos_i, eta) {
                 Some(cos_t) if chance >= reflectance(cos_i, eta).unwrap_or(1.0) => {
                     let through = unit(refract(way, facet, eta, (cos_i, cos_t)));

@@ -57,7 +57,8 @@ impl Specimen {
             _ => None,
         };
         if let Some(body) = body {
-            return Ok(Self::made(design, body, material));
+            let unusual = design.warnings()?;
+            return Ok(Self { unusual, ..Self::made(design, body, material) });
         }
         let mut facets = design.facets()?;
         let given = facets.len();
@@ -141,7 +142,8 @@ impl Specimen {
             return Self::new(design);
         }
         let material = design.material.material().map_err(DesignError::from)?;
-        Ok(Self { design, material, ..self.clone() })
+        let unusual = design.warnings()?;
+        Ok(Self { design, material, unusual, ..self.clone() })
     }
 
     /// Returns the girdle radius in mm.

@@ -105,7 +105,7 @@ fn without_luck_all_light_that_meets_a_frosted_facet_is_unresolved() {
         // From below, the polished facets reflect and pass light before it comes to the table.
         let rest =
             tracer.follow(DVec3::new(0.05, 0.02, -5.0), DVec3::Z, |exit| light += exit.weight).unwrap();
-        assert!(rest.unresolved > 0.5 && light > 0.05, "{rest:?} {light}");
+        assert!(rest.unresolved > 0.03 && light > 0.05, "{rest:?} {light}");
         assert!((rest.unresolved + light - 1.0).abs() < 1e-9);
     }
 }
