@@ -33,7 +33,7 @@ pub fn number(text: &str) -> Result<f64, OptionError> {
 pub fn unfit(why: &Unfit, file: &str) -> Failure {
     let options = match why {
         Unfit::Perspective => "--tracer ray, or no --perspective",
-        Unfit::NotAlone | Unfit::Metal => "--tracer ray",
+        Unfit::NotAlone | Unfit::Metal | Unfit::Frosted => "--tracer ray",
         Unfit::Mixture => "--tracer ray, or --strength 1",
         Unfit::FewBounces => "--tracer ray, or --bounces 64",
         Unfit::Job(_)

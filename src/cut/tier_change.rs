@@ -173,6 +173,7 @@ impl Tiers {
             instructions: String::new(),
             meet: None,
             is_cut: true,
+            frosting: 0.0,
             facets: vec![],
         };
         tier.change(TierChange::Indices(0, indices));
@@ -276,6 +277,7 @@ mod tests {
                 instructions: String::new(),
                 meet: None,
                 is_cut: true,
+                frosting: 0.0,
                 facets: indices.iter().enumerate().map(facet).collect(),
             }
         };

@@ -36,6 +36,7 @@ fn tiers() -> Tiers {
             instructions: String::new(),
             meet: None,
             is_cut: true,
+            frosting: 0.0,
             facets: facets.collect(),
         }
     };
