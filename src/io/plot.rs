@@ -313,7 +313,7 @@ fn room(numbers: impl Iterator<Item = f64>) -> Option<Range<f64>> {
     let finite = numbers.filter(|number| number.is_finite());
     let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
     let margin = if high > low { 0.04 * (high - low) } else { 0.5_f64.max(0.01 * low.abs()) };
-    (low <= high).then(|| low - margin..high + margin)
+    (low <= high).then_some(low - margin..high + margin)
 }
 
 /// Returns about [`LINES`] round numbers within a range.
@@ -422,7 +422,7 @@ mod tests {
     fn a_curve_has_a_gap_where_it_has_no_value() {
         let x = axis("x", &[1.0, 2.0, 3.0, 4.0, 5.0]);
         let of = |gap: Option<usize>| {
-            let bands = (0..5).map(|k| (Some(k) != gap).then(|| [k as f64, k as f64 + 0.5])).collect();
+            let bands = (0..5).map(|k| (Some(k) != gap).then_some([k as f64, k as f64 + 0.5])).collect();
             curves("t", &x, "%", &[PlotCurve { name: "fire".into(), bands }]).unwrap()
         };
         let parts = |text: &str| text.matches("<polygon").count();

@@ -10,6 +10,7 @@ mod dispersed_ray;
 mod facets;
 mod first_bodies;
 mod frosted_facets;
+mod frosted_light;
 mod instance_tracer;
 mod light;
 mod lobe_luck;
