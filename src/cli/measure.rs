@@ -27,7 +27,7 @@ pub struct Measure {
     #[arg(long, conflicts_with_all = ["scope", "no_glare", "timing"])]
     measures: bool,
     /// A dome whose return --measures lists: even, cos, cos2 or cos with another power, and if you like a head's half angle, as in
-    /// cos2@15; may be repeated [default: even, cos, cos2 and even@15]
+    /// cos2@15; may be repeated. Without it: even, cos, cos2 and even@15
     #[arg(long = "dome", value_name = "DOME", requires = "measures")]
     domes: Vec<DomeLight>,
     /// The scope whose zones are measured: a scope's name (see `scopes`), or a scope file [default: aset]
