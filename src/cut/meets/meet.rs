@@ -54,6 +54,17 @@ pub enum MeetPoint {
     },
 }
 
+impl Meet {
+    /// Returns the meet at the first of the points alone, which gives the distance and leaves the angle; `None` for a meet that
+    /// names no point.
+    pub fn first_point(&self) -> Option<Self> {
+        match self {
+            Self::Points(points) => Some(Self::Points(points.iter().take(1).cloned().collect())),
+            Self::Given(_) | Self::CentreAngle(_) => None,
+        }
+    }
+}
+
 impl MeetPoint {
     /// Returns the names of a corner, and its number among the corners that fit them; `None` for another point.
     pub fn named(&self) -> Option<(&[String], usize)> {
