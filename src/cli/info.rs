@@ -31,21 +31,21 @@ pub struct Info {
     /// Designs, meshes and scene files, or names of cuts and scenes that come with the program
     #[arg(required = true)]
     files: Vec<PathBuf>,
-    /// Print JSON: one object, or for several files one object a line
+    /// Print JSON: one object with everything, or for several files one object a line
     #[arg(long)]
     json: bool,
     /// A material's name, or an index, instead of the file's; of a scene, for every stone
     #[arg(long, value_name = "MATERIAL")]
     material: Option<String>,
-    /// List every facet after the tiers
+    /// List every facet as well
     #[arg(long)]
     facets: bool,
-    /// For a cutter's design, list where each tier goes: the meet that the file gives, that its instruction states or that
-    /// the geometry shows, and the distance that follows from it
+    /// For a cutter's design, list instead where each tier goes: the meet that the file gives, that its instruction states or
+    /// that the geometry shows, and the distance that follows from it
     #[arg(long)]
     meets: bool,
-    /// List what may not be meant: near misses, split meets, slivers, tiers below the critical angle, departures from the
-    /// symmetry. Candidates, no verdicts
+    /// List instead what may not be meant: near misses, split meets, slivers, tiers below the critical angle, departures from
+    /// the symmetry. Candidates, no verdicts
     #[arg(long)]
     audit: bool,
     #[command(flatten)]
@@ -58,11 +58,13 @@ impl Info {
         each_file(&self.files, |file| {
             if is_scene(file) {
                 let assembly = Assembly::load(file, material, None, mesh)?;
-                if self.audit {
-                    say(&format!(
-                        "note: {}: --audit is for single stones and has no effect on a scene",
-                        file.display()
-                    ));
+                for (name, is_asked) in [("--meets", self.meets), ("--audit", self.audit)] {
+                    if is_asked {
+                        let file = file.display();
+                        say(&format!(
+                            "note: {file}: {name} is for single stones and has no effect on a scene"
+                        ));
+                    }
                 }
                 return self.print_as(&scene_json(&assembly), || scene_table(&assembly));
             }
@@ -79,12 +81,8 @@ impl Info {
             if let Some(audit) = &audit {
                 value["audit"] = audit_json(audit);
             }
-            let listed = |audit: &Audit| format!("\n\n{}", audit_list(audit));
-            self.print_as(&value, || {
-                let rows = meets.as_ref().map(KnownMeets::table);
-                let further = [rows, audit.as_ref().map(listed)].into_iter().flatten().collect::<String>();
-                table(&specimen, &value, self.facets) + &further
-            })
+            let listed = [meets.as_ref().map(KnownMeets::table), audit.as_ref().map(audit_list)];
+            self.print_as(&value, || self.text(&specimen, &value, listed.into_iter().flatten().collect()))
         })
     }
 
@@ -95,6 +93,14 @@ impl Info {
             say(&format!("note: {}: only a convex stone between planes can be audited", specimen.path));
         }
         audit.ok()
+    }
+
+    /// Returns what is printed of a stone: the lists that were asked for alone, or else its figures and tiers.
+    fn text(&self, specimen: &LoadedSpecimen, value: &Value, lists: Vec<String>) -> String {
+        let heading = heading(&specimen.path, &specimen.design.name);
+        let mut parts = if lists.is_empty() { vec![table(specimen, value)] } else { lists };
+        parts.extend(self.facets.then(|| facet_table(value)).flatten());
+        heading + &parts.join("\n\n")
     }
 
     fn print_as(&self, value: &Value, table: impl FnOnce() -> String) -> Result<(), Failure> {
@@ -298,8 +304,9 @@ fn shown_azimuth(azimuth_deg: f64) -> String {
     if text == "360.0000" { fixed(0.0, 4) } else { text }
 }
 
-fn table(specimen: &LoadedSpecimen, value: &Value, with_facets: bool) -> String {
-    let mut text = heading(&specimen.path, &specimen.design.name);
+/// Returns the lines below the heading: what the design gives, what the stone measures, and its tiers.
+fn table(specimen: &LoadedSpecimen, value: &Value) -> String {
+    let mut text = String::new();
     let mut line = |key: &str, what: String| {
         let _ = writeln!(text, "  {key:<28}{what}");
     };
@@ -359,18 +366,21 @@ fn table(specimen: &LoadedSpecimen, value: &Value, with_facets: bool) -> String 
     line("volume", format!("{:.6} girdle radii³", polytope.volume()));
     line("surface area", format!("{:.6} girdle radii²", polytope.surface_area()));
     tiers(&report, &mut text);
-    if !with_facets {
-        return text;
-    }
-    let _ = write!(text, "\n\n  {:<18}{:>10}{:>11}{:>12}", "facet", "slope deg", "azimuth", "area");
-    for facet in value["facets"].as_array().into_iter().flatten() {
+    text
+}
+
+/// Returns a line for each facet, below a line of headings; `None` of a body without facets to list.
+fn facet_table(value: &Value) -> Option<String> {
+    let facets = value["facets"].as_array()?;
+    let mut text = format!("  {:<18}{:>10}{:>11}{:>12}", "facet", "slope deg", "azimuth", "area");
+    for facet in facets {
         let number = |key: &str| facet[key].as_f64().unwrap_or(f64::NAN);
         let name = facet["name"].as_str().unwrap_or_default();
         let (slope, azimuth) = (number("slope_deg"), shown_azimuth(number("azimuth_deg")));
         let area = number("area");
         let _ = write!(text, "\n  {name:<18}{slope:>10.4}{azimuth:>11}{area:>12.6}");
     }
-    text
+    Some(text)
 }
 
 /// Writes the measured proportions of a stone; those that its design gives are marked as measured.

@@ -8,6 +8,9 @@ use std::fmt::Write;
 /// The largest change of a distance, in the design's unit, that is not worth a note: the last digit of most files.
 const NOTED: f64 = 1e-5;
 
+/// The largest change of an angle, degrees, that is not worth a note.
+const NOTED_DEG: f64 = 1e-3;
+
 /// A design with all meets that are known of it.
 pub struct KnownMeets<'a> {
     design: &'a Tiers,
@@ -39,12 +42,15 @@ impl<'a> KnownMeets<'a> {
     /// Returns the solved design with its meets, each also as an instruction where there was none. Prints a note for each tier
     /// that moves, and a warning for each meet that cannot be followed.
     pub fn followed(self, path: &str) -> Tiers {
-        for place in 0..self.design.tiers.len() {
-            let (before, after) =
-                (self.design.tiers[place].distance, self.solved.tiers.tiers[place].distance);
-            if (before - after).abs() > NOTED {
-                let called = self.called(place);
+        for (place, (before, after)) in self.design.tiers.iter().zip(&self.solved.tiers.tiers).enumerate() {
+            let called = self.called(place);
+            if self.difference(place).abs() > NOTED {
+                let (before, after) = (before.distance, after.distance);
                 say(&format!("note: {path}: {called}: the distance {before} becomes {after:.7}"));
+            }
+            if (before.angle - after.angle).abs() > NOTED_DEG {
+                let (before, after) = (before.angle, after.angle);
+                say(&format!("note: {path}: {called}: the angle {before} becomes {after:.4} degrees"));
             }
         }
         self.solved.errors().for_each(|error| say(&format!("warning: {path}: {error}")));
@@ -88,9 +94,46 @@ impl<'a> KnownMeets<'a> {
         (0..self.design.tiers.len()).map(tier).collect()
     }
 
-    /// Returns the rows of a table, each with a line break before it.
+    /// Says in two sentences where the meets come from, and how well the design's distances agree with them.
+    fn summary(&self) -> String {
+        let count = self.sources.len();
+        let from = [
+            ("file", "given by the file"),
+            ("stated", "stated by instructions"),
+            ("found", "found in the geometry"),
+            ("", "not known"),
+        ]
+        .map(|(source, how)| (self.sources.iter().filter(|own| **own == source).count(), how));
+        let from =
+            from.iter().filter(|(number, _)| *number > 0).map(|(number, how)| format!("{number} {how}"));
+        let moved = (0..count).filter(|&place| self.solved.outcomes[place] == TierOutcome::Solved);
+        let farthest = moved
+            .map(|place| (self.difference(place).abs(), place))
+            .filter(|(by, _)| *by > NOTED)
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        let followed = match farthest {
+            Some((by, place)) => format!("{} moves farthest, by {by:.6}", self.called(place)),
+            None => format!("no tier moves by more than {NOTED}"),
+        };
+        let failed = match self.solved.errors().count() {
+            0 => String::new(),
+            1 => "; one meet cannot be followed".to_owned(),
+            failed => format!("; {failed} meets cannot be followed"),
+        };
+        let from = from.collect::<Vec<_>>().join(", ");
+        format!("  meets of {count} tiers: {from}\n  where they are followed, {followed}{failed}")
+    }
+
+    /// Returns how far following all meets moves a tier.
+    fn difference(&self, place: usize) -> f64 {
+        self.solved.tiers.tiers[place].distance - self.design.tiers[place].distance
+    }
+
+    /// Returns the summary, a table of the tiers, and what is wrong with meets that cannot be followed.
     pub fn table(&self) -> String {
-        let mut text = format!(
+        let mut text = self.summary();
+        let _ = write!(
+            text,
             "\n\n  {:<14}{:>12}{:>12}{:>13}  {:<8}meet",
             "tier", "distance", "solved", "difference", "source"
         );
@@ -102,7 +145,7 @@ impl<'a> KnownMeets<'a> {
             let (solved, difference) = match &self.solved.outcomes[place] {
                 TierOutcome::Solved => (
                     format!("{solved:.6}"),
-                    format!("{:.6}", ((solved - tier.distance) * 1e6).round() / 1e6 + 0.0),
+                    format!("{:.6}", (self.difference(place) * 1e6).round() / 1e6 + 0.0),
                 ),
                 TierOutcome::Failed(_) => ("failed".to_owned(), String::new()),
                 TierOutcome::Kept | TierOutcome::Sets => ("given".to_owned(), String::new()),

@@ -102,8 +102,10 @@ impl RetargetArguments {
         })?;
         let made = Specimen::new(found.design.clone())
             .map_err(|error| Failure::Input(format!("{path}: fitted to the material, {error}")))?;
-        let unusual = made.unusual.iter().map(|warning| warning.to_string());
-        for warning in unusual.chain(made.warnings.iter().cloned()) {
+        // What is odd about the old design as well was said when it was read.
+        let unusual = made.unusual.iter().filter(|warning| !specimen.unusual.contains(warning));
+        let odd = made.warnings.iter().filter(|warning| !specimen.warnings.contains(warning));
+        for warning in unusual.map(ToString::to_string).chain(odd.cloned()) {
             say(&format!("warning: {path}, fitted: {warning}"));
         }
         let light = if self.no_light { vec![] } else { light(&specimen, &made)? };

@@ -11,10 +11,6 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// Why a body that is not convex has no yield, and what can be done.
-const NOT_CONVEX: &str = "the yield is found of convex stones between planes alone; a heart is a mesh that is not convex, and \
-                          a glass shape is curved: `info` prints the size, volume and weight of any body";
-
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("wanted").required(true).args(["rough", "weight"]))]
 pub struct RoughYield {
@@ -49,21 +45,27 @@ impl RoughYield {
         }
         let specimen =
             LoadedSpecimen::load(&self.file, self.mesh.options())?.made_of(self.material.as_deref(), None)?;
-        let path = &specimen.path;
-        let stone = specimen.stone().map_err(|_| Failure::Input(format!("{path}: {NOT_CONVEX}")))?;
+        let (path, body) = (&specimen.path, specimen.solid());
         let found = match (&self.rough, self.weight) {
-            (Some(rough), _) => Finished::from_rough(&stone.polytope, rough, self.girdle_mm),
-            (None, carats) => Finished::of_weight(
-                &stone.polytope,
-                carats.unwrap_or_default(),
-                &specimen.material,
-                self.girdle_mm,
-            ),
+            (Some(rough), _) => Finished::from_rough(body, rough, self.girdle_mm),
+            (None, carats) => {
+                Finished::of_weight(body, carats.unwrap_or_default(), &specimen.material, self.girdle_mm)
+            }
         };
         let found = found.map_err(|error| match error {
-            RoughError::Thin { .. } => Failure::Input(format!("{path}: {error}")),
+            RoughError::Thin { .. } | RoughError::GirdleOfMesh | RoughError::Smooth => {
+                Failure::Input(format!("{path}: {error}"))
+            }
             error => Failure::Usage(format!("{path}: {error}")),
         })?;
+        let carats = specimen.material.carats(found.volume_mm3);
+        if let Some((carats, rough)) = carats.zip(self.rough_weight).filter(|(carats, rough)| carats > rough)
+        {
+            return Err(Failure::Usage(format!(
+                "{path}: the stone would weigh {carats:.3} ct, and --rough-weight gives the rough {rough} ct; give the weight of \
+                 rough that the stone fits into"
+            )));
+        }
         let value = self.value(&specimen, &found);
         print(&if self.json { json(&value) } else { self.table(&value, &found) })
     }
@@ -94,7 +96,9 @@ impl RoughYield {
         let [length, width, depth] = found.size_mm;
         line("finished size", format!("{length:.3} by {width:.3} by {depth:.3} mm"));
         line("diameter", format!("{:.3} mm", found.diameter_mm));
-        line("girdle", format!("{:.3} mm", found.girdle_mm));
+        if let Some(mm) = found.girdle_mm {
+            line("girdle", format!("{mm:.3} mm"));
+        }
         let carats = value["carats"].as_f64();
         line("weight", carats.map_or("not known".into(), |carats| format!("{carats:.3} ct")));
         if let Some(rough) = self.rough {
@@ -105,7 +109,7 @@ impl RoughYield {
             };
             line("limited by", limit.to_owned());
             line("turned in the rough", format!("{:.2} deg", found.turn_deg));
-            line("depth left for the girdle", format!("{:.3} mm", found.depth_left_mm));
+            line("depth left", format!("{:.3} mm", found.depth_left_mm));
             line("yield of the box", format!("{:.2} %", 100.0 * found.yield_of(rough.volume_mm3())));
         }
         if let Some(percent) = value["yield_of_weight_percent"].as_f64() {

@@ -155,7 +155,8 @@ impl TierZone {
 impl Tier {
     /// Returns the zone where the tier lies.
     pub fn zone(&self) -> TierZone {
-        match (self.angle, self.faces_down()) {
+        // Beyond 90 degrees a facet faces the other way than the sign says.
+        match (self.angle, self.faces_down() != (self.angle.abs() > 90.0)) {
             (0.0, true) => TierZone::Culet,
             (0.0, false) => TierZone::Table,
             (90.0 | -90.0, _) => TierZone::Girdle,
@@ -310,6 +311,11 @@ mod tests {
                 .map(|(angle, distance)| tier(angle, distance, &[]).zone());
         use TierZone::*;
         assert_eq!(zones, [Table, Culet, Culet, Crown, Pavilion, Girdle, Girdle]);
+        for angle in [100.0, -100.0, 41.0, -41.0] {
+            let leaning = tier(angle, 1.0, &[]);
+            let is_up = square(96, 0.0).plane(&leaning, 0.0).normal.z > 0.0;
+            assert_eq!(leaning.zone(), if is_up { Crown } else { Pavilion }, "{angle}");
+        }
         let below = square(96, 0.0).plane(&tier(-40.0, 1.0, &[]), 0.0);
         assert!(
             (below.normal - DVec3::new(0.0, -40f64.to_radians().sin(), -40f64.to_radians().cos())).length()

@@ -50,13 +50,17 @@ pub fn looks_like(bytes: &[u8]) -> bool {
 pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
     check_size(bytes.len(), MAX_BYTES as u64)?;
     let mut reader = Reader::default();
-    for (number, line) in (1..).zip(lines(&decoded(bytes))) {
+    let text = decoded(bytes);
+    for (number, line) in (1..).zip(lines(&text)) {
         reader.number = number;
         reader.line(line)?;
         if reader.count > MAX_PLANES {
             let problem = format!("more than {MAX_PLANES} facets are listed; no stone has so many");
             return Err(Fault::line(number, problem));
         }
+    }
+    if reader.in_tier && !text.ends_with(['\n', '\r']) {
+        reader.warn("the file ends here, within a tier and without an end of the line; it may be cut off");
     }
     reader.end_tier();
     if reader.count == 0 {

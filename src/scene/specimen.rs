@@ -179,15 +179,20 @@ fn closed_by_block(stone: &Stone) -> String {
 fn odd(stone: &Stone, facets: &[(String, Plane)], given: usize) -> Vec<String> {
     let polytope = &stone.polytope;
     let name = |&i: &usize| facets[i].0.as_str();
-    let merged = |(dropped, kept)| {
-        format!(
-            "facet '{}' lies in the plane of '{}' and becomes one facet with it",
-            name(dropped),
-            name(kept)
-        )
-    };
-    let mut told: Vec<String> =
-        polytope.merged().iter().map(|(dropped, kept)| merged((dropped, kept))).collect();
+    let merged: Vec<String> = polytope
+        .merged()
+        .iter()
+        .map(|(dropped, kept)| format!("'{}' in that of '{}'", name(dropped), name(kept)))
+        .collect();
+    let mut told = vec![];
+    if let [first, others @ ..] = &merged[..] {
+        let more = match others.len() {
+            0 => String::new(),
+            1 => format!(", {}", others[0]),
+            more => format!(", {} and {} more", others[0], more - 1),
+        };
+        told.push(format!("facets lie in one plane and become one facet: {first}{more}"));
+    }
     if !meets_axis(polytope) {
         let what =
             "the stone lies beside its axis, x = y = 0, around which pictures are centred; move it there";

@@ -44,6 +44,12 @@ pub enum MeetFault {
     /// A centre-point angle of a facet that is not upright.
     #[error("a centre-point angle is for girdle facets; give another meet")]
     NotUpright,
+    /// A centre-point angle so flat that the facet lies far outside the stone.
+    #[error("CAM {angle}° puts the facet far outside the stone; give a steeper angle")]
+    TooFar {
+        /// The angle, degrees.
+        angle: f64,
+    },
     /// Facets of the tier whose points differ.
     #[error(
         "the facets at {first} and {other} would need distances that differ by {by:.2e}; split the tier, or name other facets"

@@ -66,6 +66,15 @@ impl Meet {
             _ => &mut [],
         })
     }
+
+    /// Returns the meet at the first of the points alone, which gives the distance and leaves the angle; `None` for a meet that
+    /// names no point.
+    pub fn first_point(&self) -> Option<Self> {
+        match self {
+            Self::Points(points) => Some(Self::Points(points.iter().take(1).cloned().collect())),
+            Self::Given(_) | Self::CentreAngle(_) => None,
+        }
+    }
 }
 
 impl MeetPoint {

@@ -5,7 +5,8 @@ use super::super::tiers::{Tier, TierZone, Tiers};
 use super::fault::{MeetError, MeetFault};
 use super::meet::{Meet, MeetPoint};
 use super::names::TierNames;
-use super::stone::{PartStone, StoneCorner, StoneSide};
+use super::stone::{FARTHEST, PartStone, StoneCorner, StoneSide};
+use crate::cut::outline::UPRIGHT;
 use crate::math::Plane;
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -178,7 +179,11 @@ impl<'a> Bench<'a> {
             Meet::CentreAngle(_) if tier.zone() != TierZone::Girdle => Err(MeetFault::NotUpright),
             Meet::CentreAngle(angle) => {
                 let Some(height) = self.centre_height else { return Ok(TierOutcome::Sets) };
-                tier.distance = (height / angle.to_radians().tan()).copysign(tier.distance);
+                let distance = height / angle.to_radians().tan();
+                if distance.is_nan() || distance > FARTHEST * self.stone.scale() {
+                    return Err(MeetFault::TooFar { angle: *angle });
+                }
+                tier.distance = distance.copysign(tier.distance);
                 Ok(TierOutcome::Solved)
             }
             Meet::Points(points) if self.is_first(tier, points) => Ok(TierOutcome::Sets),
@@ -347,8 +352,9 @@ impl<'a> Bench<'a> {
                     let slope = rise.atan2(run);
                     let slope = if slope < 0.0 { slope + TAU / 2.0 } else { slope };
                     let (sin, cos) = slope.sin_cos();
+                    let before = normal;
                     let normal = out * sin + DVec3::Z * (cos * normal.z.signum());
-                    let angle = slope.to_degrees().copysign(tier.angle);
+                    let angle = slope.to_degrees().copysign(before.z);
                     FacetSolution { angle, index, distance: normal.dot(first) }
                 }
             }
@@ -372,7 +378,9 @@ impl<'a> Bench<'a> {
         let normal = across.normalize_or_zero();
         let normal = if normal.dot(before) < 0.0 { -normal } else { normal };
         let level = normal.truncate().length();
-        let angle = level.atan2(normal.z.abs()).to_degrees().copysign(tier.angle);
+        // Rounding has no side: of an upright facet the sign stays.
+        let side = if normal.z.abs() < UPRIGHT { tier.angle } else { normal.z };
+        let angle = level.atan2(normal.z.abs()).to_degrees().copysign(side);
         let teeth = f64::from(self.design.gear);
         let exact = normal.x.atan2(-normal.y) / TAU * teeth + self.design.offset;
         let turns = ((index - exact) / teeth).round();

@@ -8,7 +8,7 @@ use glam::DVec3;
 const BLOCK_HALF: f64 = 20.0;
 
 /// The distance from the axis, in lengths of the largest distance, beyond which a section is that of the block.
-const FARTHEST: f64 = 10.0;
+pub(super) const FARTHEST: f64 = 10.0;
 
 /// A corner this near to a plane, relative to the block, lies on it: see `math::polytope_build`.
 const ON_PLANE: f64 = 1e-10;

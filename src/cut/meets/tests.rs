@@ -1,7 +1,7 @@
 //! Laws of meets, on a brilliant that is cut by them.
 
 use super::super::tier_change::TierChange;
-use super::super::tiers::{Indexed, Tier, Tiers};
+use super::super::tiers::{Indexed, Tier, TierZone, Tiers};
 use super::*;
 
 /// The tolerance of a distance that follows from others by some steps of arithmetic, in lengths of about 1.
@@ -157,6 +157,23 @@ fn two_points_give_the_angle() {
 }
 
 #[test]
+fn an_angle_beyond_90_degrees_is_that_of_a_facet_of_the_other_side() {
+    let mut design = brilliant();
+    design.tiers.truncate(5);
+    design.tiers.insert(4, tier("PC", 30.0, &every(12, 6.0), "", 0.6));
+    let points = vec![corner(&["A", "A", "G1"]), MeetPoint::Centre { temporary: true }];
+    design.tiers[5].meet = Some(Meet::Points(points));
+    let plain = design.solved().tiers;
+    // The same facets, given as facets of the pavilion that lean over.
+    design.tiers[5].angle = -(180.0 - design.tiers[5].angle);
+    assert_eq!(design.tiers[5].zone(), TierZone::Crown);
+    let found = design.solved().tiers;
+    let plane = |tiers: &Tiers| tiers.plane(&tiers.tiers[5], 12.0);
+    assert!(plane(&found).normal.distance(plane(&plain).normal) < EXACT, "{:?}", found.tiers[5]);
+    assert_near(&[found.tiers[5].distance], &[plain.tiers[5].distance]);
+}
+
+#[test]
 fn three_points_give_the_index() {
     let side = |name: &str, index: f64| tier(name, -90.0, &[index], "", 1.0);
     let mut tiers = vec![side("N", 0.0), side("E", 24.0), side("S", 48.0), side("W", 72.0)];
@@ -200,6 +217,13 @@ fn what_is_missing_or_not_cut_yet_is_said() {
         said(2, Meet::CentreAngle(40.0)),
         "tier 3 '2': a centre-point angle is for girdle facets; give another meet"
     );
+    let mut flat = written();
+    flat.tiers[1].meet = Some(Meet::CentreAngle(40.0));
+    flat.tiers
+        .push(Tier { meet: Some(Meet::CentreAngle(1e-311)), ..tier("G2", -90.0, &every(6, 0.0), "", 1.1) });
+    let solved = flat.solved();
+    assert!(solved.errors().any(|error| matches!(error.fault, MeetFault::TooFar { .. })), "{solved:?}");
+    assert_eq!(solved.tiers.tiers[7].distance, 1.1);
     let mut circle = brilliant();
     circle.tiers[3].meet = Some(at(&["A", "B"]));
     circle.tiers[3].meet = Some(at(&["B", "B", "G1"]));

@@ -158,6 +158,9 @@ fn has_words(text: &str, words: &str) -> bool {
     })
 }
 
+/// The centre-point angles that are taken, degrees. Flatter facets would meet far outside any stone.
+const CENTRE_ANGLES_DEG: std::ops::Range<f64> = 1.0..90.0;
+
 /// Returns the angle of the centre-point angle method, degrees.
 fn centre_angle(text: &str) -> Option<f64> {
     let (before, after) = text.split_once("cam")?;
@@ -167,7 +170,7 @@ fn centre_angle(text: &str) -> Option<f64> {
     let number = after.trim_start();
     let end = number.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(number.len());
     let angle: f64 = number[..end].trim_end_matches('.').parse().ok()?;
-    (angle > 0.0 && angle < 90.0).then_some(angle)
+    CENTRE_ANGLES_DEG.contains(&angle).then_some(angle)
 }
 
 /// A piece of an instruction.

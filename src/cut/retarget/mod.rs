@@ -8,8 +8,8 @@
 
 use super::outline::UPRIGHT;
 use super::{
-    Crown, Cut, Design, DesignError, MaterialRef, Outline, Pavilion, RoundBrilliant, TierOutcome, Tiers,
-    tier_stem,
+    Crown, Cut, Design, DesignError, MaterialRef, Meet, Outline, Pavilion, RoundBrilliant, TierOutcome,
+    Tiers, tier_stem,
 };
 use crate::math::{Plane, Polytope, PolytopeError, grouped};
 use crate::optics::{critical_angle, line};
@@ -27,12 +27,23 @@ const AT_CULET: f64 = 1e-6;
 /// Planes nearer to one another than this, in their normals and in parts of their distance, differ by rounding alone.
 const ROUNDING: f64 = 1e-12;
 
+/// A meet that the old numbers bear out gives a distance as near to them as this, in lengths of the largest distance.
+const BORNE_OUT: f64 = 1e-4;
+
+/// What is said of tiers that were turned about the girdle.
+const TURNED: &str = "every pavilion tier turns by the same angle about the girdle's lower edge; meets of tiers with \
+                      different angles open by a little: see `info --audit`";
+
+/// What is said of tiers that were turned and met anew.
+const MET_ANEW: &str =
+    "every pavilion tier turns by the same angle, and its distance is solved anew from its meet";
+
 /// The rule by which a design is fitted to another material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RetargetRule {
     /// Every tier of the pavilion turns by the difference of the critical angles, each about the line where it crosses the
-    /// height of the girdle's lower edge. Then the meets that tiers keep are solved anew; without them, meets of tiers that
-    /// had different angles open by a little.
+    /// height of the girdle's lower edge. Meets of tiers that had different angles open by a little. Tiers of a cutter's design
+    /// go on from there to the points that they met before, where that leaves the stone with no facet less and fewer corners.
     CriticalAngle,
     /// The tangents of all pavilion angles are multiplied by a factor, 0.1 to 10. Without one, the main tier, the flattest of
     /// those that reach the lowest point, keeps its margin over the critical angle.
@@ -199,8 +210,12 @@ pub fn retarget(
             Cut::RoundBrilliant(changed_brilliant(brilliant, &change))
         }
         Cut::Tiers(tiers) => {
-            let changed = changed_tiers(tiers, &change)?;
-            Cut::Tiers(if change.shift.is_some() { met_anew(changed, &mut notes) } else { changed })
+            let turned = changed_tiers(tiers, &change)?;
+            let met = change.shift.and_then(|_| met_anew(tiers, &turned));
+            if change.shift.is_some() {
+                notes.push(if met.is_some() { MET_ANEW } else { TURNED }.to_owned());
+            }
+            Cut::Tiers(met.unwrap_or(turned))
         }
         Cut::Planes(planes) => {
             let names = planes.iter().map(|(name, _)| name.clone());
@@ -213,12 +228,8 @@ pub fn retarget(
             Cut::Planes(changed_planes(facets.iter().cloned(), &change)?)
         }
     };
-    if change.shift.is_some() && !has_meets(&cut) && !matches!(cut, Cut::RoundBrilliant(_)) {
-        notes.push(
-            "every pavilion tier turns by the same angle about the girdle's lower edge; meets of tiers with different angles \
-             open by a little: solve them anew, or see the audit"
-                .to_owned(),
-        );
+    if change.shift.is_some() && !matches!(cut, Cut::RoundBrilliant(_) | Cut::Tiers(_)) {
+        notes.push(TURNED.to_owned());
     }
     if change.side < 0.0 {
         notes.push("the crown stays as it is".to_owned());
@@ -233,20 +244,28 @@ pub fn retarget(
 
 /// Returns the solid of a design in its own unit.
 fn solid(design: &Design, facets: &[(String, Plane)]) -> Result<Polytope, RetargetError> {
-    let planes = |facets: &[(String, Plane)]| facets.iter().map(|(_, plane)| *plane).collect::<Vec<_>>();
-    let told = |error: PolytopeError| {
+    let planes: Vec<Plane> = facets.iter().map(|(_, plane)| *plane).collect();
+    let solid = match design.cut {
+        Cut::Tiers(_) => in_block(&planes),
+        _ => Polytope::from_planes(&planes),
+    };
+    solid.map_err(|error| {
         RetargetError::Solid(error.message(|place| match facets.get(place) {
             Some((name, _)) => format!("'{name}'"),
             None => "the block".to_owned(),
         }))
-    };
-    match (Polytope::from_planes(&planes(facets)), &design.cut) {
-        // A cutter's design that its facets leave open is closed by the block that it is cut from.
-        (Err(PolytopeError::Unbounded { .. }), Cut::Tiers(_)) => {
-            let closed: Vec<(String, Plane)> = facets.iter().cloned().chain(Tiers::block()).collect();
-            Polytope::from_planes(&planes(&closed)).map_err(told)
+    })
+}
+
+/// Returns the solid between the planes of a cutter's design. One that they leave open is closed by the block that it is cut
+/// from.
+fn in_block(planes: &[Plane]) -> Result<Polytope, PolytopeError> {
+    match Polytope::from_planes(planes) {
+        Err(PolytopeError::Unbounded { .. }) => {
+            let block = Tiers::block().map(|(_, plane)| plane);
+            Polytope::from_planes(&planes.iter().copied().chain(block).collect::<Vec<_>>())
         }
-        (solid, _) => solid.map_err(told),
+        solid => solid,
     }
 }
 
@@ -321,27 +340,42 @@ fn changed_tiers(tiers: &Tiers, change: &AngleChange) -> Result<Tiers, RetargetE
         }
         if tier.angle != 0.0 {
             let angle = plane.normal.truncate().length().atan2(plane.normal.z.abs()).to_degrees();
-            tier.angle = angle.copysign(tier.angle);
+            // A file may give a facet that faces down as one above 0 and beyond 90 degrees.
+            tier.angle = angle.copysign(plane.normal.z);
         }
         tier.distance = plane.offset.copysign(tier.distance);
     }
     Ok(changed)
 }
 
-fn has_meets(cut: &Cut) -> bool {
-    matches!(cut, Cut::Tiers(tiers) if tiers.tiers.iter().any(|tier| tier.meet.is_some()))
-}
-
-/// Follows the meets of a design whose angles have changed, and notes what became of them.
-fn met_anew(changed: Tiers, notes: &mut Vec<String>) -> Tiers {
-    let solved = changed.solved();
-    let count = solved.outcomes.iter().filter(|outcome| matches!(outcome, TierOutcome::Solved)).count();
-    if count > 0 {
-        let tiers = if count == 1 { "tier was" } else { "tiers were" };
-        notes.push(format!("the meets of {count} {tiers} solved anew; the other pavilion tiers turn about the girdle's lower edge"));
+/// Returns a design of turned tiers with each of them at the point that it met before; `None` where the stone is none the
+/// better for it: where a facet is lost, or no meet closes, so that there are as many corners.
+///
+/// A meet that the old numbers do not bear out is not followed, and of several points only the first is, so that the angle
+/// stays.
+fn met_anew(before: &Tiers, turned: &Tiers) -> Option<Tiers> {
+    let met = before.with_stated_meets().with_found_meets();
+    let borne = met.checked_meets();
+    let largest = before.tiers.iter().map(|tier| tier.distance.abs()).fold(0.0, f64::max);
+    let mut design = turned.clone();
+    for (place, tier) in design.tiers.iter_mut().enumerate() {
+        let (old, checked) = (&before.tiers[place], &borne.tiers.tiers[place]);
+        let is_borne_out = borne.outcomes[place] == TierOutcome::Solved
+            && (checked.distance - old.distance).abs() <= BORNE_OUT * largest;
+        let first = met.tiers[place].meet.as_ref().and_then(Meet::first_point);
+        tier.meet = first.filter(|_| is_borne_out && tier.angle != old.angle);
     }
-    notes.extend(solved.errors().map(|error| format!("a meet can no longer be followed: {error}")));
-    solved.tiers
+    let mut solved = design.solved().tiers;
+    for (tier, old) in solved.tiers.iter_mut().zip(&before.tiers) {
+        tier.meet.clone_from(&old.meet);
+    }
+    let counted = |tiers: &Tiers| {
+        let planes: Vec<Plane> = tiers.facets().into_iter().map(|(_, plane)| plane).collect();
+        let solid = in_block(&planes).ok()?;
+        Some((solid.facets().len(), solid.vertices().len()))
+    };
+    let ((facets, corners), (left, open)) = (counted(&solved)?, counted(turned)?);
+    (facets >= left && corners < open).then_some(solved)
 }
 
 fn changed_planes(
@@ -370,7 +404,10 @@ fn noted(old: &Design, new: &Design, rule: RetargetRule, factor: f64) -> String 
     }
 }
 
-/// Returns the tiers of which a facet differs by more than rounding.
+/// Angles nearer to one another than this, degrees, are those of one tier: meshes and lists of planes are rounded.
+const SAME_ANGLE_DEG: f64 = 1e-3;
+
+/// Returns the tiers of which a facet differs by more than rounding. Facets of one name but of different angles are different tiers.
 fn compared(before: &[(String, Plane)], after: &[(String, Plane)]) -> Vec<RetargetedTier> {
     let angle = |plane: &Plane| {
         let normal = plane.normal;
@@ -378,7 +415,7 @@ fn compared(before: &[(String, Plane)], after: &[(String, Plane)]) -> Vec<Retarg
     };
     let pairs = before.iter().zip(after);
     let tiers = grouped(pairs, |(a, _), (b, _)| {
-        tier_stem(&a.0) == tier_stem(&b.0) && a.1.normal.z.signum() == b.1.normal.z.signum()
+        tier_stem(&a.0) == tier_stem(&b.0) && (angle(&a.1) - angle(&b.1)).abs() < SAME_ANGLE_DEG
     });
     let differs = |(a, b): &(&(String, Plane), &(String, Plane))| {
         !a.1.normal.abs_diff_eq(b.1.normal, ROUNDING)

@@ -147,6 +147,84 @@ fn a_shift_turns_every_pavilion_tier_by_the_same_angle_and_leaves_crown_and_gird
 }
 
 #[test]
+fn tiers_that_share_a_name_are_listed_each_with_its_own_angle() {
+    let mut repeated = tiers();
+    repeated.tiers[1].facets.iter_mut().for_each(|facet| facet.name = "P1".to_owned());
+    let old = design(Cut::Tiers(repeated), "sapphire");
+    let found = retarget(&old, named("quartz"), RetargetRule::CriticalAngle).unwrap();
+    let rows: Vec<(&str, usize, f64)> =
+        found.tiers.iter().map(|tier| (tier.name.as_str(), tier.facets, tier.before_deg.round())).collect();
+    assert_eq!(rows, [("P1", 4, -42.0), ("P1", 4, -55.0), ("P3", 4, -44.0)]);
+}
+
+#[test]
+fn a_pavilion_tier_that_is_given_beyond_90_degrees_stays_in_the_pavilion() {
+    let plain = design(Cut::Tiers(tiers()), "sapphire");
+    let mut beyond = tiers();
+    beyond.tiers[0].angle = 180.0 - 42.0;
+    let beyond = design(Cut::Tiers(beyond), "sapphire");
+    let normal = |old: &Design| {
+        let found = retarget(old, named("quartz"), RetargetRule::CriticalAngle).unwrap();
+        found.design.facets().unwrap()[0].1.normal
+    };
+    assert!(normal(&beyond).distance(normal(&plain)) < 1e-12, "{} {}", normal(&beyond), normal(&plain));
+}
+
+/// Returns a brilliant whose mains meet its breaks at the girdle's corners.
+fn meeting() -> Tiers {
+    let tier =
+        |name: &str, angle: f64, (first, step): (usize, usize), distance: f64, instructions: &str| Tier {
+            angle,
+            distance,
+            instructions: instructions.to_owned(),
+            meet: None,
+            is_cut: true,
+            facets: (first..96)
+                .step_by(step)
+                .map(|index| Indexed { index: index as f64, name: name.to_owned() })
+                .collect(),
+        };
+    let tiers = vec![
+        tier("1", -43.0, (3, 6), 0.75, "Cut to TCP"),
+        tier("G1", -90.0, (3, 6), 1.0, "Set size"),
+        tier("2", -41.0, (0, 12), 0.9, "Meet 1-1-G1"),
+        tier("A", 45.0, (3, 6), 0.76, "Set girdle thickness"),
+        tier("T", 0.0, (0, 96), 0.5, ""),
+    ];
+    let design = Tiers { gear: 96, symmetry: 8, mirror: true, tiers, ..Tiers::default() };
+    Tiers { tiers: design.with_stated_meets().solved().tiers.tiers, ..design }
+}
+
+#[test]
+fn a_shift_keeps_the_meets_of_tiers_that_state_or_show_them() {
+    let meeting = meeting();
+    let mut silent = meeting.clone();
+    for tier in &mut silent.tiers {
+        (tier.meet, tier.instructions) = (None, String::new());
+    }
+    for cut in [meeting, silent] {
+        let old = design(Cut::Tiers(cut), "quartz");
+        let corners = stone(&old).vertices().len();
+        for material in ["sapphire", "diamond"] {
+            let found = retarget(&old, named(material), RetargetRule::CriticalAngle).unwrap();
+            assert_eq!(stone(&found.design).vertices().len(), corners, "{material}: {:?}", found.notes);
+            let (Cut::Tiers(before), Cut::Tiers(after)) = (&old.cut, &found.design.cut) else { panic!() };
+            let shift = found.tiers[0].after_deg - found.tiers[0].before_deg;
+            for (a, b) in before.tiers.iter().zip(&after.tiers) {
+                let expected = if a.angle < 0.0 && a.angle > -90.0 { a.angle + shift } else { a.angle };
+                assert!((b.angle - expected).abs() < 1e-9, "{a:?} {b:?}");
+                assert_eq!((&a.meet, &a.instructions), (&b.meet, &b.instructions));
+            }
+            // Turned about the girdle alone, the tiers of two angles miss one another.
+            let Cut::Tiers(mut open) = found.design.cut.clone() else { panic!() };
+            open.tiers[2].distance *= 1.001;
+            let open = Design { cut: Cut::Tiers(open), ..found.design };
+            assert!(stone(&open).vertices().len() != corners, "the comparison cannot fail");
+        }
+    }
+}
+
+#[test]
 fn there_and_back_is_where_it_began() {
     for rule in [RetargetRule::CriticalAngle, RetargetRule::PavilionRatio(None)] {
         let old = design(Cut::Tiers(tiers()), "quartz");

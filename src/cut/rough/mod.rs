@@ -1,8 +1,9 @@
 //! A piece of rough, and the largest stone that can be cut from it, table up.
 
-use super::outline::UPRIGHT;
+use super::design::DIAMETERS_MM;
+use super::outline::{UPRIGHT, diameter};
 use super::{Outline, Size, SizeError};
-use crate::math::{Plane, Polytope, PolytopeError, hull, span};
+use crate::math::{Calipers, Plane, Polytope, PolytopeError, SolidRef, hull, span};
 use crate::optics::Material;
 use glam::DVec2;
 use serde::Serialize;
@@ -68,6 +69,27 @@ pub enum RoughError {
         /// The thickness as given, mm.
         mm: f64,
     },
+    /// A thickness of the girdle where the body has no girdle between planes.
+    #[error(
+        "the girdle of a stone that is not convex keeps its share of the size; leave out --girdle-mm, or change the girdle in \
+         the cut file"
+    )]
+    GirdleOfMesh,
+    /// A body within a smooth surface.
+    #[error(
+        "a glass shape is curved, and no cut stone; `info` prints the size, volume and weight of any body"
+    )]
+    Smooth,
+    /// A finished stone whose diameter is out of range.
+    #[error(
+        "the finished stone would be {mm:.3} mm across, and from {} to {} mm are possible; give other rough, or a thinner girdle",
+        DIAMETERS_MM.start(),
+        DIAMETERS_MM.end()
+    )]
+    Diameter {
+        /// The diameter, mm.
+        mm: f64,
+    },
     /// A weight of a material whose density is not known, or that is not above 0.
     #[error(transparent)]
     Size(#[from] SizeError),
@@ -94,8 +116,8 @@ pub struct Finished {
     pub size_mm: [f64; 3],
     /// The angle by which the stone is turned about its axis in the rough, counter-clockwise seen from the table, degrees.
     pub turn_deg: f64,
-    /// The thickness of the girdle, mm.
-    pub girdle_mm: f64,
+    /// The thickness of the girdle, mm; `None` of a stone that is not convex, whose girdle is not measured.
+    pub girdle_mm: Option<f64>,
     /// The volume, mm³.
     pub volume_mm3: f64,
     /// What keeps the stone from being larger.
@@ -108,27 +130,37 @@ impl Finished {
     /// Returns the largest stone of this shape that fits into a piece of rough, table up. It is turned about its axis as it
     /// fits best, and not at all where no turn makes it larger by a thousandth.
     ///
-    /// `girdle_mm` gives the thickness of the girdle, mm, whatever the scale; without it the girdle scales with the stone.
+    /// `girdle_mm` gives the thickness of the girdle, mm, whatever the scale; without it the girdle scales with the stone. A
+    /// mesh that is not convex, such as a heart, has no girdle to change. The rough is a box, so a cleft saves nothing of it.
     ///
     /// # Errors
-    /// A girdle that does not fit.
-    pub fn from_rough(stone: &Polytope, rough: &Rough, girdle_mm: Option<f64>) -> Result<Self, RoughError> {
+    /// A girdle that does not fit, a body that is no cut stone, and a diameter out of the range of sizes.
+    pub fn from_rough<'a>(
+        body: impl Into<SolidRef<'a>>,
+        rough: &Rough,
+        girdle_mm: Option<f64>,
+    ) -> Result<Self, RoughError> {
         let [length, width, depth] = rough.sides_mm;
-        let shape = Shape::of(stone);
+        let shape = Shape::of(body.into())?;
         if let Some(mm) = girdle_mm.filter(|mm| !(*mm >= 0.0 && *mm < depth)) {
             return Err(RoughError::Girdle { mm, most: depth });
         }
         let by_depth = match girdle_mm {
-            Some(mm) => (depth - mm) / (shape.depth - shape.girdle),
+            Some(mm) => (depth - mm) / (shape.depth - shape.girdle()?.thickness).max(0.0),
             None => depth / shape.depth,
         };
-        let plan = Plan(hull(stone.vertices().iter().map(|vertex| vertex.truncate()).collect()));
+        let plan = &shape.plan;
         let unturned = (plan.scale([length, width], 0.0), 0.0);
         let largest = plan.largest([length, width]);
         let is_enough = unturned.0 * (1.0 + WORTH_TURNING) >= by_depth.min(largest.0);
         let (by_plan, turn) = if is_enough { unturned } else { largest };
         let limit = if by_depth < by_plan { FitLimit::Depth } else { FitLimit::Footprint };
-        let mut finished = shape.finished(stone, by_depth.min(by_plan), turn, girdle_mm)?;
+        let scale = by_depth.min(by_plan);
+        let mm = scale * shape.diameter;
+        if !DIAMETERS_MM.contains(&mm) {
+            return Err(RoughError::Diameter { mm });
+        }
+        let mut finished = shape.finished(scale, turn, girdle_mm)?;
         finished.limit = limit;
         if limit == FitLimit::Footprint {
             finished.depth_left_mm = (depth - finished.size_mm[2]).max(0.0);
@@ -139,34 +171,35 @@ impl Finished {
     /// Returns the stone of this shape that has a weight, carats. `girdle_mm` is as for [`from_rough`](Self::from_rough).
     ///
     /// # Errors
-    /// A weight that is not above 0, a material without a density, a stone out of the range of sizes, and a girdle that does
-    /// not fit.
-    pub fn of_weight(
-        stone: &Polytope,
+    /// A weight that is not above 0, a material without a density, a stone out of the range of sizes, a girdle that does not
+    /// fit, and a body that is no cut stone.
+    pub fn of_weight<'a>(
+        body: impl Into<SolidRef<'a>>,
         carats: f64,
         material: &Material,
         girdle_mm: Option<f64>,
     ) -> Result<Self, RoughError> {
-        let shape = Shape::of(stone);
+        let shape = Shape::of(body.into())?;
         if !(carats > 0.0 && carats.is_finite()) {
             return Err(SizeError::Weight { carats }.into());
         }
-        let in_radii = stone.volume() * (2.0 / shape.diameter).powi(3);
+        let in_radii = shape.volume * (2.0 / shape.diameter).powi(3);
         let scale = Size::Carats(carats).diameter_mm(in_radii, material)? / shape.diameter;
-        let Some(mm) = girdle_mm else { return shape.finished(stone, scale, 0.0, None) };
+        let Some(mm) = girdle_mm else { return shape.finished(scale, 0.0, None) };
+        shape.girdle()?;
         let refused = Err(RoughError::GirdleOfWeight { mm, carats });
         if !(mm >= 0.0 && mm.is_finite()) {
             return refused;
         }
-        let wanted = stone.volume() * scale.powi(3);
+        let wanted = shape.volume * scale.powi(3);
         let (mut low, mut high) = (0.01 * scale, 2.0 * scale);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
             // Below the least scale that closes, the stone is too small as well.
-            let volume = shape.finished(stone, middle, 0.0, Some(mm)).map_or(0.0, |found| found.volume_mm3);
+            let volume = shape.finished(middle, 0.0, Some(mm)).map_or(0.0, |found| found.volume_mm3);
             if volume < wanted { low = middle } else { high = middle }
         }
-        let found = shape.finished(stone, high, 0.0, Some(mm))?;
+        let found = shape.finished(high, 0.0, Some(mm))?;
         if (found.volume_mm3 / wanted - 1.0).abs() < WEIGHED { Ok(found) } else { refused }
     }
 
@@ -207,45 +240,65 @@ impl FromStr for Rough {
 }
 
 /// What of a stone's shape decides its size, in the stone's own unit.
-struct Shape {
+struct Shape<'a> {
+    plan: Plan,
     diameter: f64,
     depth: f64,
-    girdle: f64,
+    volume: f64,
+    /// `None` for a mesh, whose facets are not moved.
+    girdle: Option<ShapeGirdle<'a>>,
 }
 
-impl Shape {
-    fn of(stone: &Polytope) -> Self {
-        let outline = Outline::of(stone);
-        Self {
-            diameter: outline.diameter,
-            depth: outline.top - outline.bottom,
-            girdle: outline.girdle_top - outline.girdle_bottom,
-        }
+/// The girdle of a convex stone.
+#[derive(Clone, Copy)]
+struct ShapeGirdle<'a> {
+    stone: &'a Polytope,
+    thickness: f64,
+}
+
+impl<'a> Shape<'a> {
+    fn of(body: SolidRef<'a>) -> Result<Self, RoughError> {
+        let corners = hull(body.vertices().iter().map(|vertex| vertex.truncate()).collect());
+        let (low, high) = body.bounds();
+        let (girdle, across) = match body {
+            SolidRef::Convex(stone) => {
+                let outline = Outline::of(stone);
+                let thickness = outline.girdle_top - outline.girdle_bottom;
+                (Some(ShapeGirdle { stone, thickness }), outline.diameter)
+            }
+            // The same diameter by which a mesh is scaled: see `MeshShape`.
+            SolidRef::Triangles(_) => {
+                let found = Calipers::along_mirror(&corners);
+                let least = (high - low).truncate().min_element();
+                (None, found.map_or(least, |found| diameter(&corners, found.middle, found.width)))
+            }
+            SolidRef::Smooth(_) => return Err(RoughError::Smooth),
+        };
+        let (plan, depth, volume) = (Plan(corners), high.z - low.z, body.volume());
+        Ok(Self { plan, diameter: across, depth, volume, girdle })
+    }
+
+    fn girdle(&self) -> Result<ShapeGirdle<'a>, RoughError> {
+        self.girdle.ok_or(RoughError::GirdleOfMesh)
     }
 
     /// Returns the stone at a scale, mm for each unit, turned in its rough. Without a limit that it knows of, it is a weight's.
-    fn finished(
-        &self,
-        stone: &Polytope,
-        scale: f64,
-        turn: f64,
-        girdle_mm: Option<f64>,
-    ) -> Result<Finished, RoughError> {
+    fn finished(&self, scale: f64, turn: f64, girdle_mm: Option<f64>) -> Result<Finished, RoughError> {
         let (volume, thicker) = match girdle_mm {
             Some(mm) => {
-                let thicker = mm / scale - self.girdle;
+                let ShapeGirdle { stone, thickness } = self.girdle()?;
+                let thicker = mm / scale - thickness;
                 let stone = thickened(stone, thicker).map_err(|_| RoughError::Thin { mm })?;
                 (stone.volume(), thicker)
             }
-            None => (stone.volume(), 0.0),
+            None => (self.volume, 0.0),
         };
-        let plan = Plan(hull(stone.vertices().iter().map(|vertex| vertex.truncate()).collect()));
-        let [along, across] = plan.extents(turn);
+        let [along, across] = self.plan.extents(turn);
         Ok(Finished {
             diameter_mm: scale * self.diameter,
             size_mm: [scale * along, scale * across, scale * (self.depth + thicker)],
             turn_deg: turn.to_degrees(),
-            girdle_mm: scale * (self.girdle + thicker),
+            girdle_mm: self.girdle.map(|girdle| scale * (girdle.thickness + thicker)),
             volume_mm3: volume * scale.powi(3),
             limit: FitLimit::Weight,
             depth_left_mm: 0.0,

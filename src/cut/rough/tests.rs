@@ -2,9 +2,11 @@
 
 use super::*;
 use crate::cut::round_brilliant::MODERN;
+use crate::math::TriangleMesh;
 use crate::optics::material;
 use glam::DVec3;
 use proptest::prelude::*;
+use std::sync::Arc;
 
 fn brilliant() -> Polytope {
     let planes: Vec<Plane> = MODERN.facets().unwrap().into_iter().map(|(_, plane)| plane).collect();
@@ -53,7 +55,7 @@ fn the_depth_that_is_left_is_what_the_girdle_can_take() {
     assert_eq!(found.limit, FitLimit::Footprint);
     assert!((found.diameter_mm - 6.5).abs() < 0.01 && found.turn_deg == 0.0, "{found:?}");
     assert!(found.depth_left_mm > 1.0);
-    let girdle = found.girdle_mm + found.depth_left_mm;
+    let girdle = found.girdle_mm.unwrap() + found.depth_left_mm;
     let thick = Finished::from_rough(&stone, &deep, Some(girdle)).unwrap();
     assert!((thick.size_mm[2] - 6.0).abs() < 1e-9 && thick.depth_left_mm < 1e-9, "{thick:?}");
     assert!((thick.diameter_mm - found.diameter_mm).abs() < 1e-9);
@@ -70,11 +72,34 @@ fn a_weight_gives_the_stone_that_weighs_it_with_any_girdle() {
     for girdle in [None, Some(0.1), Some(0.6)] {
         let found = Finished::of_weight(&stone, 1.5, diamond, girdle).unwrap();
         assert!((diamond.carats(found.volume_mm3).unwrap() - 1.5).abs() < 1e-5, "{found:?}");
-        assert!(girdle.is_none_or(|mm| (found.girdle_mm - mm).abs() < 1e-9));
+        assert!(girdle.is_none_or(|mm| (found.girdle_mm.unwrap() - mm).abs() < 1e-9));
     }
     let plain = Finished::of_weight(&stone, 1.0, diamond, None).unwrap();
     let size = Size::Carats(1.0).diameter_mm(stone.volume(), diamond).unwrap();
     assert!((plain.diameter_mm - size).abs() < 1e-9);
+}
+
+#[test]
+fn a_mesh_has_the_yield_of_the_planes_around_it_and_keeps_its_girdle() {
+    let rough = fits("9x7x6");
+    for (stone, turn) in [(brilliant(), 0.0), (block([4.0, 2.0, 1.0], 0.3), -0.3)] {
+        let mesh = Arc::new(TriangleMesh::of_polytope(&stone));
+        let by_planes = Finished::from_rough(&stone, &rough, None).unwrap();
+        let found = Finished::from_rough(&mesh, &rough, None).unwrap();
+        let same = Finished { girdle_mm: None, volume_mm3: found.volume_mm3, ..by_planes };
+        assert_eq!(found, same);
+        assert!((found.volume_mm3 / by_planes.volume_mm3 - 1.0).abs() < 1e-12);
+        assert!((found.turn_deg.to_radians() - turn).abs() < 1e-9, "{found:?}");
+        let refused = Finished::from_rough(&mesh, &rough, Some(0.1));
+        assert_eq!(refused, Err(RoughError::GirdleOfMesh));
+    }
+}
+
+#[test]
+fn a_stone_of_no_size_is_refused() {
+    // All but a hundred-thousandth of a millimetre is girdle.
+    let refused = Finished::from_rough(&brilliant(), &fits("9x9x7"), Some(6.999_99)).unwrap_err();
+    assert!(matches!(refused, RoughError::Diameter { mm } if mm < 1e-3), "{refused}");
 }
 
 #[test]

@@ -3,6 +3,15 @@ use crate::cut::{Cut, MaterialRef};
 use crate::io::cut_file;
 use proptest::prelude::*;
 
+#[test]
+fn a_file_that_ends_within_a_tier_says_so() {
+    let says = |text: &str| tiers(text).1.iter().any(|warning| warning.contains("it may be cut off"));
+    let place = STONE.find("24 48 72\r\n    ").or(STONE.find("C1 96 24")).unwrap();
+    assert!(says(&STONE[..place + 5]) && says(&STONE[..STONE.find("to a point").unwrap() + 4]));
+    assert!(!says(STONE) && !says(STONE.trim_end()), "a footer may end a file");
+    assert!(!says(&STONE[..STONE.find("F the end").unwrap()]), "so may a whole tier");
+}
+
 /// A file with all that the format has: a gear, an outline, names before and after, a wrapped line, instructions, a culet.
 const STONE: &str = "GemCad 5.0\r\ng 96 0.0\r\ny 4 y\r\nI 1.76\r\nH A square\r\nH\r\nH  by nobody \r\n\
     a -90.000000 1.00000000 96 n G1 24 48 72 G set the size\r\n\

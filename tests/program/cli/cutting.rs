@@ -3,11 +3,15 @@
 use super::desk::*;
 
 #[test]
-fn an_audit_lists_candidates_beside_the_stone_and_as_json() {
+fn an_audit_lists_candidates_alone_and_beside_the_stone_as_json() {
     let desk = Desk::new();
     let leaks = desk.done("info tolkowsky --audit --material 1.5");
     assert!(leaks.contains("below the critical angle") && leaks.contains("for you to judge"), "{leaks}");
-    assert!(leaks.contains("lower_half"), "the table of tiers stays: {leaks}");
+    assert!(
+        !leaks.contains("lower_half") && leaks.starts_with("tolkowsky: "),
+        "the list stands alone: {leaks}"
+    );
+    assert!(desk.done("info tolkowsky --audit --facets --material 1.5").contains("lower_half 16"));
     assert!(desk.done("info tolkowsky --audit").contains("audit: nothing found"));
     assert!(!desk.done("info tolkowsky --material 1.5").contains("audit"));
     let audit = &desk.json("info --json --audit tolkowsky --material 1.5")["audit"];
@@ -16,9 +20,22 @@ fn an_audit_lists_candidates_beside_the_stone_and_as_json() {
     near(at(leak, "threshold"), 41.81, 0.01, "the critical angle of 1.5");
     near(at(leak, "size"), 40.75, 1e-6, "the mains");
     assert_eq!(leak["unit"], "degrees");
+    assert!(!list(&desk.json("info --json --audit tolkowsky")["facets"]).is_empty(), "JSON has all");
     let (code, printed, stderr) = desk.run("info --audit pill cube tolkowsky --json");
     assert_eq!((code, printed.lines().count()), (0, 3), "{stderr}");
     assert!(stderr.contains("only a convex stone"), "{stderr}");
+}
+
+#[test]
+fn meets_are_listed_alone_below_what_became_of_them() {
+    let desk = Desk::new();
+    desk.done("convert tolkowsky tolkowsky.asc");
+    let table = desk.done("info --meets tolkowsky.asc");
+    let lines: Vec<&str> = table.lines().collect();
+    assert!(lines[1].starts_with("  meets of ") && lines[1].contains("found in the geometry"), "{table}");
+    assert!(lines[2].contains("no tier moves by more than"), "{table}");
+    assert!(table.contains("Meet ") && !table.contains("volume"), "{table}");
+    assert!(desk.json("info --meets --json tolkowsky.asc")["volume"].is_number());
 }
 
 #[test]
@@ -73,5 +90,11 @@ fn rough_gives_size_weight_and_yield() {
     assert!(desk.refused("yield tolkowsky --weight -1", 2).contains("is not a weight"));
     assert!(desk.refused("yield tolkowsky --rough 9x9x3 --girdle-mm 4", 2).contains("does not fit"));
     assert!(desk.refused("yield tolkowsky", 2).contains("--rough"));
-    assert!(desk.refused("yield heart --weight 1", 1).contains("a heart is a mesh that is not convex"));
+    let heart = desk.json("yield heart --weight 1 --json");
+    near(at(&heart, "carats"), 1.0, 1e-9, "a heart is weighed by its volume");
+    assert!(heart["finished"]["girdle_mm"].is_null());
+    assert!(desk.refused("yield heart --weight 1 --girdle-mm 0.1", 1).contains("leave out --girdle-mm"));
+    assert!(desk.refused("yield pill --weight 1", 1).contains("a glass shape is curved"));
+    let light = desk.refused("yield tolkowsky --rough 9x9x7 --rough-weight 1", 2);
+    assert!(light.contains("would weigh 2.737 ct, and --rough-weight gives the rough 1 ct"), "{light}");
 }
