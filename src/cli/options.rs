@@ -36,7 +36,12 @@ pub fn unfit(why: &Unfit, file: &str) -> Failure {
         Unfit::NotAlone | Unfit::Metal | Unfit::Frosted => "--tracer ray",
         Unfit::Mixture => "--tracer ray, or --strength 1",
         Unfit::FewBounces => "--tracer ray, or --bounces 64",
-        Unfit::Job(_) | Unfit::Eye | Unfit::NoStone | Unfit::NotConvex(_) | Unfit::ManyPaths => {
+        Unfit::Job(_)
+        | Unfit::Eye
+        | Unfit::NoStone
+        | Unfit::NotConvex(_)
+        | Unfit::OnlyBeams
+        | Unfit::ManyPaths => {
             return Failure::of_unfit(why, file);
         }
     };

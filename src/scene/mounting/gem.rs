@@ -6,6 +6,9 @@ use glam::{DQuat, DVec2, DVec3};
 /// The gap that is left between metal and stone, in mm, so that no two surfaces are one; less than a pixel.
 pub(super) const CLEARANCE_MM: f64 = 0.004;
 
+/// Metal may reach into a stone by this much, in mm: triangles are flat where the surface that they stand for is not.
+pub(super) const TOUCHING_MM: f64 = 0.02;
+
 /// Corners of a stone's section that are nearer than this to their neighbours, in mm, are left out: rounding.
 const SAME_MM: f64 = 1e-6;
 
@@ -66,11 +69,50 @@ impl MountedStone {
     }
 
     /// Returns how deep a point lies inside the stone; below 0 outside, where it is no distance.
+    #[cfg(test)]
     pub fn depth(&self, point: DVec3) -> f64 {
         if point.distance_squared(self.ball.middle) > self.ball.radius.powi(2) {
             return f64::NEG_INFINITY;
         }
         -self.planes.iter().map(|plane| plane.distance(point)).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Returns how deep the deepest point of a triangle lies inside the stone, in mm, within a thousandth of
+    /// [`TOUCHING_MM`]; 0 where it lies no deeper than that.
+    pub fn depth_of(&self, triangle: [DVec3; 3]) -> f64 {
+        let [a, b, c] = triangle;
+        let middle = (a + b + c) / 3.0;
+        let reach = triangle.iter().map(|corner| corner.distance(middle)).fold(0.0, f64::max);
+        if !self.is_near(middle, reach) {
+            return 0.0;
+        }
+        // A point of the triangle is a + u (b - a) + v (c - a); what lies deeper than a depth is a polygon of (u, v).
+        let lies_deeper = |depth: f64| {
+            let mut rest = vec![DVec2::ZERO, DVec2::X, DVec2::Y];
+            for plane in &self.planes {
+                let gradient = DVec2::new(plane.normal.dot(b - a), plane.normal.dot(c - a));
+                let mut kept = vec![];
+                clip(&rest, Affine::new(-plane.distance(a) - depth, -gradient), &mut kept);
+                rest = kept;
+                if rest.is_empty() {
+                    return false;
+                }
+            }
+            true
+        };
+        if !lies_deeper(TOUCHING_MM) {
+            return 0.0;
+        }
+        let (mut low, mut high) = (TOUCHING_MM, 2.0 * self.ball.radius);
+        while high - low > 1e-3 * TOUCHING_MM {
+            let middle = 0.5 * (low + high);
+            if lies_deeper(middle) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        low
     }
 
     /// Returns how far a point can go in a direction before it comes to within the clearance of the stone; infinite where it

@@ -1,11 +1,8 @@
 //! Makes the metal of a ring and the places of its stones, and checks that both fit.
 
-use super::gem::{MountedStone, SetStone};
+use super::gem::{MountedStone, SetStone, TOUCHING_MM};
 use super::{MetalPart, Mounting, RING_NUMBERS, Ring, RingError, band, halo, head, row};
 use glam::DVec3;
-
-/// Metal may reach into a stone by this much, in mm: triangles are flat where the surface that they stand for is not.
-pub(super) const TOUCHING_MM: f64 = 0.02;
 
 impl Ring {
     /// Makes the metal and the places of the stones: `stone` is the main stone, `small` one of the small stones, whose
@@ -61,11 +58,11 @@ impl Ring {
 impl Mounting {
     /// Checks that no metal lies inside a stone.
     fn check(&self, stones: &[MountedStone]) -> Result<(), RingError> {
-        let depth = |point| stones.iter().map(|stone: &MountedStone| stone.depth(point)).fold(0.0, f64::max);
         for part in &self.metal {
             let surface = &part.surface;
-            let middles = (0..surface.corners.len()).map(|k| surface.triangle(k).iter().sum::<DVec3>() / 3.0);
-            let by_mm = middles.chain(surface.points.iter().copied()).map(depth).fold(0.0, f64::max);
+            let triangles = (0..surface.corners.len()).map(|k| surface.triangle(k));
+            let depth = |triangle: [DVec3; 3]| stones.iter().map(move |stone| stone.depth_of(triangle));
+            let by_mm = triangles.flat_map(depth).fold(0.0, f64::max);
             if by_mm > TOUCHING_MM {
                 return Err(RingError::InsideStone { part: part.name, by_mm });
             }
