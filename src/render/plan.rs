@@ -74,7 +74,7 @@ pub enum Unfit {
     Metal,
     /// A stone has frosted facets, which exact beams, graphics cards and refraction maps know nothing of.
     #[error(
-        "the stone has frosted facets, which scatter light: trace by rays, and make no refraction map of it"
+        "the stone has frosted facets, which scatter light: trace by rays, and make no refraction map or measures of light of it"
     )]
     Frosted,
     /// There are several bodies, a body that is not convex, a perspective, or a backplate.
@@ -90,8 +90,8 @@ pub enum Unfit {
     FewBounces,
     /// Measures of light are wanted of what exact beams cannot trace, or by another tracer.
     #[error(
-        "measures of light are sums over exact beams: they need a convex stone between polished planes, parallel rays, and \
-         no other tracer"
+        "measures of light are sums over exact beams: they need a convex stone between planes, parallel rays, and no other \
+         tracer"
     )]
     OnlyBeams,
     /// Light is followed along many paths at once, as in refraction maps and liquid glass.
@@ -115,8 +115,9 @@ impl Demands {
     ///
     /// # Errors
     /// [`Unfit::NoStone`] and [`Unfit::Eye`] where a scope or figures have no stone, or an eye that cannot see it;
-    /// [`Unfit::Metal`] where metal stands in the scene of anything but a picture under light; [`Unfit::Frosted`] for a
-    /// refraction map of frosted facets; [`Unfit::OnlyBeams`] where measures of light are wanted of what beams do not trace.
+    /// [`Unfit::Metal`] where metal stands in the scene of anything but a picture under light;
+    /// [`Unfit::OnlyBeams`] where measures of light are wanted of what beams do not trace; [`Unfit::Frosted`] for a
+    /// refraction map, or measures of light, of frosted facets.
     pub fn of(job: &Job) -> Result<Self, Unfit> {
         match &job.product {
             Product::Light(light) => Ok(Self::of_light(job, light)),
@@ -126,8 +127,8 @@ impl Demands {
                 Err(Unfit::Metal)
             }
             Product::Scope(_) | Product::Figures(_) => Self::of_scope(job.stone()?, &job.view),
+            Product::RefractionMap(_) | Product::Measures(_) if job.scene.is_frosted() => Err(Unfit::Frosted),
             Product::Measures(_) => Self::of_measures(job),
-            Product::RefractionMap(_) if job.scene.is_frosted() => Err(Unfit::Frosted),
             Product::RefractionMap(_) | Product::LiquidGlass(_) => {
                 Ok(Self { against_beams: Some(Unfit::ManyPaths), card: CardWorth::Nothing, no_card: None })
             }
