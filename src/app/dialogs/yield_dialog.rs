@@ -102,7 +102,9 @@ fn results(model: &Model, options: &YieldOptions, found: &Finished, ui: &mut Ui)
             "Finished weight",
             carats.map_or("the density is not known".to_owned(), |carats| format!("{carats:.3} ct")),
         );
-        line("Finished girdle", format!("{:.3} mm", found.girdle_mm));
+        if let Some(mm) = found.girdle_mm {
+            line("Finished girdle", format!("{mm:.3} mm"));
+        }
         if options.by == SizeBy::Rough {
             let limit = match found.limit {
                 FitLimit::Footprint => "the rough's length and width",

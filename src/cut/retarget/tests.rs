@@ -179,6 +179,7 @@ fn meeting() -> Tiers {
             instructions: instructions.to_owned(),
             meet: None,
             is_cut: true,
+            frosting: 0.0,
             facets: (first..96)
                 .step_by(step)
                 .map(|index| Indexed { index: index as f64, name: name.to_owned() })
