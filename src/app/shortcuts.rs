@@ -37,7 +37,7 @@ mod tests {
     #[test]
     fn every_menu_opens_by_a_letter_of_its_own() {
         let keys: Vec<Key> = MENUS.iter().filter_map(Menu::key).collect();
-        assert_eq!(keys, [Key::F, Key::E, Key::V, Key::C, Key::H]);
+        assert_eq!(keys, [Key::F, Key::E, Key::D, Key::V, Key::C, Key::H]);
     }
 
     #[test]

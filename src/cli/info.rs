@@ -8,7 +8,7 @@ use super::meets::KnownMeets;
 use super::mesh_options::MeshArguments;
 use super::names::is_scene;
 use super::specimen::LoadedSpecimen;
-use crate::cut::{AlongAxes, Audit, Cut, ProportionReport, Spread, Unit, tier_stem};
+use crate::cut::{AlongAxes, Audit, Cut, MeshHeights, ProportionReport, Spread, Unit, tier_stem};
 use crate::io::Failure;
 use crate::io::STANDARD;
 use crate::math::{Facet, Polytope};
@@ -235,6 +235,9 @@ fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
     if let Body::Mesh(mesh) = &*specimen.body {
         value["triangles"] = json!(mesh.surface().triangles.len());
         value["corners"] = json!(mesh.vertices().len());
+        if let Some(heights) = MeshHeights::of(mesh) {
+            value["heights"] = json!(heights);
+        }
         let mut tiers: Vec<(&str, usize)> = vec![];
         for name in mesh.facet_names().into_iter().map(tier_stem) {
             match tiers.iter_mut().find(|(tier, _)| *tier == name) {
@@ -262,7 +265,7 @@ fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
 fn facet_json(polytope: &Polytope, facet: &Facet, name: &str) -> Value {
     let n = facet.plane.normal;
     let across = n.truncate();
-    json!({
+    let mut value = json!({
         "name": name,
         "normal": n.to_array(),
         // Adding 0.0 turns -0.0 into 0.0, for planes through the origin.
@@ -271,7 +274,11 @@ fn facet_json(polytope: &Polytope, facet: &Facet, name: &str) -> Value {
         "azimuth_deg": azimuth_deg(across),
         "area": polytope.facet_area(facet),
         "corners": facet.outline,
-    })
+    });
+    if facet.frosting > 0.0 {
+        value["frosting"] = json!(facet.frosting);
+    }
+    value
 }
 
 /// Returns the azimuth of a normal's part in the girdle plane, in degrees from 0 to below 360; 0 for a level facet.
@@ -328,6 +335,9 @@ fn table(specimen: &LoadedSpecimen, value: &Value) -> String {
         let is_mesh = matches!(&*specimen.body, Body::Mesh(_));
         if is_mesh {
             line("triangles, vertices", format!("{}, {}", value["triangles"], value["corners"]));
+            for (key, height) in value["heights"].as_object().into_iter().flatten() {
+                line(&key.replace('_', " "), format!("{:.2} %", height.as_f64().unwrap_or(f64::NAN)));
+            }
         }
         line("volume", format!("{:.6} girdle radii³", specimen.solid().volume()));
         for tier in value["tiers"].as_array().into_iter().flatten() {
@@ -344,7 +354,8 @@ fn table(specimen: &LoadedSpecimen, value: &Value) -> String {
     let polytope = &stone.polytope;
     let report = ProportionReport::of(polytope, stone.names());
     if specimen.design.cut.brilliant().is_none() {
-        proportions(&report, &mut line);
+        let is_given = |key: &str| value["given"].get(key).is_some();
+        proportions(&report, is_given, &mut line);
     }
     if matches!(specimen.design.cut, Cut::Tiers(_)) {
         let AlongAxes { length_to_width, table: [t, u] } = report.along_axes;
@@ -372,22 +383,28 @@ fn facet_table(value: &Value) -> Option<String> {
     Some(text)
 }
 
-/// Writes the measured proportions of a stone whose design states none.
-fn proportions(report: &ProportionReport, line: &mut impl FnMut(&str, String)) {
+/// Writes the measured proportions of a stone; those that its design gives are marked as measured.
+fn proportions(
+    report: &ProportionReport,
+    is_given: impl Fn(&str) -> bool,
+    line: &mut impl FnMut(&str, String),
+) {
+    let mut line = |key: &str, what: String| match is_given(&key.replace(' ', "_")) {
+        true => line(&format!("{key}, measured"), what),
+        false => line(key, what),
+    };
     line("length to width", format!("{:.4}", report.length_to_width));
     let [width, length] = report.table;
     line(
         "table",
         format!("{width:.2} by {length:.2} %, {:.2} % from corner to corner", report.table_corners),
     );
-    for (key, value) in [
-        ("crown height", report.crown_height),
-        ("girdle thickness", report.girdle_thickness),
-        ("pavilion depth", report.pavilion_depth),
-        ("total depth", report.total_depth),
-    ] {
-        line(key, format!("{value:.2} %"));
-    }
+    line("crown height", format!("{:.2} %", report.crown_height));
+    let along = report.girdle_edges.map(|edges| spread(edges, 2));
+    let along = along.filter(|text| text.contains('(')).map(|text| format!("; its edges {text} %"));
+    line("girdle thickness", format!("{:.2} %{}", report.girdle_thickness, along.unwrap_or_default()));
+    line("pavilion depth", format!("{:.2} %", report.pavilion_depth));
+    line("total depth", format!("{:.2} %", report.total_depth));
 }
 
 fn tiers(report: &ProportionReport, text: &mut String) {

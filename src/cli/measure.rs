@@ -6,10 +6,10 @@ use super::mesh_options::MeshArguments;
 use super::options::{LightOptions, ViewOptions, scoped};
 use super::progress::WorkProgress;
 use crate::io::Failure;
-use crate::io::export::{FigureReport, measure};
+use crate::io::export::{FigureReport, MeasureReport, Viewing, light_measures, measure};
 use crate::picture::Scoped;
 use crate::render::{Card, Renderer};
-use crate::scene::Glare;
+use crate::scene::{DomeLight, Glare};
 use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -22,6 +22,14 @@ pub struct Measure {
     /// Print JSON: one object, or for several files one object a line
     #[arg(long)]
     json: bool,
+    /// List measures of the cut instead of zones: the return of domes, leakage, windowing, obstruction, extinction, contrast and
+    /// fire, each as far as it is certain
+    #[arg(long, conflicts_with_all = ["scope", "no_glare", "timing"])]
+    measures: bool,
+    /// A dome whose return --measures lists: even, cos, cos2 or cos with another power, and if you like a head's half angle, as in
+    /// cos2@15; may be repeated. Without it: even, cos, cos2 and even@15
+    #[arg(long = "dome", value_name = "DOME", requires = "measures")]
+    domes: Vec<DomeLight>,
     /// The scope whose zones are measured: a scope's name (see `scopes`), or a scope file [default: aset]
     #[arg(long, value_name = "SCOPE")]
     scope: Option<PathBuf>,
@@ -53,6 +61,9 @@ impl Measure {
             let specimen = self.light.specimen(file, self.mesh.options())?;
             let mut renderer = Renderer::new(Card::Machine);
             let viewing = self.light.viewing(&specimen, &self.view, &renderer)?;
+            if self.measures {
+                return self.list(&viewing, &mut renderer);
+            }
             let report = {
                 let progress = WorkProgress::new(&format!("measuring {}", specimen.path));
                 measure(&viewing, &scoped, &mut renderer, &progress.watch(), &|event| progress.report(event))?
@@ -69,6 +80,58 @@ impl Measure {
             print(&table(&report, self.timing))
         })
     }
+}
+
+impl Measure {
+    /// Prints the measures of a stone as a table or as JSON.
+    fn list(&self, viewing: &Viewing, renderer: &mut Renderer) -> Result<(), Failure> {
+        let report = {
+            let progress = WorkProgress::new(&format!("measuring {}", viewing.file));
+            let settings = viewing.measure_settings(&self.domes);
+            light_measures(viewing, settings, renderer, &progress.watch(), &|event| progress.report(event))?
+        };
+        if !self.json {
+            return print(&list_of_measures(&report));
+        }
+        let value = report.json();
+        print(&if self.files.len() > 1 { value.to_string() } else { json(&value) })
+    }
+}
+
+/// Formats measures as a table, in percent of the silhouette.
+fn list_of_measures(report: &MeasureReport) -> String {
+    let MeasureReport { viewing, settings, measures } = report;
+    let mut text = format!(
+        "{}: {}, {}, index {:.4}, {}\n\n{:<28}{:>9}{:>10}\n",
+        viewing.file,
+        viewing.specimen.design.name,
+        viewing.specimen.material.name,
+        viewing.medium.index,
+        viewing.viewpoint.description(),
+        "% of face",
+        "value",
+        "± at most",
+    );
+    for (name, interval) in report.by_name() {
+        let [value, error] = [interval.middle(), interval.error()].map(|part| 100.0 * part);
+        let _ = writeln!(text, "{:<28}{value:>9.3}{error:>10.3}", name.to_string());
+    }
+    let head = settings.head_deg;
+    let _ = write!(
+        text,
+        "\nThe head of obstruction, extinction and contrast has a half angle of {head}°; contrast is in percent of the mean \
+         brightness."
+    );
+    if let Some(spread) = measures.spread_deg {
+        let [red, violet] = settings.indices;
+        let _ = write!(
+            text,
+            "\nColours from index {red:.4} to {violet:.4} spread by {spread:.3}° on average; an eye sees those over {}° apart.",
+            settings.blur_deg
+        );
+    }
+    let _ = write!(text, "\n{:.3} % of the light was not followed to its end.", 100.0 * measures.unresolved);
+    text
 }
 
 /// Formats the figures as a table, in percent of the silhouette.

@@ -31,6 +31,9 @@ mod sheet;
 mod shell;
 mod specimen;
 mod spin;
+mod sweep;
+mod sweep_plot;
+mod sweep_table;
 mod without_window;
 
 use crate::io::mesh_options::MeshOptions;
@@ -104,6 +107,8 @@ enum Command {
     LiquidGlass(liquid_glass::LiquidGlass),
     /// Measure the light of one view: what comes from where, with its error
     Measure(measure::Measure),
+    /// Write the measures of designs over a grid of proportions, angles, materials and views
+    Sweep(sweep::SweepArguments),
     /// Show a stone's geometry, proportions and weight, or the stones of a scene
     Info(info::Info),
     /// Write the sheet that a gem cutter works from: plans, profiles, and every tier in cutting order
@@ -216,6 +221,7 @@ impl Command {
             Self::RefractionImport(import) => import.run(),
             Self::LiquidGlass(glass) => glass.run(),
             Self::Measure(measure) => measure.run(),
+            Self::Sweep(sweep) => sweep.run(),
             Self::Info(info) => info.run(),
             Self::Sheet(sheet) => sheet.run(),
             Self::Retarget(retarget) => retarget.run(),

@@ -33,10 +33,15 @@ pub fn number(text: &str) -> Result<f64, OptionError> {
 pub fn unfit(why: &Unfit, file: &str) -> Failure {
     let options = match why {
         Unfit::Perspective => "--tracer ray, or no --perspective",
-        Unfit::NotAlone | Unfit::Metal => "--tracer ray",
+        Unfit::NotAlone | Unfit::Metal | Unfit::Frosted => "--tracer ray",
         Unfit::Mixture => "--tracer ray, or --strength 1",
         Unfit::FewBounces => "--tracer ray, or --bounces 64",
-        Unfit::Job(_) | Unfit::Eye | Unfit::NoStone | Unfit::NotConvex(_) | Unfit::ManyPaths => {
+        Unfit::Job(_)
+        | Unfit::Eye
+        | Unfit::NoStone
+        | Unfit::NotConvex(_)
+        | Unfit::OnlyBeams
+        | Unfit::ManyPaths => {
             return Failure::of_unfit(why, file);
         }
     };

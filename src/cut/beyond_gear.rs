@@ -67,8 +67,15 @@ mod tests {
 
     fn told(gear: i32, angle: f64, indices: &[f64]) -> Vec<String> {
         let facets = indices.iter().map(|&index| Indexed { index, name: String::new() }).collect();
-        let tier =
-            Tier { angle, distance: 1.0, instructions: String::new(), meet: None, is_cut: true, facets };
+        let tier = Tier {
+            angle,
+            distance: 1.0,
+            instructions: String::new(),
+            meet: None,
+            is_cut: true,
+            frosting: 0.0,
+            facets,
+        };
         let tiers = Tiers { gear, tiers: vec![tier], ..Tiers::default() };
         tiers.beyond_gear().map(|beyond| beyond.to_string()).collect()
     }

@@ -3,6 +3,7 @@
 use super::material::{MaterialError, MaterialRef};
 use super::{Cut, ProportionError, TierFault, Tiers, Warning, names};
 use crate::math::{NotConvex, Plane};
+use crate::optics::{critical_angle, line};
 
 /// The girdle diameter of a design whose file gives none, mm: that of a brilliant of about one carat.
 pub const DEFAULT_DIAMETER_MM: f64 = 6.5;
@@ -160,12 +161,20 @@ impl Design {
         }
     }
 
-    /// Returns a warning for everything that is possible but unusual about this design. Only round brilliants have warnings.
+    /// Returns a warning for everything that is possible but unusual about this design. Only cuts of families have warnings.
+    /// Pavilions are compared with the critical angle of the material in sodium light.
     ///
     /// # Errors
     /// The first proportion at fault.
     pub fn warnings(&self) -> Result<Vec<Warning>, DesignError> {
-        Ok(self.cut.brilliant().map_or(Ok(Vec::new()), |brilliant| brilliant.warnings())?)
+        match &self.cut {
+            Cut::RoundBrilliant(brilliant) => Ok(brilliant.warnings()?),
+            Cut::Family(cut) => {
+                let index = self.material.material()?.dispersion.try_index(line::SODIUM_D).ok();
+                Ok(Warning::of_family(cut, index.and_then(critical_angle).map(f64::to_degrees)))
+            }
+            Cut::Tiers(_) | Cut::Planes(_) | Cut::Mesh(_) | Cut::Glass(_) => Ok(vec![]),
+        }
     }
 }
 

@@ -45,6 +45,11 @@ impl FacetNet {
         self.is_half
     }
 
+    /// Returns the tier and the plane of each facet.
+    pub fn facets(&self) -> impl Iterator<Item = (&'static str, Plane)> + '_ {
+        self.facets.iter().copied()
+    }
+
     /// Adds a facet. The normal points out of the stone and has any length but zero.
     pub fn plane(&mut self, tier: &'static str, normal: DVec3, through: DVec3) {
         let normal = normal.normalize_or(DVec3::Z);

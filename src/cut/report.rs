@@ -2,7 +2,7 @@
 
 use super::outline::{AlongAxes, Outline, is_girdle, is_table};
 use super::{TierZone, tier_stem};
-use crate::math::{Facet, Plane, Polytope, grouped, span};
+use crate::math::{Facet, Plane, Polytope, TriangleMesh, grouped, span};
 use glam::DVec3;
 use serde::Serialize;
 
@@ -53,6 +53,8 @@ pub struct ProportionReport {
     pub crown_height: f64,
     /// The distance between the girdle's edges.
     pub girdle_thickness: f64,
+    /// The lengths of the edges between two facets of the girdle; `None` where it has none.
+    pub girdle_edges: Option<Spread>,
     /// The depth from the girdle's lower edge to the lowest point.
     pub pavilion_depth: f64,
     /// The height from the lowest point to the highest.
@@ -74,12 +76,62 @@ impl ProportionReport {
             table_corners: percent(outline.table_corners),
             crown_height: percent(outline.crown_height()),
             girdle_thickness: percent(outline.girdle_top - outline.girdle_bottom),
+            girdle_edges: girdle_edges(stone, percent),
             pavilion_depth: percent(outline.pavilion_depth()),
             total_depth: percent(outline.top - outline.bottom),
             tiers: tiers(stone, names),
             along_axes: AlongAxes::of(stone),
         }
     }
+}
+
+/// The heights of a solid of triangles whose girdle stands upright, in percent of its diameter, which is 2 in its frame.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MeshHeights {
+    /// The height from the girdle's highest point to the highest point.
+    pub crown_height: f64,
+    /// The height from the girdle's lowest point to its highest.
+    pub girdle_height: f64,
+    /// The depth from the girdle's lowest point to the lowest point.
+    pub pavilion_depth: f64,
+    /// The height from the lowest point to the highest.
+    pub total_depth: f64,
+}
+
+impl MeshHeights {
+    /// Measures a solid; `None` where it has no upright facets.
+    pub fn of(mesh: &TriangleMesh) -> Option<Self> {
+        let surface = mesh.surface();
+        let upright = surface.triangles.iter().zip(mesh.facets()).filter(|(_, facet)| {
+            let normal = mesh.planes()[**facet as usize].normal;
+            normal.z.abs() < super::outline::UPRIGHT
+        });
+        let height = |corner: &u32| surface.vertices[*corner as usize].z;
+        let (low, high) = span(upright.flat_map(|(corners, _)| corners).map(height));
+        let (bottom, top) = span(surface.vertices.iter().map(|corner| corner.z));
+        let percent = |length: f64| 50.0 * length;
+        (high > low).then(|| Self {
+            crown_height: percent(top - high),
+            girdle_height: percent(high - low),
+            pavilion_depth: percent(low - bottom),
+            total_depth: percent(top - bottom),
+        })
+    }
+}
+
+/// Returns the lengths of the edges between two facets of the girdle, each as `percent` says.
+fn girdle_edges(stone: &Polytope, percent: impl Fn(f64) -> f64) -> Option<Spread> {
+    let facets = stone.facets();
+    let upright = (0..).zip(facets).filter(|(_, facet)| is_girdle(facet));
+    let edges = upright.flat_map(|(k, facet): (u32, &Facet)| {
+        let corners: Vec<DVec3> = stone.corners(facet).collect();
+        let across = facet.neighbours.clone().into_iter().enumerate();
+        across
+            .filter(move |&(_, other)| other > k && is_girdle(&facets[other as usize]))
+            .map(move |(i, _)| corners[i].distance(corners[(i + 1) % corners.len()]))
+    });
+    let lengths: Vec<f64> = edges.map(percent).collect();
+    (!lengths.is_empty()).then(|| Spread::of(lengths.iter().copied()))
 }
 
 /// Returns the zone of the stone where a facet lies.
@@ -138,11 +190,27 @@ mod tests {
         let bezel = report.tiers[1].slope_deg;
         assert!((bezel.mean - 34.5).abs() < 1e-12 && bezel.most - bezel.least < 1e-12, "{bezel:?}");
         assert!((report.table_corners - MODERN.table).abs() < 1e-9, "{report:?}");
+        let edges = report.girdle_edges.unwrap();
+        // The given thickness is that at the mains, where the girdle is thickest.
+        assert!((edges.most - MODERN.girdle_thickness).abs() < 1e-9 && edges.least < edges.most, "{edges:?}");
         assert!(
             (report.crown_height + report.girdle_thickness + report.pavilion_depth - report.total_depth)
                 .abs()
                 < 1e-9
         );
+    }
+
+    #[test]
+    fn a_solid_of_triangles_has_the_heights_of_the_stone_that_it_was() {
+        let facets = MODERN.facets().unwrap();
+        let (names, planes): (Vec<String>, Vec<Plane>) = facets.into_iter().unzip();
+        let stone = Polytope::from_planes(&planes).unwrap();
+        let (report, mesh) =
+            (ProportionReport::of(&stone, &names), MeshHeights::of(&TriangleMesh::of_polytope(&stone)));
+        let MeshHeights { crown_height, girdle_height, pavilion_depth, total_depth } = mesh.unwrap();
+        assert!((total_depth - report.total_depth).abs() < 1e-9);
+        assert!((crown_height + girdle_height + pavilion_depth - total_depth).abs() < 1e-9);
+        assert!((girdle_height - MODERN.girdle_thickness).abs() < 1e-9, "{girdle_height}");
     }
 
     #[test]

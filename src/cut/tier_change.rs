@@ -11,6 +11,9 @@ const SHOWN: f64 = 0.5e-4;
 /// A tier that is added is flatter by this than the one before it, degrees.
 const FLATTER: f64 = 3.0;
 
+/// An index nearer to a whole tooth than this, after a change of the gear, is that tooth.
+const WHOLE: f64 = 1e-9;
+
 /// A change of the list of tiers. Places count from 0, in the order of cutting, with the tiers that are not cut.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TierChange {
@@ -26,7 +29,7 @@ pub enum TierChange {
     Split(usize),
     /// Sets whether a tier is cut.
     IsCut(usize, bool),
-    /// Names a tier. Its facets get no names of their own.
+    /// Names a tier. Its facets get no names of their own. Meets that name this tier alone follow.
     Name(usize, String),
     /// Sets the instructions of a tier.
     Instructions(usize, String),
@@ -39,6 +42,11 @@ pub enum TierChange {
     Meet(usize, Option<Meet>),
     /// Gives every tier without a meet the one that the geometry shows, if it shows one.
     FindMeets,
+    /// Sets the teeth of the index gear, below 0 where they are counted clockwise; not 0. All facets stay where they are, so
+    /// that their indices change.
+    Gear(i32),
+    /// States how often the design repeats around its axis, and whether each repeat is its own mirror image. No facet changes.
+    Symmetry(u32, bool),
 }
 
 impl Tiers {
@@ -69,9 +77,14 @@ impl Tiers {
                 }
             }
             TierChange::FindMeets => *self = self.with_found_meets(),
+            TierChange::Gear(teeth) if teeth != 0 => self.change_gear(teeth),
+            TierChange::Symmetry(symmetry, mirror) => (self.symmetry, self.mirror) = (symmetry, mirror),
+            TierChange::Name(place, name) if place < count => {
+                self.rename_in_meets(place, &name);
+                self.tiers[place].rename(&name);
+            }
             TierChange::Delete(place) if place < count => drop(self.tiers.remove(place)),
             TierChange::IsCut(place, _)
-            | TierChange::Name(place, _)
             | TierChange::Instructions(place, _)
             | TierChange::Indices(place, _)
             | TierChange::Meet(place, _)
@@ -82,6 +95,31 @@ impl Tiers {
             }
             _ => {}
         }
+    }
+
+    /// Puts another gear on the machine, at whose indices the facets lie as before.
+    fn change_gear(&mut self, teeth: i32) {
+        let ratio = f64::from(teeth) / f64::from(self.gear);
+        let changed = |index: f64| {
+            let exact = index * ratio;
+            let exact = if (exact - exact.round()).abs() < WHOLE { exact.round() } else { exact };
+            if exact < 0.0 { exact + f64::from(teeth.abs()) } else { exact }
+        };
+        (self.gear, self.offset) = (teeth, changed(self.offset));
+        let facets = self.tiers.iter_mut().flat_map(|tier| &mut tier.facets);
+        facets.for_each(|facet| facet.index = changed(facet.index));
+    }
+
+    /// Writes a tier's new name into the meets that mean this tier alone by its old one.
+    fn rename_in_meets(&mut self, place: usize, name: &str) {
+        let old = self.tiers[place].name().to_owned();
+        let is_only = self.tiers.iter().filter(|tier| tier.name().eq_ignore_ascii_case(&old)).count() == 1;
+        if old.is_empty() || name.is_empty() || !is_only {
+            return;
+        }
+        let points = self.tiers.iter_mut().filter_map(|tier| tier.meet.as_mut());
+        let names = points.flat_map(Meet::names_mut).filter(|own| own.eq_ignore_ascii_case(&old));
+        names.for_each(|own| name.clone_into(own));
     }
 
     /// Returns a name like the one given that no tier has: its letters with the next free number.
@@ -135,6 +173,7 @@ impl Tiers {
             instructions: String::new(),
             meet: None,
             is_cut: true,
+            frosting: 0.0,
             facets: vec![],
         };
         tier.change(TierChange::Indices(0, indices));
@@ -173,7 +212,6 @@ impl Tier {
     fn change(&mut self, change: TierChange) {
         match change {
             TierChange::IsCut(_, is_cut) => self.is_cut = is_cut,
-            TierChange::Name(_, name) => self.rename(&name),
             TierChange::Instructions(_, text) => self.instructions = text,
             TierChange::Indices(_, indices) => {
                 let name = self.name().to_owned();
@@ -224,6 +262,7 @@ pub fn read_indices(text: &str) -> Option<Vec<f64>> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::MeetPoint;
     use super::*;
 
     fn design() -> Tiers {
@@ -238,6 +277,7 @@ mod tests {
                 instructions: String::new(),
                 meet: None,
                 is_cut: true,
+                frosting: 0.0,
                 facets: indices.iter().enumerate().map(facet).collect(),
             }
         };
@@ -308,6 +348,29 @@ mod tests {
         // A tier that is not cut has no planes.
         assert_eq!(tiers.tier_of_plane(0), Some(1));
         assert_eq!((tiers.tier_of_plane(4), tiers.tier_of_plane(5)), (Some(2), None));
+    }
+
+    #[test]
+    fn meets_follow_the_name_of_a_tier_and_planes_stay_on_another_gear() {
+        let mut tiers = design();
+        let meet =
+            |names: [&str; 2]| Meet::Points(vec![MeetPoint::Corner(names.map(str::to_owned).to_vec())]);
+        tiers.change(TierChange::Meet(2, Some(meet(["p1", "G1"]))));
+        tiers.change(TierChange::Name(0, "Main".to_owned()));
+        assert_eq!(tiers.tiers[2].meet, Some(meet(["Main", "G1"])));
+        // A name that two tiers have says nothing of which is meant.
+        tiers.change(TierChange::Name(1, "Main".to_owned()));
+        tiers.change(TierChange::Name(1, "G9".to_owned()));
+        assert_eq!(tiers.tiers[2].meet, Some(meet(["Main", "Main"])));
+        let before = tiers.facets();
+        tiers.change(TierChange::Gear(-80));
+        assert_eq!(tiers.tiers[0].indices(-80), "80-60-40-20");
+        tiers.change(TierChange::Gear(0));
+        for ((_, now), (_, then)) in tiers.facets().iter().zip(&before) {
+            assert!(now.normal.abs_diff_eq(then.normal, 1e-14) && now.offset == then.offset);
+        }
+        tiers.change(TierChange::Symmetry(2, true));
+        assert_eq!((tiers.gear, tiers.symmetry, tiers.mirror), (-80, 2, true));
     }
 
     #[test]

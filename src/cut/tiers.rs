@@ -3,6 +3,7 @@
 //!
 //! Source: the conventions of GemCad (R. Strickland), as described in docs/formats.md.
 
+use super::frosting::FROSTINGS;
 use super::meets::Meet;
 use super::names;
 use crate::math::Plane;
@@ -71,6 +72,8 @@ pub struct Tier {
     pub meet: Option<Meet>,
     /// Whether the tier is cut. A tier that is not cut is kept in the design but makes no facets.
     pub is_cut: bool,
+    /// How much the facets are frosted: 0 polished, 1 as rough as can be.
+    pub frosting: f64,
     /// The facets, in the order in which they are listed.
     pub facets: Vec<Indexed>,
 }
@@ -99,6 +102,9 @@ pub enum TierFault {
     /// A distance out of range.
     #[error("distance: {0} must be a length, up to {LARGEST}")]
     Distance(f64),
+    /// A finish out of range.
+    #[error("frosting: {0} must be from 0 (polished) to 1")]
+    Frosting(f64),
     /// An index out of range.
     #[error("index: {0} must be a tooth of the gear, up to {LARGEST}")]
     Index(f64),
@@ -112,6 +118,7 @@ impl TierFault {
             Self::Offset(_) => "offset",
             Self::Angle(_) => "angle",
             Self::Distance(_) => "distance",
+            Self::Frosting(_) => "frosting",
             Self::Index(_) => "indices",
         }
     }
@@ -193,6 +200,9 @@ impl Tier {
         if !(-LARGEST..=LARGEST).contains(&self.distance) {
             return Err(TierFault::Distance(self.distance));
         }
+        if !FROSTINGS.contains(&self.frosting) {
+            return Err(TierFault::Frosting(self.frosting));
+        }
         let wrong = self.facets.iter().find(|facet| !(-LARGEST..=LARGEST).contains(&facet.index));
         wrong.map_or(Ok(()), |facet| Err(TierFault::Index(facet.index)))
     }
@@ -243,6 +253,12 @@ impl Tiers {
         names.into_iter().zip(bases.iter().map(|(_, plane)| *plane)).collect()
     }
 
+    /// Returns how much each facet that is cut is frosted, in the order in which a design lists its facets.
+    pub fn frosting(&self) -> Vec<f64> {
+        let cut = self.tiers.iter().filter(|tier| tier.is_cut);
+        cut.flat_map(|tier| std::iter::repeat_n(tier.frosting, tier.facets.len())).collect()
+    }
+
     /// Returns the faces of the block that GemCad cuts from, which close a stone whose facets leave it open.
     ///
     /// The block reaches 17/15 of the unit along each axis, as the outlines stored in GemCad's files show.
@@ -263,7 +279,7 @@ mod tests {
 
     fn tier(angle: f64, distance: f64, indices: &[f64]) -> Tier {
         let facets = indices.iter().map(|&index| Indexed { index, name: String::new() }).collect();
-        Tier { angle, distance, instructions: String::new(), meet: None, is_cut: true, facets }
+        Tier { angle, distance, instructions: String::new(), meet: None, is_cut: true, frosting: 0.0, facets }
     }
 
     fn square(gear: i32, offset: f64) -> Tiers {

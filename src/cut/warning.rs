@@ -1,12 +1,14 @@
-//! Warnings about round brilliants that are possible but unusual, with the numbers that make them so.
+//! Warnings about cuts of families that are possible but unusual, with the numbers that make them so.
 
 use std::f64::consts::TAU;
 use std::fmt;
 
-use super::family::Proportion;
+use super::family::{Family, Proportion, Unit};
+use super::family_cut::FamilyCut;
 use super::proportion_error::{given, rounded};
 use super::proportions::{Proportions, STAR_AZIMUTH};
 use super::round_brilliant_table::ROUND_BRILLIANT;
+use super::shape::Cut;
 
 /// Something about a stone that its owner may not have meant: a proportion, and what it leads to.
 ///
@@ -45,6 +47,76 @@ impl Warning {
             |(key, statement)| Some(Self { row: ROUND_BRILLIANT.proportion(key)?, statement: statement? });
         checks.into_iter().filter_map(warning).collect()
     }
+}
+
+/// A number that lies outside its usual range by no more than this is one that was rounded.
+const ROUNDED: f64 = 1e-9;
+
+/// The sine of the angle to the axis, or to the girdle plane, up to which a facet is a culet, or one of the girdle.
+const FLAT: f64 = 1e-6;
+
+impl Warning {
+    /// Returns a warning for every number of a cut that lies outside its usual range, and for pavilion facets below the critical
+    /// angle, in degrees, where there is one.
+    pub(super) fn of_family(cut: &FamilyCut, critical_deg: Option<f64>) -> Vec<Self> {
+        let whole = Cut::Family(*cut);
+        let odd = |row: &'static Proportion| {
+            let value = (row.get)(&whole);
+            let [least, most] = row.usual;
+            let is_usual = (least - ROUNDED..=most + ROUNDED).contains(&value);
+            let statement = || {
+                format!(
+                    "{} lies outside the usual range of {} to {}",
+                    row.written(value),
+                    given(least),
+                    row.written(most)
+                )
+            };
+            // The range of a count is all that is possible.
+            (!is_usual && row.unit != Unit::Count).then(|| Self { row, statement: statement() })
+        };
+        let leaking = critical_deg.and_then(|critical| leaking(cut, critical));
+        cut.family.editable().filter_map(odd).chain(leaking).collect()
+    }
+}
+
+/// Returns a warning about the pavilion tiers that lie wholly below the critical angle, at the number that shapes the pavilion.
+/// Single facets do so in usual cuts as well, as the mains at the ends of a marquise; the audit lists them.
+fn leaking(cut: &FamilyCut, critical_deg: f64) -> Option<Warning> {
+    let net = cut.net().ok()?;
+    let mut tiers: Vec<(&str, f64)> = vec![];
+    for (tier, plane) in net.facets() {
+        let across = plane.normal.truncate().length();
+        let slope = across.atan2(-plane.normal.z).to_degrees();
+        if plane.normal.z > -FLAT || across < FLAT {
+            continue;
+        }
+        match tiers.iter_mut().find(|(own, _)| *own == tier) {
+            Some((_, steepest)) => *steepest = steepest.max(slope),
+            None => tiers.push((tier, slope)),
+        }
+    }
+    tiers.retain(|(_, steepest)| *steepest < critical_deg);
+    let named: Vec<String> = tiers
+        .iter()
+        .map(|(tier, slope)| format!("{} at {}°", tier.replace('_', " "), rounded(*slope)))
+        .collect();
+    let statement = format!(
+        "pavilion tiers below the critical angle of {}° let light from above leak out: {}",
+        rounded(critical_deg),
+        named.join(", ")
+    );
+    (!named.is_empty()).then_some(Warning { row: pavilion_row(cut.family)?, statement })
+}
+
+/// Returns the number of a family that shapes its pavilion, or else its first slope or number.
+fn pavilion_row(family: &'static Family) -> Option<&'static Proportion> {
+    let rows = || family.editable();
+    rows()
+        .find(|row| row.key.starts_with("pavilion") && row.unit == Unit::Degrees)
+        .or_else(|| rows().find(|row| row.key.starts_with("pavilion")))
+        .or_else(|| rows().find(|row| row.unit == Unit::Degrees))
+        .or_else(|| rows().next())
 }
 
 /// Returns a warning where upper and lower halves meet between the bezels and leave no girdle there, or none at all.
@@ -158,5 +230,51 @@ mod tests {
         assert!(!texts(RoundBrilliant { girdle_facets: 48, ..given }).contains(&expected.to_owned()));
         let short = RoundBrilliant { girdle_facets: 16 + 8, lower_half: LowerHalf::Vertical(9.5), ..MODERN };
         assert_eq!(texts(short).iter().filter(|text| text.starts_with("lower_half_length:")).count(), 0);
+    }
+
+    /// Returns the warnings of a family's first cut with one number changed, in a material of this critical angle.
+    fn of_family(key: &str, change: Option<(&str, f64)>, critical_deg: f64) -> Vec<String> {
+        let family = crate::cut::FAMILIES.into_iter().find(|family| family.key == key).unwrap();
+        let mut cut = family.first.clone();
+        if let Some((row, value)) = change {
+            family.proportion(row).unwrap().set(&mut cut, value);
+        }
+        let Cut::Family(cut) = cut else { panic!() };
+        Warning::of_family(&cut, Some(critical_deg)).iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn usual_cuts_of_diamond_have_no_warnings() {
+        for family in crate::cut::FAMILIES {
+            let Cut::Family(cut) = &family.first else { continue };
+            assert_eq!(Warning::of_family(cut, Some(24.43)), [], "{}", family.key);
+        }
+    }
+
+    #[test]
+    fn a_number_outside_its_usual_range_is_told_with_the_range() {
+        assert_eq!(
+            of_family("princess", Some(("star_azimuth", 40.0)), 24.43),
+            ["star_azimuth: 40° lies outside the usual range of 4 to 9°"]
+        );
+        let steep = of_family("pear", Some(("crown_angle", 85.0)), 24.43);
+        assert!(steep[0].starts_with("crown_angle: 85° lies outside the usual range of "), "{steep:?}");
+        // The ends of the range are usual.
+        for azimuth in [4.0, 9.0] {
+            assert_eq!(of_family("princess", Some(("star_azimuth", azimuth)), 24.43), [""; 0]);
+        }
+    }
+
+    #[test]
+    fn pavilions_below_the_critical_angle_are_told_with_their_tiers() {
+        let flat = of_family("emerald", Some(("pavilion_angle", 20.0)), 24.43);
+        assert!(flat.iter().any(|text| text.contains("outside the usual range")), "{flat:?}");
+        let leak = flat.iter().find(|text| text.contains("critical angle of 24.43°")).unwrap();
+        assert!(leak.starts_with("pavilion_angle: pavilion tiers below"), "{leak}");
+        // The oval's mains are steepest at its sides, 40.75°; a tier of which a part is steep enough is not told.
+        let flat = of_family("oval", None, 40.8);
+        assert_eq!(flat.len(), 1, "{flat:?}");
+        assert!(flat[0].ends_with("main at 40.75°"), "{flat:?}");
+        assert_eq!(of_family("oval", None, 40.7), [""; 0]);
     }
 }

@@ -8,7 +8,7 @@ use super::cutters::{self, Gear, WarningList};
 use super::design_file::{EncodedDesign, ImportedDesign};
 use super::file_error::Fault;
 use super::text::check_size;
-use crate::cut::{Indexed, MAX_PLANES, Tier, Tiers, is_printable};
+use crate::cut::{Indexed, MAX_PLANES, Tier, Tiers, is_printable, with_finish};
 use crate::scene::Specimen;
 use encoding_rs::WINDOWS_1252;
 use number::Token;
@@ -229,6 +229,7 @@ impl Reader {
             instructions: String::new(),
             meet: None,
             is_cut: true,
+            frosting: 0.0,
             facets: vec![],
         });
         (self.in_tier, self.name) = (true, None);
@@ -335,7 +336,7 @@ impl Reader {
         self.warn_of_commas();
         let name = cutters::title(&self.headers, label);
         let material = cutters::material(self.ri.unwrap_or(USUAL_INDEX), "", &mut self.warnings);
-        let tiers = Tiers {
+        let mut tiers = Tiers {
             symmetry: self.symmetry.unwrap_or(1),
             mirror: self.mirror,
             headers: self.headers,
@@ -343,6 +344,7 @@ impl Reader {
             tiers: self.tiers,
             ..self.gear.unwrap_or_default().tiers()
         };
+        cutters::finish_as_said(&mut tiers, &mut self.warnings);
         for beyond in tiers.beyond_gear() {
             let line = self.tier_lines[beyond.tier - 1];
             self.warnings.warn(|| format!("line {line}: {beyond}"));
@@ -467,7 +469,7 @@ fn write_tier(out: &mut String, tier: &Tier, texts: &mut Texts) {
             let _ = write!(out, " n {}", texts.word(&facet.name));
         }
     }
-    let instruction = tier.instruction();
+    let instruction = with_finish(tier.instruction(), tier.frosting);
     if !instruction.is_empty() {
         let _ = write!(out, " G {}", texts.line(&instruction));
     }

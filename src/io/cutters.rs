@@ -6,7 +6,9 @@
 
 use super::design_file::ImportedDesign;
 use super::file_error::Fault;
-use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, Indexed, MaterialRef, Tier, Tiers, is_printable};
+use crate::cut::{
+    Cut, DEFAULT_DIAMETER_MM, Design, FinishNote, Indexed, MaterialRef, Tier, Tiers, is_printable,
+};
 use glam::DVec3;
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -67,6 +69,8 @@ pub(super) struct TierPiece {
     pub name: String,
     pub instructions: String,
     pub is_cut: bool,
+    /// As in [`Tier`].
+    pub frosting: f64,
 }
 
 /// Warnings about one file; those beyond a number that people read are only counted.
@@ -187,6 +191,7 @@ impl TierPiece {
         let said = [&self.instructions, &tier.instructions];
         self.is_cut_as(&FacetSetting { angle: tier.angle, distance: tier.distance, index: 0.0 })
             && self.is_cut == tier.is_cut
+            && self.frosting == tier.frosting
             && (said[0] == said[1] || said.iter().any(|text| text.is_empty()))
     }
 
@@ -208,7 +213,43 @@ impl TierPiece {
     fn alone(self) -> Tier {
         let FacetSetting { angle, distance, index } = self.setting;
         let facets = vec![Indexed { index, name: self.name }];
-        Tier { angle, distance, instructions: self.instructions, meet: None, is_cut: self.is_cut, facets }
+        Tier {
+            angle,
+            distance,
+            instructions: self.instructions,
+            meet: None,
+            is_cut: self.is_cut,
+            frosting: self.frosting,
+            facets,
+        }
+    }
+}
+
+/// Takes the finish of each tier from its instructions, as far as they are plain, and warns of what is not.
+pub(super) fn finish_as_said(tiers: &mut Tiers, warnings: &mut WarningList) {
+    for (number, tier) in (1..).zip(&mut tiers.tiers) {
+        match FinishNote::of(&tier.instructions) {
+            FinishNote::Unsaid => {}
+            FinishNote::Frosting(frosting) => tier.frosting = frosting,
+            FinishNote::Unclear => warnings.warn(|| {
+                format!(
+                    "tier {number}: '{:.60}' frosts facets, but not plainly those of this tier; they are taken as polished. \
+                     Write 'Frosted' where it means the whole tier",
+                    tier.instructions
+                )
+            }),
+        }
+    }
+    let texts = tiers.headers.iter().chain(&tiers.footers);
+    let named = texts.into_iter().find(|text| FinishNote::is_named_in(text));
+    if let Some(text) = named.filter(|_| tiers.tiers.iter().all(|tier| tier.frosting == 0.0)) {
+        warnings.warn(|| {
+            format!(
+                "'{:.60}' names frosted facets, which are only read from the instructions of their tiers; all facets are \
+                 taken as polished",
+                text.trim()
+            )
+        });
     }
 }
 
@@ -287,6 +328,7 @@ mod tests {
                     instructions: String::new(),
                     meet: None,
                     is_cut: true,
+                    frosting: 0.0,
                     facets,
                 };
                 let plane = gear.tiers().plane(&tier, index);
@@ -314,6 +356,7 @@ mod tests {
             name: "A".to_owned(),
             instructions: instructions.to_owned(),
             is_cut: true,
+            frosting: 0.0,
         };
         let pieces = [
             piece(1, 41.0, 1.0, ""),

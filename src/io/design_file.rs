@@ -207,6 +207,9 @@ fn as_mesh(specimen: &Specimen, format: DesignFormat, bytes: Vec<u8>) -> Encoded
         let off = smooth.field().deviation(FINENESS) * specimen.unit_mm();
         lost.push(format!("its smooth surface is written as triangles, {off:.1e} mm off it at most"));
     }
+    if specimen.body.is_frosted() {
+        lost.push("a mesh has no place for frosted facets; they will be read as polished".to_owned());
+    }
     EncodedDesign { bytes, lost }
 }
 

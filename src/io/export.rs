@@ -2,6 +2,7 @@
 
 mod event;
 mod figures;
+mod measures;
 mod pictures;
 mod sheet;
 mod viewing;
@@ -11,6 +12,7 @@ mod tests;
 
 pub use event::{Event, Reporter};
 pub use figures::{FigureReport, measure};
+pub use measures::{MeasureReport, light_measures};
 pub use viewing::Viewing;
 
 use super::{Failure, WriteError, is_standard, write};

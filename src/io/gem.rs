@@ -63,6 +63,7 @@ pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
     let raw = raw_facets(&mut cursor)?;
     let (mut tiers, index) = trailer(&mut cursor, &mut warnings)?;
     tiers.tiers = cutters::gathered(pieces(&raw, &tiers, &mut warnings));
+    cutters::finish_as_said(&mut tiers, &mut warnings);
     let material = cutters::material(index.1, &cursor::place(index.0), &mut warnings);
     let name = cutters::title(&tiers.headers, label);
     cutters::brought(name, material, tiers, warnings)
@@ -197,6 +198,7 @@ fn pieces(raw: &[Raw<'_>], tiers: &Tiers, warnings: &mut WarningList) -> Vec<Tie
             name: name.to_owned(),
             instructions: instructions.to_owned(),
             is_cut: true,
+            frosting: 0.0,
         }
     };
     let pieces = raw.iter().map(piece).collect();

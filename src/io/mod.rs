@@ -33,6 +33,8 @@ pub mod panorama;
 #[cfg(feature = "interchange")]
 mod pdf;
 mod picture_file;
+#[cfg(feature = "interchange")]
+pub mod plot;
 mod png;
 mod png_bytes;
 #[cfg(feature = "exr")]

@@ -14,6 +14,8 @@ pub struct Facet {
     pub neighbours: Vec<u32>,
     /// The place of the facet's plane among the planes that the polytope was built from.
     pub source: usize,
+    /// How much the facet scatters light: 0 polished, 1 as rough as can be. It changes no shape.
+    pub frosting: f64,
 }
 
 /// A closed, bounded, convex solid, in which each edge is shared by exactly two facets.
@@ -48,6 +50,18 @@ impl Polytope {
         reframed.vertices.iter_mut().for_each(|corner| *corner = pose.place(*corner));
         reframed.facets.iter_mut().for_each(|facet| facet.plane = facet.plane.placed(pose));
         reframed
+    }
+
+    /// Returns the same solid with the facet of each plane frosted so much as `of_plane` says for the place of the plane among
+    /// those that the polytope was built from: 0 polished, 1 as rough as can be.
+    pub fn frosted(mut self, of_plane: impl Fn(usize) -> f64) -> Self {
+        self.facets.iter_mut().for_each(|facet| facet.frosting = of_plane(facet.source));
+        self
+    }
+
+    /// Whether a facet is frosted, so that no light that meets it can be followed exactly.
+    pub fn is_frosted(&self) -> bool {
+        self.facets.iter().any(|facet| facet.frosting > 0.0)
     }
 
     /// Returns the facets, in the order of the planes given.

@@ -286,6 +286,7 @@ impl Draft {
                 outline: face.outline,
                 neighbours,
                 source: face.source,
+                frosting: 0.0,
             });
         }
         let redundant = kept.iter().copied().filter(|k| facets.iter().all(|f| f.source != *k)).collect();

@@ -4,11 +4,19 @@
 
 mod estimated;
 mod figures;
+mod hemisphere;
+mod light_measures;
+mod measure_name;
 mod measured;
 mod sampled;
 
 pub use estimated::{Estimate, by_beams_and_rays};
 pub use figures::{Figures, Zones, by_beams, by_summed_beams};
+pub use hemisphere::{SampledNumber, hemisphere_return};
+pub use light_measures::{
+    DomeReturn, Interval, LightMeasures, MEASURES_HEAD_DEG, MeasureSettings, PUPIL_DEG,
+};
+pub use measure_name::{MeasureName, NoMeasure};
 pub use measured::{Bounds, LATTICE, Measured, STANDARD_ERROR, UNRESOLVED, Zone, measured};
 #[cfg(feature = "gpu")]
 pub use sampled::by_gpu;

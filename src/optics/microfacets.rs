@@ -97,7 +97,7 @@ impl Roughness {
     }
 
     /// Returns the share of light that leaves at the first reflection, towards this cosine.
-    fn once(&self, cos: f64) -> f64 {
+    pub(super) fn once(&self, cos: f64) -> f64 {
         let at = cos.clamp(0.0, 1.0).sqrt() * STEPS as f64;
         let step = (at as usize).min(STEPS - 1);
         self.once[step] + (self.once[step + 1] - self.once[step]) * (at - step as f64)
@@ -209,14 +209,14 @@ fn slopes(alpha: f64, cos: f64) -> f64 {
 }
 
 /// Returns Smith's function Λ: the hidden over the seen area of mirrors, from a cosine (Heitz 2014, eq. 72).
-fn hidden(alpha: f64, cos: f64) -> f64 {
+pub(super) fn hidden(alpha: f64, cos: f64) -> f64 {
     let square = (cos * cos).max(1e-16);
     0.5 * ((1.0 + alpha * alpha * (1.0 - square) / square).sqrt() - 1.0)
 }
 
 /// Returns a normal among those that are seen from a direction, by two numbers: the half sphere that the stretched mirrors
 /// become is seen as two half discs (Heitz 2018, section 3).
-fn visible_normal(alpha: f64, out: DVec3, [u, v]: [f64; 2]) -> DVec3 {
+pub(super) fn visible_normal(alpha: f64, out: DVec3, [u, v]: [f64; 2]) -> DVec3 {
     let stretched = unit(DVec3::new(alpha * out.x, alpha * out.y, out.z));
     let flat = stretched.truncate().length_squared();
     let across = if flat > 0.0 { DVec3::new(-stretched.y, stretched.x, 0.0) / flat.sqrt() } else { DVec3::X };

@@ -315,6 +315,15 @@ mod tests {
     }
 
     #[test]
+    fn frosted_facets_are_hatched_and_the_legend_says_so() {
+        let svg = |stone: &Stone| diagram(stone, "Test", &DiagramStyle::SHEET).to_string();
+        let frosted = cube().frosted(|plane| if plane == 4 { 0.5 } else { 0.0 });
+        let legend = "Hatched facets are frosted.";
+        assert!(svg(&frosted).contains("class=\"frosted\"") && svg(&frosted).contains(legend));
+        assert!(!svg(&cube()).contains("class=\"frosted\"") && !svg(&cube()).contains(legend));
+    }
+
+    #[test]
     fn the_tiers_of_a_brilliant_are_its_kinds_of_facet() {
         let tiers = tiers(&brilliant());
         let found: Vec<_> =

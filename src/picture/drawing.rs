@@ -4,11 +4,13 @@
 //! track of how far its contents reach, so that nothing is clipped. Text is set in Ubuntu Light, with which `io`
 //! rasterises; other viewers fall back on their own sans-serif, of about the same widths.
 
+mod hatching;
 mod inks;
 mod lettering;
 mod paper;
 mod room;
 
+pub(in crate::picture) use hatching::LEGEND as HATCHING_LEGEND;
 pub use inks::Inks;
 pub(super) use inks::{Ink, between, hex};
 pub(super) use lettering::{
@@ -105,6 +107,8 @@ pub(super) struct Sheet {
     texts: Group,
     frame: Frame,
     inks: Inks,
+    /// Whether facets are hatched.
+    is_hatched: bool,
 }
 
 impl Sheet {
@@ -126,18 +130,23 @@ impl Sheet {
                 .set("stroke-linejoin", "round"),
             frame: Frame::EMPTY,
             inks,
+            is_hatched: false,
         }
     }
 
     /// Draws the facets that `drawn` admits, each as a polygon with its name, and every edge in sight once.
+    /// Frosted facets are hatched.
     pub fn stone(&mut self, stone: &Stone, aspect: &DrawnAspect, drawn: impl Fn(&Facet) -> bool) {
         let facets = stone.polytope.facets();
         let mut faces = Group::new().set("class", "facets");
-        let (mut outline, mut edges, mut girdle) = (vec![], vec![], vec![]);
+        let (mut outline, mut edges, mut girdle, mut hatching) = (vec![], vec![], vec![], vec![]);
         for (id, facet) in facets.iter().enumerate() {
             let corners = aspect.outline(stone, facet);
             corners.iter().for_each(|&p| self.frame.include(p));
             if drawn(facet) {
+                if facet.frosting > 0.0 {
+                    hatching.extend(hatching::hatched(&corners));
+                }
                 faces = faces.add(face(&stone.name(id as u32), &corners, self.shade(facet, aspect)));
             }
             for (k, &other) in facet.neighbours.iter().enumerate().filter(|_| aspect.shows(facet)) {
@@ -152,6 +161,10 @@ impl Sheet {
             }
         }
         self.stone.append(faces.set("stroke", "none"));
+        if !hatching.is_empty() {
+            self.is_hatched = true;
+            self.quiet_lines(&hatching, "frosted", 0.6);
+        }
         for (lines, class, colour, width) in [
             (girdle, "girdle", Ink::Edge, 0.35),
             (edges, "edges", Ink::Edge, 0.9),
@@ -300,6 +313,8 @@ impl Sheet {
     /// Returns the finished drawing: a heading over what was drawn, remarks under it, white space on all sides.
     pub fn document(mut self, title: &str, subtitle: &str, remarks: &[String]) -> Document {
         let drawn = self.frame;
+        let legend = self.is_hatched.then(|| hatching::LEGEND.to_owned());
+        let remarks: Vec<&String> = remarks.iter().chain(&legend).collect();
         let remark_width = remarks.iter().map(|r| text_width(r, REMARK.size)).fold(0.0, f64::max);
         let inner = (drawn.high.x - drawn.low.x).max(remark_width).max(LEAST_WIDTH - 2.0 * MARGIN);
         let left = (drawn.low.x + drawn.high.x - inner) / 2.0;

@@ -67,6 +67,11 @@ impl Card {
 pub struct NoCard(String);
 
 impl NoCard {
+    /// Returns why stones with frosted facets are never traced by a card.
+    pub fn frosted() -> Self {
+        Self("graphics cards do not scatter light at frosted facets yet".to_owned())
+    }
+
     /// Returns why scenes that hold metal are never traced by a card.
     pub fn metal() -> Self {
         Self("graphics cards do not reflect metal yet".to_owned())

@@ -1,6 +1,6 @@
 //! The ranges of all numbers of a job. A job may come from another program, so it is checked before it is planned.
 
-use super::job::{Job, LightProduct, MapProduct, PaneProduct, Product, Quality};
+use super::job::{Job, LightProduct, MapProduct, MeasuresProduct, PaneProduct, Product, Quality};
 use super::surroundings::Surroundings;
 use crate::optics::DispersionError;
 use crate::scene::{Film, Medium, Panorama, PanoramaError, Pose, Projection, Scene, Scope, ScopeError, View};
@@ -171,6 +171,7 @@ impl Job {
                 check_scope(&product.scope, &product.medium)
             }
             Product::Figures(product) => check_scope(&product.scope, &product.medium),
+            Product::Measures(product) => product.check(),
             Product::LiquidGlass(pane) => pane.check(),
         }
     }
@@ -184,7 +185,7 @@ impl Quality {
         let counts = match product {
             Product::Light(_) | Product::RefractionMap(_) | Product::LiquidGlass(_) => PASSES,
             Product::Scope(_) => RAYS,
-            Product::Figures(_) => LATTICES,
+            Product::Figures(_) | Product::Measures(_) => LATTICES,
         };
         self.samples.map_or(Ok(()), |samples| demand_count("quality.samples", samples, &counts))?;
         Ok(())
@@ -196,6 +197,24 @@ impl LightProduct {
         demand_count("wavelengths", self.wavelengths, &BANDS)?;
         share("strength", self.strength)?;
         self.surroundings.check()
+    }
+}
+
+impl MeasuresProduct {
+    fn check(&self) -> Result<(), JobError> {
+        let Self { settings, medium } = self;
+        check_medium(medium)?;
+        for dome in &settings.domes {
+            let range = "0 to 20, and a head of 0 to 90 degrees";
+            demand(dome.is_valid(), "settings.domes.power", dome.power, range)?;
+        }
+        let head = settings.head_deg;
+        demand((0.0..=90.0).contains(&head), "settings.head_deg", head, "0 to 90 degrees")?;
+        positive("settings.blur_deg", settings.blur_deg)?;
+        for index in settings.indices {
+            demand((1.0..=5.0).contains(&index), "settings.indices", index, "1 (air) to 5")?;
+        }
+        Ok(())
     }
 }
 
@@ -277,11 +296,15 @@ fn check_pose(pose: &Pose) -> Result<(), OutOfRange> {
 
 fn check_scope(scope: &Scope, medium: &Medium) -> Result<(), JobError> {
     scope.validate()?;
+    check_medium(medium)?;
+    Ok(())
+}
+
+fn check_medium(medium: &Medium) -> Result<(), OutOfRange> {
     let is_index = medium.index >= 1.0 && medium.index.is_finite();
     demand(is_index, "medium.index", medium.index, "a finite number of 1 (air) or more")?;
     medium.absorption.into_iter().try_for_each(|a| not_negative("medium.absorption", a))?;
-    finite("medium.spread", medium.spread)?;
-    Ok(())
+    finite("medium.spread", medium.spread)
 }
 
 fn check_picture(key: &'static str, picture: &Panorama) -> Result<(), JobError> {

@@ -3,7 +3,7 @@
 
 use super::Wanted;
 use super::surroundings::Surroundings;
-use crate::measure::Bounds;
+use crate::measure::{Bounds, MeasureSettings};
 use crate::optics::Strata;
 use crate::picture::liquid_glass::GlassPane;
 use crate::picture::{Backdrop, Linear, Survey, enlarged};
@@ -43,6 +43,8 @@ pub enum Product {
     LiquidGlass(PaneProduct),
     /// Figures in a scope.
     Figures(FiguresProduct),
+    /// Measures of light.
+    Measures(MeasuresProduct),
 }
 
 /// A picture of stones under light.
@@ -147,6 +149,15 @@ pub struct FiguresProduct {
     pub medium: Medium,
 }
 
+/// Measures of one stone's light, which are sums over exact beams.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MeasuresProduct {
+    /// The light, head and eye of the measures.
+    pub settings: MeasureSettings,
+    /// The stone's medium.
+    pub medium: Medium,
+}
+
 /// How well a job is done.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Quality {
@@ -217,7 +228,7 @@ impl Job {
         match &self.product {
             Product::Light(light) => Some(self.lit_scene(&light.surroundings)),
             Product::RefractionMap(map) => Some(self.lit_scene(&map.surroundings)),
-            Product::Scope(_) | Product::LiquidGlass(_) | Product::Figures(_) => None,
+            Product::Scope(_) | Product::LiquidGlass(_) | Product::Figures(_) | Product::Measures(_) => None,
         }
     }
 

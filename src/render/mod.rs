@@ -12,6 +12,7 @@ mod plan;
 mod renderer;
 mod scope;
 mod surroundings;
+mod sweep;
 
 #[cfg(test)]
 mod tests;
@@ -19,10 +20,11 @@ mod tests;
 pub use card::{Backend, Card, NoCard};
 pub use check::{JobError, OutOfRange};
 pub use job::{
-    FiguresProduct, Job, LightProduct, MapProduct, PaneProduct, Product, Quality, Reading, ScopeProduct,
-    Steps, USUAL_BOUNCES, mixture_note,
+    FiguresProduct, Job, LightProduct, MapProduct, MeasuresProduct, PaneProduct, Product, Quality, Reading,
+    ScopeProduct, Steps, USUAL_BOUNCES, mixture_note,
 };
 pub use measure::{MeasureError, MeasureOptions, measure};
 pub use plan::{CardWorth, Demands, Plan, Unfit, Wanted};
 pub use renderer::{EachPart, Output, Partial, RenderError, Rendered, Renderer};
 pub use surroundings::{HungPicture, Surroundings};
+pub use sweep::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue, SweptStone};

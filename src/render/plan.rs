@@ -72,6 +72,11 @@ pub enum Unfit {
         "only rays in pictures under light reflect metal: trace by rays, and make no scope, figures or refraction map of it"
     )]
     Metal,
+    /// A stone has frosted facets, which exact beams, graphics cards and refraction maps know nothing of.
+    #[error(
+        "the stone has frosted facets, which scatter light: trace by rays, and make no refraction map or measures of light of it"
+    )]
+    Frosted,
     /// There are several bodies, a body that is not convex, a perspective, or a backplate.
     #[error(
         "exact beams are for one convex stone, parallel rays and no world, pattern or photograph behind: trace by rays"
@@ -83,6 +88,12 @@ pub enum Unfit {
     /// Light is followed through fewer bounces than usual.
     #[error("exact beams cannot end after some bounces: trace by rays, or follow 64 bounces")]
     FewBounces,
+    /// Measures of light are wanted of what exact beams cannot trace, or by another tracer.
+    #[error(
+        "measures of light are sums over exact beams: they need a convex stone between planes, parallel rays, and no other \
+         tracer"
+    )]
+    OnlyBeams,
     /// Light is followed along many paths at once, as in refraction maps and liquid glass.
     #[error(
         "refraction maps and liquid glass are traced by rays on the processor: choose these, or no tracer"
@@ -104,20 +115,31 @@ impl Demands {
     ///
     /// # Errors
     /// [`Unfit::NoStone`] and [`Unfit::Eye`] where a scope or figures have no stone, or an eye that cannot see it;
-    /// [`Unfit::Metal`] where metal stands in the scene of anything but a picture under light.
+    /// [`Unfit::Metal`] where metal stands in the scene of anything but a picture under light;
+    /// [`Unfit::OnlyBeams`] where measures of light are wanted of what beams do not trace; [`Unfit::Frosted`] for a
+    /// refraction map, or measures of light, of frosted facets.
     pub fn of(job: &Job) -> Result<Self, Unfit> {
         match &job.product {
             Product::Light(light) => Ok(Self::of_light(job, light)),
-            Product::Scope(_) | Product::Figures(_) | Product::RefractionMap(_)
+            Product::Scope(_) | Product::Figures(_) | Product::Measures(_) | Product::RefractionMap(_)
                 if !job.scene.metals.is_empty() =>
             {
                 Err(Unfit::Metal)
             }
             Product::Scope(_) | Product::Figures(_) => Self::of_scope(job.stone()?, &job.view),
+            Product::RefractionMap(_) | Product::Measures(_) if job.scene.is_frosted() => Err(Unfit::Frosted),
+            Product::Measures(_) => Self::of_measures(job),
             Product::RefractionMap(_) | Product::LiquidGlass(_) => {
                 Ok(Self { against_beams: Some(Unfit::ManyPaths), card: CardWorth::Nothing, no_card: None })
             }
         }
+    }
+
+    /// Returns the demands of stones with frosted facets: rays on the processor alone follow their light, or know what of it
+    /// they do not follow.
+    fn frosted() -> Self {
+        let (against_beams, no_card) = (Some(Unfit::Frosted), Some(NoCard::frosted()));
+        Self { against_beams, card: CardWorth::Nothing, no_card }
     }
 
     fn of_scope(solid: SolidRef, view: &View) -> Result<Self, Unfit> {
@@ -125,11 +147,19 @@ impl Demands {
             return Err(Unfit::Eye);
         }
         let against_beams = match solid {
+            // Rays count the light that meets frosted facets as unresolved.
+            SolidRef::Convex(polytope) if polytope.is_frosted() => return Ok(Self::frosted()),
             _ if view.projection != Projection::Orthographic => Some(Unfit::Perspective),
             SolidRef::Convex(_) => None,
             SolidRef::Triangles(_) | SolidRef::Smooth(_) => Some(NotConvex.into()),
         };
         Ok(Self { against_beams, card: CardWorth::Little, no_card: None })
+    }
+
+    fn of_measures(job: &Job) -> Result<Self, Unfit> {
+        let demands = Self::of_scope(job.stone()?, &job.view)?;
+        let is_asked = matches!(job.quality.tracer, Wanted::Beams | Wanted::Quickest);
+        if is_asked && demands.against_beams.is_none() { Ok(demands) } else { Err(Unfit::OnlyBeams) }
     }
 
     fn of_light(job: &Job, light: &LightProduct) -> Self {
@@ -139,6 +169,9 @@ impl Demands {
         if !job.scene.metals.is_empty() {
             let no_card = Some(NoCard::metal());
             return Self { against_beams: Some(Unfit::Metal), card: CardWorth::Nothing, no_card };
+        }
+        if job.scene.is_frosted() {
+            return Self::frosted();
         }
         let against_beams = match fits {
             _ if light.strength < 1.0 => Some(Unfit::Mixture),

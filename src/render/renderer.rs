@@ -4,7 +4,7 @@ use super::beam_cache::BeamCache;
 use super::card::{Backend, Card};
 use super::job::{Job, Product, Reading, Steps};
 use super::plan::{Demands, Plan, Unfit, plan};
-use crate::measure::{LATTICE, Measured};
+use crate::measure::{LATTICE, LightMeasures, Measured};
 use crate::picture::liquid_glass::{Cost, PaneError};
 use crate::picture::spectral::Remainder;
 use crate::picture::{Carried, Linear, RefractionMap, Rows};
@@ -80,6 +80,8 @@ pub enum Output {
     LiquidGlass(Linear, Option<Cost>),
     /// The measured figures of a stone.
     Figures(Box<Measured>),
+    /// The measures of a stone's light.
+    Measures(Box<LightMeasures>),
 }
 
 /// What a job has made, and how.
@@ -228,6 +230,7 @@ impl Renderer {
             Product::Light(light) => light.render(job, (backend, samples), watch, each)?,
             Product::Scope(scope) => self.scope(job, scope, (backend, samples), watch, each)?,
             Product::Figures(figures) => self.figures(job, figures, (backend, samples), watch)?,
+            Product::Measures(measures) => self.light_measures(job, measures, watch)?,
             Product::RefractionMap(map) => map.render(job, samples, watch)?,
             Product::LiquidGlass(pane) => pane.render(samples, watch)?,
         };
@@ -257,7 +260,7 @@ fn usual_samples(product: &Product, backend: &Backend) -> u32 {
         Product::Scope(_) => RAYS_PER_SIDE,
         Product::RefractionMap(_) => PASSES_OF_MAPS,
         Product::LiquidGlass(_) => PASSES_OF_PANES,
-        Product::Figures(_) => LATTICE,
+        Product::Figures(_) | Product::Measures(_) => LATTICE,
     }
 }
 
@@ -321,6 +324,17 @@ impl Rendered {
     pub fn figures(self) -> Result<Measured, RenderError> {
         match self.output {
             Output::Figures(measured) => Ok(*measured),
+            _ => Err(RenderError::OtherProduct),
+        }
+    }
+
+    /// Returns the measures of light.
+    ///
+    /// # Errors
+    /// [`RenderError::OtherProduct`] of another product.
+    pub fn measures(self) -> Result<LightMeasures, RenderError> {
+        match self.output {
+            Output::Measures(measures) => Ok(*measures),
             _ => Err(RenderError::OtherProduct),
         }
     }

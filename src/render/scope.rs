@@ -1,11 +1,11 @@
 //! Pictures and figures in a scope.
 
 use super::card::Backend;
-use super::job::{FiguresProduct, Job, Quality, Reading, ScopeProduct};
+use super::job::{FiguresProduct, Job, MeasuresProduct, Quality, Reading, ScopeProduct};
 use super::plan::Unfit;
 use super::renderer::{EachPart, Halt, Output, Partial, RenderError, Renderer};
 use crate::math::{Polytope, SolidRef};
-use crate::measure::{self, Figures, measured};
+use crate::measure::{self, Figures, LightMeasures, measured};
 use crate::picture::{Layer, Rows, by_rays, paint};
 use crate::scene::{Body, Medium, Scope};
 use crate::trace::beam::{self, SumOptions};
@@ -71,6 +71,19 @@ impl Renderer {
             })?;
         }
         Ok(Output::Scope(Some(beams)))
+    }
+
+    /// Takes the measures of a stone's light.
+    pub(super) fn light_measures<E>(
+        &mut self,
+        job: &Job,
+        product: &MeasuresProduct,
+        watch: Watch,
+    ) -> Result<Output, Halt<E>> {
+        let MeasuresProduct { settings, medium } = product;
+        let (body, polytope) = job.convex()?;
+        let beams = self.beams.of((body, polytope), *medium, &job.view, &job.quality.beams, watch)?;
+        Ok(Output::Measures(Box::new(LightMeasures::of(&beams, polytope, settings))))
     }
 
     /// Measures figures in a scope.

@@ -1,4 +1,5 @@
 mod enlarged;
+mod frosted;
 mod metal;
 
 use super::*;

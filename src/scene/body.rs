@@ -39,6 +39,11 @@ impl Body {
         }
     }
 
+    /// Whether the body has frosted facets, whose light only rays in pictures under light follow.
+    pub fn is_frosted(&self) -> bool {
+        matches!(self, Self::Stone(stone) if stone.polytope.is_frosted())
+    }
+
     /// Returns the names of the facets, in their order; empty where they have none.
     pub fn names(&self) -> Vec<String> {
         match self {

@@ -1,9 +1,10 @@
 //! A body as plain data, from which it is built again: planes, triangles, or the dimensions of a glass shape.
 
 use super::{Body, Stone};
+use crate::cut::FROSTINGS;
 use crate::math::{
-    ImplicitForm, ImplicitSurface, ImplicitSurfaceError, Plane, PolytopeError, Surface, TriangleMesh,
-    TriangleMeshError,
+    ImplicitForm, ImplicitSurface, ImplicitSurfaceError, Plane, Polytope, PolytopeError, Surface,
+    TriangleMesh, TriangleMeshError,
 };
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -12,7 +13,13 @@ use std::sync::Arc;
 #[derive(Serialize, Deserialize)]
 pub(super) enum BodyData {
     /// The planes of a stone's facets, each with its name; the names are missing where the facets have none.
-    Stone { planes: Vec<Plane>, names: Vec<String> },
+    Stone {
+        planes: Vec<Plane>,
+        names: Vec<String>,
+        /// How much each facet is frosted; missing where none is.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        frosting: Vec<f64>,
+    },
     /// Triangles that enclose a solid.
     Mesh(Surface),
     /// The dimensions of a glass shape.
@@ -24,6 +31,8 @@ pub(super) enum BodyData {
 pub(super) enum BodyDataError {
     #[error("{} planes have {} names: give one for each, or none", .planes, .names)]
     Names { planes: usize, names: usize },
+    #[error("frosting: give a number from 0 to 1 for each of the {} planes, or none", .planes)]
+    Frosting { planes: usize },
     #[error("planes enclose no stone: {}", .0.message(|plane| format!("plane {}", plane + 1)))]
     Stone(PolytopeError),
     #[error(transparent)]
@@ -38,6 +47,10 @@ impl From<Body> for BodyData {
             Body::Stone(stone) => Self::Stone {
                 planes: stone.polytope.facets().iter().map(|facet| facet.plane).collect(),
                 names: stone.names().to_vec(),
+                frosting: match stone.polytope.is_frosted() {
+                    true => stone.polytope.facets().iter().map(|facet| facet.frosting).collect(),
+                    false => vec![],
+                },
             },
             Body::Mesh(mesh) => Self::Mesh(mesh.surface().clone()),
             Body::Glass(smooth) => Self::Glass(smooth.field().form()),
@@ -50,16 +63,23 @@ impl TryFrom<BodyData> for Body {
 
     fn try_from(data: BodyData) -> Result<Self, BodyDataError> {
         match data {
-            BodyData::Stone { planes, names } if names.is_empty() => {
-                let polytope = crate::math::Polytope::from_planes(&planes).map_err(BodyDataError::Stone)?;
-                Ok(polytope.into())
-            }
-            BodyData::Stone { planes, names } if names.len() == planes.len() => {
-                let facets: Vec<(String, Plane)> = names.into_iter().zip(planes).collect();
-                Stone::new(&facets).map(Self::Stone).map_err(BodyDataError::Stone)
-            }
-            BodyData::Stone { planes, names } => {
+            BodyData::Stone { planes, names, .. } if !names.is_empty() && names.len() != planes.len() => {
                 Err(BodyDataError::Names { planes: planes.len(), names: names.len() })
+            }
+            BodyData::Stone { planes, frosting, .. }
+                if !frosting.is_empty()
+                    && (frosting.len() != planes.len()
+                        || frosting.iter().any(|f| !FROSTINGS.contains(f))) =>
+            {
+                Err(BodyDataError::Frosting { planes: planes.len() })
+            }
+            BodyData::Stone { planes, names, frosting } => {
+                let stone = match names.is_empty() {
+                    true => Polytope::from_planes(&planes).map(Stone::nameless),
+                    false => Stone::new(&names.into_iter().zip(planes).collect::<Vec<(String, Plane)>>()),
+                };
+                let of_plane = |plane: usize| frosting.get(plane).copied().unwrap_or(0.0);
+                stone.map(|stone| Self::Stone(stone.frosted(of_plane))).map_err(BodyDataError::Stone)
             }
             BodyData::Mesh(surface) => Ok(Arc::new(TriangleMesh::new(surface)?).into()),
             BodyData::Glass(form) => Ok(ImplicitSurface::new(form)?.into()),

@@ -42,6 +42,11 @@ impl Scene {
         Self { instances: vec![stone], metals: vec![], unit_mm: specimen.unit_mm() }
     }
 
+    /// Whether a stone has frosted facets, whose light only rays in pictures under light follow.
+    pub fn is_frosted(&self) -> bool {
+        self.instances.iter().any(|stone| stone.body.is_frosted())
+    }
+
     /// Returns how far the bodies reach from the origin.
     pub fn reach(&self) -> f64 {
         let stones = self.instances.iter().map(|stone| stone.solid().reach());

@@ -3,6 +3,7 @@
 mod body;
 mod body_data;
 mod copies;
+mod dome_light;
 mod film;
 mod instance;
 mod layout;
@@ -24,6 +25,7 @@ mod worlds;
 pub use crate::math::Pose;
 pub use body::Body;
 pub use copies::{Copies, MOST_COPIES, middle};
+pub use dome_light::{DomeLight, NoDome};
 pub use film::Film;
 pub use instance::{Instance, MOST_STONES, Scene};
 pub use layout::Layout;

@@ -57,7 +57,8 @@ impl Specimen {
             _ => None,
         };
         if let Some(body) = body {
-            return Ok(Self::made(design, body, material));
+            let unusual = design.warnings()?;
+            return Ok(Self { unusual, ..Self::made(design, body, material) });
         }
         let mut facets = design.facets()?;
         let given = facets.len();
@@ -74,7 +75,15 @@ impl Specimen {
             }
             (Err(error), _) => return Err(with_names(&error, &facets)),
         };
+        let stone = match &design.cut {
+            Cut::Tiers(tiers) => {
+                let frosting = tiers.frosting();
+                stone.frosted(|plane| frosting.get(plane).copied().unwrap_or(0.0))
+            }
+            _ => stone,
+        };
         warnings.extend(odd(&stone, &facets, given));
+        warnings.extend(scattering(&stone));
         Ok(Self { unusual, warnings, ..Self::made(design, Body::Stone(stone), material) })
     }
 
@@ -133,7 +142,8 @@ impl Specimen {
             return Self::new(design);
         }
         let material = design.material.material().map_err(DesignError::from)?;
-        Ok(Self { design, material, ..self.clone() })
+        let unusual = design.warnings()?;
+        Ok(Self { design, material, unusual, ..self.clone() })
     }
 
     /// Returns the girdle radius in mm.
@@ -195,6 +205,21 @@ fn odd(stone: &Stone, facets: &[(String, Plane)], given: usize) -> Vec<String> {
         told.push(format!("these facets do not reach the stone: {}", listed(&names)));
     }
     told
+}
+
+/// Returns a warning about frosted facets, whose light is not followed everywhere.
+fn scattering(stone: &Stone) -> Option<String> {
+    let facets = (0..).zip(stone.polytope.facets());
+    let names: Vec<_> =
+        facets.filter(|(_, facet)| facet.frosting > 0.0).map(|(k, _)| stone.name(k)).collect();
+    let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "frosted facets scatter light: {}. Pictures under light show it; in figures and pictures in scopes, all light that \
+             meets them counts as unresolved",
+            listed(&names)
+        )
+    })
 }
 
 /// Returns whether the axis, around which pictures are centred, runs through the stone.

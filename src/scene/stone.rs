@@ -63,6 +63,11 @@ impl Stone {
         Self { polytope, names: self.names.clone() }
     }
 
+    /// Returns the same stone with frosted facets, as [`Polytope::frosted`] says.
+    pub fn frosted(self, of_plane: impl Fn(usize) -> f64) -> Self {
+        Self { polytope: self.polytope.frosted(of_plane), ..self }
+    }
+
     /// Returns all names, in the order of the facets; none where facets have no names.
     pub fn names(&self) -> &[String] {
         &self.names

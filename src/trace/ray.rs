@@ -9,6 +9,8 @@ mod camera;
 mod dispersed_ray;
 mod facets;
 mod first_bodies;
+mod frosted_facets;
+mod frosted_light;
 mod instance_tracer;
 mod light;
 mod lobe_luck;
@@ -25,9 +27,11 @@ pub use self::camera::Camera;
 use self::dispersed_ray::{Arrival, DispersedRay};
 use self::facets::{FacetSearch, Planes, SmoothFacets, SolidFacets, TriangleFacets, Wavy};
 pub use self::first_bodies::FirstBodies;
+use self::frosted_facets::{Arriving, FrostedFacets, Struck};
 pub use self::instance_tracer::InstanceTracer;
 pub(in crate::trace) use self::light::PathLight;
 use self::light::SplitLight;
+use self::lobe_luck::LobeLuck;
 pub use self::loss::Loss;
 use self::path::{ExitLight, SurfaceEvent};
 pub use self::path::{Leaving, Path, Step};
@@ -79,6 +83,8 @@ pub struct Exit {
     pub bounce: u32,
     /// Whether this is the glare of the outer surface: light that was never inside.
     pub surface: bool,
+    /// The side, in radians, of the square of directions that it stands for: frosted facets spread light; 0 for one direction.
+    pub spread: f64,
 }
 
 /// A ray that is known to [`meet`](StoneTracer::meet) a stone.
@@ -96,12 +102,14 @@ pub struct MeetingRay {
     pub weight: f64,
     /// By what chance weak light goes on in a solid that is not convex; without it, all of it does.
     pub roulette: Option<Roulette>,
+    /// What decides where frosted facets scatter the light; without it, light that meets one is unresolved.
+    luck: Option<LobeLuck>,
 }
 
 impl MeetingRay {
     /// Returns a ray from the eye.
     pub fn from_eye(met: (usize, f64), origin: DVec3, direction: DVec3) -> Self {
-        Self { met, origin, direction, sweep: DVec3::ZERO, weight: 1.0, roulette: None }
+        Self { met, origin, direction, sweep: DVec3::ZERO, weight: 1.0, roulette: None, luck: None }
     }
 }
 
@@ -109,6 +117,8 @@ impl MeetingRay {
 #[derive(Debug, Clone)]
 pub struct StoneTracer {
     shape: SolidFacets,
+    /// `None` where all facets are polished.
+    frosted: Option<Arc<FrostedFacets>>,
     medium: Medium,
     options: RayOptions,
 }
@@ -116,7 +126,9 @@ pub struct StoneTracer {
 impl StoneTracer {
     /// Prepares a stone for tracing.
     pub fn new<'a>(solid: impl Into<SolidRef<'a>>, medium: Medium, options: RayOptions) -> Self {
-        let shape = match solid.into() {
+        let solid = solid.into();
+        let frosted = FrostedFacets::of(solid).map(Arc::new);
+        let shape = match solid {
             SolidRef::Convex(polytope) => SolidFacets::Planes(Arc::new(Planes::new(polytope))),
             SolidRef::Triangles(mesh) => SolidFacets::Triangles(TriangleFacets::new(mesh)),
             SolidRef::Smooth(smooth) if smooth.field().is_convex() => {
@@ -124,7 +136,7 @@ impl StoneTracer {
             }
             SolidRef::Smooth(smooth) => SolidFacets::Wavy(Wavy(*smooth.field())),
         };
-        Self { shape, medium, options }
+        Self { shape, frosted, medium, options }
     }
 
     /// Returns a tracer of the same stone in another medium.
@@ -185,7 +197,7 @@ impl StoneTracer {
     ) -> Loss {
         let ray = DispersedRay { origin, direction, sweep: DVec3::ZERO, shift: DVec3::ZERO };
         let left = self.medium.transmittance(path);
-        let inside = Inbound { met: (0, 0.0), ray, light, left, path, bounce: 0 };
+        let inside = Inbound { met: (0, 0.0), ray, light, left, path, bounce: 0, luck: None };
         match &self.shape {
             SolidFacets::Planes(planes) => self.bounce(&**planes, inside, least_weight, meets),
             SolidFacets::Triangles(triangles) => self.bounce(triangles, inside, least_weight, meets),
@@ -205,10 +217,10 @@ impl StoneTracer {
 
     /// Returns the light of a ray that is about to enter; it is not polarised.
     fn start(&self, meeting: &MeetingRay) -> Inbound {
-        let &MeetingRay { met, origin, direction, sweep, weight, .. } = meeting;
+        let &MeetingRay { met, origin, direction, sweep, weight, luck, .. } = meeting;
         let light = PathLight::of_eye(direction, weight, self.options.polarised);
         let ray = DispersedRay { origin, direction, sweep, shift: DVec3::ZERO };
-        Inbound { met, ray, light, left: 1.0, path: 0.0, bounce: 0 }
+        Inbound { met, ray, light, left: 1.0, path: 0.0, bounce: 0, luck }
     }
 
     /// Follows light through the stone, from the facet where it enters until no more than `least_weight` is left, and calls
@@ -224,6 +236,17 @@ impl StoneTracer {
         let DispersedRay { direction, sweep, .. } = ray;
         let Arrival { point, normal, shift, of_normal } = ray.arrival(facets, facet, distance);
         let eta = 1.0 / self.medium.index;
+        if let Some(frosted) = &self.frosted
+            && let Some(surface) = frosted.of_facet(facet)
+        {
+            return Some(self.enter_frosted(
+                (facets, surface),
+                (point, normal),
+                inbound,
+                least_weight,
+                meets,
+            ));
+        }
         let cos_i = -direction.dot(normal);
         let cos_t = cos_transmitted(cos_i, eta)?;
         let inward = refract(direction, normal, eta, (cos_i, cos_t));
@@ -245,6 +268,7 @@ impl StoneTracer {
                 sweep: reflected_change(direction, normal, (sweep, of_normal)),
                 shift,
                 weight: glare.weight() * left,
+                spread: 0.0,
             }),
             onward: light.weight() * left,
         });
@@ -260,7 +284,7 @@ impl StoneTracer {
         least_weight: f64,
         mut meets: impl FnMut(SurfaceEvent),
     ) -> Loss {
-        let Inbound { mut ray, mut light, mut left, mut path, .. } = inside;
+        let Inbound { mut ray, mut light, mut left, mut path, mut luck, .. } = inside;
         let mut rest = Loss { bounces: inside.bounce, ..Loss::default() };
         let mut remaining = light.weight() * left;
         // Without any change of direction there will be none at the next facet either.
@@ -276,6 +300,23 @@ impl StoneTracer {
                 rest.absorbed += light.weight() * (left - after);
                 left = after;
             }
+            if let Some(frosted) = &self.frosted
+                && let Some(surface) = frosted.of_facet(facet)
+            {
+                rest.bounces += 1;
+                let arriving = Arriving { facet: facet as u32, point, normal, direction, path, left, light };
+                match self.leave_frosted(surface, &arriving, rest.bounces, &mut luck, &mut meets) {
+                    Struck::Inward(scattered) => {
+                        (ray, light) =
+                            (DispersedRay::new(point, scattered), self.scattered(&light, scattered));
+                        remaining = light.weight() * left;
+                        continue;
+                    }
+                    Struck::Outward => remaining = 0.0,
+                    Struck::Unresolved => remaining = light.weight() * left,
+                }
+                break;
+            }
             let reflected = reflect(direction, -normal, cos_i);
             let Medium { index, spread, .. } = self.medium;
             let cos_t = cos_transmitted(cos_i, index);
@@ -289,6 +330,7 @@ impl StoneTracer {
                     sweep: if is_swept { change() } else { DVec3::ZERO },
                     shift,
                     weight: passed.weight() * left,
+                    spread: 0.0,
                 }
             });
             rest.bounces += 1;

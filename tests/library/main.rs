@@ -25,6 +25,7 @@ mod hues;
 mod laws;
 mod licences;
 mod light;
+mod measures;
 mod mirror;
 mod overlay;
 mod packets;

@@ -13,6 +13,7 @@ mod pictures;
 mod recorder;
 mod renders;
 mod streams;
+mod sweeps;
 
 use brillianteer::io::light_file;
 use brillianteer::picture::names;

@@ -5,6 +5,8 @@ mod answers;
 pub mod asked_path;
 mod cut_chooser;
 pub mod export_dialog;
+mod retarget_dialog;
+mod yield_dialog;
 
 use super::model::Model;
 use super::model::action::{Actions, DialogAction};
@@ -35,6 +37,8 @@ pub fn show(model: &Model, thumbnails: &HashMap<Shows, TextureHandle>, actions: 
             Dialog::ChangedOutside => changed_outside(actions, ui),
             Dialog::Export(export) => export_dialog::show(export, thumbnails, actions, ui),
             Dialog::Path(form) => asked_path::show(actions, ui, form),
+            Dialog::Retarget(form) => retarget_dialog::show(form, actions, ui),
+            Dialog::Yield(form) => yield_dialog::show(model, form, actions, ui),
             Dialog::Cuts => cut_chooser::show(actions, ui),
             Dialog::Keys => keys(actions, ui),
             Dialog::About(about) => about::show(about, actions, ui),

@@ -7,6 +7,7 @@ use super::dialog::{AboutPage, Then};
 use super::export::Selection;
 use super::exporting::ExportEvent;
 use super::eye::Eye;
+use super::fitting::{FitOptions, StoneLight, YieldOptions};
 use super::opening::{FileRequest, OpenedFile, OpeningPurpose};
 use super::recovery::RecoveredWork;
 use super::saving::{SavedDesign, Stamp};
@@ -15,7 +16,7 @@ use super::workspace::PanelSide;
 use crate::app::liquid::Liquid;
 use crate::app::shows::Shows;
 use crate::app::studio::{FiguresOrder, Grade, Order, Smoothing, Tilts, Which};
-use crate::cut::{Audit, Cut, MaterialRef, TierChange};
+use crate::cut::{Audit, Cut, Design, MaterialRef, TierChange};
 use crate::io::Failure;
 use crate::io::lighting::Lighting;
 use crate::io::mesh_options::MeshOptions;
@@ -69,6 +70,8 @@ pub enum Edit {
     /// Adds a tier after the one at a place, beside the stone.
     AddTier(Option<usize>),
     Material(MaterialRef),
+    /// Takes cut, material and notes of a design that was fitted to another material.
+    Fitted(Box<Design>),
     /// Sets the diameter by which the design is scaled, in mm.
     Diameter(f64),
     /// The name or the file of the light in renders.
@@ -222,6 +225,12 @@ pub enum DialogAction {
     Stop,
     /// Progress of the export, or its end.
     Exported(ExportEvent),
+    /// Sets what is chosen where the design is fitted to another material.
+    Fit(FitOptions),
+    /// Sets what is typed in the dialog of size and yield.
+    Size(YieldOptions),
+    /// Changes the design as the dialog says.
+    Apply,
 }
 
 /// What is done to the messages that the window shows.
@@ -249,6 +258,8 @@ pub enum Computed {
     Tilts(FiguresOrder, Tilts),
     /// The audit of a stone.
     Audit(Arc<Specimen>, Result<Audit, Failure>),
+    /// The light of the stones of this question, in the dialog that fits the design to another material.
+    StoneLight(u64, Result<Vec<StoneLight>, Failure>),
     /// The width and height of a picture that is in the clipboard now, pixels.
     Copied(Result<[usize; 2], Failure>),
     /// The order of all that is in sight, which the studio then traces.

@@ -22,6 +22,10 @@ pub enum Command by keys {
     ViewOn: "Shift+Backspace", "Next view", "Redoes the view change that was undone last.";
     IntoTiers: "", "Turn into tiers",
         "Lists the facets as tiers on an index gear, so that each can be cut otherwise. Proportions end with it.";
+    Retarget: "", "Fit to another material…",
+        "Changes the angles for another material by a rule, and compares the light of both.";
+    Yield: "", "Size and yield…",
+        "Finds the stone that a piece of rough gives, or that has a wanted weight.";
     Top: "T", "Top", "Looks at the table.";
     Side: "S", "Side", "Looks along the girdle.";
     Bottom: "B", "Bottom", "Looks at the culet.";
@@ -83,9 +87,10 @@ pub struct Menu {
 use Command::*;
 
 /// All menus. The File menu also lists recent files, and the scenes that come with the program.
-pub const MENUS: [Menu; 5] = [
+pub const MENUS: [Menu; 6] = [
     Menu { title: "File", groups: &[&[New, Open], &[Save, SaveAs], &[Export, CopyPicture], &[Quit]] },
     Menu { title: "Edit", groups: &[&[Undo, Redo], &[ViewBack, ViewOn], &[IntoTiers]] },
+    Menu { title: "Design", groups: &[&[Retarget], &[Yield]] },
     Menu {
         title: "View",
         groups: &[

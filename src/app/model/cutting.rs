@@ -115,6 +115,7 @@ mod tests {
             instructions: "Meet P1".to_owned(),
             meet: None,
             is_cut: true,
+            frosting: 0.0,
             facets,
         };
         let muted = Tier { is_cut: false, ..tier.clone() };

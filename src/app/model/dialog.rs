@@ -2,6 +2,7 @@
 
 use super::choosing::Purpose;
 use super::exporting::ExportForm;
+use super::fitting::{RetargetForm, YieldForm};
 use super::recovery::RecoveredWork;
 use crate::io::mesh_options::MeshOptions;
 use std::path::{Path, PathBuf};
@@ -41,6 +42,10 @@ pub enum Dialog {
     Moved(Then),
     /// Asks for a path, where the system does not.
     Path(PathForm),
+    /// Fits the design to another material.
+    Retarget(Box<RetargetForm>),
+    /// Finds the size of the stone and its yield.
+    Yield(Box<YieldForm>),
     /// Offers the cuts that come with the program.
     Cuts,
     /// Lists keys and terms.
@@ -53,9 +58,13 @@ impl Dialog {
     /// Whether the dialog is about the open document, so that no other may take its place until the dialog is answered.
     pub fn is_about_document(&self) -> bool {
         match self {
-            Self::Unsaved(_) | Self::ChangedOutside | Self::Export(_) | Self::Moved(_) | Self::Path(_) => {
-                true
-            }
+            Self::Unsaved(_)
+            | Self::ChangedOutside
+            | Self::Export(_)
+            | Self::Moved(_)
+            | Self::Path(_)
+            | Self::Retarget(_)
+            | Self::Yield(_) => true,
             Self::Recover(_) | Self::Cuts | Self::Keys | Self::About(_) => false,
         }
     }
@@ -67,9 +76,14 @@ impl Dialog {
         match self {
             Self::Recover(_) | Self::ChangedOutside => true,
             Self::Export(export) => export.is_busy(),
-            Self::Unsaved(_) | Self::Moved(_) | Self::Path(_) | Self::Cuts | Self::Keys | Self::About(_) => {
-                false
-            }
+            Self::Unsaved(_)
+            | Self::Moved(_)
+            | Self::Path(_)
+            | Self::Retarget(_)
+            | Self::Yield(_)
+            | Self::Cuts
+            | Self::Keys
+            | Self::About(_) => false,
         }
     }
 }

@@ -6,7 +6,7 @@ use super::impossible;
 use super::recovery::RecoveredWork;
 use super::saving::{SaveRequest, SavedDesign, Stamp};
 use super::work::{ReadMesh, Work};
-use crate::cut::{Cut, Design};
+use crate::cut::{Cut, Design, Tiers};
 use crate::io::design_file::{self, ImportedDesign};
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{Failure, FileError, cut_file, library};
@@ -40,7 +40,11 @@ pub struct Document {
 /// Whether two designs make the same stone, whatever their names and notes.
 fn is_same_stone(a: &Design, b: &Design) -> bool {
     let is_same_cut = match (&a.cut, &b.cut) {
-        (Cut::Tiers(a), Cut::Tiers(b)) => (a.gear, a.offset, &a.tiers) == (b.gear, b.offset, &b.tiers),
+        // The audit measures a stone by the symmetry that its design states.
+        (Cut::Tiers(a), Cut::Tiers(b)) => {
+            let planes = |tiers: &Tiers| (tiers.gear, tiers.offset, tiers.symmetry, tiers.mirror);
+            planes(a) == planes(b) && a.tiers == b.tiers
+        }
         (a, b) => a == b,
     };
     is_same_cut && a.diameter_mm == b.diameter_mm && a.material == b.material

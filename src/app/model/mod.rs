@@ -16,6 +16,7 @@ pub mod exporting;
 pub mod extent;
 pub mod eye;
 pub mod figures;
+pub mod fitting;
 pub mod framing;
 pub mod history;
 pub mod impossible;

@@ -2,6 +2,7 @@
 
 use super::choosing::Question;
 use super::export::ExportPlan;
+use super::fitting::LightRequest;
 use super::opening::FileRequest;
 use super::recovery::UnsavedWork;
 use super::saving::{SaveRequest, Stamp};
@@ -43,6 +44,10 @@ pub enum Task {
     MakeCopy(CopyRequest),
     /// Look for what may not be meant in a stone, for the list of the audit.
     Audit(Arc<Specimen>),
+    /// Measure the light of stones that are compared.
+    MeasureLight(Box<LightRequest>),
+    /// Stop measuring.
+    StopLight,
     /// Trace the pictures and figures of all views in sight.
     Trace(Box<Order>),
     Window(WindowTask),

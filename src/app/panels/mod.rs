@@ -6,6 +6,7 @@ pub mod design_panel;
 pub mod figure_lines;
 pub mod figures_panel;
 pub mod figures_text;
+pub mod gear_fields;
 pub mod light_rows;
 pub mod material_rows;
 pub mod mesh_rows;

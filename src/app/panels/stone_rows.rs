@@ -43,16 +43,15 @@ fn is_own(material: &MaterialRef) -> bool {
 const ILLUSTRATIVE: &str = "\nIts colour is illustrative: it was chosen to look like the gem's, not measured. \
     Absorption follows from it.";
 
-/// Draws the row of materials; returns the one that was chosen.
-fn material(design: &Design, known: &Material, ui: &mut Ui) -> Option<MaterialRef> {
+/// Draws a row in which a material of the library is chosen; returns the one that was, if it is another than before.
+pub fn material_choice(ui: &mut Ui, (row, meaning): (&str, &str), now: &MaterialRef) -> Option<MaterialRef> {
     let mut chosen = None;
-    let meaning = "The material of the stone. It sets refraction, dispersion and colour.";
-    let name = match &design.material {
+    let name = match now {
         MaterialRef::Name(name) => name.clone(),
         MaterialRef::Index(index) => format!("index {index}"),
         MaterialRef::Custom(material) => material.name.clone(),
     };
-    choice_row(ui, "Material", meaning, &name, |ui| {
+    choice_row(ui, row, meaning, &name, |ui| {
         let mut all: Vec<_> = materials().iter().collect();
         all.sort_by_key(|m| m.name.as_str());
         for material in all {
@@ -70,6 +69,13 @@ fn material(design: &Design, known: &Material, ui: &mut Ui) -> Option<MaterialRe
             }
         }
     });
+    chosen
+}
+
+/// Draws the rows of the material; returns the one that was chosen.
+fn material(design: &Design, known: &Material, ui: &mut Ui) -> Option<MaterialRef> {
+    let meaning = "The material of the stone. It sets refraction, dispersion and colour.";
+    let chosen = material_choice(ui, ("Material", meaning), &design.material);
     if known.colour_is_illustrative {
         ui.label(RichText::new("illustrative colour").weak().small())
             .on_hover_text(ILLUSTRATIVE.trim_start());

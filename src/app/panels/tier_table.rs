@@ -5,20 +5,21 @@
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit, ViewAction};
+use crate::app::panels::gear_fields;
 use crate::app::panels::rows::{ANY, Number, explain};
 use crate::cut::{Cut, Tier, TierChange, TierZone, Tiers, read_indices};
-use egui::{Color32, Id, Panel, Response, RichText, ScrollArea, Sense, TextEdit, Ui, vec2};
+use egui::{Color32, ComboBox, Id, Panel, Response, RichText, ScrollArea, Sense, TextEdit, Ui, vec2};
 
 /// The least, the first and the greatest height of the table, points.
 const HEIGHTS: [f32; 3] = [110.0, 270.0, 560.0];
 /// The widths of the columns, points: grip, cut, name, zone, angle, distance, meet, indices, instructions.
-const WIDTHS: [f32; 9] = [34.0, 34.0, 84.0, 64.0, 84.0, 92.0, 190.0, 240.0, 200.0];
+const WIDTHS: [f32; 9] = [34.0, 34.0, 84.0, 88.0, 84.0, 92.0, 190.0, 240.0, 200.0];
 /// The heads of the columns and their meanings.
 const HEADS: [(&str, &str); 9] = [
     ("", "The number of the tier. Drag it to cut the tier earlier or later."),
     ("Cut", "A tier that is not cut stays in the list and makes no facets."),
     ("Name", "What cutters call the tier, such as P1, G1, C1 or T."),
-    ("Zone", "The part of the stone where the tier lies."),
+    ("Zone", "The part of the stone where the tier lies. Choose another to turn the tier over."),
     ("Angle", "The angle from the girdle plane, in degrees; negative in the pavilion."),
     ("Distance", "The distance from the origin to the facets, in mm at the stone's present size."),
     (
@@ -92,10 +93,7 @@ fn buttons(tiers: &Tiers, selected: Option<usize>, actions: &mut Actions, ui: &m
     let find = ui.button("Find meets");
     let meaning = "Gives every tier without a meet the one that the stone shows: the points through which its facets pass.";
     actions.push_if(explain(ui, find, meaning).clicked(), Edit::Tiers(TierChange::FindMeets));
-    let mirror = if tiers.mirror { ", mirror image" } else { "" };
-    let hand = if tiers.gear < 0 { ", counted clockwise" } else { "" };
-    let gear = tiers.gear.abs();
-    ui.label(RichText::new(format!("{gear} index{hand}, {}-fold{mirror}", tiers.symmetry)).weak());
+    gear_fields::show(tiers, actions, ui);
 }
 
 fn heads(ui: &mut Ui) {
@@ -135,12 +133,11 @@ fn row(model: &Model, tiers: &Tiers, place: usize, actions: &mut Actions, ui: &m
             let cut = cell(ui, WIDTHS[1], |ui| ui.checkbox(&mut is_cut, ""));
             name(&cut, &format!("Cut {called}"));
             actions.push_if(cut.changed(), Edit::Tiers(TierChange::IsCut(place, is_cut)));
-            text(ui, WIDTHS[2], (place, "Name", &called), tier.name(), |text| {
+            let named = text(ui, WIDTHS[2], (place, "Name", &called), tier.name(), |text| {
                 Some(TierChange::Name(place, text.trim().to_owned()))
-            })
-            .into_iter()
-            .for_each(|change| actions.push(Edit::Tiers(change)));
-            cell(ui, WIDTHS[3], |ui| ui.label(RichText::new(tier.zone().name()).weak()));
+            });
+            let turned = cell(ui, WIDTHS[3], |ui| zone((place, tier, &called), ui));
+            named.into_iter().chain(turned).for_each(|change| actions.push(Edit::Tiers(change)));
             setting(model, (place, tier, &called), grip.id, actions, ui);
             let meet = meet(model, (place, tiers, &called), ui);
             let indices =
@@ -187,6 +184,33 @@ fn dropped(place: usize, row: &Response, actions: &mut Actions, ui: &Ui) {
         actions.push(Edit::Tiers(TierChange::Move(*from, place)));
         actions.push(ViewAction::Tier(Some(place)));
     }
+}
+
+/// The angle that a facet gets that leans for the first time, degrees.
+const LEANING: f64 = 40.0;
+
+/// Draws the choice of the zone of a tier; returns the change that turns the tier over.
+fn zone((place, tier, called): (usize, &Tier, &str), ui: &mut Ui) -> Option<TierChange> {
+    let (now, mut chosen) = (tier.zone(), None);
+    let field = ComboBox::from_id_salt(("zone", place)).selected_text(now.name()).width(WIDTHS[3] - 8.0);
+    let shown = field.show_ui(ui, |ui| {
+        for zone in [TierZone::Pavilion, TierZone::Girdle, TierZone::Crown, TierZone::Table, TierZone::Culet]
+        {
+            if ui.selectable_label(zone == now, zone.name()).clicked() && zone != now {
+                chosen = Some(zone);
+            }
+        }
+    });
+    name(&shown.response, &format!("Zone of {called}"));
+    let leaning = if matches!(tier.angle.abs(), 0.0 | 90.0) { LEANING } else { tier.angle.abs() };
+    let angle = match chosen? {
+        TierZone::Pavilion => -leaning,
+        TierZone::Girdle => 90.0,
+        TierZone::Crown => leaning,
+        TierZone::Table => 0.0,
+        TierZone::Culet => -0.0,
+    };
+    Some(TierChange::Setting(place, angle, tier.distance.abs()))
 }
 
 /// Draws the angle and the distance of a tier; `grip` is the number of its row.
@@ -242,9 +266,9 @@ fn meet(model: &Model, (place, tiers, called): (usize, &Tiers, &str), ui: &mut U
     changed
 }
 
-/// Draws a field for a text of a tier; returns the change that the text means once it differs from the tier's own.
+/// Draws a field for a text of a tier; returns the change that the text means once the field is left, or Return is pressed.
 ///
-/// A text that means nothing yet is kept while it is typed, in red, and forgotten afterwards.
+/// A text that means nothing is red while it is typed, and forgotten afterwards.
 fn text(
     ui: &mut Ui,
     width: f32,
@@ -268,7 +292,7 @@ fn text(
         } else {
             ui.data_mut(|data| data.remove_temp::<String>(typed));
         }
-        change(&text).filter(|_| shown.changed())
+        change(&text).filter(|_| shown.lost_focus() && text != own)
     })
 }
 

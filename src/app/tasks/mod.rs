@@ -8,6 +8,7 @@ pub mod copying;
 pub mod export;
 pub mod export_scene;
 pub mod files;
+mod light;
 mod look_ups;
 pub mod lookup;
 pub mod open;
@@ -17,6 +18,7 @@ use crate::app::model::action::{Computed, DialogAction, FileAction, NoteAction};
 use crate::app::model::choosing::{Choice, Question};
 use crate::app::model::export::ExportPlan;
 use crate::app::model::exporting::ExportEvent;
+use crate::app::model::fitting::LightRequest;
 use crate::app::model::opening::FileRequest;
 use crate::app::model::saving::{SaveRequest, Stamp};
 use crate::app::model::task::CopyRequest;
@@ -51,6 +53,7 @@ enum Key {
     Export,
     Copy,
     Audit,
+    StoneLight,
     LookUp(Slot),
 }
 
@@ -126,6 +129,8 @@ impl Outside {
             Task::StopExport => self.runner.stop(Key::Export),
             Task::MakeCopy(request) => self.make_copy(request),
             Task::Audit(specimen) => self.audit(specimen),
+            Task::MeasureLight(request) => self.measure_light(*request),
+            Task::StopLight => self.runner.stop(Key::StoneLight),
             Task::Trace(_) | Task::Window(_) => {}
         }
     }
@@ -226,6 +231,13 @@ impl Outside {
         self.run(Key::Audit, failed, move |_| {
             let found = specimen.audit().map_err(|why| Failure::Input(why.to_string()));
             Computed::Audit(specimen, found)
+        });
+    }
+
+    fn measure_light(&mut self, request: LightRequest) {
+        let failed = Computed::StoneLight(request.number, Err(fault("measuring the light failed")));
+        self.run(Key::StoneLight, failed, move |job| {
+            Computed::StoneLight(request.number, light::measured(&request, &|| job.is_stopped()))
         });
     }
 

@@ -1,7 +1,11 @@
-//! Takes the pictures of docs/editor.md. Run `cargo test --release --lib guide -- --ignored`, and look at the pictures.
+//! Takes the pictures of docs/editor.md and docs/cutting.md. Run `cargo test --release --lib guide -- --ignored`, and look at the pictures.
 
+use super::emerald::build;
+use super::fitting::pick;
 use super::*;
 use crate::app::model::dialog::Dialog;
+use crate::io::cutting_sheet::{SheetFormat, cutting_sheet, write};
+use crate::picture::PaperSize;
 use std::path::Path;
 
 /// Opens the window as at a first start, in the dark theme, with a file that comes with the program.
@@ -132,4 +136,63 @@ fn a_step_at_the_bench() {
     ["Next step", "Index 12", "Index 24"].into_iter().for_each(|label| bench.click(label));
     bench.harness.run_steps(8);
     take(&mut bench, "bench-mode");
+}
+
+#[test]
+#[ignore = "writes a picture into docs/images/editor"]
+fn an_oval_with_a_lower_pavilion() {
+    let mut bench = window("oval.toml", &Workspace::default());
+    bench.type_number("Pavilion angle", "40.2");
+    bench.type_number("Table", "56");
+    take(&mut bench, "oval");
+}
+
+#[test]
+#[ignore = "writes a picture into docs/images/editor"]
+fn an_oval_for_sapphire() {
+    let mut bench = window("oval.toml", &Bench::small());
+    bench.choose("Design", "Fit to another material…");
+    pick(&mut bench, "New material", "sapphire");
+    pick(&mut bench, "Rule", "Critical angle");
+    bench.wait(|editor| match &editor.model.session.dialog {
+        Some(Dialog::Retarget(form)) => form.light.is_some(),
+        _ => false,
+    });
+    take(&mut bench, "retarget");
+}
+
+#[test]
+#[ignore = "writes a picture into docs/images/editor"]
+fn an_oval_from_a_piece_of_rough() {
+    let mut bench = window("oval.toml", &Bench::small());
+    bench.choose("Design", "Size and yield…");
+    for (name, number) in
+        [("Rough length", "12"), ("Rough width", "9"), ("Rough depth", "7"), ("Rough weight", "12")]
+    {
+        bench.type_number(name, number);
+    }
+    take(&mut bench, "yield");
+}
+
+#[test]
+#[ignore = "writes pictures into docs/images and docs/images/editor"]
+fn an_emerald_cut_from_a_block_its_sheet_and_a_step_at_the_bench() {
+    let mut bench = window("block.toml", &Bench::small());
+    build(&mut bench);
+    bench.harness.state_mut().model.document.work.design.name = "Emerald cut".to_owned();
+    bench.harness.get_by_label("Select P6").scroll_to_me();
+    bench.harness.run_steps(SCROLLED);
+    bench.click("Select P6");
+    bench.harness.key_press(egui::Key::Num0);
+    take(&mut bench, "emerald");
+    let specimen = bench.editor().model.document.named(bench.editor().model.document.specimen());
+    let sheet = cutting_sheet(&specimen, false).unwrap();
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/images/emerald-sheet.svg");
+    let pages = write(&specimen, &sheet, PaperSize::A4, (SheetFormat::Svg, &file)).unwrap();
+    assert_eq!(pages.len(), 1);
+    bench.choose("View", "Bench mode");
+    (0..6).for_each(|_| bench.click("Next step"));
+    ["Index 12", "Index 36", "Index 60"].into_iter().for_each(|index| bench.click(index));
+    bench.harness.run_steps(8);
+    take(&mut bench, "bench-emerald");
 }

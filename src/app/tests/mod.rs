@@ -7,6 +7,8 @@ mod backgrounds;
 mod choosing;
 mod copies;
 mod drag;
+mod emerald;
+mod fitting;
 mod flows;
 mod formats;
 mod grading;

@@ -1,11 +1,13 @@
 //! The table of tiers: what it changes, and how it and the views select one another.
 
 use super::*;
-use crate::cut::{Tier, Tiers};
+use crate::app::model::action::Edit;
+use crate::app::model::{Action, update};
+use crate::cut::{Tier, TierChange, Tiers};
 use egui::Role;
 
 /// Returns the tiers of the open design.
-fn tiers(bench: &Bench) -> Tiers {
+pub fn tiers(bench: &Bench) -> Tiers {
     match &bench.editor().model.document.work.design.cut {
         Cut::Tiers(tiers) => tiers.clone(),
         other => panic!("{other:?}"),
@@ -22,19 +24,21 @@ fn turned() -> Bench {
 }
 
 /// Scrolls the table until a widget is in sight.
-fn reach(bench: &mut Bench, label: &str) {
+pub fn reach(bench: &mut Bench, label: &str) {
     bench.harness.get_by_label(label).scroll_to_me();
     bench.harness.run_steps(SCROLLED);
 }
 
-/// Types a text into a field of the table.
-fn type_text(bench: &mut Bench, name: &str, text: &str) {
+/// Types a text into a field of the table, and Return.
+pub fn type_text(bench: &mut Bench, name: &str, text: &str) {
     reach(bench, name);
     bench.field(Role::TextInput, name).focus();
     bench.harness.step();
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
     bench.harness.step();
     bench.harness.get_by_role_and_label(Role::TextInput, name).type_text(text);
+    bench.harness.run_steps(2);
+    bench.harness.key_press(egui::Key::Enter);
     bench.harness.run_steps(3);
 }
 
@@ -198,4 +202,66 @@ fn a_meet_that_is_typed_places_the_tier_and_one_that_fails_is_said() {
     bench.click("Select C1");
     bench.click("Find meets");
     assert_eq!(tiers(&bench).tiers.len(), before.tiers.len());
+}
+
+#[test]
+fn a_tier_that_is_named_anew_keeps_its_meets_and_another_gear_moves_no_facet() {
+    let mut bench = turned();
+    let before = tiers(&bench);
+    let stone = Arc::clone(bench.editor().model.document.specimen());
+    let naming = |tiers: &Tiers, name: &str| {
+        let words = tiers.tiers.iter().filter_map(|tier| tier.meet.as_ref()).map(ToString::to_string);
+        words.filter(|words| words.contains(name)).count()
+    };
+    let count = naming(&before, "C1");
+    assert!(count > 0 && naming(&before, "Bezel") == 0);
+    type_text(&mut bench, "Name of C1", "Bezel1");
+    let now = tiers(&bench);
+    assert_eq!((naming(&now, "C1"), naming(&now, "Bezel1")), (0, count));
+    assert!(bench.editor().model.session.meet_faults.iter().all(Option::is_none));
+    bench.type_number("Gear", "80");
+    bench.click("Clockwise");
+    bench.settle();
+    assert_eq!(tiers(&bench).gear, -80);
+    let again = Arc::clone(bench.editor().model.document.specimen());
+    let planes =
+        |specimen: &crate::scene::Specimen| specimen.stone().unwrap().polytope.planes().collect::<Vec<_>>();
+    for (now, then) in planes(&again).iter().zip(&planes(&stone)) {
+        assert!((now.normal - then.normal).length() < 1e-9 && (now.offset - then.offset).abs() < 1e-9);
+    }
+    while bench.editor().model.document.steps().0 {
+        bench.choose("Edit", "Undo");
+    }
+    assert!(matches!(bench.editor().model.document.work.design.cut, Cut::RoundBrilliant(_)));
+}
+
+#[test]
+#[ignore = "measures the time of an edit; run it alone, in release"]
+fn an_edit_of_a_tier_is_timed() {
+    let mut bench = Bench::sized(Setup::default(), egui::vec2(1400.0, 900.0));
+    bench.choose("File", "New from a cut");
+    bench.click("Portuguese");
+    bench.choose("Edit", "Turn into tiers");
+    bench.settle();
+    let before = tiers(&bench);
+    let met = before.tiers.iter().filter(|tier| tier.meet.is_some()).count();
+    let place = before.tiers.iter().position(|tier| tier.angle < 0.0 && tier.angle > -80.0).unwrap();
+    let model = &mut bench.harness.state_mut().model;
+    let mut times: Vec<f64> = (1..=41)
+        .map(|k| {
+            let angle = before.tiers[place].angle + 0.001 * f64::from(k);
+            let change = TierChange::Setting(place, angle, before.tiers[place].distance);
+            let begun = Instant::now();
+            update(model, Action::Edit(Edit::Tiers(change)));
+            1e3 * begun.elapsed().as_secs_f64()
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    println!(
+        "{} facets in {} tiers, {met} with meets: an edit takes {:.2} ms (median), {:.2} ms at most",
+        before.count(),
+        before.tiers.len(),
+        times[20],
+        times[40]
+    );
 }

@@ -129,7 +129,10 @@ fn plan(tiers: &Tiers, (step, now, design): (&CuttingStep, &CuttingProgress, &st
             tier.facets.iter().map(move |facet| (own(facet.index), tiers.plane(tier, facet.index)))
         })
         .collect();
-    facets.extend(Tiers::block().map(|(_, plane)| (None, plane)));
+    // A stone that is open on one side yet is closed by a block, which grows with the design.
+    let grown = facets.iter().map(|(_, plane)| plane.offset).fold(1.0, f64::max);
+    let block = Tiers::block().map(|(_, plane)| Plane { offset: grown * plane.offset, ..plane });
+    facets.extend(block.map(|plane| (None, plane)));
     let planes: Vec<Plane> = facets.iter().map(|(_, plane)| *plane).collect();
     let Ok(stone) = Polytope::from_planes(&planes) else { return };
     let is_below = matches!(step.zone, TierZone::Pavilion | TierZone::Culet);

@@ -31,7 +31,7 @@ fn tier(angle: f64, distance: f64, first: &[f64], steps: u32) -> Tier {
     let step = gear / f64::from(steps);
     let indices = first.iter().flat_map(|index| (0..steps).map(move |k| index + step * f64::from(k)));
     let facets = indices.map(|index| Indexed { index, name: String::new() }).collect();
-    Tier { angle, distance, instructions: String::new(), meet: None, is_cut: true, facets }
+    Tier { angle, distance, instructions: String::new(), meet: None, is_cut: true, frosting: 0.0, facets }
 }
 
 /// Returns the design PC 01.338 of R. Long and N. Steele, *Facet Design* V (1984), as a list of planes. Its table lies lower

@@ -55,6 +55,18 @@ pub enum MeetPoint {
 }
 
 impl Meet {
+    /// Returns the names of tiers in the meet, to change them.
+    pub(in crate::cut) fn names_mut(&mut self) -> impl Iterator<Item = &mut String> {
+        let points = match self {
+            Self::Points(points) => points.as_mut_slice(),
+            _ => &mut [],
+        };
+        points.iter_mut().flat_map(|point| match point {
+            MeetPoint::Corner(names) | MeetPoint::LaterCorner { names, .. } => names.as_mut_slice(),
+            _ => &mut [],
+        })
+    }
+
     /// Returns the meet at the first of the points alone, which gives the distance and leaves the angle; `None` for a meet that
     /// names no point.
     pub fn first_point(&self) -> Option<Self> {

@@ -11,7 +11,15 @@ pub(super) fn tier(name: &str, angle: f64, indices: &[f64], instructions: &str, 
     let mut facets: Vec<Indexed> =
         indices.iter().map(|&index| Indexed { index, name: String::new() }).collect();
     facets[0].name = name.to_owned();
-    Tier { angle, distance, instructions: instructions.to_owned(), meet: None, is_cut: true, facets }
+    Tier {
+        angle,
+        distance,
+        instructions: instructions.to_owned(),
+        meet: None,
+        is_cut: true,
+        frosting: 0.0,
+        facets,
+    }
 }
 
 pub(super) fn every(step: usize, first: f64) -> Vec<f64> {

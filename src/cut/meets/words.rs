@@ -82,7 +82,15 @@ impl Tiers {
     /// Reads what an instruction would mean for the tier at a place, from 0, by the letter; `None` where it states no meet.
     pub fn meet_in_words(&self, place: usize, text: &str) -> Option<Meet> {
         let tier = self.tiers.get(place)?;
-        readings(text, tier.zone(), &TierNames::of(self), place, vec![]).into_iter().next()
+        let names = TierNames::of(self);
+        let mut meet = readings(text, tier.zone(), &names, place, vec![]).into_iter().next()?;
+        // A name that is typed in small letters is written as its tier has it.
+        for name in meet.names_mut() {
+            let meant = names.meant(name, place).into_iter().map(|tier| names.written(tier, place));
+            let own = meant.into_iter().find(|own| own.eq_ignore_ascii_case(name));
+            own.into_iter().for_each(|own| *name = own);
+        }
+        Some(meet)
     }
 }
 

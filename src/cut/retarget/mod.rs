@@ -24,6 +24,9 @@ const ANGLES_DEG: std::ops::RangeInclusive<f64> = 0.5..=89.5;
 /// A vertex nearer to the lowest one than this, in units of the stone's depth, is at the culet.
 const AT_CULET: f64 = 1e-6;
 
+/// Planes nearer to one another than this, in their normals and in parts of their distance, differ by rounding alone.
+const ROUNDING: f64 = 1e-12;
+
 /// A meet that the old numbers bear out gives a distance as near to them as this, in lengths of the largest distance.
 const BORNE_OUT: f64 = 1e-4;
 
@@ -404,7 +407,7 @@ fn noted(old: &Design, new: &Design, rule: RetargetRule, factor: f64) -> String 
 /// Angles nearer to one another than this, degrees, are those of one tier: meshes and lists of planes are rounded.
 const SAME_ANGLE_DEG: f64 = 1e-3;
 
-/// Returns the tiers whose first facets differ. Facets of one name but of different angles are different tiers.
+/// Returns the tiers of which a facet differs by more than rounding. Facets of one name but of different angles are different tiers.
 fn compared(before: &[(String, Plane)], after: &[(String, Plane)]) -> Vec<RetargetedTier> {
     let angle = |plane: &Plane| {
         let normal = plane.normal;
@@ -414,7 +417,11 @@ fn compared(before: &[(String, Plane)], after: &[(String, Plane)]) -> Vec<Retarg
     let tiers = grouped(pairs, |(a, _), (b, _)| {
         tier_stem(&a.0) == tier_stem(&b.0) && (angle(&a.1) - angle(&b.1)).abs() < SAME_ANGLE_DEG
     });
-    let changed = tiers.into_iter().filter(|tier| tier.iter().any(|(a, b)| a.1 != b.1));
+    let differs = |(a, b): &(&(String, Plane), &(String, Plane))| {
+        !a.1.normal.abs_diff_eq(b.1.normal, ROUNDING)
+            || (a.1.offset - b.1.offset).abs() > ROUNDING * a.1.offset.abs()
+    };
+    let changed = tiers.into_iter().filter(|tier| tier.iter().any(differs));
     let reports = changed.map(|tier| {
         let ((name, before), (_, after)) = tier[0];
         RetargetedTier {

@@ -36,6 +36,7 @@ fn tiers() -> Tiers {
             instructions: String::new(),
             meet: None,
             is_cut: true,
+            frosting: 0.0,
             facets: facets.collect(),
         }
     };
@@ -93,6 +94,18 @@ fn a_tangent_ratio_keeps_every_meet_of_tiers_planes_and_brilliants() {
         let tan = |degrees: f64| degrees.to_radians().tan();
         assert!((tan(tier.after_deg) / tan(tier.before_deg) - 1.05).abs() < 1e-12, "{tier:?}");
     }
+}
+
+#[test]
+fn tiers_that_stay_are_not_listed_as_changed() {
+    let old = crate::cut::FAMILIES.iter().find(|family| family.key == "oval").unwrap();
+    let old = design(old.first.clone(), "diamond");
+    let found = retarget(&old, named("sapphire"), RetargetRule::CriticalAngle).unwrap();
+    assert!(
+        !found.tiers.is_empty() && found.tiers.iter().all(|tier| tier.before_deg < 0.0),
+        "{:?}",
+        found.tiers
+    );
 }
 
 #[test]
@@ -273,4 +286,41 @@ proptest! {
             prop_assert!(a.normal.distance(b.normal) < 1e-9, "{a:?} {b:?}");
         }
     }
+}
+
+#[test]
+fn a_shift_of_angles_solves_the_meets_that_tiers_keep() {
+    let mut given = tiers();
+    // The breaks set the girdle line, and the corners go to where they meet the mains.
+    given.tiers[1].distance = 0.80;
+    given.tiers[3].distance = 1.45;
+    given.tiers[4].angle = -56.0;
+    for (name, place, words) in [("P2", 1, "Level girdle"), ("P3", 4, "Meet P1-P2")] {
+        assert_eq!(given.tiers[place].name(), name);
+        given.tiers[place].meet = given.meet_in_words(place, words);
+        assert!(given.tiers[place].meet.is_some());
+    }
+    let solved = given.solved();
+    let failed: Vec<String> = solved.errors().map(ToString::to_string).collect();
+    assert!(failed.is_empty(), "{failed:?}");
+    let old = design(Cut::Tiers(solved.tiers.clone()), "quartz");
+    let found = retarget(&old, named("spinel"), RetargetRule::CriticalAngle).unwrap();
+    let Cut::Tiers(now) = &found.design.cut else { panic!() };
+    let off = |a: &Tiers, b: &Tiers| {
+        let pairs = a.tiers.iter().zip(&b.tiers);
+        pairs.map(|(a, b)| (a.distance - b.distance).abs()).fold(0.0, f64::max)
+    };
+    assert!(off(now, &now.solved().tiers) < 1e-12);
+    // Without the meets the corners open.
+    let mut bare = solved.tiers.clone();
+    bare.tiers.iter_mut().for_each(|tier| tier.meet = None);
+    let turned =
+        retarget(&design(Cut::Tiers(bare), "quartz"), named("spinel"), RetargetRule::CriticalAngle).unwrap();
+    let Cut::Tiers(turned_only) = &turned.design.cut else { panic!() };
+    assert!(off(now, turned_only) > 1e-4);
+    let angles = |tiers: &Tiers| tiers.tiers.iter().map(|tier| tier.angle).collect::<Vec<_>>();
+    assert_eq!(angles(now), angles(turned_only));
+    let says = |found: &Retargeted, words: &str| found.notes.iter().any(|note| note.contains(words));
+    assert!(says(&found, "solved anew") && !says(&found, "open by a little"));
+    assert!(says(&turned, "open by a little") && !says(&turned, "solved anew"));
 }

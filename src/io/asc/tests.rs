@@ -266,3 +266,50 @@ proptest! {
         let _ = read(lines.join("\n").as_bytes(), "x");
     }
 }
+
+#[test]
+fn a_stone_is_frosted_alike_in_every_format() {
+    let said = STONE.replace("to a point", "to a point. Leave frosted").replace(
+        "24 48 72\r\n\
+    a 0.0",
+        "24 48 72 G Frosted 0.2\r\n\
+    a 0.0",
+    );
+    let brought = read(said.as_bytes(), "x.asc").unwrap();
+    assert_eq!(brought.warnings, Vec::<String>::new());
+    let frosting = |design: &crate::cut::Design| match &design.cut {
+        Cut::Tiers(tiers) => tiers.tiers.iter().map(|tier| tier.frosting).collect::<Vec<_>>(),
+        _ => panic!("tiers are expected"),
+    };
+    assert_eq!(frosting(&brought.design), [0.0, 0.5, 0.2, 0.0]);
+    // Frosted otherwise than the instructions say, as in an editor.
+    let mut design = brought.design;
+    let Cut::Tiers(tiers) = &mut design.cut else { panic!() };
+    for (tier, frosting) in tiers.tiers.iter_mut().zip([0.5, 0.0, 0.75, 1.0]) {
+        tier.frosting = frosting;
+    }
+    let specimen = Specimen::new(design.clone()).unwrap();
+    assert!(specimen.warnings.iter().any(|text| text.contains("frosted facets scatter light")));
+    let written = [
+        read(&write(&specimen).bytes, "x.asc").unwrap(),
+        crate::io::gem::read(&crate::io::gem::write(&specimen).bytes, "x.gem").unwrap(),
+        crate::io::gcs::read(&crate::io::gcs::write(&specimen).bytes, "x.gcs").unwrap(),
+        ImportedDesign::of(cut_file::parse(&cut_file::write(&design), "x.toml").unwrap()),
+    ];
+    for (number, brought) in written.iter().enumerate() {
+        assert_eq!(frosting(&brought.design), [0.5, 0.0, 0.75, 1.0], "format {number}");
+        assert_eq!(brought.warnings, Vec::<String>::new(), "format {number}");
+    }
+}
+
+#[test]
+fn frosting_that_is_not_plainly_a_tiers_own_gives_a_warning() {
+    let warned = |from: &str, to: &str| tiers(&STONE.replace(from, to)).1.join("\n");
+    let unclear = warned("to a point", "Leave remaining facets frosted");
+    assert!(
+        unclear.starts_with("tier 2: 'Leave remaining facets frosted' frosts facets, but not plainly"),
+        "{unclear}"
+    );
+    let header = warned("by nobody", "P1 unpolished.");
+    assert!(header.starts_with("'P1 unpolished.' names frosted facets"), "{header}");
+}

@@ -20,6 +20,12 @@ pub(super) struct TierForm {
     meet: Option<MeetForm>,
     #[serde(default = "yes", skip_serializing_if = "Clone::clone")]
     cut: bool,
+    #[serde(default, skip_serializing_if = "is_polished")]
+    frosting: f64,
+}
+
+fn is_polished(frosting: &f64) -> bool {
+    *frosting == 0.0
 }
 
 fn yes() -> bool {
@@ -37,6 +43,7 @@ impl TierForm {
             instructions: tier.instructions.clone(),
             meet: tier.meet.as_ref().map(MeetForm::of),
             cut: tier.is_cut,
+            frosting: tier.frosting,
         }
     }
 
@@ -54,6 +61,7 @@ impl TierForm {
             instructions: self.instructions,
             meet: self.meet.map(|form| form.meet(place)).transpose()?,
             is_cut: self.cut,
+            frosting: self.frosting,
             facets: self
                 .indices
                 .into_iter()

@@ -106,7 +106,14 @@ fn indexed(facets: &[(String, Plane)], gear: Gear) -> Tiers {
         runs += usize::from(stem != last);
         last = stem;
         let setting = gear.setting(plane.normal, plane.offset.max(0.0));
-        TierPiece { tier: runs, setting, name: stem.to_owned(), instructions: String::new(), is_cut: true }
+        TierPiece {
+            tier: runs,
+            setting,
+            name: stem.to_owned(),
+            instructions: String::new(),
+            is_cut: true,
+            frosting: 0.0,
+        }
     });
     let mut tiers = Tiers { tiers: gathered(together(pieces)), ..gear.tiers() };
     named_once(&mut tiers.tiers);

@@ -9,7 +9,15 @@ fn tier(angle: f64, distance: f64, indices: &[f64], name: &str, instructions: &s
     let mut facets: Vec<Indexed> =
         indices.iter().map(|&index| Indexed { index, name: String::new() }).collect();
     facets[0].name = name.to_owned();
-    Tier { angle, distance, instructions: instructions.to_owned(), meet: None, is_cut: true, facets }
+    Tier {
+        angle,
+        distance,
+        instructions: instructions.to_owned(),
+        meet: None,
+        is_cut: true,
+        frosting: 0.0,
+        facets,
+    }
 }
 
 /// Returns a box with bevels, some at indices between two teeth. It reaches 1 across, and as far below z = 0 as above.

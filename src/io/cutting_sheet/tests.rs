@@ -12,7 +12,15 @@ fn tier(angle: f64, distance: f64, indices: &[f64], (name, instructions): (&str,
     let facet =
         |(k, &index): (usize, &f64)| Indexed { index, name: if k == 0 { name } else { "" }.to_owned() };
     let facets = indices.iter().enumerate().map(facet).collect();
-    Tier { angle, distance, instructions: instructions.to_owned(), meet: None, is_cut: true, facets }
+    Tier {
+        angle,
+        distance,
+        instructions: instructions.to_owned(),
+        meet: None,
+        is_cut: true,
+        frosting: 0.0,
+        facets,
+    }
 }
 
 fn every(step: usize) -> Vec<f64> {

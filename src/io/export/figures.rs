@@ -136,8 +136,8 @@ impl FigureReport<'_> {
     }
 }
 
-/// The JSON of a viewpoint.
-fn seen_from(viewpoint: &Viewpoint) -> Value {
+/// Returns the JSON of a viewpoint.
+pub(super) fn seen_from(viewpoint: &Viewpoint) -> Value {
     let tilt = |lean| if viewpoint.lean == lean { viewpoint.tilt_deg } else { 0.0 };
     json!({
         "side": viewpoint.side.name(),

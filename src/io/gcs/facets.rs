@@ -1,7 +1,7 @@
 //! Reads the tiers of a `.gcs` file and their facets.
 
 use super::read::Reader;
-use crate::cut::{MAX_PLANES, Tier, is_printable};
+use crate::cut::{FROSTINGS, FinishNote, MAX_PLANES, Tier, USUAL_FROSTING, is_printable};
 use crate::io::cutters::{self, Gear, TierPiece};
 use crate::io::file_error::Fault;
 use crate::math::Plane;
@@ -26,6 +26,7 @@ struct Raw<'d> {
     name: String,
     instructions: String,
     is_cut: bool,
+    frosting: f64,
 }
 
 /// The facets of one tier, or, where it has none, a tier of what it says.
@@ -89,7 +90,7 @@ impl<'d> Reader<'d> {
     }
 
     fn piece(&mut self, raw: Raw<'d>, middle: f64, gear: Gear) -> TierPiece {
-        let Raw { at, plane, name, instructions, is_cut } = raw;
+        let Raw { at, plane, name, instructions, is_cut, frosting } = raw;
         let distance = plane.offset - plane.normal.z * middle;
         // The distance of a facet that is cut can be below 0 by rounding alone.
         if distance < 0.0 && !is_cut {
@@ -97,7 +98,7 @@ impl<'d> Reader<'d> {
         }
         let mut setting = gear.setting(plane.normal, distance.max(0.0));
         setting.angle = girdle_below(setting.angle);
-        TierPiece { tier: 0, setting, name, instructions, is_cut }
+        TierPiece { tier: 0, setting, name, instructions, is_cut, frosting }
     }
 
     /// Reads a tier without facets, which is kept for what it says.
@@ -107,12 +108,14 @@ impl<'d> Reader<'d> {
         self.warn(node, || "this tier has no facets".to_owned());
         let instructions = self.text(node, "instructions").unwrap_or_default();
         let is_cut = self.is(node, "visible", true);
+        let frosting = self.frosting(node, &instructions);
         Some(Tier {
             angle: girdle_below(setting.angle),
             distance: setting.distance,
             instructions,
             meet: None,
             is_cut,
+            frosting,
             facets: vec![],
         })
     }
@@ -124,7 +127,10 @@ impl<'d> Reader<'d> {
         let name = self.text(node, "name").unwrap_or_default();
         let mut instructions = self.text(node, "instructions").unwrap_or_default();
         let is_cut = self.is(node, "visible", true);
-        self.ornaments(node);
+        if self.is(node, "guide", false) {
+            self.warn(node, || "guide: the mark of a guide tier is not kept".to_owned());
+        }
+        let of_tier = self.frosting(node, &instructions);
         let mut apart = Apart::default();
         let mut facets: Vec<Raw<'d>> = Vec::new();
         for at in node.children().filter(|child| child.has_tag_name("facet")) {
@@ -132,7 +138,9 @@ impl<'d> Reader<'d> {
             apart.look(at, polar, &plane);
             // A name without end is not copied to every facet.
             let name = if facets.is_empty() || is_printable(&name) { name.clone() } else { String::new() };
-            facets.push(Raw { at, plane, name, instructions: std::mem::take(&mut instructions), is_cut });
+            let frosting = self.stated_frosting(at).unwrap_or(of_tier);
+            let instructions = std::mem::take(&mut instructions);
+            facets.push(Raw { at, plane, name, instructions, is_cut, frosting });
         }
         if let Some(text) = apart.attribute(&name) {
             self.warn(node, || text);
@@ -140,20 +148,47 @@ impl<'d> Reader<'d> {
         Ok(facets)
     }
 
-    /// Warns of what a tier says that a design has no place for.
-    fn ornaments(&mut self, node: Node<'_, '_>) {
-        if self.is(node, "guide", false) {
-            self.warn(node, || "guide: the mark of a guide tier is not kept".to_owned());
+    /// Returns how much the facets of a tier are frosted that do not say it themselves: as the tier's attribute says, else as
+    /// its instructions do.
+    fn frosting(&mut self, tier: Node<'_, '_>, instructions: &str) -> f64 {
+        if let Some(stated) = self.stated_frosting(tier) {
+            return stated;
         }
-        let frosted = |node: &Node<'_, '_>| {
-            node.attribute("frosting").is_some_and(|text| {
-                !matches!(text.trim().to_ascii_lowercase().as_str(), "" | "0" | "false" | "none")
-            })
-        };
-        if frosted(&node) || node.children().any(|facet| frosted(&facet)) {
-            self.warn(node, || {
-                "frosting: it is not kept; this program takes all facets as polished".to_owned()
-            });
+        match FinishNote::of(instructions) {
+            FinishNote::Frosting(frosting) => frosting,
+            FinishNote::Unsaid => 0.0,
+            FinishNote::Unclear => {
+                let is_stated = |facet: Node<'_, '_>| facet.has_attribute("frosting");
+                if !tier.children().any(is_stated) {
+                    self.warn(tier, || {
+                        format!(
+                            "instructions: '{instructions:.60}' frosts facets, but not plainly those of this tier; they are \
+                             taken as polished"
+                        )
+                    });
+                }
+                0.0
+            }
+        }
+    }
+
+    /// Returns how much a tier or a facet is frosted by its own attribute; `None` where it has none.
+    fn stated_frosting(&mut self, node: Node<'_, '_>) -> Option<f64> {
+        let text = node.attribute("frosting")?.trim().to_ascii_lowercase();
+        match text.as_str() {
+            "" | "false" | "none" => Some(0.0),
+            "true" => Some(USUAL_FROSTING),
+            _ => {
+                let number = text.parse().ok().filter(|number| FROSTINGS.contains(number));
+                if number.is_none() {
+                    self.warn(node, || {
+                        format!(
+                            "frosting: '{text:.40}' is not a number from 0 to 1; {USUAL_FROSTING} is assumed"
+                        )
+                    });
+                }
+                number.or(Some(USUAL_FROSTING))
+            }
         }
     }
 

@@ -1,5 +1,5 @@
 use super::*;
-use crate::cut::{Design, MaterialRef, Tier, TierZone};
+use crate::cut::{Cut, Design, MaterialRef, Tier, TierZone};
 use crate::io::cutters::sample::{design, others, specimen, tiers};
 use crate::io::design_file::{EncodedDesign, ImportedDesign};
 use crate::math::{Plane, Polytope};
@@ -204,7 +204,12 @@ fn what_is_odd_is_told_with_its_line() {
             "its corners differ from its depth by up to 7.1e-3",
         ),
         ("<render", "<gift/><render", "line 12: <gift> is not known here"),
-        ("nz=\"-1\"", "nz=\"-1\" frosting=\"1\"", "line 11: frosting: "),
+        (
+            "nz=\"-1\"",
+            "nz=\"-1\" frosting=\"matt\"",
+            "line 11: frosting: 'matt' is not a number from 0 to 1; 0.5",
+        ),
+        ("Two\nlines", "Alternate facets unpolished\n", "line 3: instructions: 'Alternate facets unpolished"),
         ("shape=", "material=", "line 12: material: it is given twice"),
     ];
     for (from, to, expected) in cases {
@@ -264,4 +269,41 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn frosting_is_read_from_facets_tiers_and_instructions_and_written_back() {
+    let frostings = |text: &str| {
+        let brought = back(text.as_bytes());
+        let Cut::Tiers(tiers) = brought.design.cut else { panic!() };
+        tiers.tiers.iter().map(|tier| (tier.facets.len(), tier.frosting)).collect::<Vec<_>>()
+    };
+    let with = |from: &str, to: &str| {
+        assert!(PYRAMIDS.contains(from), "{from}");
+        PYRAMIDS.replacen(from, to, 1)
+    };
+    assert_eq!(frostings(PYRAMIDS), [(4, 0.0), (4, 0.0), (1, 0.0)]);
+    // A facet that is frosted by itself becomes a tier by itself.
+    let facet = with("index_angle=\"90\"/>", "index_angle=\"90\" frosting=\"0.25\"/>");
+    assert_eq!(frostings(&facet), [(1, 0.25), (3, 0.0), (4, 0.0), (1, 0.0)]);
+    assert_eq!(
+        frostings(&with("name=\"P\"", "name=\"P\" frosting=\"true\"")),
+        [(4, 0.0), (4, 0.5), (1, 0.0)]
+    );
+    let said = with("Two\nlines", "Leave frosted.");
+    assert_eq!(frostings(&said)[0], (4, 0.5));
+    // The attribute of a facet says more than the words of its tier.
+    let polished = said.replacen("index_angle=\"90\"/>", "index_angle=\"90\" frosting=\"0\"/>", 1);
+    assert_eq!(frostings(&polished)[..2], [(1, 0.0), (3, 0.5)]);
+    for text in [&facet, &said, &polished] {
+        let first = specimen(back(text.as_bytes()).design);
+        let again = specimen(back(&write(&first).bytes).design);
+        let of = |specimen: &crate::scene::Specimen| {
+            let facets = specimen.stone().unwrap().polytope.facets().iter();
+            facets.map(|facet| facet.frosting).collect::<Vec<_>>()
+        };
+        assert_eq!(of(&first), of(&again));
+        assert!(of(&first).iter().any(|&frosting| frosting > 0.0));
+    }
+    assert!(!String::from_utf8(write(&specimen(design())).bytes).unwrap().contains("frosting"));
 }

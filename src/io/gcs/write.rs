@@ -1,7 +1,7 @@
 //! Writes a design as `.gcs`.
 
 use super::{COLOUR, RENDER, ROOT, VERSION};
-use crate::cut::{Indexed, Tier, Tiers};
+use crate::cut::{FinishNote, Indexed, Tier, Tiers};
 use crate::io::cutters::{self, FacetOutline};
 use crate::io::design_file::EncodedDesign;
 use crate::math::{Plane, span};
@@ -170,7 +170,11 @@ fn put_tier(tiers: &Tiers, tier: &Tier, facets: &[FacetOutline], form: &Form, pa
             r#"<tier angle="{angle}" depth="{depth}"{name}{instructions} visible="{visible}" guide="false">"#
         ),
     );
-    facets.iter().for_each(|facet| put_facet(facet, form, page));
+    // Polished facets say nothing, as Gem Cut Studio writes them, unless the instructions would be read otherwise.
+    let is_plain = tier.frosting == 0.0
+        && !matches!(FinishNote::of(&tier.instruction()), FinishNote::Frosting(said) if said > 0.0);
+    let frosting = if is_plain { String::new() } else { format!(r#" frosting="{}""#, tier.frosting) };
+    facets.iter().for_each(|facet| put_facet(facet, form, &frosting, page));
     page.line(1, "</tier>");
 }
 
@@ -182,11 +186,11 @@ fn clean(number: f64) -> f64 {
     if number.abs() <= ROUNDING { 0.0 } else { number }
 }
 
-fn put_facet((plane, corners): &FacetOutline, form: &Form, page: &mut Page) {
+fn put_facet((plane, corners): &FacetOutline, form: &Form, frosting: &str, page: &mut Page) {
     let [x, y, z] = plane.normal.to_array().map(clean);
     let azimuth = y.atan2(x).to_degrees();
     let index = if z > 0.0 { 90.0 + azimuth } else { 270.0 - azimuth }.rem_euclid(360.0);
-    page.line(2, &format!(r#"<facet nx="{x}" ny="{y}" nz="{z}" index_angle="{index}">"#));
+    page.line(2, &format!(r#"<facet nx="{x}" ny="{y}" nz="{z}" index_angle="{index}"{frosting}>"#));
     for corner in corners {
         let [x, y, z] = form.corner(*corner).to_array().map(clean);
         page.line(3, &format!(r#"<vertex x="{x}" y="{y}" z="{z}"/>"#));

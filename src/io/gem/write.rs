@@ -1,7 +1,7 @@
 //! Writes a design as `.gem`.
 
 use super::{END, LINES, UNKNOWN};
-use crate::cut::{Tier, Tiers};
+use crate::cut::{Tier, Tiers, with_finish};
 use crate::io::cutters::{self, FacetOutline};
 use crate::io::design_file::EncodedDesign;
 use crate::scene::Specimen;
@@ -90,7 +90,8 @@ fn put_facets(tiers: &Tiers, texts: &mut Texts, bytes: &mut Vec<u8>) {
             let p = inverse(tier, outline, farthest);
             p.to_array().iter().for_each(|x| bytes.extend(x.to_le_bytes()));
             bytes.extend(number.to_le_bytes());
-            let instructions = if place == 0 { tier.instruction() } else { "".into() };
+            let instructions =
+                if place == 0 { with_finish(tier.instruction(), tier.frosting) } else { "".into() };
             texts.replaced += facet.name.matches('\t').count();
             texts.put(&format!("{}\t{instructions}", facet.name.replace('\t', "?")), bytes);
             put_outline(&outline.1, bytes);

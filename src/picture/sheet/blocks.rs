@@ -1,6 +1,6 @@
 //! The blocks of a cutter's sheet: tiers in the order in which they are cut.
 
-use crate::cut::{Tier, TierZone, Tiers, is_printable};
+use crate::cut::{Tier, TierZone, Tiers, is_printable, with_finish};
 use crate::math::Polytope;
 use serde::{Serialize, Serializer};
 use std::collections::{BTreeMap, BTreeSet};
@@ -131,7 +131,7 @@ fn indices(tiers: &Tiers, tier: &Tier) -> Vec<f64> {
 }
 
 fn instruction(tier: &Tier) -> String {
-    match (cleaned(&tier.instruction()), tier.zone()) {
+    match (cleaned(&with_finish(tier.instruction(), tier.frosting)), tier.zone()) {
         (said, TierZone::Table) if said.is_empty() => "Table".to_owned(),
         (said, TierZone::Culet) if said.is_empty() => "Culet".to_owned(),
         (said, _) => said,

@@ -36,6 +36,8 @@ pub struct CuttingSheet {
     pub below_critical: Vec<String>,
     /// The tiers in the order in which they are cut: preform, pavilion, crown.
     pub blocks: Vec<SheetBlock>,
+    /// Whether facets of the stone are frosted.
+    pub is_frosted: bool,
     /// What else the design says, and what is unusual about it.
     pub notes: Vec<String>,
     /// The design as tiers, with the gear that the sheet is for.
@@ -77,6 +79,7 @@ impl CuttingSheet {
             figures: SheetFigures::of(&stone.polytope, stone.names()),
             critical_angle_deg,
             below_critical: below.map(|row| row.name.clone()).collect(),
+            is_frosted: stone.polytope.is_frosted(),
             notes: notes(specimen, &tiers, tier_of_facet.contains(&None)),
             tier_of_facet,
             blocks,

@@ -3,7 +3,7 @@
 //!
 //! A unit of the drawing is half a point, 1/144 inch.
 
-use super::super::drawing::{Align, Frame, Ink, Inks, Sheet, Type, shortened, text_width};
+use super::super::drawing::{Align, Frame, HATCHING_LEGEND, Ink, Inks, Sheet, Type, shortened, text_width};
 use super::cutting_sheet::CuttingSheet;
 use super::table::{Columns, LineGroup};
 use super::view::{SheetView, plan_half_height, profile_scale, profiles};
@@ -258,6 +258,9 @@ fn facts(data: &CuttingSheet) -> Vec<String> {
 fn remarks(data: &CuttingSheet) -> Vec<String> {
     let mut remarks =
         vec!["H is P + C and the girdle as it is measured, G; GemCad prints 0.02 W for G.".to_owned()];
+    if data.is_frosted {
+        remarks.push(HATCHING_LEGEND.to_owned());
+    }
     if let Some(angle) = data.critical_angle_deg {
         remarks.push(match data.below_critical.as_slice() {
             [] => format!("Critical angle {angle:.2}°: all pavilion tiers lie above it."),

@@ -1,11 +1,13 @@
 //! A stone as the metal meets it: its planes in mm, in its place.
 
-use super::making::TOUCHING_MM;
 use crate::math::{Affine, Ball, Plane, Polytope, Pose, clip};
 use glam::{DQuat, DVec2, DVec3};
 
 /// The gap that is left between metal and stone, in mm, so that no two surfaces are one; less than a pixel.
 pub(super) const CLEARANCE_MM: f64 = 0.004;
+
+/// Metal may reach into a stone by this much, in mm: triangles are flat where the surface that they stand for is not.
+pub(super) const TOUCHING_MM: f64 = 0.02;
 
 /// Corners of a stone's section that are nearer than this to their neighbours, in mm, are left out: rounding.
 const SAME_MM: f64 = 1e-6;

@@ -1,11 +1,8 @@
 //! Makes the metal of a ring and the places of its stones, and checks that both fit.
 
-use super::gem::{MountedStone, SetStone};
+use super::gem::{MountedStone, SetStone, TOUCHING_MM};
 use super::{MetalPart, Mounting, RING_NUMBERS, Ring, RingError, band, halo, head, row};
 use glam::DVec3;
-
-/// Metal may reach into a stone by this much, in mm: triangles are flat where the surface that they stand for is not.
-pub(super) const TOUCHING_MM: f64 = 0.02;
 
 impl Ring {
     /// Makes the metal and the places of the stones: `stone` is the main stone, `small` one of the small stones, whose

@@ -1,9 +1,8 @@
 //! Laws of rings: closed metal, free stones, a free finger, and numbers that make a ring or an error that names them.
 
 use super::band::band;
-use super::gem::MountedStone;
+use super::gem::{MountedStone, TOUCHING_MM};
 use super::head::{apart, prongs, station};
-use super::making::TOUCHING_MM;
 use super::rod::{Station, rod};
 use super::skin::CHORD_MM;
 use super::*;

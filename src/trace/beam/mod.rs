@@ -10,6 +10,7 @@ mod blocks;
 mod cells;
 mod coherency;
 mod effort;
+mod fan;
 mod follow;
 mod grow;
 mod split;

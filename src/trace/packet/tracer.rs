@@ -62,9 +62,10 @@ impl<'a> PacketTracer<'a> {
     /// The number of rays, over all bands, for which a processor's cache has room.
     pub const RAYS_AT_ONCE: usize = 1024;
 
-    /// Prepares the bodies of a scene; `None` where one of them has triangles or is of metal.
+    /// Prepares the bodies of a scene; `None` where one of them has triangles or frosted facets, or is of
+    /// metal.
     pub fn new(lit_scene: LitScene<'a>) -> Option<Self> {
-        if !lit_scene.scene.metals.is_empty() {
+        if !lit_scene.scene.metals.is_empty() || lit_scene.scene.is_frosted() {
             return None;
         }
         let instances = PacketInstance::of_all(&lit_scene.scene.instances)?;

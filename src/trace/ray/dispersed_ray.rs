@@ -27,6 +27,11 @@ pub(super) struct Arrival {
 }
 
 impl DispersedRay {
+    /// Returns a ray that is the same at all wavelengths.
+    pub fn new(origin: DVec3, direction: DVec3) -> Self {
+        Self { origin, direction, sweep: DVec3::ZERO, shift: DVec3::ZERO }
+    }
+
     /// Returns the point where the ray meets a facet that is this far away.
     #[inline]
     pub fn arrival<F: FacetSearch>(&self, facets: &F, facet: usize, distance: f64) -> Arrival {

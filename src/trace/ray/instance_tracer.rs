@@ -47,6 +47,11 @@ impl InstanceTracer {
         self.tracer.is_convex()
     }
 
+    /// Whether the stone has frosted facets, at which chance decides where light goes on.
+    pub(super) fn is_frosted(&self) -> bool {
+        self.tracer.is_frosted()
+    }
+
     /// Whether a ray runs through the ball around the stone.
     pub(super) fn is_near(&self, (origin, direction): (DVec3, DVec3)) -> bool {
         self.ball.is_met(origin, direction)

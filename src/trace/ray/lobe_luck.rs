@@ -1,4 +1,4 @@
-//! The numbers that decide by which of its microscopic mirrors a metal reflects a ray: the same in all bands of wavelengths, so
+//! The numbers that decide by which of its microscopic mirrors a metal reflects a ray, and a frosted facet scatters it: the same in all bands of wavelengths, so
 //! that chance makes no colours.
 
 use crate::math::random_bits::{mixed, unit};
@@ -17,7 +17,7 @@ pub(super) struct LobeLuck {
     seed: u64,
     /// The number of the sample pass.
     number: u64,
-    /// Whether metal has reflected the path before: then numbers are drawn at random, else spread evenly over the passes.
+    /// Whether numbers of the path have been drawn before: then numbers are drawn at random, else spread evenly over the passes.
     is_later: bool,
 }
 
@@ -31,6 +31,21 @@ impl LobeLuck {
     /// Returns the luck of light that leaves a stone by its exit of this number.
     pub fn beyond(&self, exit: u64) -> Self {
         Self { seed: mixed(self.seed ^ mixed(exit)), ..*self }
+    }
+
+    /// Returns the luck of a path of which some numbers have been drawn by another copy of this luck.
+    pub fn later(&self) -> Self {
+        Self { is_later: true, ..*self }
+    }
+
+    /// Returns as many numbers as are wanted, from 0 to below 1, at random and independent of those of [`draw`](Self::draw).
+    pub fn numbers(&self) -> impl FnMut() -> f64 + use<> {
+        let Self { seed, number, .. } = *self;
+        let mut place = STEPS.len() as u64;
+        move || {
+            place += 1;
+            unit(mixed(mixed(seed.wrapping_add(place)) ^ mixed(number)))
+        }
     }
 
     /// Returns three numbers from 0 to below 1, and the luck after them.

@@ -80,6 +80,7 @@ pub(in crate::trace) struct ExitLight {
     /// The displacement of the point over the spread of wavelengths.
     pub shift: DVec3,
     pub weight: f64,
+    pub spread: f64,
 }
 
 impl SurfaceEvent<'_> {
@@ -95,8 +96,8 @@ impl SurfaceEvent<'_> {
     #[inline]
     pub fn exit(&self) -> Option<Exit> {
         let &Self { facet, point, path, bounce, .. } = self;
-        let &ExitLight { direction, sweep, weight, .. } = self.leaving.as_ref()?;
-        Some(Exit { facet, point, path, direction, sweep, weight, bounce, surface: bounce == 0 })
+        let &ExitLight { direction, sweep, weight, spread, .. } = self.leaving.as_ref()?;
+        Some(Exit { facet, point, path, direction, sweep, weight, bounce, surface: bounce == 0, spread })
     }
 }
 

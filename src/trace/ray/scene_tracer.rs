@@ -40,7 +40,7 @@ pub struct WaitingRay {
     pub weight: f64,
     /// By what chance weak light goes on in solids that are not convex and to other bodies; without it, all of it does.
     pub roulette: Option<Roulette>,
-    /// The side, in radians, of the square of directions that the ray stands for: rough metal spreads light; 0 for one
+    /// The side, in radians, of the square of directions that the ray stands for: rough metal and frosted facets spread light; 0 for one
     /// direction.
     pub spread: f64,
     left: LeftBody,
@@ -175,8 +175,9 @@ impl SceneTracer {
     ) -> Loss {
         let (mut unseen, mut number, before) = (0.0, 0, ray.bounces);
         let mut sieve = ray.roulette.map(|roulette| roulette.sieve());
+        let is_frosted = self.tracers[stone].is_frosted();
         let exits = |exit: Exit| {
-            let Exit { point: origin, direction, sweep, weight, .. } = exit;
+            let Exit { point: origin, direction, sweep, weight, spread, .. } = exit;
             number += 1;
             let ray = WaitingRay {
                 origin,
@@ -184,19 +185,19 @@ impl SceneTracer {
                 sweep,
                 weight,
                 roulette: ray.roulette.map(|roulette| roulette.beyond(number)),
-                spread: 0.0,
+                spread,
                 left: LeftBody::Stone(stone),
                 bounces: before + exit.bounce,
                 reflections: ray.reflections,
-                luck: ray.luck.beyond(number),
+                luck: if is_frosted { ray.luck.beyond(number).later() } else { ray.luck.beyond(number) },
             };
             match self.first_body(&ray) {
                 Some(first) => unseen += self.wait(ray, first, sieve.as_mut(), waiting),
                 None => leave(&ray),
             }
         };
-        let &WaitingRay { origin, direction, sweep, weight, roulette, .. } = ray;
-        let meeting = MeetingRay { met, origin, direction, sweep, weight, roulette };
+        let &WaitingRay { origin, direction, sweep, weight, roulette, luck, .. } = ray;
+        let meeting = MeetingRay { met, origin, direction, sweep, weight, roulette, luck: Some(luck) };
         let is_taken = |exit: &Exit, distance: f64| self.meets_before(exit, stone, distance);
         let rest = self.tracers[stone].follow_from(&meeting, is_taken, exits).unwrap_or_default();
         Loss { unresolved: rest.unresolved + unseen, bounces: before + rest.bounces, ..rest }
@@ -447,6 +448,8 @@ impl<E: From<Stopped>> ProgressiveImage<E> for ByRays<'_> {
     }
 }
 
+#[cfg(test)]
+mod frosted_tests;
 #[cfg(test)]
 mod metal_tests;
 #[cfg(test)]

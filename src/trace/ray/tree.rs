@@ -9,6 +9,7 @@
 use super::dispersed_ray::DispersedRay;
 use super::facets::FacetSearch;
 use super::light::PathLight;
+use super::lobe_luck::LobeLuck;
 use super::path::SurfaceEvent;
 use super::roulette::{PassageRoulette, Roulette};
 use super::{Exit, Loss, StoneTracer};
@@ -29,6 +30,8 @@ pub(super) struct Inbound {
     pub path: f64,
     /// Bounces inside so far.
     pub bounce: u32,
+    /// As in [`MeetingRay`](super::MeetingRay).
+    pub luck: Option<LobeLuck>,
 }
 
 impl Inbound {
@@ -97,7 +100,7 @@ impl StoneTracer {
         let (light, shift) = meeting.onward_outside(self.medium.index)?;
         let light = if factor == 1.0 { light } else { light.scaled(factor) };
         let ray = DispersedRay { origin, direction, sweep, shift };
-        Some(Inbound { met, ray, light, left: meeting.left, path, bounce })
+        Some(Inbound { met, ray, light, left: meeting.left, path, bounce, luck: None })
     }
 }
 

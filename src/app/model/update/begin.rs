@@ -56,6 +56,8 @@ pub fn begin_library(model: &mut Model, tasks: &mut Vec<Task>, name: &str) {
     let Some(document) = model.session.notes.ok_or_report(document) else { return };
     model.workspace.last = None;
     begin(model, tasks, document);
+    // A block has nothing else to be changed by.
+    model.workspace.shows_tiers |= model.has_tiers();
 }
 
 /// Begins a scene that comes with the program.

@@ -1,7 +1,7 @@
 //! Commands: when each is possible, whether it is switched on, and what it does.
 
 use super::begin::compare_no_more;
-use super::{dialogs, edits, files};
+use super::{dialogs, edits, files, fitting};
 use crate::app::model::Model;
 use crate::app::model::action::{DialogAction, Edit, FileAction};
 use crate::app::model::choosing::Purpose;
@@ -25,6 +25,7 @@ impl Model {
             Command::Redo => redo,
             Command::Save => self.document.is_changed() || self.document.path().is_none(),
             Command::IntoTiers => !self.has_tiers() && self.document.specimen().stone().is_ok(),
+            Command::Retarget | Command::Yield => self.document.specimen().stone().is_ok(),
             Command::Tiers | Command::BenchMode => self.has_tiers(),
             Command::LayOut => self.document.work.copies.poses.len() > 1,
             Command::Split | Command::NoCompare => self.session.compared.is_some(),
@@ -104,6 +105,8 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
             edits::edit(model, Edit::IntoTiers);
             model.workspace.shows_tiers = true;
         }
+        Command::Retarget => fitting::open_retarget(model, tasks),
+        Command::Yield => fitting::open_yield(model),
         Command::LayOut => edits::edit(model, Edit::LayOut(model.document.work.copies.poses.len())),
         Command::Undo | Command::Redo => {
             if command == Command::Undo {
@@ -112,6 +115,7 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
                 model.document.redo()
             }
             model.document.update();
+            edits::note_meet_faults(model);
         }
         other => look(model, other),
     }

@@ -1,7 +1,7 @@
 //! Answers to dialogs.
 
 use super::begin::begin;
-use super::{files, safe};
+use super::{files, fitting, safe};
 use crate::app::model::Model;
 use crate::app::model::action::{DialogAction, FileAction};
 use crate::app::model::dialog::Dialog;
@@ -54,6 +54,9 @@ pub fn answer(model: &mut Model, tasks: &mut Vec<Task>, answer: DialogAction) {
         DialogAction::Write => write(model, tasks),
         DialogAction::Stop => stop(model, tasks),
         DialogAction::Exported(event) => exported(model, event),
+        DialogAction::Fit(_) | DialogAction::Size(_) | DialogAction::Apply => {
+            fitting::answer(model, tasks, answer);
+        }
         typed => fill_in(model, typed),
     }
 }
@@ -81,6 +84,7 @@ fn leave(model: &mut Model, tasks: &mut Vec<Task>) {
     match model.session.dialog.take() {
         Some(Dialog::Path(_)) => model.session.after_save = None,
         Some(Dialog::Export(_)) => tasks.push(Task::StopThumbnails),
+        Some(Dialog::Retarget(_)) => tasks.push(Task::StopLight),
         _ => {}
     }
 }

@@ -3,7 +3,7 @@
 use crate::app::model::Model;
 use crate::app::model::action::Edit;
 use crate::app::model::extent;
-use crate::cut::{Cut, SolvedTiers, TierChange, TierOutcome};
+use crate::cut::{Cut, Design, SolvedTiers, TierChange, TierOutcome};
 use crate::io::as_tiers;
 use crate::scene::{Copies, Pose};
 use glam::DVec3;
@@ -30,6 +30,12 @@ pub fn edit(model: &mut Model, edit: Edit) {
             model.session.meet_faults.clear();
         }
         Edit::Material(material) => work.design.material = material,
+        Edit::Fitted(design) => {
+            let Design { cut, material, notes, .. } = *design;
+            (work.design.material, work.design.notes) = (material, notes);
+            keep_tiers_in_place(model, |old| *old = cut);
+            note_meet_faults(model);
+        }
         Edit::Diameter(mm) => work.design.diameter_mm = mm,
         Edit::Light(name) => work.light = name,
         Edit::Exposure(stops) => work.exposure = stops,
@@ -58,12 +64,25 @@ fn keep_tiers_in_place(model: &mut Model, change: impl FnOnce(&mut Cut)) {
 fn change_tiers(model: &mut Model, change: TierChange) {
     let Cut::Tiers(tiers) = &model.document.work.design.cut else { return };
     let SolvedTiers { tiers, outcomes, .. } = tiers.changed(change);
+    model.session.meet_faults = faults(outcomes);
+    keep_tiers_in_place(model, |cut| *cut = Cut::Tiers(tiers));
+}
+
+/// Returns for each tier why its meet could not be followed, if it could not.
+fn faults(outcomes: Vec<TierOutcome>) -> Vec<Option<String>> {
     let fault = |outcome| match outcome {
         TierOutcome::Failed(error) => Some(error.fault.to_string()),
         _ => None,
     };
-    model.session.meet_faults = outcomes.into_iter().map(fault).collect();
-    keep_tiers_in_place(model, |cut| *cut = Cut::Tiers(tiers));
+    outcomes.into_iter().map(fault).collect()
+}
+
+/// Notes which meets of the present design cannot be followed, after it was changed by something else than its list of tiers.
+pub fn note_meet_faults(model: &mut Model) {
+    model.session.meet_faults = match &model.document.work.design.cut {
+        Cut::Tiers(tiers) => faults(tiers.solved().outcomes),
+        _ => vec![],
+    };
 }
 
 /// Adds a tier after the one at a place, or after the last, and selects it. It has the indices of that tier and just touches the

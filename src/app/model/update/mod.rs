@@ -5,6 +5,7 @@ mod commands;
 mod dialogs;
 mod edits;
 mod files;
+mod fitting;
 mod safe;
 #[cfg(test)]
 mod tests;
@@ -88,6 +89,7 @@ fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
         }
         Computed::Tilts(..) => {}
         Computed::Audit(specimen, Ok(found)) => session.audit.take(&specimen, found),
+        Computed::StoneLight(number, light) => fitting::take_light(model, number, light),
         Computed::Audit(_, Err(why)) => session.notes.trouble(why),
         Computed::Copied(made) => {
             let name = session.awaited.copying.take().unwrap_or("The picture");

@@ -1,0 +1,122 @@
+//! The dialog of size and yield: the stone that a piece of rough gives, or that has a weight.
+
+use super::answers::{answer, buttons_alone};
+use crate::app::model::Model;
+use crate::app::model::action::{Actions, DialogAction};
+use crate::app::model::fitting::{SizeBy, YieldForm, YieldOptions};
+use crate::app::panels::rows::{Number, choice_row, number_row};
+use crate::app::theme;
+use crate::cut::{Finished, FitLimit, Rough};
+use egui::{Grid, RichText, Ui, vec2};
+use std::ops::RangeInclusive;
+
+/// The width of the dialog, points.
+const WIDTH: f32 = 420.0;
+
+/// The sides of rough that can be typed, mm.
+const SIDES_MM: RangeInclusive<f64> = 0.1..=1000.0;
+
+/// The weights that can be typed, carats; 0 stands for one that is not known.
+const CARATS: RangeInclusive<f64> = 0.0..=1e6;
+
+/// The thickness of a girdle that can be typed, mm.
+const GIRDLES_MM: RangeInclusive<f64> = 0.0..=100.0;
+
+/// The thickness with which a girdle of its own begins, mm.
+const FIRST_GIRDLE_MM: f64 = 0.3;
+
+const SIDES: [(&str, &str); 3] = [
+    ("Rough length", "The length of the box of rough, square to the stone's axis."),
+    ("Rough width", "The width of the box of rough, square to the stone's axis."),
+    ("Rough depth", "The depth of the box of rough, along the stone's axis."),
+];
+
+/// Draws the dialog.
+pub fn show(model: &Model, form: &YieldForm, actions: &mut Actions, ui: &mut Ui) {
+    ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 60.0));
+    ui.heading("Size and yield");
+    ui.add_space(4.0);
+    let mut options = form.options;
+    numbers(&mut options, ui);
+    actions.push_changed(&form.options, options, DialogAction::Size);
+    ui.add_space(8.0);
+    match &form.found {
+        Ok(found) => results(model, &form.options, found, ui),
+        Err(why) => {
+            ui.label(RichText::new(why.to_string()).color(theme::bad(ui.visuals())));
+        }
+    }
+    // A girdle of its own is no number of the design.
+    let answers = [DialogAction::Apply, DialogAction::Leave];
+    match form.found.is_ok() && form.options.girdle_mm.is_none() {
+        true => answer(actions, answers, buttons_alone(ui, &["Use this size", "Close"])),
+        false => answer(actions, [DialogAction::Leave], buttons_alone(ui, &["Close"])),
+    }
+}
+
+/// Draws the rows of what is typed.
+fn numbers(options: &mut YieldOptions, ui: &mut Ui) {
+    let mm = |range: RangeInclusive<f64>| Number { decimals: 3, speed: 0.02, range, unit: " mm" };
+    let ct = || Number { decimals: 3, speed: 0.02, range: CARATS, unit: " ct" };
+    choice_row(ui, "Size by", "What decides the size of the stone.", options.by.name(), |ui| {
+        for by in SizeBy::ALL {
+            if ui.selectable_label(by == options.by, by.name()).on_hover_text(by.meaning()).clicked() {
+                options.by = by;
+            }
+        }
+    });
+    if options.by == SizeBy::Rough {
+        for (side, row) in options.sides_mm.iter_mut().zip(SIDES) {
+            number_row(ui, row, mm(SIDES_MM), side);
+        }
+    } else {
+        number_row(ui, ("Wanted weight", "The weight of the finished stone."), ct(), &mut options.carats);
+    }
+    let meaning =
+        "The weight of the rough, of which the yield is a part as well. 0 stands for one that is not known.";
+    let mut rough = options.rough_carats.unwrap_or(0.0);
+    number_row(ui, ("Rough weight", meaning), ct(), &mut rough);
+    options.rough_carats = (rough > 0.0).then_some(rough);
+    let mut is_own = options.girdle_mm.is_some();
+    let meaning = "The finished girdle has a thickness in mm, whatever the size of the stone. Otherwise it grows with the stone.";
+    if ui.checkbox(&mut is_own, "Girdle of its own").on_hover_text(meaning).changed() {
+        options.girdle_mm = is_own.then_some(FIRST_GIRDLE_MM);
+    }
+    if let Some(girdle) = &mut options.girdle_mm {
+        number_row(ui, ("Girdle thickness", meaning), mm(GIRDLES_MM), girdle);
+    }
+}
+
+/// Draws what follows.
+fn results(model: &Model, options: &YieldOptions, found: &Finished, ui: &mut Ui) {
+    let carats = model.document.specimen().material.carats(found.volume_mm3);
+    Grid::new("yield").num_columns(2).spacing(vec2(22.0, 3.0)).striped(true).show(ui, |ui| {
+        let mut line = |name: &str, text: String| {
+            ui.label(name);
+            ui.label(RichText::new(text).strong());
+            ui.end_row();
+        };
+        let [length, width, depth] = found.size_mm;
+        line("Finished size", format!("{length:.3} × {width:.3} × {depth:.3} mm"));
+        line(
+            "Finished weight",
+            carats.map_or("the density is not known".to_owned(), |carats| format!("{carats:.3} ct")),
+        );
+        line("Finished girdle", format!("{:.3} mm", found.girdle_mm));
+        if options.by == SizeBy::Rough {
+            let limit = match found.limit {
+                FitLimit::Footprint => "the rough's length and width",
+                FitLimit::Depth => "the rough's depth",
+                FitLimit::Weight => "the weight",
+            };
+            line("Limited by", limit.to_owned());
+            line("Turned in the rough", format!("{:.2}°", found.turn_deg));
+            line("Depth left for the girdle", format!("{:.3} mm", found.depth_left_mm));
+            let rough = Rough { sides_mm: options.sides_mm };
+            line("Yield of the box", format!("{:.2} %", 100.0 * found.yield_of(rough.volume_mm3())));
+        }
+        if let Some((carats, rough)) = carats.zip(options.rough_carats) {
+            line("Yield of the weight", format!("{:.2} %", 100.0 * carats / rough));
+        }
+    });
+}

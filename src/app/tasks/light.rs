@@ -1,0 +1,31 @@
+//! Measures the light of stones that are compared.
+
+use crate::app::model::fitting::{LightRequest, StoneLight};
+use crate::io::Failure;
+use crate::render::{MeasureError, MeasureOptions, measure};
+use crate::scene::Specimen;
+
+/// Measures the stones one after the other.
+///
+/// # Errors
+/// A stone that cannot be built or traced, by its label; [`Failure::Stopped`] where nobody wants the answer any more.
+pub fn measured(request: &LightRequest, is_stopped: &dyn Fn() -> bool) -> Result<Vec<StoneLight>, Failure> {
+    let measured = request.stones.iter().map(|(label, design)| {
+        if is_stopped() {
+            return Err(Failure::Stopped);
+        }
+        let of_stone = |error: &dyn std::fmt::Display| Failure::Input(format!("{label}: {error}"));
+        let found = measure(design, &MeasureOptions::default()).map_err(|error| match error {
+            MeasureError::Render(error) => error.into(),
+            error => of_stone(&error),
+        })?;
+        let carats = Specimen::new(design.clone()).map_err(|error| of_stone(&error))?.carats();
+        Ok(StoneLight {
+            light_return: found.light_return(),
+            leakage: found.leakage(),
+            error: found.error(),
+            carats,
+        })
+    });
+    measured.collect()
+}

@@ -1,0 +1,367 @@
+//! `sweep`: writes the measures of designs over a grid of their proportions, angles, materials and views.
+
+use super::console::say;
+use super::mesh_options::MeshArguments;
+use super::options::{ViewOptions, number};
+use super::progress::WorkProgress;
+use super::specimen::{LoadedSpecimen, stem};
+use super::sweep_plot::SweepPlot;
+use super::sweep_table::{SweepTable, another_sweep};
+use crate::cut::Size;
+use crate::io::Failure;
+use crate::io::design_file::DesignFormat;
+use crate::measure::{MEASURES_HEAD_DEG, MeasureName, MeasureSettings};
+use crate::optics::line;
+use crate::render::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue, SweptStone};
+use clap::Args;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+/// The part of the light that may usually stay unresolved at each point.
+const UNRESOLVED: f64 = 2e-3;
+
+/// The most values of one axis, and points of one design.
+const MOST_VALUES: usize = 100_000;
+const MOST_POINTS: usize = 10_000_000;
+
+/// The measures that are listed where none are chosen.
+const USUAL: [&str; 8] =
+    ["return-even", "return-cos2", "leakage", "windowing", "obstruction", "extinction", "contrast", "fire"];
+
+#[derive(Debug, Args)]
+pub struct SweepArguments {
+    /// Designs, meshes, names of cuts that come with the program, or folders of designs
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// What varies, and its values: crown_angle=30:38:0.5 (from, to, step), crown_angle=33,34.5 or material=diamond,ruby; the key of a
+    /// proportion, tier: and the name of a tier, index, material, tilt or azimuth. May be repeated; the last varies quickest
+    #[arg(long, value_name = "KEY=VALUES")]
+    over: Vec<AxisArgument>,
+    /// A measure to list: return-even, return-cos2@15, return-even+glare, leakage, windowing, obstruction, extinction, contrast, fire
+    /// or absorbed; may be repeated [default: eight of them]
+    #[arg(long = "of", value_name = "MEASURE")]
+    measures: Vec<MeasureName>,
+    /// The file to write, .csv or .jsonl, row by row [default: CSV on standard output]
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Go on with the file of --out, where the same command was stopped
+    #[arg(long, requires = "out")]
+    resume: bool,
+    /// Draw the measures over one axis as curves with their bounds, or one measure over two axes as a map, as .svg, .png or .pdf; without
+    /// --out and --json no table is printed
+    #[arg(long, value_name = "FILE", conflicts_with = "resume")]
+    plot: Option<PathBuf>,
+    /// Print JSON lines to standard output
+    #[arg(long, conflicts_with = "out")]
+    json: bool,
+    /// A material's name, or an index, instead of the file's
+    #[arg(long, value_name = "MATERIAL")]
+    material: Option<String>,
+    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
+    #[arg(long, value_name = "SIZE")]
+    stone: Option<Size>,
+    /// The half angle of the head that hides light in obstruction, extinction and contrast
+    #[arg(long, value_name = "DEGREES", default_value_t = MEASURES_HEAD_DEG, value_parser = number)]
+    head: f64,
+    /// Follow the beams until no more than this part of the light is unresolved
+    #[arg(long, value_name = "PART", default_value_t = UNRESOLVED, value_parser = number)]
+    unresolved: f64,
+    /// Treat the light as unpolarised at every surface
+    #[arg(long)]
+    unpolarised: bool,
+    #[command(flatten)]
+    view: ViewOptions,
+    #[command(flatten)]
+    mesh: MeshArguments,
+}
+
+/// An axis as it is written on the command line.
+#[derive(Debug, Clone)]
+struct AxisArgument(SweepAxis);
+
+/// Why a text is no axis.
+#[derive(Debug, thiserror::Error)]
+enum AxisError {
+    #[error("give what varies and its values, as in crown_angle=30:38:0.5")]
+    NoValues,
+    #[error("'{0}' is no range: give from, to and a step that leads there, as in 30:38:0.5")]
+    Range(String),
+    #[error("'{0}' has more than {MOST_VALUES} values; take a larger step")]
+    TooMany(String),
+}
+
+impl FromStr for AxisArgument {
+    type Err = AxisError;
+
+    fn from_str(text: &str) -> Result<Self, AxisError> {
+        // Names of tiers may hold an equals sign; values never do.
+        let (key, list) = text.rsplit_once('=').ok_or(AxisError::NoValues)?;
+        let key = SweepKey::of(key.trim());
+        let mut values = vec![];
+        for part in list.split(',').map(str::trim) {
+            if part.is_empty() {
+                return Err(AxisError::NoValues);
+            }
+            match (part.parse::<f64>(), part.contains(':')) {
+                (Ok(number), _) => values.push(SweepValue::Number(number)),
+                (Err(_), true) => values.extend(range(part)?.into_iter().map(SweepValue::Number)),
+                (Err(_), false) => values.push(SweepValue::Name(part.to_owned())),
+            }
+        }
+        Ok(Self(SweepAxis { key, values }))
+    }
+}
+
+/// Returns the values of a range such as 30:38:0.5, both ends included.
+fn range(text: &str) -> Result<Vec<f64>, AxisError> {
+    let fault = || AxisError::Range(text.to_owned());
+    let numbers: Result<Vec<f64>, _> = text.split(':').map(|part| part.trim().parse()).collect();
+    let &[from, to, step] = numbers.map_err(|_| fault())?.as_slice() else { return Err(fault()) };
+    let steps = (to - from) / step;
+    if !steps.is_finite() || steps < 0.0 {
+        return Err(fault());
+    }
+    if steps >= MOST_VALUES as f64 {
+        return Err(AxisError::TooMany(text.to_owned()));
+    }
+    // A range whose last step ends beside its end by rounding keeps the end.
+    let count = (steps + 1e-9).floor() as usize + 1;
+    Ok((0..count).map(|k| from + k as f64 * step).collect())
+}
+
+/// Where the numbers of a sweep go.
+struct SweepOutputs<'a> {
+    measures: &'a [MeasureName],
+    /// The number of files.
+    files: usize,
+    table: Option<SweepTable>,
+    plot: Option<SweepPlot<'a>>,
+    /// The number of points without measures.
+    failed: usize,
+}
+
+impl SweepArguments {
+    pub fn run(&self) -> Result<(), Failure> {
+        self.check()?;
+        let (files, measures) = (expanded(&self.files)?, self.measures());
+        // What is wrong with the first design, often the only one, is said before a file is begun or replaced.
+        let first = files.first().map(|file| self.sweep(file, &measures));
+        let mut loaded = match first {
+            Some(Err(failure)) if files.len() == 1 => return Err(failure),
+            first => first,
+        };
+        let mut outputs =
+            self.outputs(&files, loaded.as_ref().and_then(|sweep| sweep.as_ref().ok()), &measures)?;
+        let points = self.points();
+        let kept = outputs.table.as_ref().map_or(0, |table| table.kept);
+        for (number, file) in files.iter().enumerate().skip(kept / points) {
+            let sweep = loaded.take().filter(|_| number == 0).unwrap_or_else(|| self.sweep(file, &measures));
+            let from = kept.saturating_sub(number * points);
+            self.sweep_file(file, sweep, from..points, &mut outputs)?;
+        }
+        if let Some(plot) = &outputs.plot {
+            plot.write(&stem(&files[0]))?;
+        }
+        match (outputs.failed, files.len() * points) {
+            (0, _) => Ok(()),
+            (failed, all) if failed == all => {
+                Err(Failure::Input("no point has measures; the column error says why".into()))
+            }
+            (failed, all) => {
+                say(&format!("note: {failed} of {all} points have no measures; the column error says why"));
+                Ok(())
+            }
+        }
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        let refused = |text: String| Err(Failure::Usage(text));
+        if !(self.unresolved > 0.0 && self.unresolved < 1.0) {
+            return refused(format!("--unresolved {}: give a part between 0 and 1", self.unresolved));
+        }
+        if !(0.0..=90.0).contains(&self.head) {
+            return refused(format!("--head {}: give 0 to 90 degrees", self.head));
+        }
+        if self.points() > MOST_POINTS {
+            return refused(format!(
+                "{} points are more than {MOST_POINTS}; take larger steps",
+                self.points()
+            ));
+        }
+        Ok(())
+    }
+
+    /// Returns the number of points of one design.
+    fn points(&self) -> usize {
+        self.over.iter().fold(1, |count: usize, axis| count.saturating_mul(axis.0.values.len()))
+    }
+
+    /// Opens the table, unless only a plot is wanted, and begins the plot.
+    fn outputs<'a>(
+        &self,
+        files: &[PathBuf],
+        sweep: Option<&Sweep>,
+        measures: &'a [MeasureName],
+    ) -> Result<SweepOutputs<'a>, Failure> {
+        let plot = match (&self.plot, sweep, files) {
+            (None, ..) => None,
+            (Some(path), Some(sweep), [_]) => {
+                Some(SweepPlot::new(path, (&sweep.design.cut, &sweep.axes), measures)?)
+            }
+            (Some(_), ..) => return Err(Failure::Usage("--plot is of one design; give one".into())),
+        };
+        let is_wanted = plot.is_none() || self.out.is_some() || self.json;
+        let table = is_wanted.then(|| self.table(files, measures)).transpose()?;
+        Ok(SweepOutputs { measures, files: files.len(), table, plot, failed: 0 })
+    }
+
+    fn measures(&self) -> Vec<MeasureName> {
+        match self.measures.is_empty() {
+            true => USUAL.iter().filter_map(|name| name.parse().ok()).collect(),
+            false => self.measures.clone(),
+        }
+    }
+
+    fn table(&self, files: &[PathBuf], measures: &[MeasureName]) -> Result<SweepTable, Failure> {
+        let axes = self.over.iter().map(|axis| axis.0.key.to_string());
+        let of_measures = measures.iter().flat_map(|name| [name.to_string(), format!("{name}_error")]);
+        let before = ["file".to_owned()].into_iter().chain(axes).chain(["carats".to_owned()]);
+        let columns = before.chain(of_measures).chain(["unresolved", "error"].map(String::from)).collect();
+        let table =
+            SweepTable::open(columns, self.over.len(), (self.out.as_deref(), self.json, self.resume))?;
+        if table.kept > 0 {
+            let (number, point) = ((table.kept - 1) / self.points(), (table.kept - 1) % self.points());
+            let file = files.get(number).ok_or_else(|| another_sweep(table.path()))?;
+            table.follows(&file.display().to_string(), &self.labels(point))?;
+        }
+        Ok(table)
+    }
+
+    /// Returns what a row says of its point.
+    fn labels(&self, point: usize) -> Vec<String> {
+        let axes: Vec<SweepAxis> = self.over.iter().map(|axis| axis.0.clone()).collect();
+        SweepAxis::values_at(&axes, point).into_iter().map(ToString::to_string).collect()
+    }
+
+    /// Measures points of one file. Of several files, one with an error has it in the rows of its points.
+    fn sweep_file(
+        &self,
+        file: &Path,
+        sweep: Result<Sweep, Failure>,
+        points: Range<usize>,
+        outputs: &mut SweepOutputs,
+    ) -> Result<(), Failure> {
+        let name = file.display().to_string();
+        let sweep = match sweep {
+            Ok(sweep) => sweep,
+            Err(Failure::Input(message) | Failure::Usage(message)) if outputs.files > 1 => {
+                say(&format!("error: {message}"));
+                return points
+                    .into_iter()
+                    .try_for_each(|point| outputs.put(&name, &self.labels(point), (None, &message)));
+            }
+            Err(failure) => return Err(failure),
+        };
+        let progress = WorkProgress::new(&format!("sweeping {name}"));
+        sweep.run(points, &progress.watch(), |point, found| {
+            let error = found.as_ref().err().map_or(String::new(), SweepError::to_string);
+            outputs.put(&name, &self.labels(point), (found.as_ref().ok(), &error))
+        })
+    }
+
+    fn sweep(&self, file: &Path, measures: &[MeasureName]) -> Result<Sweep, Failure> {
+        let specimen = LoadedSpecimen::load(file, self.mesh.options())?;
+        let specimen = specimen.made_of(self.material.as_deref(), self.stone)?;
+        let mut domes = vec![];
+        for dome in measures.iter().filter_map(|name| name.dome()) {
+            if !domes.contains(&dome) {
+                domes.push(dome);
+            }
+        }
+        // The indices of colours are those of each point's material.
+        let settings = MeasureSettings { domes, head_deg: self.head, ..MeasureSettings::usual([1.0; 2]) };
+        let sweep = Sweep {
+            design: specimen.design.clone(),
+            viewpoint: self.view.viewpoint()?,
+            axes: self.over.iter().map(|axis| axis.0.clone()).collect(),
+            settings,
+            wavelength_nm: line::SODIUM_D,
+            unresolved: self.unresolved,
+            polarised: !self.unpolarised,
+        };
+        sweep.check().map_err(|error| Failure::Usage(format!("{}: {error}", specimen.path)))?;
+        Ok(sweep)
+    }
+}
+
+impl SweepOutputs<'_> {
+    /// Puts a point into the table and the plot.
+    fn put(
+        &mut self,
+        file: &str,
+        point: &[String],
+        found: (Option<&SweptStone>, &str),
+    ) -> Result<(), Failure> {
+        self.failed += usize::from(found.0.is_none());
+        if let Some(plot) = &mut self.plot {
+            plot.take_in(found.0);
+        }
+        match &mut self.table {
+            Some(table) => table.write(file, point, self.measures, found),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Returns the files, with those of each folder in its place, sorted by name.
+fn expanded(given: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let mut files = vec![];
+    for path in given {
+        if !path.is_dir() {
+            files.push(path.clone());
+            continue;
+        }
+        let refused = |error: std::io::Error| Failure::Input(format!("{}: {error}", path.display()));
+        let mut inside = vec![];
+        for entry in std::fs::read_dir(path).map_err(refused)? {
+            let file = entry.map_err(refused)?.path();
+            if file.is_file() && DesignFormat::of_name(&file).is_some() {
+                inside.push(file);
+            }
+        }
+        if inside.is_empty() {
+            return Err(Failure::Input(format!("{}: the folder holds no design", path.display())));
+        }
+        inside.sort();
+        files.extend(inside);
+    }
+    Ok(files)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn values(text: &str) -> Vec<String> {
+        let AxisArgument(axis) = text.parse().unwrap();
+        axis.values.iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn axes_are_lists_and_ranges_with_both_ends() {
+        assert_eq!(values("crown_angle=30:31:0.25"), ["30", "30.25", "30.5", "30.75", "31"]);
+        assert_eq!(values("tilt=-1:1:1, 5").len(), 4);
+        assert_eq!(values("pavilion_angle=40:41:0.1").len(), 11);
+        assert_eq!(values("pavilion_angle=40:41:0.1")[3], "40.3");
+        assert_eq!(values("material=diamond,ruby,2.0"), ["diamond", "ruby", "2"]);
+        assert_eq!(values("tier:P=1=41:40:-0.5"), ["41", "40.5", "40"]);
+        for text in
+            ["", "crown", "crown=", "crown=1,,2", "crown=30:38", "crown=30:38:0", "crown=30:38:-1", "a=1:x:2"]
+        {
+            assert!(text.parse::<AxisArgument>().is_err(), "{text}");
+        }
+        assert!(matches!("a=0:1:1e-9".parse::<AxisArgument>(), Err(AxisError::TooMany(_))));
+        assert!("a=nan:1:1".parse::<AxisArgument>().is_err());
+    }
+}

@@ -1,0 +1,193 @@
+//! The table that `sweep` writes, row by row, as CSV or JSON lines.
+
+use super::console::print;
+use crate::io::Failure;
+use crate::measure::{Interval, MeasureName};
+use crate::render::{SweepValue, SweptStone};
+use serde_json::{Map, Value, json};
+use std::fs::{File, OpenOptions};
+use std::io::{BufRead, BufReader, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+/// The rows of a table, as they are written.
+pub struct SweepTable {
+    columns: Vec<String>,
+    is_json: bool,
+    file: Option<(PathBuf, File)>,
+    /// The number of rows that the file held already.
+    pub kept: usize,
+    /// The last of these rows: what it holds in the columns of file and axes.
+    last_kept: Vec<String>,
+    /// Where the rows of a file that is resumed end. What comes after them was not written to its end; it is dropped before the
+    /// next row is written.
+    end: Option<u64>,
+}
+
+impl SweepTable {
+    /// Opens the file of a table, or standard output where there is none, and writes the names of the columns.
+    pub fn open(
+        columns: Vec<String>,
+        axes: usize,
+        (out, is_json, resume): (Option<&Path>, bool, bool),
+    ) -> Result<Self, Failure> {
+        let Some(path) = out else {
+            let mut table = Self { columns, is_json, file: None, kept: 0, last_kept: vec![], end: None };
+            table.write_columns()?;
+            return Ok(table);
+        };
+        let is_json = match path.extension().and_then(|ending| ending.to_str()) {
+            Some("csv") => false,
+            Some("jsonl") => true,
+            _ => {
+                let text = format!("--out {}: give a name that ends in .csv or .jsonl", path.display());
+                return Err(Failure::Usage(text));
+            }
+        };
+        let refused = |error: std::io::Error| Failure::Output(format!("{}: {error}", path.display()));
+        let is_resumed = resume && path.exists();
+        let mut options = OpenOptions::new();
+        let file = options.read(true).write(true).create(true).truncate(!is_resumed).open(path);
+        let file = file.map_err(refused)?;
+        let mut table = Self {
+            columns,
+            is_json,
+            file: Some((path.to_owned(), file)),
+            kept: 0,
+            last_kept: vec![],
+            end: None,
+        };
+        if is_resumed {
+            table.take_up(axes).map_err(refused)?
+        } else {
+            table.write_columns()?
+        }
+        Ok(table)
+    }
+
+    pub fn path(&self) -> &Path {
+        self.file.as_ref().map_or(Path::new("-"), |(path, _)| path)
+    }
+
+    /// Counts the rows of a file that is resumed, up to the last whole one.
+    fn take_up(&mut self, axes: usize) -> std::io::Result<()> {
+        let Some((_, file)) = &mut self.file else { return Ok(()) };
+        let (mut end, mut lines, mut header, mut last) = (0, 0_usize, String::new(), String::new());
+        let mut reader = BufReader::new(&*file);
+        loop {
+            let mut line = String::new();
+            let length = reader.read_line(&mut line)?;
+            if length == 0 || !line.ends_with('\n') {
+                break;
+            }
+            if lines == 0 {
+                header.clone_from(&line);
+            }
+            end += length as u64;
+            lines += 1;
+            last = line;
+        }
+        self.end = Some(end);
+        if lines == 0 {
+            return self.write_columns().map_err(std::io::Error::other);
+        }
+        if !self.is_json && header != csv_line(&self.columns) {
+            return Err(std::io::Error::other("its columns are of another sweep; give another --out"));
+        }
+        self.kept = lines - usize::from(!self.is_json);
+        self.last_kept = self.labels_of(&last, 1 + axes);
+        Ok(())
+    }
+
+    /// Returns the first fields of a row that was read.
+    fn labels_of(&self, row: &str, count: usize) -> Vec<String> {
+        if !self.is_json {
+            let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(row.as_bytes());
+            let row = reader.records().next().and_then(Result::ok).unwrap_or_default();
+            return row.iter().take(count).map(str::to_owned).collect();
+        }
+        let row: Map<String, Value> = serde_json::from_str(row).unwrap_or_default();
+        let text = |key: &String| match row.get(key) {
+            Some(Value::String(text)) => text.clone(),
+            Some(Value::Number(number)) => {
+                number.as_f64().map_or(SweepValue::Name(String::new()), SweepValue::Number).to_string()
+            }
+            _ => String::new(),
+        };
+        self.columns[..count].iter().map(text).collect()
+    }
+
+    /// Checks that the last row of a file that is resumed is that of this file and point.
+    pub fn follows(&self, file: &str, point: &[String]) -> Result<(), Failure> {
+        let is_same =
+            self.last_kept.split_first().is_some_and(|(first, rest)| first == file && rest == point);
+        if is_same { Ok(()) } else { Err(another_sweep(self.path())) }
+    }
+
+    fn write_columns(&mut self) -> Result<(), Failure> {
+        if self.is_json { Ok(()) } else { self.put(&csv_line(&self.columns)) }
+    }
+
+    /// Writes the row of a point.
+    pub fn write(
+        &mut self,
+        file: &str,
+        point: &[String],
+        measures: &[MeasureName],
+        (stone, error): (Option<&SweptStone>, &str),
+    ) -> Result<(), Failure> {
+        let of = |name: &MeasureName| stone.and_then(|stone| name.of(&stone.measures));
+        let carats = stone.and_then(|stone| stone.carats);
+        let unresolved = stone.map(|stone| stone.measures.unresolved);
+        let parts = |interval: Interval| [interval.middle(), interval.error()];
+        let intervals: Vec<Option<f64>> = measures
+            .iter()
+            .flat_map(|name| of(name).map_or([None; 2], |interval| parts(interval).map(Some)))
+            .collect();
+        let numbers = std::iter::once(carats).chain(intervals).chain([unresolved]);
+        let line = if self.is_json {
+            let texts = std::iter::once(file).chain(point.iter().map(String::as_str));
+            let texts =
+                texts.map(|text| text.parse::<f64>().map_or_else(|_| json!(text), |number| json!(number)));
+            let values = texts.chain(numbers.map(|number| json!(number))).chain([json!(error)]);
+            let mut row: Map<String, Value> = self.columns.iter().cloned().zip(values).collect();
+            row.insert("file".into(), json!(file));
+            format!("{}\n", Value::Object(row))
+        } else {
+            let texts = std::iter::once(file.to_owned()).chain(point.iter().cloned());
+            let number = |number: Option<f64>| number.map_or(String::new(), |number| format!("{number:.7}"));
+            let row: Vec<String> = texts.chain(numbers.map(number)).chain([error.to_owned()]).collect();
+            csv_line(&row)
+        };
+        self.put(&line)
+    }
+
+    fn put(&mut self, line: &str) -> Result<(), Failure> {
+        match &mut self.file {
+            None => print(line.trim_end_matches('\n')),
+            Some((path, file)) => {
+                let dropped = self.end.take().map_or(Ok(()), |end| {
+                    file.set_len(end)?;
+                    file.seek(SeekFrom::Start(end)).map(drop)
+                });
+                let written = dropped.and_then(|()| file.write_all(line.as_bytes()));
+                written.map_err(|error| Failure::Output(format!("{}: {error}", path.display())))
+            }
+        }
+    }
+}
+
+/// Returns the line of a row, with its line break.
+fn csv_line(fields: &[String]) -> String {
+    let mut writer = csv::Writer::from_writer(vec![]);
+    // Writing to memory fails never.
+    let _ = writer.write_record(fields);
+    String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
+}
+
+/// Returns the error of a file whose rows are of another sweep.
+pub fn another_sweep(path: &Path) -> Failure {
+    Failure::Usage(format!(
+        "{}: its rows are of another sweep; give another --out, or leave --resume out to replace it",
+        path.display()
+    ))
+}

@@ -1,0 +1,90 @@
+//! The measures of a view's light, and their JSON.
+
+use super::event::Reporter;
+use super::figures::seen_from;
+use super::viewing::{Viewing, note};
+use crate::io::Failure;
+use crate::measure::{Interval, LightMeasures, MEASURES_HEAD_DEG, MeasureName, MeasureSettings};
+use crate::optics::line;
+use crate::render::{MeasuresProduct, Product, Renderer};
+use crate::scene::{DomeLight, Film};
+use crate::trace::Watch;
+use serde_json::{Map, Value, json};
+
+/// The part of the light that may usually stay unresolved in measures.
+const UNRESOLVED: f64 = 1e-3;
+
+/// Measures of light, and how they were taken.
+pub struct MeasureReport<'a> {
+    /// The stone and how it was viewed.
+    pub viewing: Viewing<'a>,
+    /// The light, head and eye of the measures.
+    pub settings: MeasureSettings,
+    /// The measures.
+    pub measures: LightMeasures,
+}
+
+impl Viewing<'_> {
+    /// Returns the settings of measures of this stone under these domes, or the usual ones where there are none. The head is
+    /// that of the viewing, if it has one.
+    pub fn measure_settings(&self, domes: &[DomeLight]) -> MeasureSettings {
+        let material = &self.specimen.material;
+        // An index that was given instead of the material's is the same at all wavelengths.
+        let index = |nm: f64| self.wavelength_nm.and_then(|_| material.dispersion.try_index(nm).ok());
+        let indices =
+            [line::FRAUNHOFER_B, line::FRAUNHOFER_G].map(|nm| index(nm).unwrap_or(self.medium.index));
+        let head_deg = if self.head_deg > 0.0 { self.head_deg } else { MEASURES_HEAD_DEG };
+        let usual = MeasureSettings { head_deg, ..MeasureSettings::usual(indices) };
+        if domes.is_empty() { usual } else { MeasureSettings { domes: domes.to_vec(), ..usual } }
+    }
+}
+
+/// Takes the measures of a stone's light.
+///
+/// # Errors
+/// [`Failure::Usage`] where exact beams do not fit, an error of `tell`, or [`Failure::Stopped`] when `watch` asks to stop.
+pub fn light_measures<'a>(
+    viewing: &Viewing<'a>,
+    settings: MeasureSettings,
+    renderer: &mut Renderer,
+    watch: Watch,
+    tell: Reporter,
+) -> Result<MeasureReport<'a>, Failure> {
+    let product = MeasuresProduct { settings: settings.clone(), medium: viewing.medium };
+    let mut job = viewing.job(Film::NONE, Product::Measures(product), UNRESOLVED);
+    job.quality.samples = None;
+    renderer.plan(&job).map_err(|why| Failure::Usage(format!("{}: {why}", viewing.file)))?;
+    let measures = renderer.run(&job, watch, &mut |part| note(&part, tell))?.measures()?;
+    Ok(MeasureReport { viewing: *viewing, settings, measures })
+}
+
+impl MeasureReport<'_> {
+    /// Returns the measures by name, in the order in which they are listed.
+    pub fn by_name(&self) -> impl Iterator<Item = (MeasureName, Interval)> + '_ {
+        let all = MeasureName::all(&self.settings).into_iter();
+        all.filter_map(|name| Some((name, name.of(&self.measures)?)))
+    }
+
+    /// Returns the measures and how they were taken, as docs/formats.md describes them.
+    pub fn json(&self) -> Value {
+        let (viewing, material) = (&self.viewing, &self.viewing.specimen.material);
+        let interval = |of: Interval| json!({ "least": of.least, "most": of.most });
+        let measures: Map<String, Value> =
+            self.by_name().map(|(name, of)| (name.to_string(), interval(of))).collect();
+        json!({
+            "file": viewing.file,
+            "name": viewing.specimen.design.name,
+            "measures": measures,
+            "spread_deg": self.measures.spread_deg,
+            "unresolved": self.measures.unresolved,
+            "material": material.name,
+            "index": viewing.medium.index,
+            "indices_of_colours": self.settings.indices,
+            "wavelength_nm": viewing.wavelength_nm,
+            "head_deg": self.settings.head_deg,
+            "blur_deg": self.settings.blur_deg,
+            "polarised": viewing.polarised,
+            "view": seen_from(&viewing.viewpoint),
+        })
+    }
+}

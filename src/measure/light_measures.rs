@@ -1,0 +1,301 @@
+//! Measures: numbers that say how well a cut handles light, each as the interval in which it certainly lies.
+//!
+//! They are sums over the exact beams of one view. What the beams leave unresolved widens the intervals; nothing is sampled.
+//! Their formulas are in docs/optics.md, "Measures".
+
+use crate::math::Polytope;
+use crate::scene::{DomeLight, elevation_deg};
+use crate::trace::beam::{Beam, Beams};
+use serde::{Deserialize, Serialize};
+use std::ops::Add;
+
+/// The angle in degrees that an eye's pupil of 3.3 mm fills at 250 mm. Colours that spread over less reach it together.
+pub const PUPIL_DEG: f64 = 0.76;
+
+/// The half angle in degrees of the observer's head that the measures of obstruction, extinction and contrast assume: that of
+/// the ASET's blue cone.
+pub const MEASURES_HEAD_DEG: f64 = 15.0;
+
+/// An interval in which a number certainly lies.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Interval {
+    /// The least possible value.
+    pub least: f64,
+    /// The greatest possible value.
+    pub most: f64,
+}
+
+impl Interval {
+    /// Makes the interval of a number that is too low by at most `open`.
+    pub fn from(least: f64, open: f64) -> Self {
+        Self { least, most: least + open }
+    }
+
+    /// Returns the middle of the interval.
+    pub fn middle(self) -> f64 {
+        f64::midpoint(self.least, self.most)
+    }
+
+    /// Returns by how much the middle may be off.
+    pub fn error(self) -> f64 {
+        (self.most - self.least) / 2.0
+    }
+}
+
+impl Add<f64> for Interval {
+    type Output = Self;
+
+    fn add(self, more: f64) -> Self {
+        Self { least: self.least + more, most: self.most + more }
+    }
+}
+
+/// By which light, head and eye the measures are taken.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MeasureSettings {
+    /// The domes whose light is weighed.
+    pub domes: Vec<DomeLight>,
+    /// The half angle of the observer's head for obstruction, extinction and contrast, degrees, 0 to 90.
+    pub head_deg: f64,
+    /// The angle in degrees, above 0, over which colours must spread before an eye sees them apart.
+    pub blur_deg: f64,
+    /// The refractive indices at the red and at the violet end of the light whose spread is measured.
+    pub indices: [f64; 2],
+}
+
+impl MeasureSettings {
+    /// Returns the usual settings for a material with these indices at the red and the violet end.
+    pub fn usual(indices: [f64; 2]) -> Self {
+        let with_head = DomeLight { power: 0.0, head_deg: MEASURES_HEAD_DEG };
+        Self {
+            domes: [DomeLight::of(0.0), DomeLight::of(1.0), DomeLight::of(2.0), with_head].into(),
+            head_deg: MEASURES_HEAD_DEG,
+            blur_deg: PUPIL_DEG,
+            indices,
+        }
+    }
+}
+
+/// The light of a dome that reaches the eye, as a part of what a white sheet in place of the stone would send under an even dome.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct DomeReturn {
+    /// The dome.
+    pub dome: DomeLight,
+    /// Light that has been inside the stone.
+    pub inside: Interval,
+    /// Light that the outer surface reflects; it is exact.
+    pub glare: f64,
+}
+
+impl DomeReturn {
+    /// Returns all light of the dome that reaches the eye.
+    pub fn with_glare(&self) -> Interval {
+        self.inside + self.glare
+    }
+}
+
+/// The measures of one view. Each is a part of the silhouette's light or area, unless it says otherwise.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LightMeasures {
+    /// The return of each dome, in the order of the settings.
+    pub domes: Vec<DomeReturn>,
+    /// Light from below the horizon that has been inside the stone.
+    pub leakage: Interval,
+    /// Light from below the horizon that crosses the stone without being reflected inside: one sees through the stone.
+    pub windowing: Interval,
+    /// Light that comes through the stone from within the observer's head.
+    pub obstruction: Interval,
+    /// The part of the silhouette's area whose strongest exit meets the head or comes from below the horizon.
+    pub extinction: Interval,
+    /// The standard deviation of the brightness over the face, divided by its mean (E. Peli, 1990, "rms contrast"), under an
+    /// even dome with the head, without glare. `most` is infinite where the mean may be 0.
+    pub contrast: Interval,
+    /// Light from above the horizon that has been inside, each exit multiplied by the part of its colours that an eye sees apart:
+    /// 1 - blur / fan, at least 0.
+    pub fire: Interval,
+    /// The mean angle in degrees over which the colours of light from above spread, weighted by that light; `None` where
+    /// there is no such light. Exits at which one colour is totally reflected are left out. It is of the light that was
+    /// followed, and has no bound of its own.
+    pub spread_deg: Option<f64>,
+    /// Light that is absorbed inside the stone.
+    pub absorbed: Interval,
+    /// The part of the light that was not followed to its end.
+    pub unresolved: f64,
+}
+
+impl LightMeasures {
+    /// Takes the measures of exact beams. `polytope` must be the stone that was traced.
+    pub fn of(beams: &Beams, polytope: &Polytope, settings: &MeasureSettings) -> Self {
+        let fans = beams.fans(polytope, settings.indices);
+        let share = f64::from(beams.symmetry.order()) / beams.silhouette_area;
+        let mut sums = ExitSums::new(settings.domes.len());
+        for beam in beams.iter() {
+            sums.absorbed += beam.absorbed * share;
+            let energy = beam.weight * beam.area * share;
+            if energy > 0.0 {
+                let sight = ExitSight::of(&beam, beams, settings.head_deg);
+                sums.add_domes((&beam, energy), beams, &settings.domes);
+                if !beam.is_surface() {
+                    sums.add((energy, fans[beam.id as usize]), &sight, settings.blur_deg);
+                    let crosses = beam.parent.is_some_and(|parent| beams.get(parent).is_surface());
+                    sums.windowing += if crosses && sight == ExitSight::Below { energy } else { 0.0 };
+                }
+            }
+            // Light that has entered and was not followed at all may cross the stone.
+            let waits = if beam.is_surface() && beam.open { beam.onward * beam.area * share } else { 0.0 };
+            sums.waiting += waits;
+        }
+        let unresolved = beams.unresolved();
+        let (extinction, contrast) =
+            (extinction(beams, settings.head_deg), contrast(beams, settings.head_deg));
+        let absorbed = if beams.medium.is_clear() { 0.0 } else { unresolved };
+        let absorbed = Interval::from(sums.absorbed, absorbed);
+        sums.finish(settings, unresolved, [extinction, contrast, absorbed])
+    }
+}
+
+/// What the eye sees along an exit.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum ExitSight {
+    Below,
+    Head,
+    Dome,
+}
+
+impl ExitSight {
+    fn of(beam: &Beam, beams: &Beams, head_deg: f64) -> Self {
+        let elevation = elevation_deg(beam.exit, beams.zenith);
+        match elevation {
+            below if below < 0.0 => Self::Below,
+            above if head_deg > 0.0 && above >= 90.0 - head_deg => Self::Head,
+            _ => Self::Dome,
+        }
+    }
+}
+
+/// Sums over exits, as parts of the silhouette's light.
+struct ExitSums {
+    inside: Vec<f64>,
+    glare: Vec<f64>,
+    below: f64,
+    head: f64,
+    windowing: f64,
+    /// Light that has entered and was not followed.
+    waiting: f64,
+    fire: f64,
+    /// The angles of fans in radians, weighted by light, and the sum of these weights.
+    fans: [f64; 2],
+    absorbed: f64,
+}
+
+impl ExitSums {
+    fn new(domes: usize) -> Self {
+        Self {
+            inside: vec![0.0; domes],
+            glare: vec![0.0; domes],
+            below: 0.0,
+            head: 0.0,
+            windowing: 0.0,
+            waiting: 0.0,
+            fire: 0.0,
+            fans: [0.0; 2],
+            absorbed: 0.0,
+        }
+    }
+
+    fn add_domes(&mut self, (beam, energy): (&Beam, f64), beams: &Beams, domes: &[DomeLight]) {
+        let sums = if beam.is_surface() { &mut self.glare } else { &mut self.inside };
+        for (sum, dome) in sums.iter_mut().zip(domes) {
+            *sum += energy * dome.radiance(beam.exit, beams.zenith);
+        }
+    }
+
+    fn add(&mut self, (energy, fan): (f64, f64), sight: &ExitSight, blur_deg: f64) {
+        if *sight == ExitSight::Below {
+            self.below += energy;
+            return;
+        }
+        self.head += if *sight == ExitSight::Head { energy } else { 0.0 };
+        self.fire += energy * seen_apart(fan, blur_deg);
+        if fan < std::f64::consts::PI {
+            self.fans[0] += energy * fan;
+            self.fans[1] += energy;
+        }
+    }
+
+    fn finish(
+        self,
+        settings: &MeasureSettings,
+        unresolved: f64,
+        [extinction, contrast, absorbed]: [Interval; 3],
+    ) -> LightMeasures {
+        let open = |least: f64| Interval::from(least, unresolved);
+        let light = self.inside.iter().zip(&self.glare);
+        let domes = settings.domes.iter().zip(light).map(|(&dome, (&inside, &glare))| DomeReturn {
+            dome,
+            inside: Interval::from(inside, unresolved * dome.brightest()),
+            glare,
+        });
+        let [angles, weights] = self.fans;
+        LightMeasures {
+            domes: domes.collect(),
+            leakage: open(self.below),
+            windowing: Interval::from(self.windowing, self.waiting),
+            obstruction: open(self.head),
+            extinction,
+            contrast,
+            fire: open(self.fire),
+            spread_deg: (weights > 0.0).then(|| (angles / weights).to_degrees()),
+            absorbed,
+            unresolved,
+        }
+    }
+}
+
+/// Returns the part of a fan's colours that an eye sees apart, 0 to 1; `fan` is in radians.
+fn seen_apart(fan: f64, blur_deg: f64) -> f64 {
+    let blur = blur_deg.to_radians();
+    if fan > blur { 1.0 - blur / fan } else { 0.0 }
+}
+
+/// Returns the area whose strongest exit meets the head or comes from below.
+fn extinction(beams: &Beams, head_deg: f64) -> Interval {
+    let share = f64::from(beams.symmetry.order()) / beams.silhouette_area;
+    let cells = beams.strongest_exits();
+    let is_dark = |beam: &Beam| ExitSight::of(beam, beams, head_deg) != ExitSight::Dome;
+    let dark = cells.iter().filter(|cell| !cell.undecided);
+    let dark = dark.filter(|cell| cell.strongest.is_some_and(|exit| is_dark(&beams.get(exit))));
+    let area = dark.map(|cell| beams.get(cell.outline).area * share).sum();
+    Interval::from(area, beams.undecided(&cells))
+}
+
+/// Returns the contrast of the face under an even dome with a head.
+///
+/// Through a beam that was not split further the brightness is the same everywhere, but for what is still inside. So the
+/// mean b and the deviation s of the brightness that is known are sums over such beams. What is unknown lies between 0 and
+/// the light r that is still inside, so the mean is at most b + Σ a r, and the deviation differs from s by at most
+/// √(Σ a r²), by the triangle inequality.
+fn contrast(beams: &Beams, head_deg: f64) -> Interval {
+    let share = f64::from(beams.symmetry.order()) / beams.silhouette_area;
+    let mut bright: Vec<f64> = Vec::with_capacity(beams.len());
+    for beam in beams.iter() {
+        let before = beam.parent.map_or(0.0, |parent| bright[parent as usize]);
+        let shines = !beam.is_surface()
+            && beam.weight > 0.0
+            && ExitSight::of(&beam, beams, head_deg) == ExitSight::Dome;
+        bright.push(before + if shines { beam.weight } else { 0.0 });
+    }
+    let [mut mean, mut square, mut rest, mut rest_square] = [0.0; 4];
+    for id in beams.leaves() {
+        let beam = beams.get(id);
+        let (area, b) = (beam.area * share, bright[id as usize]);
+        mean += area * b;
+        square += area * b * b;
+        rest += area * beam.onward;
+        rest_square += area * beam.onward * beam.onward;
+    }
+    let (deviation, error) = ((square - mean * mean).max(0.0).sqrt(), rest_square.sqrt());
+    let least = ((deviation - error) / (mean + rest)).max(0.0);
+    let most = if mean > 0.0 { (deviation + error) / mean } else { f64::INFINITY };
+    Interval { least: if least.is_nan() { 0.0 } else { least }, most }
+}

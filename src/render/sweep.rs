@@ -1,0 +1,362 @@
+//! Sweeps: the measures of a design over a grid of its proportions, angles, materials and views.
+
+use super::job::{Job, MeasuresProduct, Product, Quality};
+use super::renderer::{RenderError, Renderer};
+use super::{Card, Wanted};
+use crate::cut::{Cut, Design, MaterialRef, MeetError};
+use crate::measure::{Bounds, LightMeasures, MeasureSettings};
+use crate::optics::{DispersionError, Material, line};
+use crate::scene::{Film, Medium, Scene, Specimen, SpecimenError, Viewpoint};
+use crate::trace::{Stopped, Watch};
+use rayon::prelude::*;
+use std::fmt;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// The points that are measured before they are handed out.
+const AT_ONCE: usize = 64;
+
+/// What varies along an axis of a sweep.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum SweepKey {
+    /// A proportion of the cut's family, by its key in cut files and in the unit of its row.
+    Proportion(String),
+    /// The angle of a tier, by its name: degrees from the girdle plane, above 0 on either side. Meets are followed.
+    Tier(String),
+    /// The refractive index, 1 to 5, the same at all wavelengths.
+    Index,
+    /// The material, by its name.
+    Material,
+    /// The tilt of the view, degrees, -90 to 90.
+    Tilt,
+    /// The azimuth of the tilt, degrees.
+    Azimuth,
+}
+
+/// What the keys of tiers begin with.
+const TIER: &str = "tier:";
+
+impl SweepKey {
+    /// Returns the key of this name: `index`, `material`, `tilt`, `azimuth`, `tier:` and the name of a tier, or else a
+    /// proportion.
+    pub fn of(name: &str) -> Self {
+        match name {
+            "index" => Self::Index,
+            "material" => Self::Material,
+            "tilt" => Self::Tilt,
+            "azimuth" => Self::Azimuth,
+            _ => match name.strip_prefix(TIER) {
+                Some(tier) => Self::Tier(tier.to_owned()),
+                None => Self::Proportion(name.to_owned()),
+            },
+        }
+    }
+}
+
+impl fmt::Display for SweepKey {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Proportion(key) => f.write_str(key),
+            Self::Tier(name) => write!(f, "{TIER}{name}"),
+            Self::Index => f.write_str("index"),
+            Self::Material => f.write_str("material"),
+            Self::Tilt => f.write_str("tilt"),
+            Self::Azimuth => f.write_str("azimuth"),
+        }
+    }
+}
+
+/// A value at a place of an axis.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SweepValue {
+    /// A number, in the unit of the axis.
+    Number(f64),
+    /// The name of a material.
+    Name(String),
+}
+
+impl fmt::Display for SweepValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            // Steps of a range are sums; people read them to the digits that they mean.
+            Self::Number(number) => write!(f, "{}", (number * 1e9).round() / 1e9 + 0.0),
+            Self::Name(name) => f.write_str(name),
+        }
+    }
+}
+
+/// One axis of a sweep.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepAxis {
+    /// What varies.
+    pub key: SweepKey,
+    /// Its values.
+    pub values: Vec<SweepValue>,
+}
+
+impl SweepAxis {
+    /// Returns the values of all axes at a point of their grid. The last axis varies quickest; no axis may be empty.
+    pub fn values_at(axes: &[Self], point: usize) -> Vec<&SweepValue> {
+        let mut rest = point;
+        let value = |axis: &'_ Self| {
+            let place = rest % axis.values.len();
+            rest /= axis.values.len();
+            place
+        };
+        let mut places: Vec<usize> = axes.iter().rev().map(value).collect();
+        places.reverse();
+        axes.iter().zip(places).map(|(axis, place)| &axis.values[place]).collect()
+    }
+}
+
+/// The measures of a design at all points of a grid.
+#[derive(Debug, Clone)]
+pub struct Sweep {
+    /// The design that is varied.
+    pub design: Design,
+    /// The view, where no axis varies it.
+    pub viewpoint: Viewpoint,
+    /// The axes; the last varies quickest. Without an axis there is one point, the design as it is.
+    pub axes: Vec<SweepAxis>,
+    /// The light, head and eye of the measures. The indices of colours are the material's at Fraunhofer B and G.
+    pub settings: MeasureSettings,
+    /// The wavelength at which the material's index is taken, nm.
+    pub wavelength_nm: f64,
+    /// The part of the light that may stay unresolved.
+    pub unresolved: f64,
+    /// Whether polarisation is followed.
+    pub polarised: bool,
+}
+
+/// What a sweep finds at one point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweptStone {
+    /// The measures of the light.
+    pub measures: LightMeasures,
+    /// The weight in carats; `None` where the material's density is not known.
+    pub carats: Option<f64>,
+}
+
+/// Why a point of a sweep has no measures.
+#[derive(Debug, thiserror::Error)]
+pub enum SweepError {
+    /// The design does not make a stone there.
+    #[error(transparent)]
+    Specimen(#[from] SpecimenError),
+    /// The material has no index at the wavelength.
+    #[error(transparent)]
+    Dispersion(#[from] DispersionError),
+    /// The light cannot be traced.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// The cut has no proportion of this key, or one that only follows from others.
+    #[error("{key}: the design has no such proportion to set; {known}")]
+    NoProportion {
+        /// The key as given.
+        key: String,
+        /// The keys that there are, in words.
+        known: String,
+    },
+    /// The cut has no tier of this name.
+    #[error("tier:{name}: the design has no such tier; {known}")]
+    NoTier {
+        /// The name as given.
+        name: String,
+        /// The tiers that there are, in words.
+        known: String,
+    },
+    /// A number where a name is needed, or a name where a number is.
+    #[error("{key}: '{value}' is no {expected}")]
+    Value {
+        /// The key of the axis.
+        key: String,
+        /// The value as given.
+        value: String,
+        /// What is expected.
+        expected: &'static str,
+    },
+    /// A meet that cannot be followed with the angle of a tier.
+    #[error(transparent)]
+    Meet(#[from] MeetError),
+}
+
+/// A stone at one point of a sweep, before it is measured.
+struct VariedDesign {
+    design: Design,
+    viewpoint: Viewpoint,
+    index: Option<f64>,
+}
+
+impl Sweep {
+    /// Returns the number of points.
+    pub fn count(&self) -> usize {
+        self.axes.iter().map(|axis| axis.values.len()).product()
+    }
+
+    /// Returns the values of all axes at a point, whose number is below [`count`](Self::count).
+    pub fn values(&self, point: usize) -> Vec<&SweepValue> {
+        SweepAxis::values_at(&self.axes, point)
+    }
+
+    /// Checks that every axis varies something that the design has, and that its values are of its kind.
+    ///
+    /// # Errors
+    /// A [`SweepError`] that names the axis. Points whose stone cannot be made are no errors of the sweep.
+    pub fn check(&self) -> Result<(), SweepError> {
+        let mut varied = self.start();
+        let each = self.axes.iter().flat_map(|axis| axis.values.iter().map(|value| (&axis.key, value)));
+        for (key, value) in each {
+            match varied.set(key, value) {
+                Err(SweepError::Meet(_)) | Ok(()) => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(())
+    }
+
+    /// Measures the points with these numbers on all cores, and hands them out in order.
+    ///
+    /// # Errors
+    /// [`Stopped`] when `watch` asks to stop, or an error of `each`, each turned into `E`.
+    pub fn run<E: From<Stopped>>(
+        &self,
+        points: std::ops::Range<usize>,
+        watch: Watch,
+        mut each: impl FnMut(usize, Result<SweptStone, SweepError>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let (all, done) = (points.len().max(1) as f64, AtomicUsize::new(0));
+        let mut next = points.start;
+        while next < points.end {
+            let end = (next + AT_ONCE).min(points.end);
+            let found: Vec<_> = (next..end)
+                .into_par_iter()
+                .map(|point| {
+                    let part = || done.load(Ordering::Relaxed) as f64 / all;
+                    let found = self.point(point, &|_| watch(part()));
+                    done.fetch_add(1, Ordering::Relaxed);
+                    found
+                })
+                .collect();
+            for (point, found) in (next..end).zip(found) {
+                match found {
+                    Err(SweepError::Render(RenderError::Stopped(stopped))) => return Err(stopped.into()),
+                    found => each(point, found)?,
+                }
+            }
+            next = end;
+        }
+        Ok(())
+    }
+
+    /// Measures one point.
+    ///
+    /// # Errors
+    /// A [`SweepError`]: no stone, no index there, or a stone that exact beams do not trace.
+    pub fn point(&self, point: usize, watch: Watch) -> Result<SweptStone, SweepError> {
+        let mut varied = self.start();
+        for (axis, value) in self.axes.iter().zip(self.values(point)) {
+            varied.set(&axis.key, value)?;
+        }
+        let VariedDesign { design, viewpoint, index } = varied;
+        let specimen = Specimen::new(design)?;
+        let (medium, indices) = self.optics(&specimen.material, index, specimen.unit_mm())?;
+        let settings = MeasureSettings { indices, ..self.settings.clone() };
+        let (carats, bounds) = (specimen.carats(), Bounds::exact(self.unresolved));
+        let job = Job {
+            scene: Arc::new(Scene::alone(&specimen)),
+            view: viewpoint.view(),
+            film: Film::NONE,
+            product: Product::Measures(MeasuresProduct { settings, medium }),
+            quality: Quality::of_figures(&Bounds { polarised: self.polarised, ..bounds }, Wanted::Quickest),
+        };
+        let rendered = Renderer::new(Card::None).run(&job, watch, &mut |_| Ok::<_, RenderError>(()))?;
+        Ok(SweptStone { measures: rendered.measures()?, carats })
+    }
+
+    fn start(&self) -> VariedDesign {
+        VariedDesign { design: self.design.clone(), viewpoint: self.viewpoint, index: None }
+    }
+
+    /// Returns the medium, and the indices of its colours.
+    fn optics(
+        &self,
+        material: &Material,
+        index: Option<f64>,
+        unit_mm: f64,
+    ) -> Result<(Medium, [f64; 2]), SweepError> {
+        let absorption = Medium::absorption_of(material, self.wavelength_nm, unit_mm);
+        let of = |nm: f64| index.map_or_else(|| material.dispersion.try_index(nm), Ok);
+        let medium = Medium { index: of(self.wavelength_nm)?, absorption, spread: 0.0 };
+        Ok((medium, [of(line::FRAUNHOFER_B)?, of(line::FRAUNHOFER_G)?]))
+    }
+}
+
+impl VariedDesign {
+    fn set(&mut self, key: &SweepKey, value: &SweepValue) -> Result<(), SweepError> {
+        let wrong = |expected| SweepError::Value { key: key.to_string(), value: value.to_string(), expected };
+        let number = match value {
+            SweepValue::Number(number) if number.is_finite() => Ok(*number),
+            _ => Err(wrong("number")),
+        };
+        match key {
+            SweepKey::Material => {
+                self.design.material = match value {
+                    SweepValue::Name(name) => MaterialRef::Name(name.clone()),
+                    SweepValue::Number(index) => MaterialRef::Index(*index),
+                };
+                self.design.material.material().map(drop).map_err(|_| wrong("material; see `materials`"))?;
+            }
+            SweepKey::Index => self.index = Some(number?).filter(|n| (1.0..=5.0).contains(n)),
+            SweepKey::Tilt => self.viewpoint.tilt_deg = number?,
+            SweepKey::Azimuth => self.viewpoint.azimuth_deg = number?,
+            SweepKey::Proportion(key) => set_proportion(&mut self.design.cut, key, number?)?,
+            SweepKey::Tier(name) => set_angle(&mut self.design.cut, name, number?)?,
+        }
+        if *key == SweepKey::Index && self.index.is_none() {
+            return Err(wrong("index from 1 (air) to 5"));
+        }
+        if *key == SweepKey::Tilt && !(-90.0..=90.0).contains(&self.viewpoint.tilt_deg) {
+            return Err(wrong("tilt from -90 to 90 degrees"));
+        }
+        Ok(())
+    }
+}
+
+/// Sets a proportion, which of a pair becomes the given one.
+fn set_proportion(cut: &mut Cut, key: &str, value: f64) -> Result<(), SweepError> {
+    let row = cut.proportion(key).and_then(|row| Some((row, row.give?)));
+    let Some((_, give)) = row else {
+        let keys: Vec<&str> =
+            cut.family().into_iter().flat_map(|f| f.editable()).map(|row| row.key).collect();
+        let known = match keys.is_empty() {
+            true => "it is not shaped by proportions: vary its tiers, as in tier:P1".to_owned(),
+            false => format!("it has {}", keys.join(", ")),
+        };
+        return Err(SweepError::NoProportion { key: key.to_owned(), known });
+    };
+    give(cut, value);
+    Ok(())
+}
+
+/// Sets the angle of a tier and follows the meets.
+fn set_angle(cut: &mut Cut, name: &str, angle_deg: f64) -> Result<(), SweepError> {
+    let settings = cut.settings();
+    let Some(place) = settings.iter().position(|setting| setting.name == name) else {
+        let names: Vec<&str> = settings.iter().map(|setting| setting.name.as_str()).collect();
+        let known = match names.is_empty() {
+            true => "it has no tiers: vary its proportions".to_owned(),
+            false => format!("it has {}", names.join(", ")),
+        };
+        return Err(SweepError::NoTier { name: name.to_owned(), known });
+    };
+    cut.set(place, angle_deg.copysign(settings[place].angle), settings[place].distance);
+    if let Cut::Tiers(tiers) = cut {
+        let solved = tiers.solved();
+        let failed = solved.errors().next().cloned();
+        match failed {
+            Some(error) => return Err(error.into()),
+            None => *tiers = solved.tiers,
+        }
+    }
+    Ok(())
+}

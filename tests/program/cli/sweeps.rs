@@ -1,0 +1,190 @@
+//! `measure --measures` and `sweep`: measures of one view, and over a grid.
+
+use super::desk::*;
+
+/// The rows of a CSV table, and the names of its columns.
+fn table(text: &str) -> (Vec<String>, Vec<Vec<String>>) {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let columns = reader.headers().unwrap().iter().map(String::from).collect();
+    let rows = reader.records().map(|row| row.unwrap().iter().map(String::from).collect()).collect();
+    (columns, rows)
+}
+
+#[test]
+fn measures_are_intervals_around_the_figures_of_zones() {
+    let desk = Desk::new();
+    let found = desk.json("measure tolkowsky --measures --json --dome even --dome even@15");
+    let figures = desk.json("measure tolkowsky --json --head 15");
+    let within = |key: &str, value: f64| {
+        let interval = &found["measures"][key];
+        let (least, most) = (at(interval, "least"), at(interval, "most"));
+        assert!(least - 1e-4 <= value && value <= most + 1e-4, "{key}: {value} is not in {interval}");
+        assert!(most - least < 2e-3, "{key}: {interval}");
+    };
+    within("return-even@15", at(&figures, "light_return"));
+    within("return-even@15+glare", at(&figures, "light_return_with_glare"));
+    within("leakage", at(&figures, "transmitted/below"));
+    within("obstruction", at(&figures, "transmitted/head"));
+    let dark = at(&figures, "strongest_exit_area/below") + at(&figures, "strongest_exit_area/head");
+    within("extinction", dark);
+    assert!(found["measures"]["return-cos"].is_null(), "{found}");
+    let list = desk.done("measure tolkowsky emerald --measures");
+    assert_eq!(list.matches("return-cos2+glare").count(), 2, "{list}");
+    for (line, code, told) in [
+        ("heart --measures", 2, "a convex stone between polished planes"),
+        ("tolkowsky --measures --tracer ray", 2, "no other tracer"),
+        ("tolkowsky --measures --dome cos30", 2, "is no dome"),
+        ("tolkowsky --dome cos", 2, "--measures"),
+    ] {
+        let stderr = desk.refused(&format!("measure {line}"), code);
+        assert!(stderr.contains(told), "{line}: {stderr}");
+    }
+}
+
+#[test]
+fn a_sweep_measures_what_single_designs_measure_in_the_order_of_its_axes() {
+    let desk = Desk::new();
+    let line = "sweep tolkowsky --over crown_angle=33:34:1 --over pavilion_angle=40.5,41.5 --of fire --of return-even";
+    let (columns, rows) = table(&desk.done(line));
+    assert_eq!(columns[..5], ["file", "crown_angle", "pavilion_angle", "carats", "fire"].map(String::from));
+    let points: Vec<String> = rows.iter().map(|row| row[1..3].join(" ")).collect();
+    assert_eq!(points, ["33 40.5", "33 41.5", "34 40.5", "34 41.5"]);
+    let cut = desk.done("cuts tolkowsky").replace("crown_angle = 34.5", "crown_angle = 33.0");
+    desk.write("other.toml", cut.replace("pavilion_angle = 40.75", "pavilion_angle = 41.5"));
+    let single = desk.json("measure other.toml --measures --json --unresolved 0.002");
+    for (column, key) in [(4, "fire"), (6, "return-even")] {
+        let [value, error] = [column, column + 1].map(|k| rows[1][k].parse::<f64>().unwrap());
+        let interval = &single["measures"][key];
+        near(value - error, at(interval, "least"), 2e-7, key);
+        near(value + error, at(interval, "most"), 2e-7, key);
+    }
+    let lines = desk.done(&format!("{line} --json"));
+    let second: serde_json::Value = serde_json::from_str(lines.lines().nth(1).unwrap()).unwrap();
+    near(at(&second, "fire"), rows[1][4].parse().unwrap(), 1e-7, "the same as JSON");
+}
+
+#[test]
+fn angles_of_tiers_materials_and_tilts_vary_as_well() {
+    let desk = Desk::new();
+    let (code, _, stderr) = desk.run("convert tolkowsky tolkowsky.asc");
+    assert_eq!(code, 0, "{stderr}");
+    let info = desk.json("info tolkowsky.asc --json");
+    let tier =
+        list(&info["measured"]["tiers"]).iter().find(|tier| at(tier, "slope_deg/mean").abs() < 42.0).unwrap();
+    let name = tier["name"].as_str().unwrap();
+    let varied = desk.done(&format!("sweep tolkowsky.asc --over tier:{name}=40:42:1 --of leakage"));
+    let (_, rows) = table(&varied);
+    assert!(rows.len() == 3 && rows.iter().all(|row| row.last().unwrap().is_empty()), "{varied}");
+    let leaks: Vec<f64> = rows.iter().map(|row| row[3].parse().unwrap()).collect();
+    assert!((leaks[0] - leaks[2]).abs() > 1e-2, "{leaks:?}");
+    let (_, rows) =
+        table(&desk.done("sweep tolkowsky --over material=diamond,quartz,1.9 --over tilt=0,10 --of fire"));
+    let fire: Vec<f64> = rows.iter().map(|row| row[4].parse().unwrap()).collect();
+    assert!(fire[0] > 2.0 * fire[2] && fire[4] < 2e-3 && fire[0] != fire[1], "{fire:?}");
+    let at_ten = desk.json("measure tolkowsky --measures --json --unresolved 0.002 --tilt 10");
+    let interval = &at_ten["measures"]["fire"];
+    near(fire[1], (at(interval, "least") + at(interval, "most")) / 2.0, 2e-7, "the tilted stone");
+}
+
+#[test]
+fn a_sweep_that_was_stopped_goes_on_and_gives_the_same_file() {
+    let desk = Desk::new();
+    for ending in ["csv", "jsonl"] {
+        let line =
+            format!("sweep tolkowsky single-cut --over table=50:90:20 --of extinction --out all.{ending}");
+        let (code, _, stderr) = desk.run(&line);
+        assert_eq!(code, 0, "{stderr}");
+        assert!(stderr.contains("of 6 points have no measures"), "{stderr}");
+        let whole = desk.read(&format!("all.{ending}"));
+        for part in [0, 1, whole.len() / 3, whole.len() / 2, whole.len() - 1] {
+            desk.write(&format!("all.{ending}"), &whole[..part]);
+            desk.run(&format!("{line} --resume"));
+            assert_eq!(desk.read(&format!("all.{ending}")), whole, "resumed after {part} bytes");
+        }
+        let cut = whole.match_indices('\n').nth(2).unwrap().0 + 1;
+        desk.write(&format!("all.{ending}"), &whole[..cut]);
+        let other = line.replace("50:90:20", "52:92:20");
+        assert!(desk.refused(&format!("{other} --resume"), 2).contains("another sweep"));
+        assert_eq!(desk.read(&format!("all.{ending}")), whole[..cut], "a refused file is left as it was");
+    }
+}
+
+#[test]
+fn what_a_sweep_cannot_do_is_refused_before_a_file_is_replaced() {
+    let desk = Desk::new();
+    desk.write("kept.csv", "mine");
+    for (line, code, told) in [
+        ("tolkowsky --over slope=1:2:1", 2, "it has table, crown_angle"),
+        ("tolkowsky --over tier:P=1:2:1", 2, "vary its proportions"),
+        ("tolkowsky --over table=a,b", 2, "'a' is no number"),
+        ("tolkowsky --over table=1:2", 2, "is no range"),
+        ("tolkowsky --over material=diamant", 2, "is no material"),
+        ("tolkowsky --over tilt=100", 2, "from -90 to 90"),
+        ("tolkowsky --of brightness", 2, "is no measure"),
+        ("tolkowsky --unresolved 2", 2, "between 0 and 1"),
+        ("missing.toml", 1, "missing.toml"),
+    ] {
+        let stderr = desk.refused(&format!("sweep {line} --out kept.csv"), code);
+        assert!(stderr.contains(told), "{line}: {stderr}");
+        assert_eq!(desk.read("kept.csv"), "mine", "{line}");
+    }
+    assert!(desk.refused("sweep tolkowsky --out kept.txt", 2).contains(".csv or .jsonl"));
+}
+
+#[test]
+fn folders_and_several_designs_are_measured_at_once() {
+    let desk = Desk::new();
+    for name in ["tolkowsky", "emerald"] {
+        let text = desk.done(&format!("cuts {name}"));
+        std::fs::create_dir_all(desk.at("designs")).unwrap();
+        desk.write(&format!("designs/{name}.toml"), text);
+    }
+    desk.write("designs/broken.toml", "format = 1");
+    desk.write("designs/readme.txt", "no design");
+    let (code, printed, stderr) = desk.run("sweep designs princess --of fire");
+    let (_, rows) = table(&printed);
+    let files: Vec<&str> = rows.iter().map(|row| row[0].rsplit('/').next().unwrap()).collect();
+    assert_eq!(
+        (code, files),
+        (0, vec!["broken.toml", "emerald.toml", "tolkowsky.toml", "princess"]),
+        "{stderr}"
+    );
+    assert!(rows[0][2].is_empty() && !rows[0].last().unwrap().is_empty(), "{printed}");
+    assert!(stderr.contains("1 of 4 points"), "{stderr}");
+}
+
+#[test]
+fn plots_are_curves_over_one_axis_and_a_map_over_two() {
+    let desk = Desk::new();
+    let line = "sweep tolkowsky --over tilt=0:8:4 --unresolved 0.05 --of fire --of extinction --plot";
+    assert_eq!(desk.done(&format!("{line} tilt.svg")).trim(), "tilt.svg");
+    let drawn = desk.read("tilt.svg");
+    assert!(["tilt, degrees", "fire", "extinction"].iter().all(|text| drawn.contains(text)), "{drawn}");
+    let (_, _, stderr) = desk.run(&format!("{line} tilt.pdf --out tilt.csv"));
+    assert!(std::fs::read(desk.at("tilt.pdf")).unwrap().starts_with(b"%PDF"), "{stderr}");
+    assert_eq!(table(&desk.read("tilt.csv")).1.len(), 3);
+    let map = "sweep tolkowsky --over table=52:92:20 --over pavilion_angle=40:42:1 --of fire --plot map.png";
+    let (code, _, stderr) = desk.run(map);
+    assert!(code == 0 && stderr.contains("3 of 9 points"), "{stderr}");
+    let ((width, height), pixels, _) = png(&desk.at("map.png"));
+    let at = |x: f64, y: f64| {
+        pixels[(y * f64::from(height)) as usize * width as usize + (x * f64::from(width)) as usize]
+    };
+    // The places with a table of 92 %, on the right, have no stone and are grey.
+    let (grey, filled) = (at(0.7, 0.5), at(0.3, 0.5));
+    assert!(
+        (grey.max_element() - grey.min_element()) < 1e-9
+            && filled.max_element() > filled.min_element() + 0.05
+    );
+    for (line, told) in [
+        ("tolkowsky --plot a.svg", "one --over or two"),
+        ("tolkowsky --over table=50:60:5 --plot a.txt", ".svg, .png or .pdf"),
+        ("tolkowsky --over table=50:60:5 --over tilt=0,5 --plot a.svg", "shows one measure"),
+        ("tolkowsky --over material=diamond,quartz --plot a.svg", "are numbers"),
+        ("tolkowsky --over table=50,60,55 --plot a.svg", "rise or fall"),
+        ("tolkowsky emerald --over tilt=0,5 --plot a.svg", "one design"),
+    ] {
+        let stderr = desk.refused(&format!("sweep {line}"), 2);
+        assert!(stderr.contains(told), "{line}: {stderr}");
+    }
+}
