@@ -1,4 +1,5 @@
 //! Reads refraction maps back, so that tests see what was written.
+#![cfg(feature = "exr")]
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 use brillianteer::optics::linear_from_encoded;

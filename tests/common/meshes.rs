@@ -1,4 +1,5 @@
 //! Changes mesh files as other programs do: turns them, and removes this program's statements from them.
+#![cfg(feature = "interchange")]
 
 use brillianteer::io::design_file::DesignFormat;
 use glam::{DQuat, DVec3};

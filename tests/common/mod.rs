@@ -7,7 +7,7 @@ pub mod pixels;
 pub mod shoot;
 pub mod solids;
 
-use brillianteer::cut::{Crown, Cut, LowerHalf, Pavilion, RoundBrilliant};
+use brillianteer::cut::{Crown, Cut, DesignError, LowerHalf, Pavilion, RoundBrilliant};
 use brillianteer::io::cut_file;
 use brillianteer::math::Plane;
 use brillianteer::measure::{Figures, by_beams};
@@ -18,15 +18,34 @@ use proptest::prelude::*;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Returns the project's cut files of round brilliants, with their names. Other families have their own laws in the library.
+/// The project's cut files whose bodies are not bounded by planes that enclose a convex solid, so that beams cannot trace
+/// them: the heart is a mesh with a cleft, the others are curved.
+const NOT_BETWEEN_PLANES: [&str; 4] = ["cube", "heart", "pill", "plate"];
+
+/// Returns the project's cut files of convex stones between planes, of every family, with their names.
 pub fn cut_files() -> Vec<(String, PathBuf)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts");
     let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
     files.retain(|p| p.extension().is_some_and(|e| e == "toml"));
-    files.retain(|p| matches!(cut_file::read(p).unwrap().cut, Cut::RoundBrilliant(_)));
     files.sort();
-    assert!(files.len() >= 6, "the project's cut files are missing");
-    files.into_iter().map(|p| (p.file_stem().unwrap().to_string_lossy().into_owned(), p)).collect()
+    let named = files.into_iter().map(|p| (p.file_stem().unwrap().to_string_lossy().into_owned(), p));
+    let (others, convex): (Vec<_>, Vec<_>) =
+        named.partition(|(name, _)| NOT_BETWEEN_PLANES.contains(&name.as_str()));
+    assert_eq!(others.len(), NOT_BETWEEN_PLANES.len(), "{others:?}");
+    for (name, path) in others {
+        let facets = cut_file::read(&path).unwrap().facets();
+        assert!(matches!(facets, Err(DesignError::NotConvex(_))), "{name} lies between planes: trace it too");
+    }
+    assert!(convex.len() >= 29, "the project's cut files are missing");
+    convex
+}
+
+/// Returns the cut files of round brilliants among [`cut_files`].
+pub fn round_brilliants() -> Vec<(String, PathBuf)> {
+    let mut files = cut_files();
+    files.retain(|(_, path)| matches!(cut_file::read(path).unwrap().cut, Cut::RoundBrilliant(_)));
+    assert!(files.len() >= 6, "the project's round brilliants are missing");
+    files
 }
 
 /// The stone of a cut file.

@@ -1,4 +1,5 @@
 //! Reads real files of real cutters where there are any: in `../shared/data`, beside the checkout.
+#![cfg(feature = "interchange")]
 
 use brillianteer::cut::{Cut, Outline, SheetFigures, Tiers};
 use brillianteer::io::design_file::{self, DesignFormat, written};

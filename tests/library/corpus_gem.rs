@@ -1,5 +1,6 @@
 //! Reads real designs of gem cutters, `.gem` and `.gcs`: each opens, and is the same after it is written and read again. The
 //! designs are not part of the project; where they are missing the tests print a message and pass.
+#![cfg(feature = "interchange")]
 
 use brillianteer::cut::{Cut, Design, Tiers};
 use brillianteer::io::design_file::ImportedDesign;

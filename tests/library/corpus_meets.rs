@@ -1,4 +1,5 @@
 //! Meets of real designs: a design whose distances are forgotten is cut again by what its instructions say.
+#![cfg(feature = "interchange")]
 
 use super::corpus::files;
 use brillianteer::cut::{Cut, Meet, MeetFault, MeetPoint, SolvedTiers, TierOutcome, TierZone, Tiers};

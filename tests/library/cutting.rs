@@ -1,4 +1,5 @@
 //! Audits, other materials and rough, on real files of real cutters where there are any.
+#![cfg(feature = "interchange")]
 
 use crate::common::shared;
 use brillianteer::cut::{FindingKind, Finished, MaterialRef, RetargetRule, Rough, retarget};

@@ -1,5 +1,6 @@
 //! Checks maps that another renderer makes of the template. The other renderer is the program's own tracer: it says which
 //! place a pixel shows, and the pixel takes the template's colour there.
+#![cfg(feature = "exr")]
 
 use super::refraction::{Shoot, brilliant, diamond, photo, psnr};
 use crate::common::maps;

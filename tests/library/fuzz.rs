@@ -1,6 +1,7 @@
 //! Runs every reader on damaged files: whatever the bytes, it returns soon and does not panic. Each target runs for
 //! `BRILLIANTEER_FUZZ_SECONDS` (1 if not set), from the seed `BRILLIANTEER_FUZZ_SEED` (0 if not set), and keeps the bytes
 //! that it fails on in the system's folder for temporary files.
+#![cfg(feature = "interchange")]
 
 use brillianteer::cut::from_mesh::{Up, from_mesh};
 use brillianteer::io::design_file::{DesignFormat, written};

@@ -3,7 +3,7 @@
 use crate::common::shoot::*;
 use crate::common::*;
 use brillianteer::math::Polytope;
-use brillianteer::optics::{Illuminant, material, materials};
+use brillianteer::optics::{Illuminant, materials};
 #[cfg(feature = "gpu")]
 use brillianteer::scene::Projection;
 use brillianteer::scene::{Instance, Light, Panorama, View, light};
@@ -167,9 +167,13 @@ fn a_film_that_is_shifted_sees_the_same_elsewhere() {
     (shoot.backdrop, shoot.wavelengths) = (false, 2);
     let (across, up) = (9_u32, 5_u32);
     let taken = |shoot: &Shoot| {
-        let mut all = vec![shoot.by_rays().0, shoot.by_packets().0, shoot.by_beams().0];
+        let all = vec![shoot.by_rays().0, shoot.by_packets().0, shoot.by_beams().0];
         #[cfg(feature = "gpu")]
-        all.extend(card("a_film_that_is_shifted_sees_the_same_elsewhere").map(|gpu| shoot.by_card(&gpu).0));
+        let all = {
+            let by_card =
+                card("a_film_that_is_shifted_sees_the_same_elsewhere").map(|gpu| shoot.by_card(&gpu).0);
+            all.into_iter().chain(by_card).collect::<Vec<_>>()
+        };
         all
     };
     let before = taken(&shoot);
@@ -253,6 +257,7 @@ fn a_stone_as_thin_as_air_still_covers_what_is_behind() {
 #[cfg(feature = "gpu")]
 mod card {
     use super::*;
+    use brillianteer::optics::material;
 
     #[test]
     fn the_card_shows_what_rays_show() {

@@ -250,7 +250,7 @@ fn no_total_reflection_is_shown_where_the_first_facet_inside_is_met_below_the_cr
 
 #[test]
 fn one_bounce_is_shown_where_the_first_facet_reflects_no_more_than_the_least_weight() {
-    let file = &cut_files()[0].1;
+    let file = &round_brilliants()[0].1;
     let mut shot = Shot::new(stone(file).polytope, "quartz", tilted(false));
     let index = material("quartz").unwrap().index(line::SODIUM_D);
     shot.options.least_weight = 0.05;

@@ -1,4 +1,5 @@
 //! Checks refraction maps: places by Snell, weights by Fresnel, and pictures looked up compared with pictures traced.
+#![cfg(feature = "exr")]
 
 use crate::common::{self, maps};
 use brillianteer::io::{panorama, refraction as files};

@@ -1,5 +1,6 @@
 //! Compares the sheets of real cutters' designs with the texts of their files, which a reader of the test's own takes apart.
 //! The designs are not part of the project; where they are missing the test says so and passes.
+#![cfg(feature = "interchange")]
 
 use brillianteer::io::cutting_sheet::cutting_sheet;
 use brillianteer::io::design_file;

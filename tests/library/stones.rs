@@ -1,5 +1,6 @@
 //! Writes stones as meshes and reads them back: as this program writes them, turned, and as another program would write
 //! them.
+#![cfg(feature = "interchange")]
 
 use crate::common::meshes::{moved, stripped, turned};
 use brillianteer::cut::from_mesh::Up;

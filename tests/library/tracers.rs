@@ -6,6 +6,7 @@ use brillianteer::scene::{Lean, Medium, Side, Stone, View};
 use brillianteer::trace::beam::{Beam, Beams};
 use brillianteer::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
 use glam::{DMat2, DVec2, DVec3};
+use rayon::prelude::*;
 
 /// How near to an edge of a beam a point is left out, in girdle radii: it may be seen on either side of the edge.
 const NEAR_EDGE: f64 = 1e-6;
@@ -113,8 +114,20 @@ fn views() -> [View; 5] {
 }
 
 #[test]
-fn beams_and_rays_agree_on_every_cut_file_in_several_tilts_and_materials() {
-    for (name, path) in cut_files() {
+fn beams_and_rays_agree_on_every_cut_file_between_planes() {
+    let view = View { tilt: 0.17, azimuth: 0.3, ..View::default() };
+    let medium = Medium { absorption: [0.1, 0.5], ..Medium::clear(1.77) };
+    cut_files().par_iter().for_each(|(name, path)| {
+        let stone = stone(path);
+        let beams = traced(&stone, medium, &view, 0.05, true);
+        let result = compare(&beams, &stone, &view, medium);
+        assert!(result.agrees(), "{name}: {result:?}");
+    });
+}
+
+#[test]
+fn beams_and_rays_agree_on_round_brilliants_in_several_tilts_and_materials() {
+    for (name, path) in round_brilliants() {
         let stone = stone(&path);
         for view in views() {
             for (medium, polarised) in [
