@@ -122,15 +122,16 @@ fn unit(vector: DVec3) -> DVec3 {
 mod tests {
     use super::super::microfacets::Roughness;
     use super::*;
-    use crate::math::random_bits::{mixed, unit as number};
     use std::f64::consts::TAU;
 
-    /// Returns numbers from 0 to below 1 that look random.
+    /// Returns numbers from 0 to below 1 that look random, by SplitMix64.
     fn numbers(seed: u64) -> impl FnMut() -> f64 {
-        let mut place = mixed(seed);
+        let mut place = seed.wrapping_mul(0x2545_f491_4f6c_dd1d);
         move || {
             place = place.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            number(mixed(place))
+            let z = (place ^ (place >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
         }
     }
 

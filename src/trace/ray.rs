@@ -26,7 +26,7 @@ pub use self::camera::Camera;
 use self::dispersed_ray::{Arrival, DispersedRay};
 use self::facets::{FacetSearch, Planes, SmoothFacets, SolidFacets, TriangleFacets, Wavy};
 pub use self::first_bodies::FirstBodies;
-use self::frosted_facets::{Arriving, FrostedFacets, Struck};
+use self::frosted_facets::{FrostedFacets, scatter};
 pub use self::instance_tracer::InstanceTracer;
 pub(in crate::trace) use self::light::PathLight;
 use self::light::SplitLight;
@@ -40,7 +40,9 @@ pub use self::scene_tracer::{ByRays, First, SceneTracer, WaitingRay};
 pub use self::sight::{ProbeRay, SceneProbe, facet_at};
 use self::tree::Inbound;
 use crate::math::SolidRef;
-use crate::optics::{cos_transmitted, reflect, reflected_change, refract, refracted_change};
+use crate::optics::{
+    FrostedScatter, FrostedSurface, cos_transmitted, reflect, reflected_change, refract, refracted_change,
+};
 use crate::scene::Medium;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -361,4 +363,111 @@ impl StoneTracer {
     pub fn meet(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)> {
         self.shape.entry(origin, direction)
     }
+}
+
+/// Light that arrives at a frosted facet from inside.
+struct Arriving {
+    facet: u32,
+    point: DVec3,
+    /// The facet's unit outward normal.
+    normal: DVec3,
+    direction: DVec3,
+    /// As in [`SurfaceEvent`].
+    path: f64,
+    /// As in [`SurfaceEvent`].
+    left: f64,
+    light: PathLight,
+}
+
+/// Where light goes on from a frosted facet.
+enum Struck {
+    /// Inside, in this direction.
+    Inward(DVec3),
+    /// Outside; it was reported.
+    Outward,
+    /// It is not followed.
+    Unresolved,
+}
+
+impl StoneTracer {
+    /// Whether the stone has frosted facets.
+    pub(super) fn is_frosted(&self) -> bool {
+        self.frosted.is_some()
+    }
+
+    /// Returns light that a frosted facet has scattered in a direction: as strong, and not polarised.
+    fn scattered(&self, light: &PathLight, direction: DVec3) -> PathLight {
+        PathLight::of_eye(direction, light.weight(), self.options.polarised)
+    }
+
+    /// Follows light that meets a frosted facet from outside, through the stone where it passes.
+    fn enter_frosted<F: FacetSearch>(
+        &self,
+        (facets, surface): (&F, FrostedSurface),
+        (point, normal): (DVec3, DVec3),
+        inbound: Inbound,
+        least_weight: f64,
+        mut meets: impl FnMut(SurfaceEvent),
+    ) -> Loss {
+        let Inbound { met: (facet, _), ray, light, left, path, bounce, mut luck } = inbound;
+        let weight = light.weight() * left;
+        let Some(found) = scatter(surface, (ray.direction, normal), 1.0 / self.medium.index, &mut luck)
+        else {
+            return Loss { unresolved: weight, bounces: bounce, ..Loss::default() };
+        };
+        let FrostedScatter { direction, passes } = found;
+        if passes {
+            let (ray, light) = (DispersedRay::new(point, direction), self.scattered(&light, direction));
+            return self.bounce(facets, Inbound { ray, light, luck, ..inbound }, least_weight, meets);
+        }
+        meets(SurfaceEvent {
+            facet: facet as u32,
+            point,
+            normal,
+            path,
+            left,
+            bounce,
+            arriving: ray.direction,
+            light: &light,
+            leaving: Some(exit_light(direction, weight, surface)),
+            onward: 0.0,
+        });
+        Loss { bounces: bounce, ..Loss::default() }
+    }
+
+    /// Scatters light that meets a frosted facet from inside, and reports it where it leaves.
+    fn leave_frosted(
+        &self,
+        surface: FrostedSurface,
+        arriving: &Arriving,
+        bounce: u32,
+        luck: &mut Option<LobeLuck>,
+        meets: &mut impl FnMut(SurfaceEvent),
+    ) -> Struck {
+        let &Arriving { facet, point, normal, direction, path, left, ref light } = arriving;
+        let Some(found) = scatter(surface, (direction, -normal), self.medium.index, luck) else {
+            return Struck::Unresolved;
+        };
+        if !found.passes {
+            return Struck::Inward(found.direction);
+        }
+        meets(SurfaceEvent {
+            facet,
+            point,
+            normal,
+            path,
+            left,
+            bounce,
+            arriving: direction,
+            light,
+            leaving: Some(exit_light(found.direction, light.weight() * left, surface)),
+            onward: 0.0,
+        });
+        Struck::Outward
+    }
+}
+
+/// Returns scattered light that leaves. Its change over a band of wavelengths is small beside the lobe, and left out.
+fn exit_light(direction: DVec3, weight: f64, surface: FrostedSurface) -> ExitLight {
+    ExitLight { direction, sweep: DVec3::ZERO, shift: DVec3::ZERO, weight, spread: surface.spread() }
 }

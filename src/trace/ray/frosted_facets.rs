@@ -1,12 +1,7 @@
 //! Light at the frosted facets of a stone: all of it goes on in one direction that chance decides, and no longer polarised. So
 //! frosted facets neither add nor lose light, and a ray stays one chain of bounces.
 
-use super::dispersed_ray::DispersedRay;
-use super::facets::FacetSearch;
 use super::lobe_luck::LobeLuck;
-use super::path::{ExitLight, SurfaceEvent};
-use super::tree::Inbound;
-use super::{Loss, PathLight, StoneTracer};
 use crate::math::SolidRef;
 use crate::optics::{FrostedScatter, FrostedSurface};
 use glam::DVec3;
@@ -14,30 +9,6 @@ use glam::DVec3;
 /// The frosted facets of a stone.
 #[derive(Debug)]
 pub(super) struct FrostedFacets(Vec<Option<FrostedSurface>>);
-
-/// Light that arrives at a frosted facet from inside.
-pub(super) struct Arriving {
-    pub facet: u32,
-    pub point: DVec3,
-    /// The facet's unit outward normal.
-    pub normal: DVec3,
-    pub direction: DVec3,
-    /// As in [`SurfaceEvent`].
-    pub path: f64,
-    /// As in [`SurfaceEvent`].
-    pub left: f64,
-    pub light: PathLight,
-}
-
-/// Where light goes on from a frosted facet.
-pub(super) enum Struck {
-    /// Inside, in this direction.
-    Inward(DVec3),
-    /// Outside; it was reported.
-    Outward,
-    /// It is not followed.
-    Unresolved,
-}
 
 impl FrostedFacets {
     /// Returns the frosted facets of a solid; `None` where all are polished.
@@ -53,86 +24,8 @@ impl FrostedFacets {
     }
 }
 
-impl StoneTracer {
-    /// Whether the stone has frosted facets.
-    pub(super) fn is_frosted(&self) -> bool {
-        self.frosted.is_some()
-    }
-
-    /// Returns light that a frosted facet has scattered in a direction: as strong, and not polarised.
-    pub(super) fn scattered(&self, light: &PathLight, direction: DVec3) -> PathLight {
-        PathLight::of_eye(direction, light.weight(), self.options.polarised)
-    }
-
-    /// Follows light that meets a frosted facet from outside, through the stone where it passes.
-    pub(super) fn enter_frosted<F: FacetSearch>(
-        &self,
-        (facets, surface): (&F, FrostedSurface),
-        (point, normal): (DVec3, DVec3),
-        inbound: Inbound,
-        least_weight: f64,
-        mut meets: impl FnMut(SurfaceEvent),
-    ) -> Loss {
-        let Inbound { met: (facet, _), ray, light, left, path, bounce, mut luck } = inbound;
-        let weight = light.weight() * left;
-        let Some(found) = scatter(surface, (ray.direction, normal), 1.0 / self.medium.index, &mut luck)
-        else {
-            return Loss { unresolved: weight, bounces: bounce, ..Loss::default() };
-        };
-        let FrostedScatter { direction, passes } = found;
-        if passes {
-            let (ray, light) = (DispersedRay::new(point, direction), self.scattered(&light, direction));
-            return self.bounce(facets, Inbound { ray, light, luck, ..inbound }, least_weight, meets);
-        }
-        meets(SurfaceEvent {
-            facet: facet as u32,
-            point,
-            normal,
-            path,
-            left,
-            bounce,
-            arriving: ray.direction,
-            light: &light,
-            leaving: Some(exit_light(direction, weight, surface)),
-            onward: 0.0,
-        });
-        Loss { bounces: bounce, ..Loss::default() }
-    }
-
-    /// Scatters light that meets a frosted facet from inside, and reports it where it leaves.
-    pub(super) fn leave_frosted(
-        &self,
-        surface: FrostedSurface,
-        arriving: &Arriving,
-        bounce: u32,
-        luck: &mut Option<LobeLuck>,
-        meets: &mut impl FnMut(SurfaceEvent),
-    ) -> Struck {
-        let &Arriving { facet, point, normal, direction, path, left, ref light } = arriving;
-        let Some(found) = scatter(surface, (direction, -normal), self.medium.index, luck) else {
-            return Struck::Unresolved;
-        };
-        if !found.passes {
-            return Struck::Inward(found.direction);
-        }
-        meets(SurfaceEvent {
-            facet,
-            point,
-            normal,
-            path,
-            left,
-            bounce,
-            arriving: direction,
-            light,
-            leaving: Some(exit_light(found.direction, light.weight() * left, surface)),
-            onward: 0.0,
-        });
-        Struck::Outward
-    }
-}
-
 /// Scatters light, and moves the luck on; `None` without luck, and where the walk among the microscopic facets does not end.
-fn scatter(
+pub(super) fn scatter(
     surface: FrostedSurface,
     (arriving, normal): (DVec3, DVec3),
     eta: f64,
@@ -141,9 +34,4 @@ fn scatter(
     let (first, later) = (*luck)?.draw();
     *luck = Some(later);
     surface.scatter(arriving, normal, eta, first, later.numbers())
-}
-
-/// Returns scattered light that leaves. Its change over a band of wavelengths is small beside the lobe, and left out.
-fn exit_light(direction: DVec3, weight: f64, surface: FrostedSurface) -> ExitLight {
-    ExitLight { direction, sweep: DVec3::ZERO, shift: DVec3::ZERO, weight, spread: surface.spread() }
 }
