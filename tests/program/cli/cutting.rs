@@ -29,7 +29,8 @@ fn an_audit_lists_candidates_alone_and_beside_the_stone_as_json() {
 #[test]
 fn meets_are_listed_alone_below_what_became_of_them() {
     let desk = Desk::new();
-    desk.done("convert tolkowsky tolkowsky.asc");
+    let (code, _, stderr) = desk.run("convert tolkowsky tolkowsky.asc");
+    assert_eq!(code, 0, "{stderr}");
     let table = desk.done("info --meets tolkowsky.asc");
     let lines: Vec<&str> = table.lines().collect();
     assert!(lines[1].starts_with("  meets of ") && lines[1].contains("found in the geometry"), "{table}");
