@@ -5,8 +5,10 @@ use super::console::{json, print, say};
 use super::mesh_options::MeshArguments;
 use super::options::{LightOptions, ViewOptions, scoped};
 use super::progress::WorkProgress;
+use super::specimen::LoadedSpecimen;
 use crate::io::Failure;
 use crate::io::export::{FigureReport, MeasureReport, Viewing, light_measures, measure};
+use crate::measure::{ClassDeviations, FacetDeviation, facet_deviations};
 use crate::picture::Scoped;
 use crate::render::{Card, Renderer};
 use crate::scene::{DomeLight, Glare};
@@ -26,6 +28,10 @@ pub struct Measure {
     /// fire, each as far as it is certain
     #[arg(long, conflicts_with_all = ["scope", "no_glare", "timing"])]
     measures: bool,
+    /// List instead how far the facets of an eightfold round brilliant deviate from their classes in azimuth and slope, in degrees,
+    /// and which facet deviates most
+    #[arg(long, conflicts_with_all = ["scope", "no_glare", "timing", "measures"])]
+    deviations: bool,
     /// A dome whose return --measures lists: even, cos, cos2 or cos with another power, and if you like a head's half angle, as in
     /// cos2@15; may be repeated. Without it: even, cos, cos2 and even@15
     #[arg(long = "dome", value_name = "DOME", requires = "measures")]
@@ -59,6 +65,9 @@ impl Measure {
         let scoped = self.scope.as_deref().map_or_else(|| Ok(Scoped::aset()), scoped)?;
         each_file(&self.files, |file| {
             let specimen = self.light.specimen(file, self.mesh.options())?;
+            if self.deviations {
+                return self.list_deviations(&specimen);
+            }
             let mut renderer = Renderer::new(Card::Machine);
             let viewing = self.light.viewing(&specimen, &self.view, &renderer)?;
             if self.measures {
@@ -97,6 +106,43 @@ impl Measure {
         print(&if self.files.len() > 1 { value.to_string() } else { json(&value) })
     }
 }
+
+impl Measure {
+    /// Prints the deviations of a stone's facets as a table or as JSON.
+    fn list_deviations(&self, specimen: &LoadedSpecimen) -> Result<(), Failure> {
+        let refused = |why: &dyn std::fmt::Display| Failure::Usage(format!("{}: {why}", specimen.path));
+        let stone = specimen.stone().map_err(|why| refused(&why))?;
+        let classes = facet_deviations(stone).map_err(|why| refused(&why))?;
+        if !self.json {
+            return print(&table_of_deviations(&specimen.path, &classes));
+        }
+        let value = serde_json::json!({ "file": specimen.path, "deviations": classes });
+        print(&if self.files.len() > 1 { value.to_string() } else { json(&value) })
+    }
+}
+
+/// Formats deviations as a table, in degrees.
+fn table_of_deviations(path: &str, classes: &[ClassDeviations]) -> String {
+    let mut text = format!(
+        "{path}: deviations in degrees, max - min and the worst facet\n\n{:<12}{:>9}",
+        "class", "azimuth"
+    );
+    let _ = write!(text, "{:>24}{:>9}{:>24}", "worst", "slope", "worst");
+    for each in classes {
+        let worst = |of: &FacetDeviation, spread: f64| match spread < NOT_SHOWN_DEG {
+            true => "-".to_owned(),
+            false => format!("{} {:+.3}", of.facet, of.by_deg),
+        };
+        let turned = worst(&each.worst_azimuth, each.azimuth_spread_deg);
+        let leant = worst(&each.worst_slope, each.slope_spread_deg);
+        let [azimuth, slope] = [each.azimuth_spread_deg, each.slope_spread_deg];
+        let _ = write!(text, "\n{:<12}{azimuth:>9.3}{turned:>24}{slope:>9.3}{leant:>24}", each.class);
+    }
+    text
+}
+
+/// Spreads below this, degrees, are shown as 0, and then no facet is the worst.
+const NOT_SHOWN_DEG: f64 = 5e-4;
 
 /// Formats measures as a table, in percent of the silhouette.
 fn list_of_measures(report: &MeasureReport) -> String {

@@ -3,6 +3,7 @@
 //! [`measure`](crate::measure()) takes a design to its figures in one call.
 
 mod estimated;
+mod facet_deviations;
 mod figures;
 mod hemisphere;
 mod light_measures;
@@ -11,6 +12,7 @@ mod measured;
 mod sampled;
 
 pub use estimated::{Estimate, by_beams_and_rays};
+pub use facet_deviations::{ClassDeviations, FacetDeviation, NotEightfold, facet_deviations};
 pub use figures::{Figures, Zones, by_beams, by_summed_beams};
 pub use hemisphere::{SampledNumber, hemisphere_return};
 pub use light_measures::{

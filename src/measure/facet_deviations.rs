@@ -1,0 +1,251 @@
+//! How far the facets of an eightfold round brilliant deviate from their class, in azimuth and slope.
+//!
+//! The classes are found from the geometry alone, so that a scan without names is measured like a design. The definitions are in
+//! docs/optics.md, "Facet deviations".
+
+use crate::math::{Plane, span};
+use crate::scene::Stone;
+use serde::Serialize;
+use std::f64::consts::{FRAC_PI_4, PI};
+
+/// A facet whose slope is less than this, degrees, is the table or the culet. The slope of stars begins at about 15°.
+const LEVEL_DEG: f64 = 5.0;
+
+/// A facet whose normal leans less than this from the girdle plane (sine of 6°) is part of the girdle, as in facets that are
+/// found on a mesh.
+const UPRIGHT: f64 = 0.104_528_463;
+
+/// The number of octants.
+const OCTANTS: usize = 8;
+
+/// A facet that deviates from its class.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FacetDeviation {
+    /// The facet's name.
+    pub facet: String,
+    /// Its value less the median of its class, degrees.
+    pub by_deg: f64,
+}
+
+/// The deviations of one class of facets.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ClassDeviations {
+    /// The class: `star`, `bezel`, `upper half`, `lower half` or `main`.
+    pub class: &'static str,
+    /// The greatest azimuth deviation less the least, degrees.
+    pub azimuth_spread_deg: f64,
+    /// The facet whose azimuth deviates most.
+    pub worst_azimuth: FacetDeviation,
+    /// The greatest slope less the least, degrees.
+    pub slope_spread_deg: f64,
+    /// The facet whose slope deviates most.
+    pub worst_slope: FacetDeviation,
+}
+
+/// Why a stone has no deviations from eightfold classes.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NotEightfold {
+    /// The crown or the pavilion has another number of facets.
+    #[error(
+        "the {part} has {found} facets between {between}, but that of an eightfold round brilliant has {wanted}; \
+         deviations by class are measured of round brilliants alone"
+    )]
+    Facets {
+        /// `crown` or `pavilion`.
+        part: &'static str,
+        /// What bounds the part.
+        between: &'static str,
+        /// The number of facets.
+        found: usize,
+        /// The number of a round brilliant.
+        wanted: usize,
+    },
+    /// The facets that should be one class do not lie one in each octant, or two in each for halves.
+    #[error(
+        "the facets that should be the class '{class}' by their slope do not lie evenly in eight octants; deviations by class \
+         are measured of eightfold round brilliants alone"
+    )]
+    Uneven {
+        /// The class.
+        class: &'static str,
+    },
+}
+
+/// Returns the deviations of all classes, from the table to the culet.
+///
+/// # Errors
+/// [`NotEightfold`] where the stone is no round brilliant of eight mains.
+pub fn facet_deviations(stone: &Stone) -> Result<Vec<ClassDeviations>, NotEightfold> {
+    let leaning = |is_up: bool| -> Vec<LeaningFacet> {
+        let facets = (0..).zip(stone.polytope.facets());
+        let mut all: Vec<LeaningFacet> = facets
+            .filter(|(_, facet)| (facet.plane.normal.z > 0.0) == is_up)
+            .filter_map(|(number, facet)| LeaningFacet::of(&facet.plane, stone.name(number).into_owned()))
+            .collect();
+        all.sort_by(|a, b| a.slope_deg.total_cmp(&b.slope_deg));
+        all
+    };
+    let (crown, pavilion) = (leaning(true), leaning(false));
+    let counted = |part, between, found: usize, wanted| match found == wanted {
+        true => Ok(()),
+        false => Err(NotEightfold::Facets { part, between, found, wanted }),
+    };
+    counted("crown", "girdle and table", crown.len(), 4 * OCTANTS)?;
+    counted("pavilion", "girdle and culet", pavilion.len(), 3 * OCTANTS)?;
+    let (star, rest) = crown.split_at(OCTANTS);
+    let (bezel, upper) = rest.split_at(OCTANTS);
+    let (main, lower) = pavilion.split_at(OCTANTS);
+    Ok(vec![
+        deviations("star", star, phase(star))?,
+        deviations("bezel", bezel, phase(bezel))?,
+        deviations("upper half", upper, phase(bezel))?,
+        deviations("lower half", lower, phase(main))?,
+        deviations("main", main, phase(main))?,
+    ])
+}
+
+/// A facet of crown or pavilion.
+struct LeaningFacet {
+    name: String,
+    /// Radians.
+    azimuth: f64,
+    slope_deg: f64,
+}
+
+impl LeaningFacet {
+    /// Returns the facet of this plane; `None` for table, culet and girdle.
+    fn of(plane: &Plane, name: String) -> Option<Self> {
+        let (normal, across) = (plane.normal, plane.normal.truncate());
+        let slope_deg = across.length().atan2(normal.z.abs()).to_degrees();
+        let leans = slope_deg >= LEVEL_DEG && normal.z.abs() >= UPRIGHT;
+        leans.then(|| Self { name, azimuth: across.to_angle(), slope_deg })
+    }
+}
+
+/// Returns the azimuth, modulo an octant, around which the facets of a class lie.
+fn phase(class: &[LeaningFacet]) -> f64 {
+    let eightfold = class.iter().map(|facet| glam::DVec2::from_angle(OCTANTS as f64 * facet.azimuth));
+    eightfold.sum::<glam::DVec2>().to_angle() / OCTANTS as f64
+}
+
+/// Returns the deviations of one class, whose octants are centred on `phase`.
+fn deviations(
+    class: &'static str,
+    facets: &[LeaningFacet],
+    phase: f64,
+) -> Result<ClassDeviations, NotEightfold> {
+    // Each facet's octant and its azimuth from the middle of it, radians.
+    let placed: Vec<(usize, f64)> = facets
+        .iter()
+        .map(|facet| {
+            let turns = (facet.azimuth - phase) / FRAC_PI_4;
+            let octant = turns.round();
+            ((octant as i64).rem_euclid(OCTANTS as i64) as usize, (turns - octant) * FRAC_PI_4)
+        })
+        .collect();
+    let is_half = facets.len() > OCTANTS;
+    // The halves to the left and to the right of a main have their own means.
+    let side = |within: f64| usize::from(is_half && within > 0.0);
+    let mut filled = [[0u32; OCTANTS]; 2];
+    for &(octant, within) in &placed {
+        filled[side(within)][octant] += 1;
+    }
+    let near = placed.iter().all(|(_, within)| is_half || within.abs() < PI / 16.0);
+    if !near || filled.iter().take(1 + usize::from(is_half)).flatten().any(|&count| count != 1) {
+        return Err(NotEightfold::Uneven { class });
+    }
+    let means = [0, 1].map(|of| {
+        median(placed.iter().map(|placed| placed.1).filter(|&within| side(within) == of).collect())
+    });
+    let turned: Vec<f64> =
+        placed.iter().map(|(_, within)| (within - means[side(*within)]).to_degrees()).collect();
+    let slope = median(facets.iter().map(|facet| facet.slope_deg).collect());
+    let leant: Vec<f64> = facets.iter().map(|facet| facet.slope_deg - slope).collect();
+    let spread = |values: &[f64]| {
+        let (least, most) = span(values.iter().copied());
+        most - least
+    };
+    let worst = |values: &[f64]| {
+        let found = facets.iter().zip(values).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+        let (facet, by_deg) = found.map_or((String::new(), 0.0), |(f, v)| (f.name.clone(), *v));
+        FacetDeviation { facet, by_deg }
+    };
+    Ok(ClassDeviations {
+        class,
+        azimuth_spread_deg: spread(&turned),
+        worst_azimuth: worst(&turned),
+        slope_spread_deg: spread(&leant),
+        worst_slope: worst(&leant),
+    })
+}
+
+/// Returns the median, which one facet that deviates does not move; 0 of nothing.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let (half, count) = (values.len() / 2, values.len());
+    match count {
+        0 => 0.0,
+        _ if count % 2 == 1 => values[half],
+        _ => f64::midpoint(values[half - 1], values[half]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::TOLKOWSKY;
+
+    fn changed(name: &str, slope_deg: f64, azimuth_deg: f64, turn_deg: f64) -> Vec<ClassDeviations> {
+        let turned = |azimuth: f64| azimuth + turn_deg.to_radians();
+        let facets = TOLKOWSKY.facets().unwrap().into_iter().map(|(own, plane)| {
+            let across = plane.normal.truncate();
+            let (slope, azimuth) = (across.length().atan2(plane.normal.z), turned(across.to_angle()));
+            let by = |degrees: f64| if own == name { degrees.to_radians() } else { 0.0 };
+            let plane = Plane::from_slope(slope + by(slope_deg), azimuth + by(azimuth_deg), plane.offset);
+            (own, plane)
+        });
+        facet_deviations(&Stone::new(&facets.collect::<Vec<_>>()).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn an_ideal_cut_deviates_by_nothing_however_it_is_turned() {
+        for turn in [0.0, 11.0, 22.5, 200.3] {
+            for class in changed("", 0.0, 0.0, turn) {
+                let most = class.azimuth_spread_deg.max(class.slope_spread_deg);
+                assert!(most < 1e-9, "{turn}: {class:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_facet_that_is_turned_or_leans_is_named_with_its_amount_and_no_other_class_is() {
+        for (name, at) in
+            [("main 3", 4), ("star 8", 0), ("bezel 5", 1), ("upper_half 2", 2), ("lower_half 16", 3)]
+        {
+            for by in [0.3, -0.3] {
+                let turned = changed(name, 0.0, by, 33.0);
+                let leant = changed(name, by, 0.0, 33.0);
+                let sign = if at > 2 { -1.0 } else { 1.0 };
+                for k in 0..5 {
+                    let expected = if k == at { 0.3 } else { 0.0 };
+                    assert!((turned[k].azimuth_spread_deg - expected).abs() < 1e-9, "{name}: {turned:?}");
+                    assert!((leant[k].slope_spread_deg - expected).abs() < 1e-9, "{name}: {leant:?}");
+                }
+                assert_eq!(
+                    (turned[at].worst_azimuth.facet.as_str(), leant[at].worst_slope.facet.as_str()),
+                    (name, name)
+                );
+                assert!((turned[at].worst_azimuth.by_deg - by).abs() < 1e-9, "{turned:?}");
+                assert!((leant[at].worst_slope.by_deg - sign * by).abs() < 1e-9, "{leant:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_stone_without_the_facets_of_a_brilliant_is_refused_with_their_number() {
+        let facets = TOLKOWSKY.facets().unwrap().into_iter().filter(|(name, _)| name != "star 2");
+        let stone = Stone::new(&facets.collect::<Vec<_>>()).unwrap();
+        let why = facet_deviations(&stone).unwrap_err();
+        assert!(matches!(why, NotEightfold::Facets { part: "crown", found: 31, wanted: 32, .. }), "{why}");
+    }
+}
