@@ -111,7 +111,8 @@ impl Measure {
     /// Prints the deviations of a stone's facets as a table or as JSON.
     fn list_deviations(&self, specimen: &LoadedSpecimen) -> Result<(), Failure> {
         let refused = |why: &dyn std::fmt::Display| Failure::Usage(format!("{}: {why}", specimen.path));
-        let stone = specimen.stone().map_err(|why| refused(&why))?;
+        let not_convex = "deviations are measured of round brilliants, which are convex stones between planes; this is none";
+        let stone = specimen.stone().map_err(|_| refused(&not_convex))?;
         let classes = facet_deviations(stone).map_err(|why| refused(&why))?;
         if !self.json {
             return print(&table_of_deviations(&specimen.path, &classes));

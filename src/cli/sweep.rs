@@ -8,8 +8,8 @@ use super::specimen::{LoadedSpecimen, stem};
 use super::sweep_plot::SweepPlot;
 use super::sweep_table::{SweepTable, another_sweep};
 use crate::cut::Size;
-use crate::io::Failure;
 use crate::io::design_file::DesignFormat;
+use crate::io::{Failure, library};
 use crate::measure::{MEASURES_HEAD_DEG, MeasureName, MeasureSettings};
 use crate::optics::line;
 use crate::render::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue, SweptStone};
@@ -314,11 +314,12 @@ impl SweepOutputs<'_> {
     }
 }
 
-/// Returns the files, with those of each folder in its place, sorted by name.
+/// Returns the files, with those of each folder in its place, sorted by name. The name of a cut that comes with the program
+/// stands for that cut, as in all commands, even where a folder has the same name.
 fn expanded(given: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     let mut files = vec![];
     for path in given {
-        if !path.is_dir() {
+        if !path.is_dir() || library::cut(&path.display().to_string()).is_some() {
             files.push(path.clone());
             continue;
         }

@@ -99,3 +99,36 @@ fn rough_gives_size_weight_and_yield() {
     let light = desk.refused("yield tolkowsky --rough 9x9x7 --rough-weight 1", 2);
     assert!(light.contains("would weigh 2.737 ct, and --rough-weight gives the rough 1 ct"), "{light}");
 }
+
+#[test]
+fn a_main_that_is_turned_is_found_in_a_design_and_in_its_mesh_and_other_shapes_are_refused() {
+    let desk = Desk::new();
+    assert_eq!(desk.run("convert tolkowsky whole.asc").0, 0);
+    let text = desk.read("whole.asc");
+    // The index before the name is that of main 1. 0.08 of 96 teeth are 0.3 degrees.
+    let turned = text.replace("n main 36 48", "n main 36.08 48");
+    assert_ne!(text, turned);
+    desk.write("turned.asc", &turned);
+    assert_eq!(desk.run("convert turned.asc turned.stl").0, 0);
+    let classes_of = |file: &str| {
+        let (code, printed, stderr) = desk.run(&format!("measure --deviations --json {file}"));
+        assert_eq!(code, 0, "{stderr}");
+        list(&serde_json::from_str::<serde_json::Value>(&printed).unwrap()["deviations"]).to_vec()
+    };
+    for (file, amount, tolerance) in
+        [("whole.asc", 0.0, 1e-9), ("turned.asc", 0.3, 1e-9), ("turned.stl", 0.3, 1e-4)]
+    {
+        for class in classes_of(file) {
+            let expected = if class["class"] == "main" { amount } else { 0.0 };
+            near(at(&class, "azimuth_spread_deg"), expected, tolerance, &format!("{file}: {class}"));
+            near(at(&class, "slope_spread_deg"), 0.0, tolerance, &format!("{file}: {class}"));
+        }
+    }
+    let main = &classes_of("turned.asc")[4];
+    assert_eq!(main["worst_azimuth"]["facet"], "main 2", "{main}");
+    assert!(desk.done("measure --deviations tolkowsky").contains("upper half"));
+    for (shape, why) in [("heart", "convex"), ("oval", "eight octants"), ("pill", "convex")] {
+        let (code, printed, stderr) = desk.run(&format!("measure --deviations {shape}"));
+        assert!(code != 0 && printed.is_empty() && stderr.contains(why), "{stderr}");
+    }
+}

@@ -141,6 +141,8 @@ fn folders_and_several_designs_are_measured_at_once() {
     }
     desk.write("designs/broken.toml", "format = 1");
     desk.write("designs/readme.txt", "no design");
+    // A folder does not hide the program's cut of the same name.
+    std::fs::create_dir_all(desk.at("princess")).unwrap();
     let (code, printed, stderr) = desk.run("sweep designs princess --of fire");
     let (_, rows) = table(&printed);
     let files: Vec<&str> = rows.iter().map(|row| row[0].rsplit('/').next().unwrap()).collect();
