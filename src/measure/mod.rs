@@ -2,6 +2,7 @@
 //!
 //! [`measure`](crate::measure()) takes a design to its figures in one call.
 
+mod energy_derivatives;
 mod estimated;
 mod facet_deviations;
 mod figures;
@@ -11,6 +12,7 @@ mod measure_name;
 mod measured;
 mod sampled;
 
+pub use energy_derivatives::EnergyDerivatives;
 pub use estimated::{Estimate, by_beams_and_rays};
 pub use facet_deviations::{ClassDeviations, FacetDeviation, NotEightfold, facet_deviations};
 pub use figures::{Figures, Zones, by_beams, by_summed_beams};

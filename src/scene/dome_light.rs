@@ -45,6 +45,16 @@ impl DomeLight {
         self.of_cosine(direction.dot(zenith))
     }
 
+    /// Returns how the [`radiance`](Self::radiance) changes with the direction, between the borders of head and horizon.
+    pub fn slope(&self, direction: DVec3, zenith: DVec3) -> DVec3 {
+        let (cos, radiance) = (direction.dot(zenith), self.radiance(direction, zenith));
+        // At the horizon a power below 1 has no slope.
+        if self.power == 0.0 || radiance == 0.0 || cos <= 0.0 {
+            return DVec3::ZERO;
+        }
+        zenith * (self.power * radiance / cos)
+    }
+
     /// Returns the greatest radiance of the dome: that beside the head.
     pub fn brightest(&self) -> f64 {
         if self.head_deg >= 90.0 { 0.0 } else { self.of_cosine(self.head_deg.to_radians().cos()) }

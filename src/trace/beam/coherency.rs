@@ -69,4 +69,42 @@ impl Coherency {
         };
         (reflected, self.ss * (1.0 - s) + self.pp * (1.0 - p))
     }
+
+    /// Returns the changes per number of the light (`ss`, `pp`, `re`, `im`), and per cosine and sine, from those per number of
+    /// the [`turned`](Self::turned) light.
+    pub fn pull_back_turned(&self, cos: f64, sin: f64, per: [f64; 4]) -> ([f64; 4], [f64; 2]) {
+        let (cc, ss, cs) = (cos * cos, sin * sin, cos * sin);
+        let [per_ss, per_pp, per_re, per_im] = per;
+        let light = [
+            cc * per_ss + ss * per_pp - cs * per_re,
+            ss * per_ss + cc * per_pp + cs * per_re,
+            2.0 * cs * (per_ss - per_pp) + (cc - ss) * per_re,
+            per_im,
+        ];
+        let per_cc = self.ss * per_ss + self.pp * per_pp + self.re * per_re;
+        let per_sin_sq = self.pp * per_ss + self.ss * per_pp - self.re * per_re;
+        let per_cs = 2.0 * self.re * (per_ss - per_pp) + (self.pp - self.ss) * per_re;
+        (light, [2.0 * cos * per_cc + sin * per_cs, 2.0 * sin * per_sin_sq + cos * per_cs])
+    }
+
+    /// Returns the changes per number of the light, and per reflectance of s and p and per r_s r_p* (real and imaginary
+    /// part), from those per number of the reflected light and per weight that passes. See [`split`](Self::split).
+    pub fn pull_back_split(&self, fresnel: &Fresnel, per: [f64; 4], per_weight: f64) -> ([f64; 4], [f64; 4]) {
+        let (s, p) = (fresnel.reflectance_s(), fresnel.reflectance_p());
+        let cross = fresnel.r_s * fresnel.r_p.conj();
+        let [per_ss, per_pp, per_re, per_im] = per;
+        let light = [
+            per_ss * s + per_weight * (1.0 - s),
+            per_pp * p + per_weight * (1.0 - p),
+            per_re * cross.re + per_im * cross.im,
+            per_im * cross.re - per_re * cross.im,
+        ];
+        let surface = [
+            (per_ss - per_weight) * self.ss,
+            (per_pp - per_weight) * self.pp,
+            per_re * self.re + per_im * self.im,
+            per_im * self.re - per_re * self.im,
+        ];
+        (light, surface)
+    }
 }

@@ -15,7 +15,7 @@ pub(super) const SLIVER: f64 = 1e-15;
 const NOWHERE: (u32, u32) = (u32::MAX, 0);
 
 /// The sine of the angle between a beam and a facet's normal below which there is no plane of incidence, and none is needed.
-const SQUARE_ON: f64 = 1e-9;
+pub(super) const SQUARE_ON: f64 = 1e-9;
 
 /// A beam that is still to be followed from its last facet on. Those that wait are kept in boxes, as they are many.
 #[derive(Debug, Clone, Copy)]

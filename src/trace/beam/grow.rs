@@ -89,6 +89,22 @@ pub fn trace(
     Ok(tracer.beams)
 }
 
+/// Follows all light for this many reflections, however weak it is, so that stones that differ a little have the same beams.
+#[cfg(test)]
+pub(crate) fn trace_bounces(
+    polytope: &Polytope,
+    medium: Medium,
+    view: &View,
+    options: &BeamOptions,
+    most: u32,
+) -> Beams {
+    let facets = Facets::new(polytope);
+    let mut tracer = Tracer::new(polytope, &facets, medium, view, options);
+    let fronts = std::mem::take(&mut tracer.fronts);
+    tracer.follow(&fronts, |energy, bounces| energy > 0.0 && bounces < most);
+    tracer.beams
+}
+
 /// What figures are made of beams that are not kept, and how exactly.
 #[derive(Debug, Clone, Copy)]
 pub struct SumOptions<'a> {
@@ -355,7 +371,7 @@ fn next_level(level: f64, left: f64, before: &mut (f64, f64), goal: f64) -> f64 
 
 /// Returns the point of a plane behind each image point, as the point behind the image's origin and its changes along the
 /// image's axes.
-fn entry_points(view: &Basis, plane: &Plane) -> [DVec3; 3] {
+pub(super) fn entry_points(view: &Basis, plane: &Plane) -> [DVec3; 3] {
     let per = view.toward / plane.normal.dot(view.toward);
     let behind = |axis: DVec3| axis - per * plane.normal.dot(axis);
     [per * plane.offset, behind(view.right), behind(view.up)]

@@ -6,6 +6,8 @@
 //! whole tracing happens in two dimensions. Light is reversible: it is followed from the eye inward, and a beam's weight is
 //! the share of the light from its exit direction that reaches the eye.
 
+mod adjoint;
+mod adjoint_step;
 mod blocks;
 mod cells;
 mod coherency;
@@ -19,8 +21,11 @@ mod sweep;
 mod tree;
 mod whole;
 
+pub use adjoint::{BeamPartials, PlaneDerivatives};
 pub use cells::Cell;
 pub(in crate::trace) use follow::{Flight, Front};
+#[cfg(test)]
+pub(crate) use grow::trace_bounces;
 pub use grow::{BeamOptions, SumOptions, SummedBeams, sum_up, trace};
 pub use sums::BeamSums;
 pub use tree::{Beam, Beams};
