@@ -7,7 +7,7 @@ use super::model::ordering::Seen;
 use super::model::task::WindowTask;
 use super::model::workspace::Workspace;
 use super::model::{Action, Model, Task, update};
-use super::panels::{audit_panel, side_panels, tier_table};
+use super::panels::{audit_panel, map_window, side_panels, tier_table};
 use super::setup::{PaintedBy, Setup};
 use super::shows::Shows;
 use super::state_file::StateFile;
@@ -168,6 +168,9 @@ impl Editor {
                 studio::Answer::Figures(which, order, grade, figures) => {
                     self.actions.push(Computed::Figures(which, order, grade, figures));
                 }
+                studio::Answer::Swept(number, points) => {
+                    self.actions.push(Computed::Swept(number, points));
+                }
                 studio::Answer::Tilts(order, tilts) => self.actions.push(Computed::Tilts(order, tilts)),
                 studio::Answer::Trouble(why) => self.actions.push(NoteAction::Trouble(why)),
             }
@@ -263,6 +266,7 @@ impl Editor {
         };
         self.run();
         light_path_window::show(&self.model, &mut self.views, &mut self.actions, &ctx);
+        map_window::show(&self.model, &mut self.actions, &ctx);
         dialogs::show(&self.model, &self.thumbnails, &mut self.actions, &ctx);
         drops::invite(&ctx);
         let moves = |pane: usize| self.model.workspace.panes[pane].shows.has_copies();

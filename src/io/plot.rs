@@ -316,8 +316,8 @@ fn room(numbers: impl Iterator<Item = f64>) -> Option<Range<f64>> {
     (low <= high).then_some(low - margin..high + margin)
 }
 
-/// Returns about [`LINES`] round numbers within a range.
-fn levels(range: &Range<f64>) -> Vec<f64> {
+/// Returns about eight round numbers within a range.
+pub fn levels(range: &Range<f64>) -> Vec<f64> {
     let rough = (range.end - range.start) / LINES;
     let power = 10_f64.powf(rough.log10().floor());
     let step = [1.0, 2.0, 5.0, 10.0].map(|k| k * power).into_iter().find(|step| *step >= rough);
@@ -337,8 +337,15 @@ fn colour(value: f64, range: &Range<f64>) -> RGBColor {
     ViridisRGB.get_color_normalized(value as f32, range.start as f32, range.end as f32)
 }
 
-/// Returns the lines of equal value between the places.
-fn lines((x, y): (&PlotAxis, &PlotAxis), values: &[Option<f64>], levels: &[f64]) -> Vec<Vec<(f64, f64)>> {
+/// Returns the colour of a value on the scale of maps, as sRGB codes; values beyond the range have the colour of its end.
+pub fn map_colour(value: f64, range: &Range<f64>) -> [u8; 3] {
+    let RGBColor(red, green, blue) = colour(value, range);
+    [red, green, blue]
+}
+
+/// Returns the lines of equal value between the places, whose values are as in [`heat_map`]. Where places have no value, the
+/// lines mean nothing.
+pub fn lines((x, y): (&PlotAxis, &PlotAxis), values: &[Option<f64>], levels: &[f64]) -> Vec<Vec<(f64, f64)>> {
     // A place without a value takes that of the place before it, so that lines end near it.
     let mut last = values.iter().flatten().copied().next().unwrap_or(0.0);
     let full: Vec<f64> = values

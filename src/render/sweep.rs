@@ -214,38 +214,45 @@ impl Sweep {
         Ok(())
     }
 
-    /// Measures the points with these numbers on all cores, and hands them out in order.
+    /// Measures the points with these numbers on all cores, and hands them out in the order in which they are given.
     ///
     /// # Errors
     /// [`Stopped`] when `watch` asks to stop, or an error of `each`, each turned into `E`.
     pub fn run<E: From<Stopped>>(
         &self,
-        points: std::ops::Range<usize>,
+        points: impl IntoIterator<Item = usize>,
         watch: Watch,
         mut each: impl FnMut(usize, Result<SweptStone, SweepError>) -> Result<(), E>,
     ) -> Result<(), E> {
+        let points: Vec<usize> = points.into_iter().collect();
         let (all, done) = (points.len().max(1) as f64, AtomicUsize::new(0));
-        let mut next = points.start;
-        while next < points.end {
-            let end = (next + AT_ONCE).min(points.end);
-            let found: Vec<_> = (next..end)
-                .into_par_iter()
-                .map(|point| {
-                    let part = || done.load(Ordering::Relaxed) as f64 / all;
-                    let found = self.point(point, &|_| watch(part()));
+        for part in points.chunks(AT_ONCE) {
+            let found: Vec<_> = part
+                .par_iter()
+                .map(|&point| {
+                    let done_part = || done.load(Ordering::Relaxed) as f64 / all;
+                    let found = self.point(point, &|_| watch(done_part()));
                     done.fetch_add(1, Ordering::Relaxed);
                     found
                 })
                 .collect();
-            for (point, found) in (next..end).zip(found) {
+            for (&point, found) in part.iter().zip(found) {
                 match found {
                     Err(SweepError::Render(RenderError::Stopped(stopped))) => return Err(stopped.into()),
                     found => each(point, found)?,
                 }
             }
-            next = end;
         }
         Ok(())
+    }
+
+    /// Returns the design as it is at a point, whose number is below [`count`](Self::count). Whether it makes a stone is not
+    /// checked.
+    ///
+    /// # Errors
+    /// A [`SweepError`]: the design has nothing of an axis's key, or a meet cannot be followed.
+    pub fn design_at(&self, point: usize) -> Result<Design, SweepError> {
+        Ok(self.varied(point)?.design)
     }
 
     /// Measures one point.
@@ -253,11 +260,7 @@ impl Sweep {
     /// # Errors
     /// A [`SweepError`]: no stone, no index there, or a stone that exact beams do not trace.
     pub fn point(&self, point: usize, watch: Watch) -> Result<SweptStone, SweepError> {
-        let mut varied = self.start();
-        for (axis, value) in self.axes.iter().zip(self.values(point)) {
-            varied.set(&axis.key, value)?;
-        }
-        let VariedDesign { design, viewpoint, index } = varied;
+        let VariedDesign { design, viewpoint, index } = self.varied(point)?;
         let specimen = Specimen::new(design)?;
         let (medium, indices) = self.optics(&specimen.material, index, specimen.unit_mm())?;
         let settings = MeasureSettings { indices, ..self.settings.clone() };
@@ -271,6 +274,15 @@ impl Sweep {
         };
         let rendered = Renderer::new(Card::None).run(&job, watch, &mut |_| Ok::<_, RenderError>(()))?;
         Ok(SweptStone { measures: rendered.measures()?, carats })
+    }
+
+    /// Returns the design and the view at a point.
+    fn varied(&self, point: usize) -> Result<VariedDesign, SweepError> {
+        let mut varied = self.start();
+        for (axis, value) in self.axes.iter().zip(self.values(point)) {
+            varied.set(&axis.key, value)?;
+        }
+        Ok(varied)
     }
 
     fn start(&self) -> VariedDesign {

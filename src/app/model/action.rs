@@ -8,6 +8,8 @@ use super::export::Selection;
 use super::exporting::ExportEvent;
 use super::eye::Eye;
 use super::fitting::{FitOptions, StoneLight, YieldOptions};
+use super::measure_map::MapOptions;
+use super::measure_tilt::TiltOptions;
 use super::opening::{FileRequest, OpenedFile, OpeningPurpose};
 use super::recovery::RecoveredWork;
 use super::saving::{SavedDesign, Stamp};
@@ -15,7 +17,7 @@ use super::session::{Flowing, HeldKeys};
 use super::workspace::PanelSide;
 use crate::app::liquid::Liquid;
 use crate::app::shows::Shows;
-use crate::app::studio::{FiguresOrder, Grade, Order, Smoothing, Tilts, Which};
+use crate::app::studio::{FiguresOrder, Grade, Order, Smoothing, SweptPoint, Tilts, Which};
 use crate::cut::{Audit, Cut, Design, MaterialRef, TierChange};
 use crate::io::Failure;
 use crate::io::lighting::Lighting;
@@ -54,6 +56,8 @@ pub enum Edit {
     Cut(Cut),
     /// The key of the row that was edited, and the cut with the new proportion.
     Proportion(&'static str, Cut),
+    /// Moves the design to these values of the map's axes, across and up, if there is a stone.
+    Along([f64; 2]),
     /// One tier of the cut. All others keep their distance in mm.
     Tier {
         /// The place of the tier in [`Cut::settings`].
@@ -110,6 +114,10 @@ pub enum ViewAction {
     Tier(Option<usize>),
     /// Selects the finding at a place of the audit's list, or none.
     Finding(Option<usize>),
+    /// Chooses what the map of a measure shows.
+    Map(MapOptions),
+    /// Chooses what is plotted against tilt.
+    Tilt(TiltOptions),
     /// The pointer is over a view; commands act on it.
     Hover(usize),
     /// The text of the status line about what is under the pointer.
@@ -256,6 +264,8 @@ pub enum Computed {
     /// Figures of the present or of the other design, with the order that they answer.
     Figures(Which, FiguresOrder, Grade, Box<Figures>),
     Tilts(FiguresOrder, Tilts),
+    /// Points of the sweep of this number.
+    Swept(u64, Vec<SweptPoint>),
     /// The audit of a stone.
     Audit(Arc<Specimen>, Result<Audit, Failure>),
     /// The light of the stones of this question, in the dialog that fits the design to another material.

@@ -60,6 +60,8 @@ pub enum Command by keys {
         "Shows one step of the cutting at a time, in large letters, and marks what has been cut.";
     Audit: "Shift+A", "Audit",
         "Lists places of the stone that may not be what its designer meant.";
+    Map: "Shift+M", "Map of a measure",
+        "Maps how well the cut handles light over two of its proportions; a click on the map moves the design.";
     Panels: "H", "Hide panels", "Hides the panels at both sides, or shows them again.";
     FullScreen: "F11", "Full screen", "Fills the screen with the window, or makes it smaller again.";
     ResetView: "", "Reset view",
@@ -100,7 +102,7 @@ pub const MENUS: [Menu; 6] = [
             &[Wireframe, Facets, Bounces, Unresolved, Total, Strongest, Glare],
             &[LightPath],
             &[Play, LayOut, NextBehind],
-            &[Tiers, BenchMode, Audit],
+            &[Tiers, BenchMode, Audit, Map],
             &[Panels, FullScreen],
             &[ResetView, ResetLayout],
         ],

@@ -3,7 +3,7 @@
 use super::Model;
 use super::motion::WaveCache;
 use crate::app::shows::Shows;
-use crate::app::studio::{BEHIND, FiguresOrder, Order, Paper, Shot, Smoothing, Which};
+use crate::app::studio::{BEHIND, FiguresOrder, Order, Paper, Shot, Smoothing, SweepOrder, Which};
 use crate::scene::{Pose, Side, Specimen, View};
 use std::sync::Arc;
 
@@ -39,7 +39,16 @@ impl Orders<'_> {
             }
             self.figures(which, &mut order);
         }
+        order.sweeps = self.sweeps();
         order
+    }
+
+    /// Returns the sweeps whose plots are in sight; that of the map comes first.
+    fn sweeps(&self) -> Vec<SweepOrder> {
+        let session = &self.model.session;
+        let has_stone = self.model.document.specimen().stone().is_ok();
+        let map = session.map.sweep.wanted().filter(|_| has_stone && self.model.shows_map());
+        map.into_iter().chain(session.tilt.sweep.wanted()).cloned().collect()
     }
 
     fn figures(&mut self, which: Which, order: &mut Order) {

@@ -8,6 +8,8 @@ use super::document::{Document, FIRST_LIGHT};
 use super::export::Selection;
 use super::figures::SessionFigures;
 use super::framing::Framing;
+use super::measure_map::MeasureMap;
+use super::measure_tilt::MeasureTilt;
 use super::motion::Motion;
 use super::notes::Notes;
 use super::opening::Opening;
@@ -120,6 +122,12 @@ pub struct Session {
     pub meet_faults: Vec<Option<String>>,
     /// The audit of the stone, while its list is open.
     pub audit: SessionAudit,
+    /// The map of a measure, while it is open.
+    pub map: MeasureMap,
+    /// The measure that is plotted against tilt.
+    pub tilt: MeasureTilt,
+    /// How many sweeps were begun. It numbers them.
+    pub sweeps: u64,
     /// How often copies were laid out; this seeds the next layout.
     pub layings: u64,
     /// The text of the status line while the pointer is over a picture.
@@ -172,6 +180,9 @@ impl Session {
             tier: None,
             meet_faults: vec![],
             audit: SessionAudit::default(),
+            map: MeasureMap::default(),
+            tilt: MeasureTilt::default(),
+            sweeps: 0,
             layings: 0,
             message: String::new(),
             notes: Notes::default(),

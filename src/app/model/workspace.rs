@@ -159,6 +159,8 @@ pub struct Workspace {
     pub shows_tiers: bool,
     /// Whether the list of the audit is open below the views.
     pub shows_audit: bool,
+    /// Whether the map of a measure is open.
+    pub shows_map: bool,
     /// Progress at the faceting machine.
     pub cutting: CuttingProgress,
     /// Which panels are open where they are not hidden.
@@ -221,6 +223,7 @@ impl Default for Workspace {
             hides_panels: false,
             shows_tiers: false,
             shows_audit: false,
+            shows_map: false,
             cutting: CuttingProgress::default(),
             panels: Panels::default(),
             liquid: Liquid::default(),

@@ -5,7 +5,7 @@ use crate::app::model::action::{Actions, NoteAction, ViewAction};
 use crate::app::model::workspace::{PanelSide, Workspace};
 use crate::app::panels::figure_lines::{Counting, Figure, FigureLine, energy, lines, zones};
 use crate::app::panels::rows::explain;
-use crate::app::panels::{figures_text, pane_rows, side_panels};
+use crate::app::panels::{figures_text, pane_rows, side_panels, tilt_plot};
 use crate::app::studio::{Tilts, Which};
 use crate::app::theme;
 use crate::scene::Glare;
@@ -22,7 +22,7 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui, widths: RangeIncl
             ui.add_space(8.0);
             let whole = ui.scope(|ui| {
                 figures(model, actions, ui);
-                against_tilt(model, ui);
+                against_tilt(model, actions, ui);
             });
             whole.response.container_context_menu(|ui| copies(model, actions, ui));
         });
@@ -47,11 +47,18 @@ fn figures(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     }
 }
 
-fn against_tilt(model: &Model, ui: &mut Ui) {
+fn against_tilt(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     ui.add_space(8.0);
     ui.label(RichText::new("Against tilt").heading()).on_hover_text(
-        "The same figures while the stone tilts from -30° to 30° toward the azimuth of the linked views.",
+        "The same figures while the stone tilts from -30° to 30° toward the azimuth of the linked views, or one measure from \
+            -45° to 45° toward the azimuths that you choose.",
     );
+    let options = &model.session.tilt.options;
+    tilt_plot::choices(options, actions, ui);
+    if options.measure.is_some() {
+        tilt_plot::show(model, ui);
+        return;
+    }
     if let Some((order, tilts)) = &model.session.measured.tilts {
         ui.label(RichText::new("in the colours of the zones above").weak().small());
         let is_ordered = model.session.ordered.tilts.as_ref() == Some(order);

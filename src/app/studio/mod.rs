@@ -12,12 +12,14 @@ mod order;
 mod pace;
 mod refracted;
 mod render;
+mod sweeping;
 mod take;
 mod undeveloped;
 mod worker;
 
 pub use order::{
-    Answer, FiguresOrder, Grade, Order, Paper, Shot, Slot, Smoothing, TakenPicture, Tilts, Which,
+    Answer, FiguresOrder, Grade, Order, Paper, Shot, Slot, Smoothing, SweepOrder, SweptPoint, TakenPicture,
+    Tilts, Which,
 };
 
 pub use effort::{Effort, FINE, Grain};

@@ -6,6 +6,7 @@ use crate::io::background::BackgroundRef;
 use crate::io::lighting::Lighting;
 use crate::measure::Figures;
 use crate::picture::{Inks, Overlay, RefractionMap};
+use crate::render::{Sweep, SweepError, SweptStone};
 use crate::scene::{Film, Glare, Pose, Specimen, View};
 use egui::ColorImage;
 use serde::{Deserialize, Serialize};
@@ -162,6 +163,28 @@ impl PartialEq for FiguresOrder {
     }
 }
 
+/// An order of measures over a grid, coarse points first.
+#[derive(Debug, Clone)]
+pub struct SweepOrder {
+    /// The number of the sweep: no other sweep of the session has it, so that equal numbers mean the same sweep.
+    pub number: u64,
+    /// The design and its grid.
+    pub sweep: Arc<Sweep>,
+    /// The points in the order in which they are measured.
+    pub points: Arc<[usize]>,
+    /// How many of them give the coarse picture, which is wanted before fine pictures.
+    pub coarse: usize,
+}
+
+impl PartialEq for SweepOrder {
+    fn eq(&self, other: &Self) -> bool {
+        self.number == other.number
+    }
+}
+
+/// A point of a sweep by its number, and what was found there.
+pub type SweptPoint = (usize, Arc<Result<SweptStone, SweepError>>);
+
 /// Everything that the editor shows at one moment.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Order {
@@ -169,6 +192,8 @@ pub struct Order {
     pub figures: Vec<(Which, FiguresOrder)>,
     /// Figures against tilt, for a view whose own tilt does not matter.
     pub tilts: Option<FiguresOrder>,
+    /// Measures over grids.
+    pub sweeps: Vec<SweepOrder>,
 }
 
 /// How good a picture is so far.
@@ -207,6 +232,8 @@ pub enum Answer {
     Figures(Which, FiguresOrder, Grade, Box<Figures>),
     /// Figures against tilt.
     Tilts(FiguresOrder, Tilts),
+    /// Points of the sweep of this number; others follow.
+    Swept(u64, Vec<SweptPoint>),
     /// A message that says what went wrong.
     Trouble(String),
 }

@@ -4,6 +4,7 @@ use super::effort::{Effort, FAIR, FINE, FINE_BY_CARD, HALFWAY, SHARP};
 use super::mailbox::{Mailbox, Wake};
 use super::order::{Answer, FiguresOrder, Grade, Order, Shot, Slot, Smoothing, TakenPicture, Which};
 use super::pace::Pace;
+use super::sweeping::SweptSoFar;
 use super::take::ShotTracer;
 use crate::app::shows::Shows;
 use crate::io::Failure;
@@ -37,6 +38,8 @@ pub(super) struct Worker {
     pictures: HashMap<Slot, (Shot, Grade)>,
     figures: HashMap<Which, (FiguresOrder, Grade)>,
     tilts: Option<FiguresOrder>,
+    /// How far sweeps have come.
+    pub(super) swept: SweptSoFar,
     /// The renders that have been sharpened.
     sharp: HashMap<Slot, Shot>,
 }
@@ -58,6 +61,7 @@ impl Worker {
             pictures: HashMap::new(),
             figures: HashMap::new(),
             tilts: None,
+            swept: SweptSoFar::default(),
             sharp: HashMap::new(),
         }
     }
@@ -109,11 +113,11 @@ impl Worker {
     }
 
     /// Counts a trace that begins.
-    fn count(&self) {
+    pub(super) fn count(&self) {
         self.mailbox.traced.fetch_add(1, Ordering::SeqCst);
     }
 
-    fn answer(&self, answer: Answer) {
+    pub(super) fn answer(&self, answer: Answer) {
         // Nobody listens once the window is closed.
         let _ = self.answers.send(answer);
         (self.wake)();
@@ -179,9 +183,11 @@ impl Worker {
         let [fair_figures, fine_figures] = [bounds(FAIR_FIGURES, LATTICE / 4), Bounds::default()];
         self.pictures(&turn.order, Grade::Fair, &FAIR, &watch)?;
         self.all_figures(&turn.order, Grade::Fair, |ask| ask.job(ask.view, &fair_figures), &watch)?;
+        self.sweeps(&turn.order, |ask| ask.coarse, &watch)?;
         self.pictures(&turn.order, Grade::Fine, &fine, &watch)?;
         self.all_figures(&turn.order, Grade::Fine, |ask| ask.job(ask.view, &fine_figures), &watch)?;
-        self.against_tilt(&turn.order, &watch)
+        self.against_tilt(&turn.order, &watch)?;
+        self.sweeps(&turn.order, |ask| ask.points.len(), &watch)
     }
 
     /// Whether a shot has not been answered yet by a picture of this grade or a better one.

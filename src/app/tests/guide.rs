@@ -196,3 +196,13 @@ fn an_emerald_cut_from_a_block_its_sheet_and_a_step_at_the_bench() {
     bench.harness.run_steps(8);
     take(&mut bench, "bench-emerald");
 }
+
+#[test]
+#[ignore = "writes pictures into docs/images/editor"]
+fn a_map_of_fire_and_leakage_against_tilt() {
+    let mut bench = window("tolkowsky.toml", &Bench::small());
+    bench.choose("View", "Map of a measure");
+    pick(&mut bench, "Measure", "Return, even light, head 15°");
+    pick(&mut bench, "Plotted", "Leakage");
+    take(&mut bench, "map");
+}

@@ -17,6 +17,7 @@ mod handed_out;
 mod keeping;
 mod layout;
 mod looks;
+mod maps;
 mod reading;
 mod recorder;
 mod tiers;

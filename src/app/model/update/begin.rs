@@ -24,6 +24,7 @@ pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
     session.tier = None;
     session.meet_faults.clear();
     session.audit = SessionAudit::default();
+    session.map.begin();
     // Figures of the stone before do not belong to this one.
     session.measured.figures.retain(|which, _| *which != Which::Present);
     session.measured.tilts = None;

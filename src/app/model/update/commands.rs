@@ -53,6 +53,11 @@ impl Model {
         self.workspace.shows_audit && !self.is_at_bench()
     }
 
+    /// Whether the map of a measure is in sight.
+    pub fn shows_map(&self) -> bool {
+        self.workspace.shows_map && !self.is_at_bench()
+    }
+
     /// Whether a command is switched on, as menus show it.
     pub fn is_chosen(&self, command: Command) -> bool {
         let workspace = &self.workspace;
@@ -77,6 +82,7 @@ impl Model {
             Command::Tiers => workspace.shows_tiers,
             Command::BenchMode => workspace.cutting.is_open,
             Command::Audit => workspace.shows_audit,
+            Command::Map => workspace.shows_map,
             _ => false,
         }
     }
@@ -162,6 +168,7 @@ fn look(model: &mut Model, command: Command) {
         Command::Panels => workspace.hides_panels = !workspace.hides_panels,
         Command::BenchMode => workspace.cutting.is_open = !workspace.cutting.is_open,
         Command::Audit => workspace.shows_audit = !workspace.shows_audit,
+        Command::Map => workspace.shows_map = !workspace.shows_map,
         Command::Tiers => workspace.shows_tiers = !workspace.shows_tiers,
         Command::ResetView => {
             workspace.reset_view();

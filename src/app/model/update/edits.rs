@@ -19,6 +19,7 @@ pub fn edit(model: &mut Model, edit: Edit) {
             work.design.cut = cut;
             model.session.edited = Some(key);
         }
+        Edit::Along(to) => move_along(model, to),
         Edit::Tier { place, angle, distance } => {
             keep_tiers_in_place(model, |cut| cut.set(place, angle, distance));
         }
@@ -66,6 +67,18 @@ fn change_tiers(model: &mut Model, change: TierChange) {
     let SolvedTiers { tiers, outcomes, .. } = tiers.changed(change);
     model.session.meet_faults = faults(outcomes);
     keep_tiers_in_place(model, |cut| *cut = Cut::Tiers(tiers));
+}
+
+/// Moves the design to a place of the map, or says why it stays.
+fn move_along(model: &mut Model, to: [f64; 2]) {
+    let Model { document, session, .. } = model;
+    match session.map.moved(&document.work.design, to) {
+        Ok(cut) => {
+            document.work.design.cut = cut;
+            note_meet_faults(model);
+        }
+        Err(why) => session.notes.say(&format!("The design stays: {why}.")),
+    }
 }
 
 /// Returns for each tier why its meet could not be followed, if it could not.

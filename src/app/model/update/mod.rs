@@ -24,6 +24,7 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Task> {
     perform(model, &mut tasks, action);
     files::wanted(model, &mut tasks);
     want_audit(model, &mut tasks);
+    want_sweeps(model);
     tasks
 }
 
@@ -46,6 +47,17 @@ fn want_audit(model: &mut Model, tasks: &mut Vec<Task>) {
     if model.shows_audit() && specimen.stone().is_ok() && model.session.audit.want(specimen) {
         tasks.push(Task::Audit(Arc::clone(specimen)));
     }
+}
+
+/// Lets the map and the plot against tilt follow the present stone, where they are in sight.
+fn want_sweeps(model: &mut Model) {
+    let shows_map = model.shows_map();
+    let Model { document, session, .. } = model;
+    let specimen = document.specimen();
+    if shows_map && specimen.stone().is_ok() {
+        session.map.follow(&document.work.design, &mut session.sweeps);
+    }
+    session.tilt.follow(specimen, &mut session.sweeps);
 }
 
 fn noted(model: &mut Model, note: NoteAction) {
@@ -88,6 +100,10 @@ fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
             session.measured.tilts = Some((order, tilts));
         }
         Computed::Tilts(..) => {}
+        Computed::Swept(number, points) => {
+            session.map.sweep.take(number, &points);
+            session.tilt.sweep.take(number, &points);
+        }
         Computed::Audit(specimen, Ok(found)) => session.audit.take(&specimen, found),
         Computed::StoneLight(number, light) => fitting::take_light(model, number, light),
         Computed::Audit(_, Err(why)) => session.notes.trouble(why),

@@ -1,6 +1,7 @@
 //! Tests of the editor without a window: what its state becomes by actions, and which tasks come of them.
 
 mod late;
+mod maps;
 
 use super::update;
 use crate::app::model::action::{Computed, DialogAction, Edit, FileAction, FrameEnd, ViewAction};

@@ -49,6 +49,8 @@ fn pass(model: &mut Model, change: ViewAction) {
         ViewAction::Hover(pane) => session.hovered = pane,
         ViewAction::Tier(place) => session.tier = place,
         ViewAction::Finding(place) => session.audit.selected = place,
+        ViewAction::Map(options) => session.map.choose(options),
+        ViewAction::Tilt(options) => session.tilt.options = options,
         ViewAction::Message(text) => session.message = text,
         ViewAction::Keys(keys) => session.keys = keys,
         ViewAction::Flowing(pane, flowing) => session.flowing[pane] = flowing,

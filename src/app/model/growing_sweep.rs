@@ -1,0 +1,139 @@
+//! A sweep as it grows: what was ordered, and the points that have been answered.
+
+use crate::app::studio::{SweepOrder, SweptPoint};
+use crate::cut::Design;
+use crate::measure::MeasureSettings;
+use crate::optics::line;
+use crate::render::{Sweep, SweepAxis, SweepError, SweptStone};
+use crate::scene::Viewpoint;
+use std::sync::Arc;
+
+/// The points of a sweep that have been answered.
+#[derive(Debug, Clone)]
+pub struct FoundSweep {
+    /// The order that they answer.
+    pub order: SweepOrder,
+    /// What was found at each point of the grid; `None` where there is no answer yet.
+    points: Vec<Option<Arc<Result<SweptStone, SweepError>>>>,
+    /// How many points have been answered.
+    pub answered: usize,
+}
+
+impl FoundSweep {
+    fn new(order: SweepOrder) -> Self {
+        let points = vec![None; order.sweep.count()];
+        Self { order, points, answered: 0 }
+    }
+
+    /// Returns what was found at a point; `None` where there is no answer yet.
+    pub fn at(&self, point: usize) -> Option<&Result<SweptStone, SweepError>> {
+        self.points.get(point)?.as_deref()
+    }
+
+    /// Whether all points have been answered.
+    pub fn is_whole(&self) -> bool {
+        self.answered >= self.order.points.len()
+    }
+}
+
+/// The sweep that is wanted, and what is known of it. Until the first points of a new sweep come in, those of the one before
+/// stay in sight.
+#[derive(Debug, Clone, Default)]
+pub struct GrowingSweep {
+    wanted: Option<SweepOrder>,
+    found: Option<FoundSweep>,
+}
+
+impl GrowingSweep {
+    /// Returns the sweep that is wanted.
+    pub fn wanted(&self) -> Option<&SweepOrder> {
+        self.wanted.as_ref()
+    }
+
+    /// Wants another sweep, or none.
+    pub fn want(&mut self, order: Option<SweepOrder>) {
+        if order.is_none() {
+            self.found = None;
+        }
+        self.wanted = order;
+    }
+
+    /// Takes points of the sweep with a number, if it is the one that is wanted.
+    pub fn take(&mut self, number: u64, points: &[SweptPoint]) {
+        let Some(wanted) = self.wanted.as_ref().filter(|wanted| wanted.number == number) else { return };
+        if self.found.as_ref().is_none_or(|found| found.order != *wanted) {
+            self.found = Some(FoundSweep::new(wanted.clone()));
+        }
+        let Some(found) = &mut self.found else { return };
+        for (point, result) in points {
+            if let Some(at) = found.points.get_mut(*point) {
+                found.answered += usize::from(at.is_none());
+                *at = Some(Arc::clone(result));
+            }
+        }
+    }
+
+    /// Returns the points that are shown.
+    pub fn found(&self) -> Option<&FoundSweep> {
+        self.found.as_ref()
+    }
+
+    /// Whether the points that are shown are those of the sweep that is wanted.
+    pub fn is_present(&self) -> bool {
+        self.found.as_ref().map(|found| &found.order) == self.wanted.as_ref()
+    }
+}
+
+/// Returns the sweep of a design face up, at the sodium line, with the light, the head and the eye that `measures` takes.
+pub fn sweep_of(design: &Design, axes: Vec<SweepAxis>, unresolved: f64) -> Sweep {
+    Sweep {
+        design: design.clone(),
+        viewpoint: Viewpoint::default(),
+        axes,
+        // The indices of colours are those of each point's material.
+        settings: MeasureSettings::usual([1.0; 2]),
+        wavelength_nm: line::SODIUM_D,
+        unresolved,
+        polarised: true,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An order of three points, the last of which comes first.
+    fn order(number: u64) -> SweepOrder {
+        let design = crate::app::model::document::Document::first().unwrap().work.design;
+        let axes = vec![SweepAxis {
+            key: crate::render::SweepKey::Tilt,
+            values: [0.0, 1.0, 2.0].map(crate::render::SweepValue::Number).into(),
+        }];
+        let sweep = Arc::new(sweep_of(&design, axes, 0.05));
+        SweepOrder { number, sweep, points: Arc::new([2, 0, 1]), coarse: 1 }
+    }
+
+    /// An answer that no stone was found at a point.
+    fn nothing(point: usize) -> SweptPoint {
+        let error = SweepError::NoTier { name: String::new(), known: String::new() };
+        (point, Arc::new(Err(error)))
+    }
+
+    #[test]
+    fn points_of_a_sweep_that_is_no_longer_wanted_are_dropped_and_shown_ones_stay_until_new_ones_come() {
+        let mut sweep = GrowingSweep::default();
+        sweep.take(1, &[nothing(0)]);
+        assert!(sweep.found().is_none(), "nothing is wanted");
+        sweep.want(Some(order(1)));
+        sweep.take(1, &[nothing(2), nothing(2), nothing(99)]);
+        assert!(sweep.is_present() && sweep.found().is_some_and(|found| found.answered == 1));
+        sweep.want(Some(order(2)));
+        sweep.take(1, &[nothing(0)]);
+        let found = sweep.found().unwrap();
+        assert!(!sweep.is_present() && found.at(2).is_some() && found.at(0).is_none());
+        sweep.take(2, &[nothing(0), nothing(1), nothing(2)]);
+        assert!(sweep.is_present() && sweep.found().is_some_and(FoundSweep::is_whole));
+        sweep.want(None);
+        assert!(sweep.found().is_none());
+    }
+}

@@ -1,0 +1,131 @@
+//! The window with the map of a measure: what is mapped over what, the map, and what is under the pointer.
+
+use super::map_plot::{MapPlot, MapReading};
+use super::measure_words;
+use super::rows::{ANY, NUMBER, Number, choice_row, named};
+use crate::app::model::Model;
+use crate::app::model::action::{Actions, ViewAction};
+use crate::app::model::measure_map::{MapAxis, MapOptions, MeasureMap, no_stone};
+use crate::app::theme;
+use crate::cut::{Cut, Design};
+use egui::{Context, RichText, Ui, Vec2, Window, vec2};
+
+/// The size of the window at first, and at least, points.
+const SIZES: [Vec2; 2] = [vec2(560.0, 600.0), vec2(420.0, 440.0)];
+
+/// What stands by the published range.
+pub const PUBLISHED: &str = "GIA's published range for EX: an estimate, not a grade";
+
+/// Draws the window where it is open.
+pub fn show(model: &Model, actions: &mut Actions, ctx: &Context) {
+    if !model.shows_map() {
+        return;
+    }
+    let mut is_open = true;
+    let window = Window::new("Map of a measure").open(&mut is_open).default_size(SIZES[0]).min_size(SIZES[1]);
+    window.show(ctx, |ui| contents(model, actions, ui));
+    actions.push_if(!is_open, crate::app::model::command::Command::Map);
+}
+
+fn contents(model: &Model, actions: &mut Actions, ui: &mut Ui) {
+    let design = &model.document.work.design;
+    if model.document.specimen().stone().is_err() {
+        ui.label("Only a convex stone between planes can be mapped: its light is followed exactly.");
+        return;
+    }
+    let Some(options) = model.session.map.options() else {
+        ui.label("The design has no two proportions or tiers to vary.");
+        return;
+    };
+    let mut now = options.clone();
+    choices(&mut now, &design.cut, ui);
+    actions.push_changed(options, now, ViewAction::Map);
+    ui.label(RichText::new(state(&model.session.map)).weak().small());
+    let plot = MapPlot::new(&model.session.map, options, design);
+    let reading = plot.show(actions, ui);
+    ui.label(said(options, reading.as_ref(), design));
+    if options.published_range(design).is_some() {
+        ui.label(
+            RichText::new(format!("Green frame: {PUBLISHED}.")).color(theme::good(ui.visuals())).small(),
+        );
+    }
+}
+
+/// Draws the choice of the measure and of both axes with their ends.
+fn choices(options: &mut MapOptions, cut: &Cut, ui: &mut Ui) {
+    let meaning = measure_words::meaning(options.measure);
+    let before = options.measure;
+    choice_row(ui, "Measure", meaning, &measure_words::name(before), |ui| {
+        for measure in measure_words::all() {
+            let entry = ui.selectable_value(&mut options.measure, measure, measure_words::name(measure));
+            entry.on_hover_text(measure_words::meaning(measure));
+        }
+    });
+    let all = MapAxis::all(cut);
+    for (place, [name, least, most]) in
+        [["Across", "Least across", "Greatest across"], ["Up", "Least up", "Greatest up"]]
+            .into_iter()
+            .enumerate()
+    {
+        let other = options.axes[1 - place].clone();
+        let axis = &mut options.axes[place];
+        let meaning = "What varies along this axis. Of two numbers of which one follows from the other, only one can vary.";
+        choice_row(ui, name, meaning, &axis.name.clone(), |ui| {
+            for offered in all.iter().filter(|offered| !offered.is_paired(&other, cut)) {
+                if ui.selectable_label(offered.key == axis.key, &offered.name).clicked()
+                    && offered.key != axis.key
+                {
+                    *axis = offered.clone();
+                }
+            }
+        });
+        ui.horizontal(|ui| {
+            let ends =
+                [(least, "The value at the first end of the axis."), (most, "The value at its other end.")];
+            for (end, (name, meaning)) in axis.ends.iter_mut().zip(ends) {
+                let label = named(ui, name, meaning);
+                let number = Number { decimals: 2, speed: 0.05, range: ANY, unit: axis.unit };
+                number.show(ui, (NUMBER, label.id), end);
+            }
+        });
+    }
+}
+
+/// Says how far the map has come.
+fn state(map: &MeasureMap) -> String {
+    match map.sweep.found() {
+        Some(found) if !map.sweep.is_present() => {
+            let count = found.answered;
+            format!(
+                "the map of the design before ({count} places); the new one begins when the pictures are done…"
+            )
+        }
+        Some(found) if found.is_whole() => format!("{} places, face up; final", found.answered),
+        Some(found) => {
+            format!("{} of {} places, face up; becoming finer…", found.answered, found.order.points.len())
+        }
+        None => "the map begins when the pictures are done…".to_owned(),
+    }
+}
+
+/// Says what is under the pointer, or where the design stands.
+fn said(options: &MapOptions, reading: Option<&MapReading>, design: &Design) -> String {
+    let [across, up] = &options.axes;
+    let place = |values: [f64; 2]| {
+        format!("{} {}, {} {}", across.name, across.written(values[0]), up.name, up.written(values[1]))
+    };
+    match reading {
+        Some(MapReading { at, found: None }) => format!("{}: not measured yet", place(*at)),
+        Some(MapReading { at, found: Some(Err(error)) }) => {
+            format!("{}: no stone: {}", place(*at), no_stone(error))
+        }
+        Some(MapReading { at, found: Some(Ok(stone)) }) => match options.measure.of(&stone.measures) {
+            Some(found) => format!("{}: {}", place(*at), measure_words::value(found)),
+            None => format!("{}: not measured", place(*at)),
+        },
+        None => match (across.value(&design.cut), up.value(&design.cut)) {
+            (Some(x), Some(y)) => format!("The design: {}. Click or drag to move it.", place([x, y])),
+            _ => "Click or drag to move the design.".to_owned(),
+        },
+    }
+}

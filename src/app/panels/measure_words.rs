@@ -1,0 +1,94 @@
+//! Measures in words: their names on the screen, what they mean, and their values.
+
+use crate::measure::{Interval, MeasureName, MeasureSettings};
+use crate::scene::DomeLight;
+
+/// Returns the measures that can be chosen.
+pub fn all() -> Vec<MeasureName> {
+    MeasureName::all(&MeasureSettings::usual([1.0; 2]))
+}
+
+/// Returns the name of a measure.
+pub fn name(measure: MeasureName) -> String {
+    match measure {
+        MeasureName::Return(dome) => format!("Return, {}", dome_name(dome)),
+        MeasureName::ReturnWithGlare(dome) => format!("Return with glare, {}", dome_name(dome)),
+        MeasureName::Leakage => "Leakage".to_owned(),
+        MeasureName::Windowing => "Windowing".to_owned(),
+        MeasureName::Obstruction => "Obstruction".to_owned(),
+        MeasureName::Extinction => "Extinction".to_owned(),
+        MeasureName::Contrast => "Contrast".to_owned(),
+        MeasureName::Fire => "Fire".to_owned(),
+        MeasureName::Absorbed => "Absorbed".to_owned(),
+    }
+}
+
+fn dome_name(dome: DomeLight) -> String {
+    let light = match dome.power {
+        0.0 => "even light".to_owned(),
+        1.0 => "light by cosine".to_owned(),
+        power => format!("light by cosine^{power}"),
+    };
+    match dome.head_deg {
+        0.0 => light,
+        head => format!("{light}, head {head}°"),
+    }
+}
+
+/// Says what a measure counts.
+pub fn meaning(measure: MeasureName) -> &'static str {
+    match measure {
+        MeasureName::Return(_) => {
+            "The light of a dome above that comes back through the stone, in percent of what a white sheet in its place \
+             would send under an even dome."
+        }
+        MeasureName::ReturnWithGlare(_) => {
+            "The light of a dome above that comes back, with the glare of the outer surface, in percent of what a white sheet \
+             would send under an even dome."
+        }
+        MeasureName::Leakage => "The light that comes from below the horizon, in percent of the face.",
+        MeasureName::Windowing => {
+            "The light from below that crosses the stone without being reflected inside, in percent of the face."
+        }
+        MeasureName::Obstruction => {
+            "The light that comes from the observer's head of 15°, in percent of the face."
+        }
+        MeasureName::Extinction => {
+            "The part of the face whose strongest light comes from the head or from below the horizon."
+        }
+        MeasureName::Contrast => {
+            "How much the brightness varies over the face: its standard deviation in percent of its mean."
+        }
+        MeasureName::Fire => "The light from above whose colours an eye sees apart, in percent of the face.",
+        MeasureName::Absorbed => "The light that is absorbed inside the stone, in percent of the face.",
+    }
+}
+
+/// Writes a value with the interval in which it certainly lies.
+pub fn value(found: Interval) -> String {
+    let [least, most] = [found.least, found.most].map(|part| 100.0 * part);
+    match most.is_finite() {
+        true => format!("{:.2} % (certainly {least:.2} to {most:.2} %)", 100.0 * found.middle()),
+        false => format!("at least {least:.2} %"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_measures_have_one_name() {
+        let mut names: Vec<String> = all().into_iter().map(name).collect();
+        let count = names.len();
+        names.sort();
+        names.dedup();
+        assert_eq!((names.len(), count), (15, 15));
+    }
+
+    #[test]
+    fn a_value_has_its_interval_or_its_lower_end() {
+        assert_eq!(value(Interval { least: 0.5, most: 0.51 }), "50.50 % (certainly 50.00 to 51.00 %)");
+        assert_eq!(value(Interval { least: 0.5, most: f64::INFINITY }), "at least 50.00 %");
+    }
+}

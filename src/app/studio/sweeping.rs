@@ -1,0 +1,75 @@
+//! Sweeps in the studio: measures over a grid, which are answered a few points at a time.
+//!
+//! A newer order interrupts a sweep. Where it asks for the same sweep, that goes on after the last points that were answered: so
+//! a sweep waits while a hand drags, and nothing is measured twice.
+
+use super::order::{Answer, Order, SweepOrder};
+use super::worker::Worker;
+use crate::trace::{Stopped, Watch};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// The points that are answered at once: enough for all cores, and few enough to be seen coming.
+const AT_ONCE: usize = 32;
+
+/// The sweeps whose progress is remembered.
+const REMEMBERED: usize = 8;
+
+/// How many points of each sweep have been answered, by its number.
+#[derive(Default)]
+pub(super) struct SweptSoFar(BTreeMap<u64, usize>);
+
+impl SweptSoFar {
+    fn of(&self, number: u64) -> usize {
+        self.0.get(&number).copied().unwrap_or(0)
+    }
+
+    /// Notes how many points have been answered; forgets the oldest sweeps where there are many.
+    fn note(&mut self, number: u64, answered: usize) {
+        self.0.insert(number, answered);
+        while self.0.len() > REMEMBERED {
+            self.0.pop_first();
+        }
+    }
+}
+
+impl Worker {
+    /// Measures the points of all sweeps of an order that have not been answered yet, up to a number of points that `until`
+    /// returns for each.
+    pub(super) fn sweeps(
+        &mut self,
+        order: &Order,
+        until: impl Fn(&SweepOrder) -> usize,
+        watch: Watch,
+    ) -> Result<(), Stopped> {
+        for ask in &order.sweeps {
+            let end = until(ask).min(ask.points.len());
+            let mut answered = self.swept.of(ask.number);
+            while answered < end {
+                self.count();
+                let part = &ask.points[answered..(answered + AT_ONCE).min(end)];
+                let mut found = Vec::with_capacity(part.len());
+                ask.sweep.run::<Stopped>(part.iter().copied(), watch, |point, result| {
+                    found.push((point, Arc::new(result)));
+                    Ok(())
+                })?;
+                answered += part.len();
+                self.swept.note(ask.number, answered);
+                self.answer(Answer::Swept(ask.number, found));
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_oldest_sweeps_are_forgotten() {
+        let mut swept = SweptSoFar::default();
+        (0..20).for_each(|number| swept.note(number, 5));
+        assert_eq!([0, 11, 12, 19].map(|number| swept.of(number)), [0, 0, 5, 5]);
+    }
+}
