@@ -109,7 +109,7 @@ fn order(specimen: &Specimen, azimuths: &[f64], number: u64) -> SweepOrder {
         key,
         values: values.map(SweepValue::Number).collect(),
     };
-    let tilt = |place: usize| MOST_TILT * (2.0 * place as f64 / STEPS as f64 - 1.0);
+    let tilt = |place: usize| place as f64 * (2.0 * MOST_TILT / STEPS as f64) - MOST_TILT;
     let axes = vec![
         axis(SweepKey::Azimuth, &mut azimuths.iter().copied()),
         axis(SweepKey::Tilt, &mut (0..=STEPS).map(tilt)),

@@ -8,10 +8,13 @@ use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::measure_map::{MapAxis, MapOptions, MeasureMap, no_stone};
 use crate::app::theme;
 use crate::cut::{Cut, Design};
-use egui::{Context, RichText, Ui, Vec2, Window, vec2};
+use egui::{Context, Pos2, RichText, Ui, Vec2, Window, pos2, vec2};
 
 /// The size of the window at first, and at least, points.
 const SIZES: [Vec2; 2] = [vec2(560.0, 600.0), vec2(420.0, 440.0)];
+
+/// Where the upper left corner of the window is at first, points: right of the design panel, whose fields it does not cover.
+const PLACE: Pos2 = pos2(376.0, 64.0);
 
 /// What stands by the published range.
 pub const PUBLISHED: &str = "GIA's published range for EX: an estimate, not a grade";
@@ -22,7 +25,11 @@ pub fn show(model: &Model, actions: &mut Actions, ctx: &Context) {
         return;
     }
     let mut is_open = true;
-    let window = Window::new("Map of a measure").open(&mut is_open).default_size(SIZES[0]).min_size(SIZES[1]);
+    let window = Window::new("Map of a measure")
+        .open(&mut is_open)
+        .default_size(SIZES[0])
+        .min_size(SIZES[1])
+        .default_pos(PLACE);
     window.show(ctx, |ui| contents(model, actions, ui));
     actions.push_if(!is_open, crate::app::model::command::Command::Map);
 }

@@ -35,7 +35,7 @@ pub fn choices(options: &TiltOptions, actions: &mut Actions, ui: &mut Ui) {
     if now.measure.is_some() {
         ui.horizontal_wrapped(|ui| {
             for ((azimuth, is_on), colour) in AZIMUTHS.into_iter().zip(&mut now.azimuths).zip(COLOURS) {
-                let text = RichText::new(format!("→ {azimuth}°"));
+                let text = RichText::new(format!("{azimuth}°"));
                 let text = if *is_on { text.color(colour_of(ui, colour)) } else { text };
                 let chip = ui.selectable_label(*is_on, text);
                 chip.widget_info(|| {
