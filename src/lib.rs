@@ -1,7 +1,7 @@
 //! Exact light in gemstone cuts: takes proportions or planes, and gives ASET, Ideal-Scope, hearts and arrows.
 //!
 //! The modules form floors, each of which imports only from those before it: `math`, `optics`; `cut`; `scene`; `trace`;
-//! `picture`, `measure`; `render`; `io`; `cli`, `app`. See docs/architecture.md.
+//! `picture`, `measure`; `render`; `search`; `io`; `cli`, `app`. See docs/architecture.md.
 //!
 //! From a cut file to figures:
 //!
@@ -36,6 +36,7 @@ pub mod optics;
 pub mod picture;
 pub mod render;
 pub mod scene;
+pub mod search;
 pub mod trace;
 
 pub use glam;

@@ -2,13 +2,16 @@
 
 use super::batch::each_file;
 use super::console::{json, print, say};
+use super::hearts_list::{table_of_hearts, table_of_spread};
 use super::mesh_options::MeshArguments;
-use super::options::{LightOptions, ViewOptions, scoped};
+use super::options::{LightOptions, ViewOptions, pupil_diameter, rock_angle, scoped};
 use super::progress::WorkProgress;
 use super::specimen::LoadedSpecimen;
 use crate::io::Failure;
-use crate::io::export::{FigureReport, MeasureReport, Viewing, light_measures, measure};
-use crate::measure::{ClassDeviations, FacetDeviation, facet_deviations};
+use crate::io::export::{FigureReport, MeasureReport, Viewing, hearts, light_measures, measure};
+use crate::measure::{
+    ClassDeviations, FaceUpSize, FacetDeviation, PatternSettings, facet_deviations, pupil_deg,
+};
 use crate::picture::Scoped;
 use crate::render::{Card, Renderer};
 use crate::scene::{DomeLight, Glare};
@@ -24,18 +27,34 @@ pub struct Measure {
     /// Print JSON: one object, or for several files one object a line
     #[arg(long)]
     json: bool,
-    /// List measures of the cut instead of zones: the return of domes, leakage, windowing, obstruction, extinction, contrast and
-    /// fire, each as far as it is certain
+    /// List measures of the cut instead of zones: the return of domes, leakage, windowing, obstruction, extinction, contrast, fire,
+    /// and the pattern that an eye sees on a stone of this size, each as far as it is certain
     #[arg(long, conflicts_with_all = ["scope", "no_glare", "timing"])]
     measures: bool,
     /// List instead how far the facets of an eightfold round brilliant deviate from their classes in azimuth and slope, in degrees,
     /// and which facet deviates most
     #[arg(long, conflicts_with_all = ["scope", "no_glare", "timing", "measures"])]
     deviations: bool,
+    /// Measure instead the hearts and arrows of a round brilliant on exact beams, octant by octant: areas, lengths, widths, clefts,
+    /// gaps to the V's, and how far they depart from eightfold symmetry
+    #[arg(long, conflicts_with_all = ["scope", "no_glare", "timing", "measures", "deviations", "side", "tilt", "eye_tilt", "azimuth",
+        "perspective", "tracer", "head"])]
+    hearts: bool,
+    /// Print instead how large a stone looks from above for its weight: its face, and its spread and weight ratio beside a
+    /// reference brilliant
+    #[arg(long, conflicts_with_all = ["scope", "no_glare", "timing", "measures", "deviations", "hearts", "side", "tilt", "eye_tilt",
+        "azimuth", "perspective", "tracer", "head"])]
+    spread: bool,
     /// A dome whose return --measures lists: even, cos, cos2 or cos with another power, and if you like a head's half angle, as in
     /// cos2@15; may be repeated. Without it: even, cos, cos2 and even@15
     #[arg(long = "dome", value_name = "DOME", requires = "measures")]
     domes: Vec<DomeLight>,
+    /// List scintillation among the measures as well: what changes as the stone rocks by so many degrees, such as 3
+    #[arg(long, value_name = "DEGREES", requires = "measures", value_parser = rock_angle)]
+    rock: Option<f64>,
+    /// The diameter in mm of the pupil over which colours must spread to count as fire among the measures [default: 3.3]
+    #[arg(long, value_name = "MM", requires = "measures", value_parser = pupil_diameter)]
+    pupil: Option<f64>,
     /// The scope whose zones are measured: a scope's name (see `scopes`), or a scope file [default: aset]
     #[arg(long, value_name = "SCOPE")]
     scope: Option<PathBuf>,
@@ -68,8 +87,14 @@ impl Measure {
             if self.deviations {
                 return self.list_deviations(&specimen);
             }
+            if self.spread {
+                return self.list_spread(&specimen);
+            }
             let mut renderer = Renderer::new(Card::Machine);
             let viewing = self.light.viewing(&specimen, &self.view, &renderer)?;
+            if self.hearts {
+                return self.list_hearts(&viewing);
+            }
             if self.measures {
                 return self.list(&viewing, &mut renderer);
             }
@@ -96,7 +121,9 @@ impl Measure {
     fn list(&self, viewing: &Viewing, renderer: &mut Renderer) -> Result<(), Failure> {
         let report = {
             let progress = WorkProgress::new(&format!("measuring {}", viewing.file));
-            let settings = viewing.measure_settings(&self.domes);
+            let mut settings = viewing.measure_settings(&self.domes);
+            settings.blur_deg = self.pupil.map_or(settings.blur_deg, pupil_deg);
+            settings.pattern = settings.pattern.map(|of| PatternSettings { rock_deg: self.rock, ..of });
             light_measures(viewing, settings, renderer, &progress.watch(), &|event| progress.report(event))?
         };
         if !self.json {
@@ -118,6 +145,34 @@ impl Measure {
             return print(&table_of_deviations(&specimen.path, &classes));
         }
         let value = serde_json::json!({ "file": specimen.path, "deviations": classes });
+        print(&if self.files.len() > 1 { value.to_string() } else { json(&value) })
+    }
+}
+
+impl Measure {
+    /// Prints a stone's hearts and arrows as tables or as JSON.
+    fn list_hearts(&self, viewing: &Viewing) -> Result<(), Failure> {
+        let report = {
+            let progress = WorkProgress::new(&format!("measuring {}", viewing.file));
+            hearts(viewing, &progress.watch())?
+        };
+        if !self.json {
+            return print(&table_of_hearts(&report));
+        }
+        let value = report.json();
+        print(&if self.files.len() > 1 { value.to_string() } else { json(&value) })
+    }
+
+    /// Prints a stone's spread as a table or as JSON.
+    fn list_spread(&self, specimen: &LoadedSpecimen) -> Result<(), Failure> {
+        let refused = "spread is measured of convex stones between planes; this is none";
+        let stone = specimen.stone().map_err(|_| Failure::Usage(format!("{}: {refused}", specimen.path)))?;
+        let size = FaceUpSize::of(&stone.polytope, specimen.unit_mm(), specimen.carats());
+        if !self.json {
+            return print(&table_of_spread(&specimen.path, &size));
+        }
+        let material = &specimen.material.name;
+        let value = serde_json::json!({ "file": specimen.path, "material": material, "spread": size });
         print(&if self.files.len() > 1 { value.to_string() } else { json(&value) })
     }
 }
@@ -160,7 +215,9 @@ fn list_of_measures(report: &MeasureReport) -> String {
         "± at most",
     );
     for (name, interval) in report.by_name() {
-        let [value, error] = [interval.middle(), interval.error()].map(|part| 100.0 * part);
+        // A difference that vanishes but for rounding has no sign.
+        let [value, error] =
+            [interval.middle(), interval.error()].map(|part| (1e11 * part).round() / 1e9 + 0.0);
         let _ = writeln!(text, "{:<28}{value:>9.3}{error:>10.3}", name.to_string());
     }
     let head = settings.head_deg;
@@ -176,6 +233,20 @@ fn list_of_measures(report: &MeasureReport) -> String {
             "\nColours from index {red:.4} to {violet:.4} spread by {spread:.3}° on average; an eye sees those over {}° apart.",
             settings.blur_deg
         );
+    }
+    if let Some(pattern) = settings.pattern {
+        let [size, seen] = [2.0 * pattern.unit_mm, pattern.resolves_mm];
+        let _ = write!(
+            text,
+            "\nPatterns are those of a stone of {size:.2} mm for an eye that resolves {seen:.4} mm; sizes of patches are in percent \
+             of the face's diameter."
+        );
+        if let Some(rock) = pattern.rock_deg {
+            let _ = write!(
+                text,
+                "\nScintillation is in percent of the mean brightness, as the stone rocks by {rock}°."
+            );
+        }
     }
     let _ = write!(text, "\n{:.3} % of the light was not followed to its end.", 100.0 * measures.unresolved);
     text

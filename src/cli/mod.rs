@@ -10,17 +10,23 @@ mod bench;
 mod console;
 mod convert;
 mod export;
+mod gradient;
+mod hearts_list;
 mod info;
 mod liquid_glass;
 mod lists;
 mod map_files;
 mod measure;
+mod measure_taking;
 mod meets;
 mod mesh_options;
 mod names;
+mod optimise;
+mod optimise_text;
 mod options;
 mod picture_options;
 mod picturing;
+mod plot_file;
 mod progress;
 mod refraction_import;
 mod refraction_map;
@@ -109,6 +115,10 @@ enum Command {
     Measure(measure::Measure),
     /// Write the measures of designs over a grid of proportions, angles, materials and views
     Sweep(sweep::SweepArguments),
+    /// Print how measures change with a design's proportions, the angles of its tiers and its index: exact derivatives of the light
+    Gradient(gradient::GradientArguments),
+    /// Find a better design by a goal: measures to raise or lower, numbers that may change, and limits
+    Optimise(optimise::OptimiseArguments),
     /// Show a stone's geometry, proportions and weight, or the stones of a scene
     Info(info::Info),
     /// Write the sheet that a gem cutter works from: plans, profiles, and every tier in cutting order
@@ -222,6 +232,8 @@ impl Command {
             Self::LiquidGlass(glass) => glass.run(),
             Self::Measure(measure) => measure.run(),
             Self::Sweep(sweep) => sweep.run(),
+            Self::Gradient(gradient) => gradient.run(),
+            Self::Optimise(optimise) => optimise.run(),
             Self::Info(info) => info.run(),
             Self::Sheet(sheet) => sheet.run(),
             Self::Retarget(retarget) => retarget.run(),

@@ -19,6 +19,12 @@ pub enum OptionError {
     /// The text is not a number.
     #[error("a number is expected, such as 15 or 0.5")]
     Number,
+    /// The text is not the angle by which a stone rocks.
+    #[error("give an angle above 0 and up to 45 degrees")]
+    RockAngle,
+    /// The text is not the diameter of a pupil.
+    #[error("give a diameter above 0 and up to 50 mm")]
+    Pupil,
     /// The text is not the size of a picture, whose sides have at most so many pixels.
     #[error("give 16 to {0} pixels, or WIDTHxHEIGHT such as 1600x900")]
     FilmSize(u32),
@@ -27,6 +33,18 @@ pub enum OptionError {
 /// Parses a number on the command line.
 pub fn number(text: &str) -> Result<f64, OptionError> {
     text.trim().parse().map_err(|_| OptionError::Number)
+}
+
+/// Parses the angle in degrees by which a stone rocks.
+pub fn rock_angle(text: &str) -> Result<f64, OptionError> {
+    let angle = number(text)?;
+    if angle > 0.0 && angle <= 45.0 { Ok(angle) } else { Err(OptionError::RockAngle) }
+}
+
+/// Parses the diameter of an eye's pupil, mm.
+pub fn pupil_diameter(text: &str) -> Result<f64, OptionError> {
+    let diameter = number(text)?;
+    if diameter > 0.0 && diameter <= 50.0 { Ok(diameter) } else { Err(OptionError::Pupil) }
 }
 
 /// Returns the error of a job that cannot be done as it is wanted, with the options that help.

@@ -10,6 +10,7 @@ use signal_hook::{
     iterator::Signals,
 };
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError, mpsc};
 use std::time::Duration;
 
@@ -20,6 +21,30 @@ static SHOWN: Mutex<Option<ProgressBar>> = Mutex::new(None);
 /// keeps it as long as nobody reads the output.
 const CLEARING: Duration = Duration::from_millis(200);
 
+/// Whether the first signal asks the work to finish early, and whether it has come.
+static FINISHES: AtomicBool = AtomicBool::new(false);
+static IS_ASKED: AtomicBool = AtomicBool::new(false);
+
+/// Lets the first signal from here on ask the work to finish early instead of ending the program: [`is_asked_to_finish`] is
+/// true then. The second signal ends the program.
+pub fn finish_on_signals() {
+    FINISHES.store(true, Ordering::Relaxed);
+}
+
+/// Whether a signal has asked the work to finish early.
+pub fn is_asked_to_finish() -> bool {
+    IS_ASKED.load(Ordering::Relaxed)
+}
+
+/// Takes a signal as the wish to finish early; returns whether it was taken so.
+fn ask_to_finish() -> bool {
+    let is_first = FINISHES.load(Ordering::Relaxed) && !IS_ASKED.swap(true, Ordering::Relaxed);
+    if is_first {
+        say("stopping; what was found so far follows");
+    }
+    is_first
+}
+
 /// Makes an interruption (Ctrl-C) or a request to terminate (SIGTERM) end the program at once, whatever it is doing.
 ///
 /// Temporary files are removed, finished files stay, and the exit code is 128 plus the signal's number. A second signal has
@@ -29,7 +54,7 @@ pub fn end_on_signals() {
     #[cfg(unix)]
     if let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) {
         std::thread::spawn(move || {
-            let mut signals = signals.forever();
+            let mut signals = signals.forever().skip_while(|_| ask_to_finish());
             if let Some(first) = signals.next() {
                 std::thread::spawn(move || end(first));
             }
@@ -39,7 +64,11 @@ pub fn end_on_signals() {
         });
     }
     #[cfg(not(unix))]
-    let _ = ctrlc::set_handler(|| end(SIGINT));
+    let _ = ctrlc::set_handler(|| {
+        if !ask_to_finish() {
+            end(SIGINT);
+        }
+    });
 }
 
 /// The number that stands for Ctrl-C where the system has no signals.

@@ -1,25 +1,20 @@
 //! `sweep`: writes the measures of designs over a grid of their proportions, angles, materials and views.
 
 use super::console::say;
-use super::mesh_options::MeshArguments;
-use super::options::{ViewOptions, number};
+use super::measure_taking::MeasureTaking;
+use super::options::{pupil_diameter, rock_angle};
 use super::progress::WorkProgress;
-use super::specimen::{LoadedSpecimen, stem};
+use super::specimen::stem;
 use super::sweep_plot::SweepPlot;
 use super::sweep_table::{SweepTable, another_sweep};
-use crate::cut::Size;
 use crate::io::design_file::DesignFormat;
 use crate::io::{Failure, library};
-use crate::measure::{MEASURES_HEAD_DEG, MeasureName, MeasureSettings};
-use crate::optics::line;
+use crate::measure::{MeasureName, PatternSettings, ROCK_DEG, pupil_deg};
 use crate::render::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue, SweptStone};
 use clap::Args;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
-
-/// The part of the light that may usually stay unresolved at each point.
-const UNRESOLVED: f64 = 2e-3;
 
 /// The most values of one axis, and points of one design.
 const MOST_VALUES: usize = 100_000;
@@ -38,8 +33,9 @@ pub struct SweepArguments {
     /// proportion, tier: and the name of a tier, index, material, tilt or azimuth. May be repeated; the last varies quickest
     #[arg(long, value_name = "KEY=VALUES")]
     over: Vec<AxisArgument>,
-    /// A measure to list: return-even, return-cos2@15, return-even+glare, leakage, windowing, obstruction, extinction, contrast, fire
-    /// or absorbed; may be repeated [default: eight of them]
+    /// A measure to list: return-even, return-cos2@15, return-even+glare, leakage, windowing, obstruction, extinction, contrast,
+    /// fire, absorbed, eye-contrast, patch-size, crushed-ice, fire-seen, bow-tie, fish-eye, scintillation or scintillation-size; may be
+    /// repeated [default: eight of them]
     #[arg(long = "of", value_name = "MEASURE")]
     measures: Vec<MeasureName>,
     /// The file to write, .csv or .jsonl, row by row [default: CSV on standard output]
@@ -55,25 +51,14 @@ pub struct SweepArguments {
     /// Print JSON lines to standard output
     #[arg(long, conflicts_with = "out")]
     json: bool,
-    /// A material's name, or an index, instead of the file's
-    #[arg(long, value_name = "MATERIAL")]
-    material: Option<String>,
-    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
-    #[arg(long, value_name = "SIZE")]
-    stone: Option<Size>,
-    /// The half angle of the head that hides light in obstruction, extinction and contrast
-    #[arg(long, value_name = "DEGREES", default_value_t = MEASURES_HEAD_DEG, value_parser = number)]
-    head: f64,
-    /// Follow the beams until no more than this part of the light is unresolved
-    #[arg(long, value_name = "PART", default_value_t = UNRESOLVED, value_parser = number)]
-    unresolved: f64,
-    /// Treat the light as unpolarised at every surface
-    #[arg(long)]
-    unpolarised: bool,
+    /// The diameter in mm of the pupil over which colours must spread to count as fire [default: 3.3]
+    #[arg(long, value_name = "MM", value_parser = pupil_diameter)]
+    pupil: Option<f64>,
+    /// The angle by which the stone rocks for scintillation
+    #[arg(long, value_name = "DEGREES", default_value_t = ROCK_DEG, value_parser = rock_angle)]
+    rock: f64,
     #[command(flatten)]
-    view: ViewOptions,
-    #[command(flatten)]
-    mesh: MeshArguments,
+    taking: MeasureTaking,
 }
 
 /// An axis as it is written on the command line.
@@ -176,18 +161,10 @@ impl SweepArguments {
     }
 
     fn check(&self) -> Result<(), Failure> {
-        let refused = |text: String| Err(Failure::Usage(text));
-        if !(self.unresolved > 0.0 && self.unresolved < 1.0) {
-            return refused(format!("--unresolved {}: give a part between 0 and 1", self.unresolved));
-        }
-        if !(0.0..=90.0).contains(&self.head) {
-            return refused(format!("--head {}: give 0 to 90 degrees", self.head));
-        }
+        self.taking.check()?;
         if self.points() > MOST_POINTS {
-            return refused(format!(
-                "{} points are more than {MOST_POINTS}; take larger steps",
-                self.points()
-            ));
+            let text = format!("{} points are more than {MOST_POINTS}; take larger steps", self.points());
+            return Err(Failure::Usage(text));
         }
         Ok(())
     }
@@ -271,26 +248,12 @@ impl SweepArguments {
     }
 
     fn sweep(&self, file: &Path, measures: &[MeasureName]) -> Result<Sweep, Failure> {
-        let specimen = LoadedSpecimen::load(file, self.mesh.options())?;
-        let specimen = specimen.made_of(self.material.as_deref(), self.stone)?;
-        let mut domes = vec![];
-        for dome in measures.iter().filter_map(|name| name.dome()) {
-            if !domes.contains(&dome) {
-                domes.push(dome);
-            }
-        }
-        // The indices of colours are those of each point's material.
-        let settings = MeasureSettings { domes, head_deg: self.head, ..MeasureSettings::usual([1.0; 2]) };
-        let sweep = Sweep {
-            design: specimen.design.clone(),
-            viewpoint: self.view.viewpoint()?,
-            axes: self.over.iter().map(|axis| axis.0.clone()).collect(),
-            settings,
-            wavelength_nm: line::SODIUM_D,
-            unresolved: self.unresolved,
-            polarised: !self.unpolarised,
-        };
-        sweep.check().map_err(|error| Failure::Usage(format!("{}: {error}", specimen.path)))?;
+        let axes = self.over.iter().map(|axis| axis.0.clone()).collect();
+        let mut sweep = self.taking.sweep(file, axes, measures)?;
+        let unit_mm = 0.5 * sweep.design.diameter_mm;
+        sweep.settings.pattern = PatternSettings::needed_by(measures, unit_mm, self.rock);
+        sweep.settings.blur_deg = self.pupil.map_or(sweep.settings.blur_deg, pupil_deg);
+        sweep.check().map_err(|error| Failure::Usage(format!("{}: {error}", file.display())))?;
         Ok(sweep)
     }
 }

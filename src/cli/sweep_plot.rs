@@ -1,28 +1,16 @@
 //! The plot that `sweep` draws: curves over one axis, or a map over two.
 
-use super::console::written;
+use super::plot_file::PlotFile;
 use crate::cut::Cut;
+use crate::io::Failure;
 use crate::io::plot::{PlotAxis, PlotCurve, PlotError, curves, heat_map};
-use crate::io::{Failure, WriteError, pdf, rasterize, write, write_png};
 use crate::measure::{Interval, MeasureName};
 use crate::render::{SweepAxis, SweepKey, SweepValue, SweptStone};
-use std::path::{Path, PathBuf};
-
-/// The width of a plot as PNG, in pixels.
-const WIDTH: u32 = 1500;
-
-/// The format of a plot's file.
-#[derive(Debug, Clone, Copy)]
-enum PlotFormat {
-    Svg,
-    Png,
-    Pdf,
-}
+use std::path::Path;
 
 /// A plot, as its numbers come in.
 pub struct SweepPlot<'a> {
-    path: PathBuf,
-    format: PlotFormat,
+    file: PlotFile,
     axes: Vec<PlotAxis>,
     measures: &'a [MeasureName],
     /// For each point, its measures; none where there is no stone.
@@ -40,12 +28,7 @@ impl<'a> SweepPlot<'a> {
         measures: &'a [MeasureName],
     ) -> Result<Self, Failure> {
         let refused = |what: &str| Err(Failure::Usage(format!("--plot {}: {what}", path.display())));
-        let format = match path.extension().and_then(|ending| ending.to_str()) {
-            Some("svg") => PlotFormat::Svg,
-            Some("png") => PlotFormat::Png,
-            Some("pdf") => PlotFormat::Pdf,
-            _ => return refused("give a name that ends in .svg, .png or .pdf"),
-        };
+        let file = PlotFile::new(path)?;
         match (axes.len(), measures.len()) {
             (1, _) | (2, 1) => {}
             (2, _) => return refused("a map over two axes shows one measure; choose it by --of"),
@@ -64,7 +47,7 @@ impl<'a> SweepPlot<'a> {
             axis.check().map_err(|error| Failure::Usage(format!("--plot: {error}")))?;
             plotted.push(axis);
         }
-        Ok(Self { path: path.to_owned(), format, axes: plotted, measures, points: vec![] })
+        Ok(Self { file, axes: plotted, measures, points: vec![] })
     }
 
     /// Takes in the next point.
@@ -75,25 +58,8 @@ impl<'a> SweepPlot<'a> {
 
     /// Draws the plot and writes it.
     pub fn write(&self, title: &str) -> Result<(), Failure> {
-        let failed = |error: PlotError| Failure::Output(format!("{}: {error}", self.path.display()));
-        let text = self.svg(title).map_err(failed)?;
-        match self.format {
-            PlotFormat::Svg => self.write_bytes(text.as_bytes())?,
-            PlotFormat::Pdf => {
-                let bytes = pdf(&[text], title).map_err(|error| Failure::Output(error.to_string()))?;
-                self.write_bytes(&bytes)?;
-            }
-            PlotFormat::Png => {
-                let picture = rasterize(&text, WIDTH).map_err(|error| Failure::Output(error.to_string()))?;
-                let (width, height, pixels) = picture;
-                write_png(&self.path, (width, height), title, |rows| rows.push(&pixels))?;
-            }
-        }
-        written(&self.path)
-    }
-
-    fn write_bytes(&self, bytes: &[u8]) -> Result<(), WriteError> {
-        write(&self.path, |file| file.write_all(bytes).map_err(|error| WriteError::io(&self.path, error)))
+        let text = self.svg(title).map_err(|error| self.file.failed(&error))?;
+        self.file.write(&text, title)
     }
 
     fn svg(&self, title: &str) -> Result<String, PlotError> {
@@ -119,8 +85,8 @@ impl<'a> SweepPlot<'a> {
     }
 }
 
-/// Returns what stands beside an axis.
-fn label(key: &SweepKey, cut: &Cut) -> String {
+/// Returns what stands beside the axis of a number of a cut.
+pub fn label(key: &SweepKey, cut: &Cut) -> String {
     match key {
         SweepKey::Proportion(key) => match cut.proportion(key) {
             Some(row) if row.unit.name().is_empty() => row.name.to_owned(),

@@ -2,6 +2,7 @@
 
 mod event;
 mod figures;
+mod hearts;
 mod measures;
 mod pictures;
 mod sheet;
@@ -12,6 +13,7 @@ mod tests;
 
 pub use event::{Event, Reporter};
 pub use figures::{FigureReport, measure};
+pub use hearts::{HeartsReport, hearts};
 pub use measures::{MeasureReport, light_measures};
 pub use viewing::Viewing;
 

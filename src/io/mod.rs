@@ -23,6 +23,7 @@ mod file_error;
 pub mod gcs;
 #[cfg(feature = "interchange")]
 pub mod gem;
+pub mod goal_file;
 pub mod library;
 pub mod light_file;
 pub mod lighting;

@@ -16,6 +16,11 @@ pub struct EnergyDerivatives {
 }
 
 impl MeasureName {
+    /// Whether this measure is a sum of light, which has derivatives.
+    pub fn is_energy(&self) -> bool {
+        Counted::of(self, 0.0).is_some()
+    }
+
     /// Returns how this measure changes with the planes of `polytope`, which must be the one that was traced, and with the
     /// index; `None` for measures that are no sums of light (extinction, contrast, fire, absorbed), and where the stone
     /// absorbs light.

@@ -16,7 +16,7 @@ const LEVEL_DEG: f64 = 5.0;
 const UPRIGHT: f64 = 0.104_528_463;
 
 /// The number of octants.
-const OCTANTS: usize = 8;
+pub(super) const OCTANTS: usize = 8;
 
 /// A facet that deviates from its class.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -42,13 +42,13 @@ pub struct ClassDeviations {
     pub worst_slope: FacetDeviation,
 }
 
-/// Why a stone has no deviations from eightfold classes.
+/// Why a stone has no eightfold classes.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NotEightfold {
     /// The crown or the pavilion has another number of facets.
     #[error(
         "the {part} has {found} facets between {between}, but that of an eightfold round brilliant has {wanted}; \
-         deviations by class are measured of round brilliants alone"
+         facet deviations, hearts and arrows are measured of round brilliants alone"
     )]
     Facets {
         /// `crown` or `pavilion`.
@@ -62,8 +62,8 @@ pub enum NotEightfold {
     },
     /// The facets that should be one class do not lie one in each octant, or two in each for halves.
     #[error(
-        "the facets that should be the class '{class}' by their slope do not lie evenly in eight octants; deviations by class \
-         are measured of eightfold round brilliants alone"
+        "the facets that should be the class '{class}' by their slope do not lie evenly in eight octants; facet deviations, \
+         hearts and arrows are measured of eightfold round brilliants alone"
     )]
     Uneven {
         /// The class.
@@ -76,22 +76,7 @@ pub enum NotEightfold {
 /// # Errors
 /// [`NotEightfold`] where the stone is no round brilliant of eight mains.
 pub fn facet_deviations(stone: &Stone) -> Result<Vec<ClassDeviations>, NotEightfold> {
-    let leaning = |is_up: bool| -> Vec<LeaningFacet> {
-        let facets = (0..).zip(stone.polytope.facets());
-        let mut all: Vec<LeaningFacet> = facets
-            .filter(|(_, facet)| (facet.plane.normal.z > 0.0) == is_up)
-            .filter_map(|(number, facet)| LeaningFacet::of(&facet.plane, stone.name(number).into_owned()))
-            .collect();
-        all.sort_by(|a, b| a.slope_deg.total_cmp(&b.slope_deg));
-        all
-    };
-    let (crown, pavilion) = (leaning(true), leaning(false));
-    let counted = |part, between, found: usize, wanted| match found == wanted {
-        true => Ok(()),
-        false => Err(NotEightfold::Facets { part, between, found, wanted }),
-    };
-    counted("crown", "girdle and table", crown.len(), 4 * OCTANTS)?;
-    counted("pavilion", "girdle and culet", pavilion.len(), 3 * OCTANTS)?;
+    let FacetClasses { crown, pavilion } = FacetClasses::of(stone)?;
     let (star, rest) = crown.split_at(OCTANTS);
     let (bezel, upper) = rest.split_at(OCTANTS);
     let (main, lower) = pavilion.split_at(OCTANTS);
@@ -102,6 +87,66 @@ pub fn facet_deviations(stone: &Stone) -> Result<Vec<ClassDeviations>, NotEightf
         deviations("lower half", lower, phase(main))?,
         deviations("main", main, phase(main))?,
     ])
+}
+
+/// The mains of an eightfold stone, one in each octant.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Mains {
+    /// The names of the mains, counter-clockwise by octant.
+    pub names: [String; OCTANTS],
+    /// The azimuth of the middle of the first octant, radians, from -π/8 to π/8. Each main's azimuth, less its octant's number
+    /// times 45°, deviates from it; their median does not.
+    pub azimuth: f64,
+}
+
+impl Mains {
+    /// Finds the mains of a stone.
+    ///
+    /// # Errors
+    /// [`NotEightfold`] where the stone is no round brilliant of eight mains.
+    pub fn of(stone: &Stone) -> Result<Self, NotEightfold> {
+        let pavilion = FacetClasses::of(stone)?.pavilion;
+        let mains = &pavilion[..OCTANTS];
+        let phase = phase(mains);
+        let mut names: [String; OCTANTS] = Default::default();
+        for (main, &(octant, within)) in mains.iter().zip(&placed(mains, phase)) {
+            if within.abs() >= FRAC_PI_4 / 4.0 || !names[octant].is_empty() {
+                return Err(NotEightfold::Uneven { class: "main" });
+            }
+            names[octant].clone_from(&main.name);
+        }
+        let within = placed(mains, phase).into_iter().map(|(_, within)| within).collect();
+        Ok(Self { names, azimuth: phase + median(within) })
+    }
+}
+
+/// The facets between table and girdle and between girdle and culet, the flattest first.
+struct FacetClasses {
+    crown: Vec<LeaningFacet>,
+    pavilion: Vec<LeaningFacet>,
+}
+
+impl FacetClasses {
+    /// Finds the facets of a stone that has as many as a round brilliant of eight mains.
+    fn of(stone: &Stone) -> Result<Self, NotEightfold> {
+        let leaning = |is_up: bool| -> Vec<LeaningFacet> {
+            let facets = (0..).zip(stone.polytope.facets());
+            let mut all: Vec<LeaningFacet> = facets
+                .filter(|(_, facet)| (facet.plane.normal.z > 0.0) == is_up)
+                .filter_map(|(number, facet)| LeaningFacet::of(&facet.plane, stone.name(number).into_owned()))
+                .collect();
+            all.sort_by(|a, b| a.slope_deg.total_cmp(&b.slope_deg));
+            all
+        };
+        let (crown, pavilion) = (leaning(true), leaning(false));
+        let counted = |part, between, found: usize, wanted| match found == wanted {
+            true => Ok(()),
+            false => Err(NotEightfold::Facets { part, between, found, wanted }),
+        };
+        counted("crown", "girdle and table", crown.len(), 4 * OCTANTS)?;
+        counted("pavilion", "girdle and culet", pavilion.len(), 3 * OCTANTS)?;
+        Ok(Self { crown, pavilion })
+    }
 }
 
 /// A facet of crown or pavilion.
@@ -128,21 +173,23 @@ fn phase(class: &[LeaningFacet]) -> f64 {
     eightfold.sum::<glam::DVec2>().to_angle() / OCTANTS as f64
 }
 
+/// Returns each facet's octant and its azimuth from the middle of it, radians, for octants centred on `phase`.
+fn placed(facets: &[LeaningFacet], phase: f64) -> Vec<(usize, f64)> {
+    let place = |facet: &LeaningFacet| {
+        let turns = (facet.azimuth - phase) / FRAC_PI_4;
+        let octant = turns.round();
+        ((octant as i64).rem_euclid(OCTANTS as i64) as usize, (turns - octant) * FRAC_PI_4)
+    };
+    facets.iter().map(place).collect()
+}
+
 /// Returns the deviations of one class, whose octants are centred on `phase`.
 fn deviations(
     class: &'static str,
     facets: &[LeaningFacet],
     phase: f64,
 ) -> Result<ClassDeviations, NotEightfold> {
-    // Each facet's octant and its azimuth from the middle of it, radians.
-    let placed: Vec<(usize, f64)> = facets
-        .iter()
-        .map(|facet| {
-            let turns = (facet.azimuth - phase) / FRAC_PI_4;
-            let octant = turns.round();
-            ((octant as i64).rem_euclid(OCTANTS as i64) as usize, (turns - octant) * FRAC_PI_4)
-        })
-        .collect();
+    let placed = placed(facets, phase);
     let is_half = facets.len() > OCTANTS;
     // The halves to the left and to the right of a main have their own means.
     let side = |within: f64| usize::from(is_half && within > 0.0);
@@ -180,7 +227,7 @@ fn deviations(
 }
 
 /// Returns the median, which one facet that deviates does not move; 0 of nothing.
-fn median(mut values: Vec<f64>) -> f64 {
+pub(super) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     let (half, count) = (values.len() / 2, values.len());
     match count {

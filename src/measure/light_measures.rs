@@ -3,52 +3,27 @@
 //! They are sums over the exact beams of one view. What the beams leave unresolved widens the intervals; nothing is sampled.
 //! Their formulas are in docs/optics.md, "Measures".
 
+use super::exit_sight::{ExitSight, brightness, seen_apart};
+use super::eye_grid::{EyeCell, rms_contrast};
+use super::face_patterns::{PatternMeasures, PatternSettings};
+use super::interval::Interval;
+use super::scintillation::Scintillation;
 use crate::math::Polytope;
-use crate::scene::{DomeLight, elevation_deg};
+use crate::scene::DomeLight;
 use crate::trace::beam::{Beam, Beams};
 use serde::{Deserialize, Serialize};
-use std::ops::Add;
 
 /// The angle in degrees that an eye's pupil of 3.3 mm fills at 250 mm. Colours that spread over less reach it together.
 pub const PUPIL_DEG: f64 = 0.76;
 
+/// Returns the angle in degrees that a pupil of this diameter, mm, fills at 250 mm.
+pub fn pupil_deg(diameter_mm: f64) -> f64 {
+    2.0 * (diameter_mm / 500.0).atan().to_degrees()
+}
+
 /// The half angle in degrees of the observer's head that the measures of obstruction, extinction and contrast assume: that of
 /// the ASET's blue cone.
 pub const MEASURES_HEAD_DEG: f64 = 15.0;
-
-/// An interval in which a number certainly lies.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Interval {
-    /// The least possible value.
-    pub least: f64,
-    /// The greatest possible value.
-    pub most: f64,
-}
-
-impl Interval {
-    /// Makes the interval of a number that is too low by at most `open`.
-    pub fn from(least: f64, open: f64) -> Self {
-        Self { least, most: least + open }
-    }
-
-    /// Returns the middle of the interval.
-    pub fn middle(self) -> f64 {
-        f64::midpoint(self.least, self.most)
-    }
-
-    /// Returns by how much the middle may be off.
-    pub fn error(self) -> f64 {
-        (self.most - self.least) / 2.0
-    }
-}
-
-impl Add<f64> for Interval {
-    type Output = Self;
-
-    fn add(self, more: f64) -> Self {
-        Self { least: self.least + more, most: self.most + more }
-    }
-}
 
 /// By which light, head and eye the measures are taken.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -61,6 +36,9 @@ pub struct MeasureSettings {
     pub blur_deg: f64,
     /// The refractive indices at the red and at the violet end of the light whose spread is measured.
     pub indices: [f64; 2],
+    /// How large the stone is and what the eye resolves; `None` leaves out the measures of the pattern.
+    #[serde(default)]
+    pub pattern: Option<PatternSettings>,
 }
 
 impl MeasureSettings {
@@ -72,7 +50,16 @@ impl MeasureSettings {
             head_deg: MEASURES_HEAD_DEG,
             blur_deg: PUPIL_DEG,
             indices,
+            pattern: None,
         }
+    }
+
+    /// Returns the same settings for a stone of this girdle radius, mm.
+    pub fn at_size(mut self, unit_mm: f64) -> Self {
+        if let Some(pattern) = &mut self.pattern {
+            pattern.unit_mm = unit_mm;
+        }
+        self
     }
 }
 
@@ -119,6 +106,10 @@ pub struct LightMeasures {
     pub spread_deg: Option<f64>,
     /// Light that is absorbed inside the stone.
     pub absorbed: Interval,
+    /// The measures of the pattern on the face, where the settings want them.
+    pub pattern: Option<PatternMeasures>,
+    /// What changes as the stone rocks. It needs beams of other views, so [`of`](Self::of) leaves it out.
+    pub scintillation: Option<Scintillation>,
     /// The part of the light that was not followed to its end.
     pub unresolved: f64,
 }
@@ -150,26 +141,11 @@ impl LightMeasures {
             (extinction(beams, settings.head_deg), contrast(beams, settings.head_deg));
         let absorbed = if beams.medium.is_clear() { 0.0 } else { unresolved };
         let absorbed = Interval::from(sums.absorbed, absorbed);
-        sums.finish(settings, unresolved, [extinction, contrast, absorbed])
-    }
-}
-
-/// What the eye sees along an exit.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum ExitSight {
-    Below,
-    Head,
-    Dome,
-}
-
-impl ExitSight {
-    fn of(beam: &Beam, beams: &Beams, head_deg: f64) -> Self {
-        let elevation = elevation_deg(beam.exit, beams.zenith);
-        match elevation {
-            below if below < 0.0 => Self::Below,
-            above if head_deg > 0.0 && above >= 90.0 - head_deg => Self::Head,
-            _ => Self::Dome,
-        }
+        let pattern = settings.pattern.as_ref();
+        let pattern = pattern.map(|pattern| {
+            PatternMeasures::of(beams, polytope, &fans, (settings.head_deg, settings.blur_deg, pattern))
+        });
+        LightMeasures { pattern, ..sums.finish(settings, unresolved, [extinction, contrast, absorbed]) }
     }
 }
 
@@ -247,15 +223,11 @@ impl ExitSums {
             fire: open(self.fire),
             spread_deg: (weights > 0.0).then(|| (angles / weights).to_degrees()),
             absorbed,
+            pattern: None,
+            scintillation: None,
             unresolved,
         }
     }
-}
-
-/// Returns the part of a fan's colours that an eye sees apart, 0 to 1; `fan` is in radians.
-fn seen_apart(fan: f64, blur_deg: f64) -> f64 {
-    let blur = blur_deg.to_radians();
-    if fan > blur { 1.0 - blur / fan } else { 0.0 }
 }
 
 /// Returns the area whose strongest exit meets the head or comes from below.
@@ -271,31 +243,13 @@ fn extinction(beams: &Beams, head_deg: f64) -> Interval {
 
 /// Returns the contrast of the face under an even dome with a head.
 ///
-/// Through a beam that was not split further the brightness is the same everywhere, but for what is still inside. So the
-/// mean b and the deviation s of the brightness that is known are sums over such beams. What is unknown lies between 0 and
-/// the light r that is still inside, so the mean is at most b + Σ a r, and the deviation differs from s by at most
-/// √(Σ a r²), by the triangle inequality.
+/// Through a beam that was not split further the brightness is the same everywhere, but for what is still inside.
 fn contrast(beams: &Beams, head_deg: f64) -> Interval {
     let share = f64::from(beams.symmetry.order()) / beams.silhouette_area;
-    let mut bright: Vec<f64> = Vec::with_capacity(beams.len());
-    for beam in beams.iter() {
-        let before = beam.parent.map_or(0.0, |parent| bright[parent as usize]);
-        let shines = !beam.is_surface()
-            && beam.weight > 0.0
-            && ExitSight::of(&beam, beams, head_deg) == ExitSight::Dome;
-        bright.push(before + if shines { beam.weight } else { 0.0 });
-    }
-    let [mut mean, mut square, mut rest, mut rest_square] = [0.0; 4];
-    for id in beams.leaves() {
+    let bright = brightness(beams, head_deg);
+    let part = |id: u32| {
         let beam = beams.get(id);
-        let (area, b) = (beam.area * share, bright[id as usize]);
-        mean += area * b;
-        square += area * b * b;
-        rest += area * beam.onward;
-        rest_square += area * beam.onward * beam.onward;
-    }
-    let (deviation, error) = ((square - mean * mean).max(0.0).sqrt(), rest_square.sqrt());
-    let least = ((deviation - error) / (mean + rest)).max(0.0);
-    let most = if mean > 0.0 { (deviation + error) / mean } else { f64::INFINITY };
-    Interval { least: if least.is_nan() { 0.0 } else { least }, most }
+        EyeCell { area: beam.area * share, light: bright[id as usize], rest: beam.onward }
+    };
+    rms_contrast(beams.leaves().map(part))
 }

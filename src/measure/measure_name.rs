@@ -1,12 +1,16 @@
 //! The names of measures.
 
-use super::light_measures::{Interval, LightMeasures, MeasureSettings};
+use super::face_patterns::PatternSettings;
+use super::interval::Interval;
+use super::light_measures::{LightMeasures, MeasureSettings};
 use crate::scene::DomeLight;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
 /// One of the [`LightMeasures`] by its name.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub enum MeasureName {
     /// Light of a dome that has been inside the stone.
     Return(DomeLight),
@@ -26,12 +30,40 @@ pub enum MeasureName {
     Fire,
     /// [`LightMeasures::absorbed`].
     Absorbed,
+    /// [`PatternMeasures::eye_contrast`](super::PatternMeasures::eye_contrast).
+    EyeContrast,
+    /// [`PatternMeasures::patch_size`](super::PatternMeasures::patch_size).
+    PatchSize,
+    /// [`PatternMeasures::crushed_ice`](super::PatternMeasures::crushed_ice).
+    CrushedIce,
+    /// [`PatternMeasures::fire_seen`](super::PatternMeasures::fire_seen).
+    FireSeen,
+    /// [`PatternMeasures::bow_tie`](super::PatternMeasures::bow_tie).
+    BowTie,
+    /// [`PatternMeasures::fish_eye`](super::PatternMeasures::fish_eye).
+    FishEye,
+    /// [`Scintillation::change`](super::Scintillation::change).
+    Scintillation,
+    /// [`Scintillation::size`](super::Scintillation::size).
+    ScintillationSize,
+}
+
+/// What must be known, besides light and head, for a measure to be taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum MeasureNeeds {
+    /// Nothing else.
+    Light,
+    /// The stone's size and what the eye resolves ([`MeasureSettings::pattern`]).
+    Pattern,
+    /// The stone after it has rocked as well ([`PatternSettings::rock_deg`](super::PatternSettings::rock_deg)).
+    Rocking,
 }
 
 /// Why a text names no measure.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
-    "'{0}' is no measure: give leakage, windowing, obstruction, extinction, contrast, fire, absorbed, or the return of a dome: \
+    "'{0}' is no measure: give leakage, windowing, obstruction, extinction, contrast, fire, absorbed, eye-contrast, \
+     patch-size, crushed-ice, fire-seen, bow-tie, fish-eye, scintillation, scintillation-size, or the return of a dome: \
      return-even, return-cos, return-cos2, with a head as in return-even@15, with glare as in return-cos2+glare"
 )]
 pub struct NoMeasure(pub String);
@@ -44,7 +76,7 @@ const WITH_GLARE: &str = "+glare";
 
 impl MeasureName {
     /// The measures that are no returns of domes, by their names.
-    const OTHERS: [(&'static str, Self); 7] = [
+    const OTHERS: [(&'static str, Self); 15] = [
         ("leakage", Self::Leakage),
         ("windowing", Self::Windowing),
         ("obstruction", Self::Obstruction),
@@ -52,13 +84,40 @@ impl MeasureName {
         ("contrast", Self::Contrast),
         ("fire", Self::Fire),
         ("absorbed", Self::Absorbed),
+        ("eye-contrast", Self::EyeContrast),
+        ("patch-size", Self::PatchSize),
+        ("crushed-ice", Self::CrushedIce),
+        ("fire-seen", Self::FireSeen),
+        ("bow-tie", Self::BowTie),
+        ("fish-eye", Self::FishEye),
+        ("scintillation", Self::Scintillation),
+        ("scintillation-size", Self::ScintillationSize),
     ];
 
     /// Returns all measures that these settings give, in the order in which they are listed.
     pub fn all(settings: &MeasureSettings) -> Vec<Self> {
         let returns =
             settings.domes.iter().flat_map(|&dome| [Self::Return(dome), Self::ReturnWithGlare(dome)]);
-        returns.chain(Self::OTHERS.map(|(_, measure)| measure)).collect()
+        let known = match &settings.pattern {
+            None => MeasureNeeds::Light,
+            Some(pattern) if pattern.rock_deg.is_none() => MeasureNeeds::Pattern,
+            Some(_) => MeasureNeeds::Rocking,
+        };
+        returns.chain(Self::OTHERS.map(|(_, measure)| measure)).filter(|name| name.needs() <= known).collect()
+    }
+
+    /// Returns what must be known for this measure to be taken.
+    pub fn needs(self) -> MeasureNeeds {
+        match self {
+            Self::EyeContrast
+            | Self::PatchSize
+            | Self::CrushedIce
+            | Self::FireSeen
+            | Self::BowTie
+            | Self::FishEye => MeasureNeeds::Pattern,
+            Self::Scintillation | Self::ScintillationSize => MeasureNeeds::Rocking,
+            _ => MeasureNeeds::Light,
+        }
     }
 
     /// Returns the dome whose return this is; `None` for other measures.
@@ -69,7 +128,7 @@ impl MeasureName {
         }
     }
 
-    /// Returns the measure of this name; `None` where its dome was not measured.
+    /// Returns the measure of this name; `None` where it was not taken, or the stone has none: no fish eye without a table.
     pub fn of(self, measures: &LightMeasures) -> Option<Interval> {
         let domes = || measures.domes.iter().find(|each| Some(each.dome) == self.dome());
         match self {
@@ -82,7 +141,29 @@ impl MeasureName {
             Self::Contrast => Some(measures.contrast),
             Self::Fire => Some(measures.fire),
             Self::Absorbed => Some(measures.absorbed),
+            Self::EyeContrast => measures.pattern.map(|pattern| pattern.eye_contrast),
+            Self::PatchSize => measures.pattern.map(|pattern| pattern.patch_size),
+            Self::CrushedIce => measures.pattern.map(|pattern| pattern.crushed_ice),
+            Self::FireSeen => measures.pattern.map(|pattern| pattern.fire_seen),
+            Self::BowTie => measures.pattern.and_then(|pattern| pattern.bow_tie),
+            Self::FishEye => measures.pattern.and_then(|pattern| pattern.fish_eye),
+            Self::Scintillation => measures.scintillation.map(|found| found.change),
+            Self::ScintillationSize => measures.scintillation.map(|found| found.size),
         }
+    }
+}
+
+impl PatternSettings {
+    /// Returns the usual settings for a stone of this girdle radius in mm that rocks by `rock_deg`, as far as these measures need
+    /// them; `None` where they need none, as patterns take time.
+    pub fn needed_by<'a>(
+        measures: impl IntoIterator<Item = &'a MeasureName>,
+        unit_mm: f64,
+        rock_deg: f64,
+    ) -> Option<Self> {
+        let needs = measures.into_iter().map(|name| name.needs()).max()?;
+        let rock_deg = (needs == MeasureNeeds::Rocking).then_some(rock_deg);
+        (needs > MeasureNeeds::Light).then_some(Self { rock_deg, ..Self::usual(unit_mm) })
     }
 }
 
@@ -96,6 +177,20 @@ impl fmt::Display for MeasureName {
                 f.write_str(name.map_or("", |(name, _)| name))
             }
         }
+    }
+}
+
+impl From<MeasureName> for String {
+    fn from(name: MeasureName) -> Self {
+        name.to_string()
+    }
+}
+
+impl TryFrom<String> for MeasureName {
+    type Error = NoMeasure;
+
+    fn try_from(text: String) -> Result<Self, NoMeasure> {
+        text.parse()
     }
 }
 
@@ -118,11 +213,17 @@ impl FromStr for MeasureName {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::PatternSettings;
 
     #[test]
     fn a_name_is_read_as_it_is_written() {
-        let all = MeasureName::all(&MeasureSettings::usual([1.5, 1.6]));
-        assert_eq!(all.len(), 15);
+        let mut settings = MeasureSettings::usual([1.5, 1.6]);
+        assert_eq!(MeasureName::all(&settings).len(), 15);
+        settings.pattern = Some(PatternSettings::usual(3.25));
+        assert_eq!(MeasureName::all(&settings).len(), 21);
+        settings.pattern = Some(PatternSettings { rock_deg: Some(3.0), ..PatternSettings::usual(3.25) });
+        let all = MeasureName::all(&settings);
+        assert_eq!(all.len(), 23);
         for measure in all {
             assert_eq!(measure.to_string().parse(), Ok(measure));
         }

@@ -2,26 +2,44 @@
 //!
 //! [`measure`](crate::measure()) takes a design to its figures in one call.
 
+mod bow_tie;
 mod energy_derivatives;
 mod estimated;
+mod exit_sight;
+mod eye_grid;
+mod face_patterns;
+mod face_up_size;
 mod facet_deviations;
 mod figures;
+mod hearts_and_arrows;
 mod hemisphere;
+mod interval;
 mod light_measures;
 mod measure_name;
 mod measured;
+mod octant_pattern;
 mod sampled;
+mod scintillation;
+mod virtual_facets;
 
 pub use energy_derivatives::EnergyDerivatives;
 pub use estimated::{Estimate, by_beams_and_rays};
+pub use face_patterns::{EYE_RESOLVES_MM, PatternMeasures, PatternSettings, ROCK_DEG, SHAPE_IS_SEEN};
+pub use face_up_size::FaceUpSize;
 pub use facet_deviations::{ClassDeviations, FacetDeviation, NotEightfold, facet_deviations};
 pub use figures::{Figures, Zones, by_beams, by_summed_beams};
-pub use hemisphere::{SampledNumber, hemisphere_return};
-pub use light_measures::{
-    DomeReturn, Interval, LightMeasures, MEASURES_HEAD_DEG, MeasureSettings, PUPIL_DEG,
+pub use hearts_and_arrows::{
+    EightfoldPattern, HeartsAndArrows, HeartsError, OctantDeparture, OctantFigure, OctantUnit,
+    hearts_and_arrows,
 };
-pub use measure_name::{MeasureName, NoMeasure};
+pub use hemisphere::{SampledNumber, hemisphere_return};
+pub use interval::Interval;
+pub use light_measures::{
+    DomeReturn, LightMeasures, MEASURES_HEAD_DEG, MeasureSettings, PUPIL_DEG, pupil_deg,
+};
+pub use measure_name::{MeasureName, MeasureNeeds, NoMeasure};
 pub use measured::{Bounds, LATTICE, Measured, STANDARD_ERROR, UNRESOLVED, Zone, measured};
 #[cfg(feature = "gpu")]
 pub use sampled::by_gpu;
 pub use sampled::by_rays;
+pub use scintillation::{Scintillation, rocked_views};

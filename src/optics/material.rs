@@ -322,7 +322,7 @@ mod tests {
 
     #[test]
     fn every_material_has_an_index_that_falls_with_wavelength_throughout_visible_light() {
-        assert_eq!(materials().len(), 41);
+        assert_eq!(materials().len(), 42);
         for m in materials() {
             assert_eq!(m.dispersion.clone().checked().as_ref(), Ok(&m.dispersion), "{}", m.name);
             let indices: Vec<f64> = (360..=830).map(|nm| m.index(nm.into())).collect();
@@ -342,7 +342,7 @@ mod tests {
         for m in materials().iter().filter(|m| m.description.starts_with("Uniaxial")) {
             assert!(m.description.contains("without double refraction"), "{}", m.name);
         }
-        assert!(materials().iter().filter(|m| m.description.starts_with("Uniaxial")).count() == 12);
+        assert!(materials().iter().filter(|m| m.description.starts_with("Uniaxial")).count() == 13);
     }
 
     #[test]

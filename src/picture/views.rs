@@ -1,6 +1,6 @@
 //! The pictures that the program knows by name.
 
-use crate::scene::{ASET_CONE, Backing, Scope, Side};
+use crate::scene::{ASET_CONE, Backing, Scope, Side, VIEWER_CONES_DEG};
 
 /// A picture that has a name.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,10 +40,6 @@ impl Scoped {
     }
 }
 
-/// Half angles of the camera's and the ring's cones in a hearts and arrows viewer, in degrees. No standard fixes them;
-/// these are taken from one implementation and show the patterns well.
-const VIEWER_CONES: (f64, f64) = (5.3, 16.3);
-
 /// A picture's name, and what makes the picture of its name.
 type NamedPicture = (&'static str, fn(&str) -> Picture);
 
@@ -65,7 +61,7 @@ fn scoped(scope: Scope, side: Option<Side>, takes_head: bool) -> Picture {
 }
 
 fn viewer(name: &str, colour: [u8; 3]) -> Scope {
-    let (camera, ring) = VIEWER_CONES;
+    let (camera, ring) = VIEWER_CONES_DEG;
     Scope::hearts_and_arrows(name, camera, ring, colour)
 }
 

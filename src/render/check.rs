@@ -202,7 +202,7 @@ impl LightProduct {
 
 impl MeasuresProduct {
     fn check(&self) -> Result<(), JobError> {
-        let Self { settings, medium } = self;
+        let Self { settings, medium, .. } = self;
         check_medium(medium)?;
         for dome in &settings.domes {
             let range = "0 to 20, and a head of 0 to 90 degrees";
@@ -213,6 +213,14 @@ impl MeasuresProduct {
         positive("settings.blur_deg", settings.blur_deg)?;
         for index in settings.indices {
             demand((1.0..=5.0).contains(&index), "settings.indices", index, "1 (air) to 5")?;
+        }
+        if let Some(pattern) = &settings.pattern {
+            positive("settings.pattern.resolves_mm", pattern.resolves_mm)?;
+            positive("settings.pattern.unit_mm", pattern.unit_mm)?;
+            let is_rock = |rock: f64| rock > 0.0 && rock <= 45.0;
+            let rock =
+                |rock| demand(is_rock(rock), "settings.pattern.rock_deg", rock, "above 0 to 45 degrees");
+            pattern.rock_deg.map_or(Ok(()), rock)?;
         }
         Ok(())
     }

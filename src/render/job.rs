@@ -3,7 +3,7 @@
 
 use super::Wanted;
 use super::surroundings::Surroundings;
-use crate::measure::{Bounds, MeasureSettings};
+use crate::measure::{Bounds, MeasureName, MeasureSettings};
 use crate::optics::Strata;
 use crate::picture::liquid_glass::GlassPane;
 use crate::picture::{Backdrop, Linear, Survey, enlarged};
@@ -156,6 +156,9 @@ pub struct MeasuresProduct {
     pub settings: MeasureSettings,
     /// The stone's medium.
     pub medium: Medium,
+    /// The measures of which derivatives are wanted as well.
+    #[serde(default)]
+    pub derivatives: Vec<MeasureName>,
 }
 
 /// How well a job is done.

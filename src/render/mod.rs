@@ -5,6 +5,7 @@ mod beam_cache;
 mod behind_glass;
 mod card;
 mod check;
+mod gradient;
 mod job;
 mod light;
 mod measure;
@@ -19,12 +20,13 @@ mod tests;
 
 pub use card::{Backend, Card, NoCard};
 pub use check::{JobError, OutOfRange};
+pub use gradient::{GradedStone, MeasureGradient, PlaneChanges};
 pub use job::{
     FiguresProduct, Job, LightProduct, MapProduct, MeasuresProduct, PaneProduct, Product, Quality, Reading,
     ScopeProduct, Steps, USUAL_BOUNCES, mixture_note,
 };
 pub use measure::{MeasureError, MeasureOptions, measure};
 pub use plan::{CardWorth, Demands, Plan, Unfit, Wanted};
-pub use renderer::{EachPart, Output, Partial, RenderError, Rendered, Renderer};
+pub use renderer::{EachPart, Output, Partial, RenderError, Rendered, Renderer, TakenMeasures};
 pub use surroundings::{HungPicture, Surroundings};
-pub use sweep::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue, SweptStone};
+pub use sweep::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue, SweptStone, with_numbers};

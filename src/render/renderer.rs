@@ -4,7 +4,7 @@ use super::beam_cache::BeamCache;
 use super::card::{Backend, Card};
 use super::job::{Job, Product, Reading, Steps};
 use super::plan::{Demands, Plan, Unfit, plan};
-use crate::measure::{LATTICE, LightMeasures, Measured};
+use crate::measure::{EnergyDerivatives, LATTICE, LightMeasures, Measured};
 use crate::picture::liquid_glass::{Cost, PaneError};
 use crate::picture::spectral::Remainder;
 use crate::picture::{Carried, Linear, RefractionMap, Rows};
@@ -81,7 +81,16 @@ pub enum Output {
     /// The measured figures of a stone.
     Figures(Box<Measured>),
     /// The measures of a stone's light.
-    Measures(Box<LightMeasures>),
+    Measures(Box<TakenMeasures>),
+}
+
+/// The measures of a stone's light, with the derivatives that were wanted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TakenMeasures {
+    /// The measures.
+    pub measures: LightMeasures,
+    /// The derivatives, in the order in which they were wanted; `None` of a measure that has none.
+    pub derivatives: Vec<Option<EnergyDerivatives>>,
 }
 
 /// What a job has made, and how.
@@ -332,7 +341,7 @@ impl Rendered {
     ///
     /// # Errors
     /// [`RenderError::OtherProduct`] of another product.
-    pub fn measures(self) -> Result<LightMeasures, RenderError> {
+    pub fn measures(self) -> Result<TakenMeasures, RenderError> {
         match self.output {
             Output::Measures(measures) => Ok(*measures),
             _ => Err(RenderError::OtherProduct),

@@ -3,12 +3,12 @@
 use super::card::Backend;
 use super::job::{FiguresProduct, Job, MeasuresProduct, Quality, Reading, ScopeProduct};
 use super::plan::Unfit;
-use super::renderer::{EachPart, Halt, Output, Partial, RenderError, Renderer};
+use super::renderer::{EachPart, Halt, Output, Partial, RenderError, Renderer, TakenMeasures};
 use crate::math::{Polytope, SolidRef};
-use crate::measure::{self, Figures, LightMeasures, measured};
+use crate::measure::{self, Figures, LightMeasures, Scintillation, measured, rocked_views};
 use crate::picture::{Layer, Rows, by_rays, paint};
 use crate::scene::{Body, Medium, Scope};
-use crate::trace::beam::{self, SumOptions};
+use crate::trace::beam::{self, BeamOptions, Beams, SumOptions};
 use crate::trace::{ScopeShot, Watch};
 use glam::DVec2;
 use std::sync::Arc;
@@ -80,10 +80,21 @@ impl Renderer {
         product: &MeasuresProduct,
         watch: Watch,
     ) -> Result<Output, Halt<E>> {
-        let MeasuresProduct { settings, medium } = product;
+        let MeasuresProduct { settings, medium, derivatives } = product;
         let (body, polytope) = job.convex()?;
-        let beams = self.beams.of((body, polytope), *medium, &job.view, &job.quality.beams, watch)?;
-        Ok(Output::Measures(Box::new(LightMeasures::of(&beams, polytope, settings))))
+        let rocking = settings.pattern.and_then(|pattern| Some((pattern, pattern.rock_deg?)));
+        let share = |done: f64| watch(if rocking.is_some() { 0.2 * done } else { done });
+        let beams = self.beams.of((body, polytope), *medium, &job.view, &job.quality.beams, &share)?;
+        let derivatives =
+            derivatives.iter().map(|name| name.derivatives(&beams, polytope, settings)).collect();
+        let mut measures = LightMeasures::of(&beams, polytope, settings);
+        if let Some(rocking) = rocking {
+            let rest = |done: f64| watch(0.2 + 0.8 * done);
+            let rocked = job.rocked(polytope, *medium, rocking.1, &rest)?;
+            let (head, pattern) = (settings.head_deg, &rocking.0);
+            measures.scintillation = Some(Scintillation::of(&beams, &rocked, head, pattern));
+        }
+        Ok(Output::Measures(Box::new(TakenMeasures { measures, derivatives })))
     }
 
     /// Measures figures in a scope.
@@ -143,6 +154,28 @@ impl Job {
             Some(error) => Ok(measure::by_beams_and_rays(polytope, &summed, error, &share(1.0))?),
             None => Ok(measure::by_summed_beams(&summed)),
         }
+    }
+
+    /// Traces the stone as it has rocked into each direction.
+    ///
+    /// Rocked stones are seen without most of their symmetry, so ten times as much of their light may stay unresolved as in
+    /// the view itself: the bounds of scintillation stay below its own range of a few percent, at a bearable time.
+    fn rocked(
+        &self,
+        polytope: &Polytope,
+        medium: Medium,
+        rock_deg: f64,
+        watch: Watch,
+    ) -> Result<Vec<Beams>, RenderError> {
+        let unresolved = (10.0 * self.quality.beams.unresolved).min(0.1).max(self.quality.beams.unresolved);
+        let options = BeamOptions { unresolved, ..self.quality.beams };
+        let views = rocked_views(&self.view, rock_deg);
+        let count = views.len() as f64;
+        let traced = views.iter().enumerate().map(|(number, view)| {
+            let share = |done: f64| watch((number as f64 + done) / count);
+            beam::trace(polytope, medium, view, &options, &share)
+        });
+        Ok(traced.collect::<Result<_, _>>()?)
     }
 
     /// Returns the body that exact beams trace, with its polytope.

@@ -1,10 +1,10 @@
 //! Sweeps: the measures of a design over a grid of its proportions, angles, materials and views.
 
 use super::job::{Job, MeasuresProduct, Product, Quality};
-use super::renderer::{RenderError, Renderer};
+use super::renderer::{RenderError, Renderer, TakenMeasures};
 use super::{Card, Wanted};
 use crate::cut::{Cut, Design, MaterialRef, MeetError};
-use crate::measure::{Bounds, LightMeasures, MeasureSettings};
+use crate::measure::{Bounds, LightMeasures, MeasureName, MeasureSettings};
 use crate::optics::{DispersionError, Material, line};
 use crate::scene::{Film, Medium, Scene, Specimen, SpecimenError, Viewpoint};
 use crate::trace::{Stopped, Watch};
@@ -175,16 +175,32 @@ pub enum SweepError {
         /// What is expected.
         expected: &'static str,
     },
+    /// Something has no derivatives; the text says what, and what to give.
+    #[error("{0}")]
+    NoDerivative(String),
+    /// A facet that is not there on both sides of the design.
+    #[error(
+        "{key}: the facet '{facet}' appears or vanishes at this value, where nothing has a derivative; change it a little"
+    )]
+    FacetComes {
+        /// The facet's name.
+        facet: String,
+        /// The number that is changed.
+        key: String,
+    },
     /// A meet that cannot be followed with the angle of a tier.
     #[error(transparent)]
     Meet(#[from] MeetError),
 }
 
 /// A stone at one point of a sweep, before it is measured.
-struct VariedDesign {
-    design: Design,
+#[derive(Clone)]
+pub(super) struct VariedDesign {
+    pub design: Design,
     viewpoint: Viewpoint,
     index: Option<f64>,
+    /// Whether a tier has been moved, so that meets are to be followed.
+    moved: bool,
 }
 
 impl Sweep {
@@ -206,10 +222,7 @@ impl Sweep {
         let mut varied = self.start();
         let each = self.axes.iter().flat_map(|axis| axis.values.iter().map(|value| (&axis.key, value)));
         for (key, value) in each {
-            match varied.set(key, value) {
-                Err(SweepError::Meet(_)) | Ok(()) => {}
-                Err(error) => return Err(error),
-            }
+            varied.set(key, value)?;
         }
         Ok(())
     }
@@ -260,20 +273,31 @@ impl Sweep {
     /// # Errors
     /// A [`SweepError`]: no stone, no index there, or a stone that exact beams do not trace.
     pub fn point(&self, point: usize, watch: Watch) -> Result<SweptStone, SweepError> {
-        let VariedDesign { design, viewpoint, index } = self.varied(point)?;
+        let (taken, carats) = self.taken(self.varied(point)?, vec![], watch)?;
+        Ok(SweptStone { measures: taken.measures, carats })
+    }
+
+    /// Takes the measures of a varied design, with the derivatives of some, and its weight in carats.
+    pub(super) fn taken(
+        &self,
+        varied: VariedDesign,
+        derivatives: Vec<MeasureName>,
+        watch: Watch,
+    ) -> Result<(TakenMeasures, Option<f64>), SweepError> {
+        let VariedDesign { design, viewpoint, index, .. } = varied;
         let specimen = Specimen::new(design)?;
         let (medium, indices) = self.optics(&specimen.material, index, specimen.unit_mm())?;
-        let settings = MeasureSettings { indices, ..self.settings.clone() };
-        let (carats, bounds) = (specimen.carats(), Bounds::exact(self.unresolved));
+        let settings = MeasureSettings { indices, ..self.settings.clone() }.at_size(specimen.unit_mm());
+        let bounds = Bounds::exact(self.unresolved);
         let job = Job {
             scene: Arc::new(Scene::alone(&specimen)),
             view: viewpoint.view(),
             film: Film::NONE,
-            product: Product::Measures(MeasuresProduct { settings, medium }),
+            product: Product::Measures(MeasuresProduct { settings, medium, derivatives }),
             quality: Quality::of_figures(&Bounds { polarised: self.polarised, ..bounds }, Wanted::Quickest),
         };
         let rendered = Renderer::new(Card::None).run(&job, watch, &mut |_| Ok::<_, RenderError>(()))?;
-        Ok(SweptStone { measures: rendered.measures()?, carats })
+        Ok((rendered.measures()?, specimen.carats()))
     }
 
     /// Returns the design and the view at a point.
@@ -282,11 +306,11 @@ impl Sweep {
         for (axis, value) in self.axes.iter().zip(self.values(point)) {
             varied.set(&axis.key, value)?;
         }
-        Ok(varied)
+        varied.followed()
     }
 
-    fn start(&self) -> VariedDesign {
-        VariedDesign { design: self.design.clone(), viewpoint: self.viewpoint, index: None }
+    pub(super) fn start(&self) -> VariedDesign {
+        VariedDesign { design: self.design.clone(), viewpoint: self.viewpoint, index: None, moved: false }
     }
 
     /// Returns the medium, and the indices of its colours.
@@ -304,7 +328,20 @@ impl Sweep {
 }
 
 impl VariedDesign {
-    fn set(&mut self, key: &SweepKey, value: &SweepValue) -> Result<(), SweepError> {
+    /// Returns the design with its meets followed where a tier was moved.
+    fn followed(mut self) -> Result<Self, SweepError> {
+        if let (true, Cut::Tiers(tiers)) = (self.moved, &mut self.design.cut) {
+            let solved = tiers.solved();
+            let failed = solved.errors().next().cloned();
+            match failed {
+                Some(error) => return Err(error.into()),
+                None => *tiers = solved.tiers,
+            }
+        }
+        Ok(self)
+    }
+
+    pub fn set(&mut self, key: &SweepKey, value: &SweepValue) -> Result<(), SweepError> {
         let wrong = |expected| SweepError::Value { key: key.to_string(), value: value.to_string(), expected };
         let number = match value {
             SweepValue::Number(number) if number.is_finite() => Ok(*number),
@@ -322,7 +359,10 @@ impl VariedDesign {
             SweepKey::Tilt => self.viewpoint.tilt_deg = number?,
             SweepKey::Azimuth => self.viewpoint.azimuth_deg = number?,
             SweepKey::Proportion(key) => set_proportion(&mut self.design.cut, key, number?)?,
-            SweepKey::Tier(name) => set_angle(&mut self.design.cut, name, number?)?,
+            SweepKey::Tier(name) => {
+                set_angle(&mut self.design.cut, name, number?)?;
+                self.moved = true;
+            }
         }
         if *key == SweepKey::Index && self.index.is_none() {
             return Err(wrong("index from 1 (air) to 5"));
@@ -350,7 +390,7 @@ fn set_proportion(cut: &mut Cut, key: &str, value: f64) -> Result<(), SweepError
     Ok(())
 }
 
-/// Sets the angle of a tier and follows the meets.
+/// Sets the angle of a tier. Meets are not followed yet.
 fn set_angle(cut: &mut Cut, name: &str, angle_deg: f64) -> Result<(), SweepError> {
     let settings = cut.settings();
     let Some(place) = settings.iter().position(|setting| setting.name == name) else {
@@ -362,13 +402,21 @@ fn set_angle(cut: &mut Cut, name: &str, angle_deg: f64) -> Result<(), SweepError
         return Err(SweepError::NoTier { name: name.to_owned(), known });
     };
     cut.set(place, angle_deg.copysign(settings[place].angle), settings[place].distance);
-    if let Cut::Tiers(tiers) = cut {
-        let solved = tiers.solved();
-        let failed = solved.errors().next().cloned();
-        match failed {
-            Some(error) => return Err(error.into()),
-            None => *tiers = solved.tiers,
-        }
-    }
     Ok(())
+}
+
+/// Returns a design with some of its numbers set, and its meets followed.
+///
+/// # Errors
+/// A [`SweepError`]: the design has nothing of a key, or a meet cannot be followed. Whether it makes a stone is not checked.
+pub fn with_numbers<'a>(
+    design: &Design,
+    numbers: impl IntoIterator<Item = (&'a SweepKey, f64)>,
+) -> Result<Design, SweepError> {
+    let mut varied =
+        VariedDesign { design: design.clone(), viewpoint: Viewpoint::default(), index: None, moved: false };
+    for (key, number) in numbers {
+        varied.set(key, &SweepValue::Number(number))?;
+    }
+    Ok(varied.followed()?.design)
 }

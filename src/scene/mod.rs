@@ -40,7 +40,9 @@ pub use mounting::{
 };
 pub use overlap::overlapping;
 pub use panorama::{Panorama, PanoramaError};
-pub use scope::{ASET_CONE, Backing, Band, Glare, MOST_BANDS, Scope, ScopeError, elevation_deg};
+pub use scope::{
+    ASET_CONE, Backing, Band, Glare, MOST_BANDS, Scope, ScopeError, VIEWER_CONES_DEG, elevation_deg,
+};
 pub use specimen::{Specimen, SpecimenError};
 pub use stone::Stone;
 pub use view::{Lean, Projection, Side, View};

@@ -254,6 +254,10 @@ pub fn elevation_deg(direction: DVec3, zenith: DVec3) -> f64 {
 /// eighth of the light of their arrows' shafts comes, which graders see dark (docs/optics.md, "Ideal-Scope's hole").
 const BACKLIGHT_END: f64 = -30.0;
 
+/// Half angles, degrees, of the camera's and the ring's cones in a hearts and arrows viewer. No standard fixes them; these
+/// are taken from one implementation and show the patterns well.
+pub const VIEWER_CONES_DEG: (f64, f64) = (5.3, 16.3);
+
 /// The full angle, degrees, of the observer's blue cone in the common ASET.
 pub const ASET_CONE: f64 = 30.0;
 

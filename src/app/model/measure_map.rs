@@ -297,8 +297,8 @@ fn order(axes: &[MapAxis; 2], design: &Design, number: u64) -> SweepOrder {
     let sweep: Sweep = sweep_of(design, axes.iter().map(places).collect(), UNRESOLVED);
     let mut points = Vec::with_capacity(sweep.count());
     for (level, stride) in STRIDES.into_iter().enumerate() {
-        let is_known =
-            |x: usize, y: usize| level > 0 && x.is_multiple_of(2 * stride) && y.is_multiple_of(2 * stride);
+        let is_even = |place: usize| place.is_multiple_of(2 * stride);
+        let is_known = |x: usize, y: usize| level > 0 && is_even(x) && is_even(y);
         for x in (0..=STEPS).step_by(stride) {
             points.extend((0..=STEPS).step_by(stride).filter(|&y| !is_known(x, y)).map(|y| point(x, y)));
         }

@@ -117,7 +117,8 @@ fn order(specimen: &Specimen, azimuths: &[f64], number: u64) -> SweepOrder {
     let sweep = sweep_of(&specimen.design, axes, UNRESOLVED);
     let mut points = Vec::with_capacity(sweep.count());
     for (level, stride) in STRIDES.into_iter().enumerate() {
-        let places = (0..=STEPS).step_by(stride).filter(|place| level == 0 || place % (2 * stride) != 0);
+        let places =
+            (0..=STEPS).step_by(stride).filter(|place| level == 0 || !place.is_multiple_of(2 * stride));
         let rows = places.flat_map(|place| (0..azimuths.len()).map(move |row| row * (STEPS + 1) + place));
         points.extend(rows);
     }

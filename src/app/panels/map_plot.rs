@@ -1,6 +1,7 @@
 //! The map of a measure as it is drawn: colours with their scale, lines of equal value, the published range, and the place of the
 //! design, which a click or a drag moves.
 
+use super::map_lines::{MapLinesOf, map_lines};
 use super::measure_words;
 use crate::app::arrows;
 use crate::app::model::action::{Actions, Edit};
@@ -8,7 +9,7 @@ use crate::app::model::growing_sweep::FoundSweep;
 use crate::app::model::measure_map::{MapAxis, MapOptions, MeasureMap, STEPS, STRIDES, point};
 use crate::app::theme;
 use crate::cut::Design;
-use crate::io::plot::{PlotAxis, levels, lines, map_colour};
+use crate::io::plot::{levels, map_colour};
 use crate::render::{SweepError, SweptStone};
 use egui::epaint::Mesh;
 use egui::{
@@ -25,6 +26,9 @@ const TEXT: f32 = 56.0;
 const LEAST: f32 = 160.0;
 /// The width of the scale and its gap to the map, points.
 const SCALE: [f32; 2] = [14.0, 10.0];
+/// The colour of the frame around the published range, which the scale of colours lacks.
+const PUBLISHED: Color32 = Color32::from_rgb(255, 190, 225);
+
 /// How far the arms of the cross reach, points.
 const CROSS: f32 = 9.0;
 
@@ -150,22 +154,21 @@ impl<'a> MapPlot<'a> {
 
     /// Draws the lines of equal value of the finest grid that is whole and has a value everywhere.
     fn lines_of_equal_value(&self, painter: &Painter, sight: &MapSight) {
-        let (Some(level), Some(range)) = (self.whole, &self.range) else { return };
-        let stride = STRIDES[level];
-        let places: Vec<usize> = (0..=STEPS).step_by(stride).collect();
-        let axis =
-            PlotAxis { label: String::new(), values: places.iter().map(|&place| place as f64).collect() };
-        let values: Vec<Option<f64>> = places
-            .iter()
-            .flat_map(|&y| places.iter().map(move |&x| (x, y)))
-            .map(|(x, y)| self.value(x, y))
-            .collect();
-        if values.iter().any(Option::is_none) {
-            return;
-        }
-        let part = |at: f64| at / STEPS as f64;
-        for line in lines((&axis, &axis), &values, &levels(range)) {
-            let line = line.into_iter().map(|(x, y)| sight.place([part(x), part(y)])).collect();
+        let (Some(level), Some(range), Some(found)) = (self.whole, &self.range, self.found) else { return };
+        let of = MapLinesOf {
+            number: found.order.number,
+            answered: found.answered,
+            measure: self.options.measure,
+        };
+        let all = map_lines(painter.ctx(), of, || {
+            let places: Vec<usize> = (0..=STEPS).step_by(STRIDES[level]).collect();
+            let rows = places.iter().flat_map(|&y| places.iter().map(move |&x| (x, y)));
+            rows.map(|(x, y)| self.value(x, y))
+                .collect::<Option<Vec<f64>>>()
+                .map(|values| (values, range.clone()))
+        });
+        for line in all.iter() {
+            let line = line.iter().map(|part| sight.place(*part)).collect();
             painter.add(Shape::line(line, Stroke::new(1.0, Color32::from_white_alpha(110))));
         }
     }
@@ -175,13 +178,9 @@ impl<'a> MapPlot<'a> {
         let Some([across, up]) = self.options.published_range(self.design) else { return };
         let corner = |end: usize| sight.place(sight.parts([across[end], up[end]]));
         let range = Rect::from_two_pos(corner(0), corner(1));
-        painter.rect_stroke(range, 0.0, Stroke::new(3.0, Color32::from_black_alpha(150)), StrokeKind::Middle);
-        painter.rect_stroke(
-            range,
-            0.0,
-            Stroke::new(1.5, Color32::from_rgb(120, 230, 140)),
-            StrokeKind::Middle,
-        );
+        for (width, colour) in [(4.0, Color32::from_black_alpha(170)), (2.0, PUBLISHED)] {
+            painter.rect_stroke(range, 0.0, Stroke::new(width, colour), StrokeKind::Middle);
+        }
         let at = range.left_top() + vec2(4.0, 2.0);
         let text = painter.layout_no_wrap("EX (GIA), estimate".to_owned(), small(ui), Color32::WHITE);
         painter.rect_filled(

@@ -6,7 +6,6 @@ use super::rows::{ANY, NUMBER, Number, choice_row, named};
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::measure_map::{MapAxis, MapOptions, MeasureMap, no_stone};
-use crate::app::theme;
 use crate::cut::{Cut, Design};
 use egui::{Context, Pos2, RichText, Ui, Vec2, Window, pos2, vec2};
 
@@ -52,9 +51,7 @@ fn contents(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let reading = plot.show(actions, ui);
     ui.label(said(options, reading.as_ref(), design));
     if options.published_range(design).is_some() {
-        ui.label(
-            RichText::new(format!("Green frame: {PUBLISHED}.")).color(theme::good(ui.visuals())).small(),
-        );
+        ui.label(RichText::new(format!("Frame: {PUBLISHED}.")).weak().small());
     }
 }
 

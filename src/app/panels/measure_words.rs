@@ -20,6 +20,14 @@ pub fn name(measure: MeasureName) -> String {
         MeasureName::Contrast => "Contrast".to_owned(),
         MeasureName::Fire => "Fire".to_owned(),
         MeasureName::Absorbed => "Absorbed".to_owned(),
+        MeasureName::EyeContrast => "Contrast for the eye".to_owned(),
+        MeasureName::PatchSize => "Size of patches".to_owned(),
+        MeasureName::CrushedIce => "Crushed ice".to_owned(),
+        MeasureName::FireSeen => "Fire that is seen".to_owned(),
+        MeasureName::BowTie => "Bow tie".to_owned(),
+        MeasureName::FishEye => "Fish eye".to_owned(),
+        MeasureName::Scintillation => "Scintillation".to_owned(),
+        MeasureName::ScintillationSize => "Size of scintillation".to_owned(),
     }
 }
 
@@ -61,6 +69,28 @@ pub fn meaning(measure: MeasureName) -> &'static str {
         }
         MeasureName::Fire => "The light from above whose colours an eye sees apart, in percent of the face.",
         MeasureName::Absorbed => "The light that is absorbed inside the stone, in percent of the face.",
+        MeasureName::EyeContrast => {
+            "How much the brightness varies between places that an eye resolves: its standard deviation in percent of its mean."
+        }
+        MeasureName::PatchSize => {
+            "The mean diameter of bright and dark patches, in percent of the face's diameter."
+        }
+        MeasureName::CrushedIce => {
+            "The part of the face in virtual facets that are too small for an eye to see their shape."
+        }
+        MeasureName::FireSeen => {
+            "The fire of virtual facets that are large enough for an eye to resolve, in percent of the face."
+        }
+        MeasureName::BowTie => "The obstruction toward the short axis less that toward the long axis.",
+        MeasureName::FishEye => {
+            "The part of the table through which the girdle is seen, reflected in the pavilion."
+        }
+        MeasureName::Scintillation => {
+            "How much the brightness of a place changes as the stone rocks, in percent of the mean brightness."
+        }
+        MeasureName::ScintillationSize => {
+            "The mean diameter of the patches that change as the stone rocks, in percent of the face's diameter."
+        }
     }
 }
 

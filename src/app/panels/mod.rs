@@ -8,6 +8,7 @@ pub mod figures_panel;
 pub mod figures_text;
 pub mod gear_fields;
 pub mod light_rows;
+mod map_lines;
 pub mod map_plot;
 pub mod map_window;
 pub mod material_rows;

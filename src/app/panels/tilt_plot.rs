@@ -6,7 +6,7 @@ use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::measure_tilt::{AZIMUTHS, MOST_TILT, TiltCurve, TiltOptions};
 use egui::{Color32, RichText, Ui};
-use egui_plot::{HoverPosition, Line, Plot, PlotPoints, Polygon};
+use egui_plot::{GridInput, GridMark, HoverPosition, Line, Plot, PlotPoints, Polygon};
 
 /// The colours of the azimuths, told apart by people who see no red or no green (B. Wong, Nature Methods 8, 441 (2011)).
 const COLOURS: [Color32; AZIMUTHS.len()] = [
@@ -77,6 +77,15 @@ pub fn show(model: &Model, ui: &mut Ui) {
     }
 }
 
+/// Returns marks at the multiples of 15 degrees in sight.
+fn fifteens(input: GridInput) -> Vec<GridMark> {
+    let (first, last) = (input.bounds.0 / 15.0, input.bounds.1 / 15.0);
+    let marks = (first.ceil() as i32)..=(last.floor() as i32);
+    // Only marks that are far apart have room for a number on the narrow axis.
+    let far = |k: i32| if k % 3 == 0 { 45.0 } else { 15.0 };
+    marks.map(|k| GridMark { value: 15.0 * f64::from(k), step_size: far(k) }).collect()
+}
+
 fn plot(curves: &[(f64, TiltCurve)], ui: &mut Ui) {
     let plot = Plot::new("measure against tilt")
         .height(200.0)
@@ -84,6 +93,7 @@ fn plot(curves: &[(f64, TiltCurve)], ui: &mut Ui) {
         .allow_zoom(false)
         .allow_scroll(false);
     let plot = plot.show_x(false).show_y(false).include_x(-MOST_TILT).include_x(MOST_TILT).include_y(0.0);
+    let plot = plot.x_grid_spacer(fifteens);
     let plot = plot
         .x_axis_formatter(|mark, _| format!("{}°", mark.value))
         .y_axis_formatter(|mark, _| format!("{} %", mark.value));

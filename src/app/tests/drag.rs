@@ -12,8 +12,9 @@ const FRAME: Duration = Duration::from_micros(16_667);
 
 /// Makes changes at 60 Hz, as a hand does, and prints how many pictures a second each pane shows and how long a frame of the
 /// window takes, in milliseconds.
-fn drag(name: &str, mut change: impl FnMut(&mut Editor, u32)) {
-    let setup = Setup { workspace: Workspace { head: 1e-9, ..Workspace::default() }, ..Setup::default() };
+fn drag(name: &str, shows_map: bool, mut change: impl FnMut(&mut Editor, u32)) {
+    let setup =
+        Setup { workspace: Workspace { head: 1e-9, shows_map, ..Workspace::default() }, ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(1440.0, 900.0));
     bench.settle();
     let begun = Instant::now();
@@ -46,16 +47,34 @@ fn drag(name: &str, mut change: impl FnMut(&mut Editor, u32)) {
 #[test]
 #[ignore = "measures times, which takes a minute of two idle cores"]
 fn the_views_follow_the_hand() {
-    drag("crown angle", |editor, k| {
+    drag("crown angle", false, |editor, k| {
         if let Cut::RoundBrilliant(brilliant) = &mut editor.model.document.work.design.cut {
             brilliant.crown = Crown::Angle(33.0 + 0.02 * f64::from(k));
         }
     });
     // This starts with a leaning stone: near no lean the view would snap to none.
-    drag("tilt", |editor, k| {
+    drag("tilt", false, |editor, k| {
         if k == 0 {
             editor.model.workspace.eye.free();
         }
         editor.model.workspace.eye.drag(Side::Table, DVec2::new(0.004, 0.002));
     });
+}
+
+#[test]
+#[ignore = "measures times, which takes two minutes of two idle cores"]
+fn the_views_follow_the_hand_while_a_map_is_open() {
+    for shows_map in [false, true] {
+        // The crown angle moves the design on the map; another table begins another map with each change.
+        drag(if shows_map { "crown angle, map" } else { "crown angle" }, shows_map, |editor, k| {
+            if let Cut::RoundBrilliant(brilliant) = &mut editor.model.document.work.design.cut {
+                brilliant.crown = Crown::Angle(33.0 + 0.02 * f64::from(k));
+            }
+        });
+        drag(if shows_map { "table, map" } else { "table" }, shows_map, |editor, k| {
+            if let Cut::RoundBrilliant(brilliant) = &mut editor.model.document.work.design.cut {
+                brilliant.table = 53.0 + 0.02 * f64::from(k);
+            }
+        });
+    }
 }

@@ -4,7 +4,9 @@ use super::event::Reporter;
 use super::figures::seen_from;
 use super::viewing::{Viewing, note};
 use crate::io::Failure;
-use crate::measure::{Interval, LightMeasures, MEASURES_HEAD_DEG, MeasureName, MeasureSettings};
+use crate::measure::{
+    Interval, LightMeasures, MEASURES_HEAD_DEG, MeasureName, MeasureSettings, PatternSettings,
+};
 use crate::optics::line;
 use crate::render::{MeasuresProduct, Product, Renderer};
 use crate::scene::{DomeLight, Film};
@@ -34,7 +36,8 @@ impl Viewing<'_> {
         let indices =
             [line::FRAUNHOFER_B, line::FRAUNHOFER_G].map(|nm| index(nm).unwrap_or(self.medium.index));
         let head_deg = if self.head_deg > 0.0 { self.head_deg } else { MEASURES_HEAD_DEG };
-        let usual = MeasureSettings { head_deg, ..MeasureSettings::usual(indices) };
+        let pattern = Some(PatternSettings::usual(self.specimen.unit_mm()));
+        let usual = MeasureSettings { head_deg, pattern, ..MeasureSettings::usual(indices) };
         if domes.is_empty() { usual } else { MeasureSettings { domes: domes.to_vec(), ..usual } }
     }
 }
@@ -50,11 +53,11 @@ pub fn light_measures<'a>(
     watch: Watch,
     tell: Reporter,
 ) -> Result<MeasureReport<'a>, Failure> {
-    let product = MeasuresProduct { settings: settings.clone(), medium: viewing.medium };
+    let product = MeasuresProduct { settings: settings.clone(), medium: viewing.medium, derivatives: vec![] };
     let mut job = viewing.job(Film::NONE, Product::Measures(product), UNRESOLVED);
     job.quality.samples = None;
     renderer.plan(&job).map_err(|why| Failure::Usage(format!("{}: {why}", viewing.file)))?;
-    let measures = renderer.run(&job, watch, &mut |part| note(&part, tell))?.measures()?;
+    let measures = renderer.run(&job, watch, &mut |part| note(&part, tell))?.measures()?.measures;
     Ok(MeasureReport { viewing: *viewing, settings, measures })
 }
 
@@ -83,6 +86,9 @@ impl MeasureReport<'_> {
             "wavelength_nm": viewing.wavelength_nm,
             "head_deg": self.settings.head_deg,
             "blur_deg": self.settings.blur_deg,
+            "diameter_mm": self.settings.pattern.map(|pattern| 2.0 * pattern.unit_mm),
+            "eye_resolves_mm": self.settings.pattern.map(|pattern| pattern.resolves_mm),
+            "rock_deg": self.settings.pattern.and_then(|pattern| pattern.rock_deg),
             "polarised": viewing.polarised,
             "view": seen_from(&viewing.viewpoint),
         })

@@ -20,7 +20,9 @@ const TOURMALINE: Host =
 const PERIDOT: Host = Host::Trade("Biaxial olivine, without double refraction", 1.65, 1.70, 0.020, 3.34);
 const TOPAZ: Host = Host::Trade("Biaxial topaz, without double refraction", 1.609, 1.643, 0.014, 3.53);
 
-pub(super) const GEMS: [Gem; 20] = [
+const ZIRCON: Host = Host::Trade("Uniaxial zircon, without double refraction", 1.925, 1.984, 0.039, 4.70);
+
+pub(super) const GEMS: [Gem; 21] = [
     Gem {
         name: "pyrope",
         text: "blood red, by chromium and iron",
@@ -196,6 +198,13 @@ pub(super) const GEMS: [Gem; 20] = [
         host: TOURMALINE,
         edge: AbsorptionEdge { at_400: [0.1, 0.06], fold_nm: 35.0 },
         bands: &[split(392.0, 3600.0, [0.18, 0.08]), split(522.0, 4100.0, [0.25, 0.1])],
+    },
+    Gem {
+        name: "zircon",
+        text: "colourless, as it is after heating",
+        host: ZIRCON,
+        edge: edge(0.0, 1.0),
+        bands: &[],
     },
     Gem {
         name: "peridot",

@@ -174,6 +174,7 @@ fn gems_bend_light_as_their_hosts_do_or_by_the_two_numbers_they_were_made_from()
         ("demantoid", 1.885, 0.057),
         ("emerald", 1.5835, 0.014),
         ("peridot", 1.675, 0.020),
+        ("zircon", 1.9545, 0.039),
     ] {
         let gem = material(name).unwrap();
         assert!((gem.index(line::SODIUM_D) - n_d).abs() < 1e-12);

@@ -5,7 +5,7 @@ mod circles;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-const FLOORS: [(&str, u32); 11] = [
+const FLOORS: [(&str, u32); 12] = [
     ("math", 0),
     ("optics", 0),
     ("cut", 1),
@@ -14,9 +14,10 @@ const FLOORS: [(&str, u32); 11] = [
     ("picture", 4),
     ("measure", 4),
     ("render", 5),
-    ("io", 6),
-    ("cli", 7),
-    ("app", 7),
+    ("search", 6),
+    ("io", 7),
+    ("cli", 8),
+    ("app", 8),
 ];
 
 /// A room inside a floor, which others enter by its door alone.

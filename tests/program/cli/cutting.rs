@@ -132,3 +132,63 @@ fn a_main_that_is_turned_is_found_in_a_design_and_in_its_mesh_and_other_shapes_a
         assert!(code != 0 && printed.is_empty() && stderr.contains(why), "{stderr}");
     }
 }
+
+#[test]
+fn hearts_and_arrows_say_which_main_is_turned_in_a_design_and_in_its_mesh() {
+    let desk = Desk::new();
+    assert_eq!(desk.run("convert modern-ideal whole.asc").0, 0);
+    let text = desk.read("whole.asc");
+    let turned = text.replace("n main 36 48", "n main 36.08 48");
+    assert_ne!(text, turned);
+    desk.write("turned.asc", &turned);
+    assert_eq!(desk.run("convert turned.asc turned.stl").0, 0);
+    let of = |file: &str| {
+        let (code, printed, stderr) = desk.run(&format!("measure --hearts --unresolved 0.02 --json {file}"));
+        assert_eq!(code, 0, "{stderr}");
+        serde_json::from_str::<serde_json::Value>(&printed).unwrap()
+    };
+    let whole = of("whole.asc");
+    for pattern in ["arrows", "hearts"] {
+        let pattern = &whole["hearts_and_arrows"][pattern];
+        near(at(pattern, "departure"), 0.0, 1e-9, "an ideal cut");
+        for figure in list(&pattern["figures"]) {
+            near(at(figure, "spread"), 0.0, 1e-9, &format!("{figure}"));
+        }
+    }
+    for (file, tolerance) in [("turned.asc", 1e-9), ("turned.stl", 1e-4)] {
+        let found = of(file);
+        let arrows = &found["hearts_and_arrows"]["arrows"];
+        let departures: Vec<f64> =
+            list(&arrows["departures"]).iter().map(|each| each.as_f64().unwrap()).collect();
+        let mut octants: Vec<usize> = (0..8).collect();
+        octants.sort_by(|a, b| departures[*b].total_cmp(&departures[*a]));
+        assert_eq!(octants[0] % 4, octants[1] % 4, "{file}: {departures:?}");
+        assert!(departures[octants[1]] > 20.0 * departures[octants[2]], "{file}: {departures:?}");
+        let main = &list(&found["deviations"])[4];
+        near(at(main, "azimuth_spread_deg"), 0.3, tolerance, file);
+        let named = main["worst_azimuth"]["facet"].as_str().unwrap();
+        let shown = [0, 1].map(|k| list(&arrows["mains"])[octants[k]].as_str().unwrap());
+        assert!(shown.contains(&named), "{file}: {named} {shown:?}");
+    }
+    let table = desk.done("measure --hearts --unresolved 0.05 turned.asc");
+    assert!(table.contains("gap to the V") && table.contains("main 2: azimuth +0.300°"), "{table}");
+    for (shape, why) in [("heart", "convex"), ("oval", "eight octants"), ("pill", "convex")] {
+        let (code, printed, stderr) = desk.run(&format!("measure --hearts {shape}"));
+        assert!(code != 0 && printed.is_empty() && stderr.contains(why), "{stderr}");
+    }
+    assert!(desk.refused("measure --hearts tolkowsky --tilt 3", 2).contains("--tilt"));
+}
+
+#[test]
+fn spread_is_the_same_in_every_size_and_follows_the_girdle() {
+    let desk = Desk::new();
+    let of = |line: &str| desk.json(&format!("measure --spread --json {line}"))["spread"].clone();
+    let (small, large) = (of("modern-ideal --stone 1ct"), of("modern-ideal --stone 10mm"));
+    near(at(&small, "spread_percent"), at(&large, "spread_percent"), 1e-9, "any size");
+    near(at(&small, "weight_ratio"), at(&large, "weight_ratio"), 1e-9, "any size");
+    near(at(&small, "carats"), 1.0, 1e-9, "its weight");
+    near(at(&small, "face_mm2"), at(&small, "mm2_per_carat"), 1e-9, "of one carat");
+    assert!(of("oval")["weight_ratio"].is_null());
+    assert!(desk.done("measure --spread tolkowsky").contains("mm²/ct"));
+    assert!(desk.refused("measure --spread heart", 2).contains("convex"));
+}

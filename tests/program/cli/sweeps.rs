@@ -42,6 +42,31 @@ fn measures_are_intervals_around_the_figures_of_zones() {
 }
 
 #[test]
+fn patterns_and_scintillation_are_listed_and_swept_as_they_are_measured() {
+    let desk = Desk::new();
+    let still = desk.json("measure tolkowsky --measures --json --unresolved 0.02");
+    assert!(still["measures"]["scintillation"].is_null() && still["rock_deg"].is_null(), "{still}");
+    let found =
+        desk.json("measure tolkowsky --measures --json --unresolved 0.02 --rock 3 --stone 9mm --pupil 4");
+    assert_eq!((at(&found, "diameter_mm"), at(&found, "rock_deg")), (9.0, 3.0));
+    assert!(at(&found, "measures/crushed-ice/most") < at(&still, "measures/crushed-ice/least"), "{found}");
+    assert!(at(&found, "measures/fire-seen/least") < at(&still, "measures/fire-seen/least"), "{found}");
+    let names =
+        ["eye-contrast", "patch-size", "crushed-ice", "fire-seen", "bow-tie", "fish-eye", "scintillation"];
+    let of: String = names.iter().map(|name| format!(" --of {name}")).collect();
+    let line = format!("sweep tolkowsky --unresolved 0.02 --stone 9mm --pupil 4{of}");
+    let (_, rows) = table(&desk.done(&line));
+    for (k, key) in names.iter().enumerate() {
+        let [value, error] = [2 + 2 * k, 3 + 2 * k].map(|column| rows[0][column].parse::<f64>().unwrap());
+        let interval = &found["measures"][*key];
+        near(value - error, at(interval, "least"), 2e-7, key);
+        near(value + error, at(interval, "most"), 2e-7, key);
+    }
+    assert!(desk.refused("measure tolkowsky --measures --rock 90", 2).contains("45 degrees"));
+    assert!(desk.refused("sweep tolkowsky --pupil 0", 2).contains("50 mm"));
+}
+
+#[test]
 fn a_sweep_measures_what_single_designs_measure_in_the_order_of_its_axes() {
     let desk = Desk::new();
     let line = "sweep tolkowsky --over crown_angle=33:34:1 --over pavilion_angle=40.5,41.5 --of fire --of return-even";
@@ -188,5 +213,51 @@ fn plots_are_curves_over_one_axis_and_a_map_over_two() {
     ] {
         let stderr = desk.refused(&format!("sweep {line}"), 2);
         assert!(stderr.contains(told), "{line}: {stderr}");
+    }
+}
+
+#[test]
+fn a_gradient_is_the_slope_of_the_measures_beside_the_design() {
+    let desk = Desk::new();
+    // Beside each angle at which light ceases to leave through a facet, slopes change within hundredths of a degree.
+    for (cut, numbers) in [
+        ("emerald", &[("table", 62.0, 0.05)][..]),
+        ("tolkowsky", &[("crown_angle", 34.5, 0.001), ("pavilion_angle", 40.75, 0.001)][..]),
+    ] {
+        let common =
+            format!("{cut} --material 2.4 --unresolved 1e-4 --of return-cos2 --of return-cos2+glare");
+        let found = desk.json(&format!("gradient {common} --json"));
+        for &(key, value, step) in numbers {
+            let line = format!("sweep {common} --over {key}={},{}", value - step, value + step);
+            let (columns, rows) = table(&desk.done(&line));
+            for name in ["return-cos2", "return-cos2+glare"] {
+                let column = columns.iter().position(|column| column == name).unwrap();
+                let [below, above] = [0, 1].map(|row: usize| rows[row][column].parse::<f64>().unwrap());
+                let slope = (above - below) / (2.0 * step);
+                let own = at(&found["measures"][name]["per"], key);
+                // Beams end at other places in the two stones, which moves the middle of the interval.
+                assert!(
+                    (own - slope).abs() < 0.08 * slope.abs() + 5e-4,
+                    "{cut}, {name} by {key}: {own} is not {slope}"
+                );
+                assert!(slope.abs() > 1e-3, "{cut}, {name} by {key}: {slope}");
+            }
+        }
+    }
+    assert!(desk.done("gradient tolkowsky").contains("lower_half_length"), "numbers that are given");
+    let tiers = desk.run("convert oval oval.asc");
+    assert_eq!(tiers.0, 0);
+    assert!(desk.done("gradient oval.asc --of leakage").contains("tier:main, degrees"));
+    for (line, why) in [
+        ("tolkowsky --of fire", "give a return"),
+        ("tolkowsky --by tilt", "give a proportion"),
+        ("tolkowsky --by crown_angel", "no such proportion"),
+        ("tolkowsky --by culet", "culet"),
+        ("tolkowsky --by tier:P1", "no tiers"),
+        ("oval --material ruby", "absorbs"),
+        ("heart", "convex"),
+    ] {
+        let (code, printed, stderr) = desk.run(&format!("gradient {line}"));
+        assert!(code != 0 && printed.is_empty() && stderr.contains(why), "{line}: {stderr}");
     }
 }

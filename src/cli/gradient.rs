@@ -1,0 +1,119 @@
+//! `gradient`: prints how the measures of a design change with its numbers.
+
+use super::console::{json, print};
+use super::measure_taking::MeasureTaking;
+use super::progress::WorkProgress;
+use crate::cut::{Cut, Unit};
+use crate::io::Failure;
+use crate::measure::MeasureName;
+use crate::render::{MeasureGradient, RenderError, Sweep, SweepError, SweepKey};
+use clap::Args;
+use serde_json::{Map, Value};
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// The measures that are listed where none are chosen.
+const USUAL: [&str; 6] =
+    ["return-even", "return-cos2", "return-even@15", "leakage", "windowing", "obstruction"];
+
+#[derive(Debug, Args)]
+pub struct GradientArguments {
+    /// A design, a mesh, or the name of a cut that comes with the program
+    file: PathBuf,
+    /// A number to change: the key of a proportion, tier: and the name of a tier, or index; may be repeated [default: all that the
+    /// design gives, and the index]
+    #[arg(long, value_name = "KEY")]
+    by: Vec<String>,
+    /// A measure: leakage, windowing, obstruction, or the return of a dome as in return-even, return-cos2@15 or return-even+glare; may
+    /// be repeated [default: six of them]
+    #[arg(long = "of", value_name = "MEASURE")]
+    measures: Vec<MeasureName>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    taking: MeasureTaking,
+}
+
+impl GradientArguments {
+    pub fn run(&self) -> Result<(), Failure> {
+        self.taking.check()?;
+        let measures = match self.measures.is_empty() {
+            true => USUAL.iter().filter_map(|name| name.parse().ok()).collect(),
+            false => self.measures.clone(),
+        };
+        let sweep = self.taking.sweep(&self.file, vec![], &measures)?;
+        let keys = match self.by.is_empty() {
+            true => all_keys(&sweep.design.cut),
+            false => self.by.iter().map(|name| SweepKey::of(name)).collect(),
+        };
+        let file = self.file.display().to_string();
+        let found = {
+            let progress = WorkProgress::new(&format!("differentiating {file}"));
+            sweep.gradient(&keys, &measures, &progress.watch())
+        };
+        let found = found.map_err(|error| match error {
+            SweepError::Render(RenderError::Stopped(_)) => Failure::Stopped,
+            error => Failure::Usage(format!("{file}: {error}")),
+        })?;
+        if self.json {
+            return print(&json(&value(&file, &keys, &found)));
+        }
+        print(&table(&sweep, &keys, &found))
+    }
+}
+
+/// Returns the numbers that a design gives, and the index.
+fn all_keys(cut: &Cut) -> Vec<SweepKey> {
+    let rows = cut.family().into_iter().flat_map(|family| family.editable());
+    let given = rows.filter(|row| (row.is_given)(cut) && row.unit != Unit::Count);
+    // A culet of 0 is a point, at the end of its range, where it has no derivative.
+    let inside = given.filter(|row| (row.get)(cut) > 0.0);
+    let mut keys: Vec<SweepKey> = inside.map(|row| SweepKey::Proportion(row.key.to_owned())).collect();
+    for setting in cut.settings() {
+        let key = SweepKey::Tier(setting.name);
+        // The angle of a table says nothing; names that come again stand for their first tier.
+        let leans = setting.angle.abs() > 0.0 && setting.angle.abs() < 90.0;
+        if leans && !keys.contains(&key) {
+            keys.push(key);
+        }
+    }
+    keys.push(SweepKey::Index);
+    keys
+}
+
+/// Returns a gradient as docs/formats.md describes it.
+fn value(file: &str, keys: &[SweepKey], found: &[MeasureGradient]) -> Value {
+    let of = |each: &MeasureGradient| {
+        let per: Map<String, Value> =
+            keys.iter().zip(&each.per).map(|(key, per)| (key.to_string(), (*per).into())).collect();
+        (each.name.to_string(), serde_json::json!({ "value": each.value, "per": per }))
+    };
+    let measures: Map<String, Value> = found.iter().map(of).collect();
+    serde_json::json!({ "file": file, "measures": measures })
+}
+
+/// Formats a gradient as a table: a row for each number, a column for each measure.
+fn table(sweep: &Sweep, keys: &[SweepKey], found: &[MeasureGradient]) -> String {
+    let mut text = format!("{}: percent of the face per unit\n\n", sweep.design.name);
+    let widths: Vec<usize> = found.iter().map(|each| each.name.to_string().len().max(9) + 2).collect();
+    let mut row = |name: String, cells: Vec<String>| {
+        let _ = write!(text, "{name:<24}");
+        for (cell, width) in cells.iter().zip(&widths) {
+            let _ = write!(text, "{cell:>width$}");
+        }
+        text.push('\n');
+    };
+    row(String::new(), found.iter().map(|each| each.name.to_string()).collect());
+    row("value".to_owned(), found.iter().map(|each| format!("{:.3}", 100.0 * each.value)).collect());
+    for (k, key) in keys.iter().enumerate() {
+        let unit = match key {
+            SweepKey::Proportion(name) => sweep.design.cut.proportion(name).map_or("", |row| row.unit.name()),
+            SweepKey::Tier(_) => "degrees",
+            _ => "",
+        };
+        let name = if unit.is_empty() { key.to_string() } else { format!("{key}, {unit}") };
+        row(name, found.iter().map(|each| format!("{:+.4}", 100.0 * each.per[k])).collect());
+    }
+    text + "\nOf the light that was followed, between borders: where an exit crosses a border, a measure jumps."
+}

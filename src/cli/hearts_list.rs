@@ -1,0 +1,107 @@
+//! Lists of a stone's hearts and arrows, and of its spread.
+
+use crate::io::export::HeartsReport;
+use crate::measure::{EightfoldPattern, FaceUpSize, OctantFigure, OctantUnit};
+use std::fmt::Write;
+
+/// Departures below this are shown as 0, and then no octant is the worst.
+const NOT_SHOWN: f64 = 5e-4;
+
+/// Formats hearts and arrows as two tables.
+pub fn table_of_hearts(report: &HeartsReport) -> String {
+    let HeartsReport { viewing, patterns, deviations } = report;
+    let mut text = format!(
+        "{}: {}, {}, index {:.4}, viewer with a camera of {}° and a ring of {}° from the axis\n",
+        viewing.file,
+        viewing.specimen.design.name,
+        viewing.specimen.material.name,
+        viewing.medium.index,
+        patterns.camera_deg,
+        patterns.ring_deg,
+    );
+    for (name, pattern) in
+        [("arrows, face up", &patterns.arrows), ("hearts, through the pavilion", &patterns.hearts)]
+    {
+        list(&mut text, name, pattern);
+    }
+    let _ = write!(text, "\n% D: percent of the diameter; % F: percent of the face, the area of the stone.");
+    let facets = deviations.iter().flat_map(|class| {
+        let azimuth = (class.azimuth_spread_deg, &class.worst_azimuth, "azimuth");
+        [azimuth, (class.slope_spread_deg, &class.worst_slope, "slope")]
+    });
+    for (_, worst, of) in facets.filter(|(spread, ..)| *spread >= NOT_SHOWN) {
+        let _ = write!(text, "\n{}: {of} {:+.3}° from its class", worst.facet, worst.by_deg);
+    }
+    text
+}
+
+/// Adds the table of one pattern.
+fn list(text: &mut String, name: &str, pattern: &EightfoldPattern) {
+    let _ = writeln!(text, "\n{name:<32}{:>9}{:>9}   worst octant", "median", "max-min");
+    for figure in &pattern.figures {
+        let _ = writeln!(text, "{}", line(figure, &pattern.mains));
+    }
+    let worst = pattern.worst();
+    let _ = write!(text, "departure from eightfold: {:.3} % of the pattern's area", pattern.departure);
+    if worst.by >= NOT_SHOWN {
+        let _ = write!(
+            text,
+            ", most in octant {} ({}), {:.3} %",
+            worst.octant,
+            pattern.mains[worst.octant - 1],
+            worst.by
+        );
+    }
+    let _ = writeln!(text, "\nthe strongest exit of {:.3} % of the face is not certain", pattern.undecided);
+}
+
+/// Formats one figure.
+fn line(figure: &OctantFigure, mains: &[String; 8]) -> String {
+    let unit = match figure.unit {
+        OctantUnit::Diameter => "% D",
+        OctantUnit::Face => "% F",
+        OctantUnit::Degrees => "°",
+    };
+    let name = format!("{}, {unit}", figure.name);
+    let (Some(median), Some(spread), Some(worst)) = (figure.median, figure.spread, figure.worst) else {
+        return format!("{name:<32}{:>9}{:>9}   in no octant", "-", "-");
+    };
+    // Rounding leaves azimuths of no size with a sign.
+    let [median, spread] = [median, spread].map(|value| if value.abs() < NOT_SHOWN { 0.0 } else { value });
+    let missing: Vec<String> = (1..)
+        .zip(&figure.octants)
+        .filter(|(_, value)| value.is_none())
+        .map(|(k, _)| format!("{k}"))
+        .collect();
+    let at = match missing.is_empty() {
+        false => format!("none in octant {}", missing.join(", ")),
+        true if spread < NOT_SHOWN => "-".to_owned(),
+        true => format!("{} ({}) {:+.3}", worst.octant, mains[worst.octant - 1], worst.by),
+    };
+    format!("{name:<32}{median:>9.3}{spread:>9.3}   {at}")
+}
+
+/// Formats the spread of a stone.
+pub fn table_of_spread(path: &str, size: &FaceUpSize) -> String {
+    let dash = |value: Option<f64>, digits: usize| {
+        value.map_or_else(|| "-".to_owned(), |value| format!("{value:.digits$}"))
+    };
+    format!(
+        "{path}: face-up size for weight\n\n\
+         face, mm²                    {:>9.3}\n\
+         mean width, mm               {:>9.3}\n\
+         weight, ct                   {:>9}\n\
+         face for weight, mm²/ct      {:>9}\n\
+         spread, %                    {:>+9.3}\n\
+         weight ratio                 {:>9}\n\n\
+         Spread is by how much the face is larger than that of a reference brilliant of the same weight (table 57, crown 34.0°,\n\
+         pavilion 40.7°, girdle 2.5 %). The weight ratio, after GIA and only of round stones, is the volume in volumes of that\n\
+         brilliant at the same mean width.",
+        size.face_mm2,
+        size.mean_width_mm,
+        dash(size.carats, 3),
+        dash(size.mm2_per_carat, 3),
+        if size.spread_percent.abs() < NOT_SHOWN { 0.0 } else { size.spread_percent },
+        dash(size.weight_ratio, 4),
+    )
+}

@@ -1,0 +1,80 @@
+//! How measures of a design are taken, for the commands that vary it.
+
+use super::mesh_options::MeshArguments;
+use super::options::{ViewOptions, number};
+use super::specimen::LoadedSpecimen;
+use crate::cut::Size;
+use crate::io::Failure;
+use crate::measure::{MEASURES_HEAD_DEG, MeasureName, MeasureSettings};
+use crate::optics::line;
+use crate::render::{Sweep, SweepAxis};
+use clap::Args;
+use std::path::Path;
+
+/// The part of the light that may usually stay unresolved at each point.
+const UNRESOLVED: f64 = 2e-3;
+
+#[derive(Debug, Args)]
+pub struct MeasureTaking {
+    /// A material's name, or an index, instead of the file's
+    #[arg(long, value_name = "MATERIAL")]
+    material: Option<String>,
+    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
+    #[arg(long, value_name = "SIZE")]
+    stone: Option<Size>,
+    /// The half angle of the head that hides light in obstruction, extinction and contrast
+    #[arg(long, value_name = "DEGREES", default_value_t = MEASURES_HEAD_DEG, value_parser = number)]
+    head: f64,
+    /// Follow the beams until no more than this part of the light is unresolved
+    #[arg(long, value_name = "PART", default_value_t = UNRESOLVED, value_parser = number)]
+    unresolved: f64,
+    /// Treat the light as unpolarised at every surface
+    #[arg(long)]
+    unpolarised: bool,
+    #[command(flatten)]
+    view: ViewOptions,
+    #[command(flatten)]
+    mesh: MeshArguments,
+}
+
+impl MeasureTaking {
+    /// Refuses numbers out of their ranges.
+    pub fn check(&self) -> Result<(), Failure> {
+        let refused = |text: String| Err(Failure::Usage(text));
+        if !(self.unresolved > 0.0 && self.unresolved < 1.0) {
+            return refused(format!("--unresolved {}: give a part between 0 and 1", self.unresolved));
+        }
+        if !(0.0..=90.0).contains(&self.head) {
+            return refused(format!("--head {}: give 0 to 90 degrees", self.head));
+        }
+        Ok(())
+    }
+
+    /// Loads a design, and returns the sweep of it over these axes, which takes these measures.
+    pub fn sweep(
+        &self,
+        file: &Path,
+        axes: Vec<SweepAxis>,
+        measures: &[MeasureName],
+    ) -> Result<Sweep, Failure> {
+        let specimen = LoadedSpecimen::load(file, self.mesh.options())?;
+        let specimen = specimen.made_of(self.material.as_deref(), self.stone)?;
+        let mut domes = vec![];
+        for dome in measures.iter().filter_map(|name| name.dome()) {
+            if !domes.contains(&dome) {
+                domes.push(dome);
+            }
+        }
+        // The indices of colours are those of each point's material.
+        let settings = MeasureSettings { domes, head_deg: self.head, ..MeasureSettings::usual([1.0; 2]) };
+        Ok(Sweep {
+            design: specimen.design.clone(),
+            viewpoint: self.view.viewpoint()?,
+            axes,
+            settings,
+            wavelength_nm: line::SODIUM_D,
+            unresolved: self.unresolved,
+            polarised: !self.unpolarised,
+        })
+    }
+}

@@ -1,0 +1,298 @@
+//! `optimise`: finds a better design by a goal, and says what it gave up for what it won.
+
+use super::console::{print, say};
+use super::optimise_text::{json_value, text};
+use super::options::number;
+use super::plot_file::PlotFile;
+use super::progress::{WorkProgress, finish_on_signals, is_asked_to_finish};
+use super::specimen::LoadedSpecimen;
+use crate::cut::{Design, Size};
+use crate::io::design_file::{self, DesignFormat};
+use crate::io::plot::{PlotAxis, PlotCurve, curves};
+use crate::io::{Failure, goal_file};
+use crate::measure::{Interval, MeasureName, MeasureSettings, NoMeasure};
+use crate::optics::line;
+use crate::render::Sweep;
+use crate::scene::{Specimen, Viewpoint};
+use crate::search::{DesignSearch, Goal, GoalMeasure, SearchError, SearchOptions, SearchOutcome};
+use clap::Args;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::str::FromStr;
+use std::time::Instant;
+
+#[derive(Debug, Args)]
+pub struct OptimiseArguments {
+    /// A design, or the name of a cut that comes with the program
+    file: PathBuf,
+    /// A goal file; see docs/formats.md
+    #[arg(long, value_name = "FILE")]
+    goal: Option<PathBuf>,
+    /// A measure to raise, face up, with a weight if not 1, as in return-cos2 or fire=0.5; may be repeated
+    #[arg(long, value_name = "MEASURE[=WEIGHT]")]
+    raise: Vec<WeightedMeasure>,
+    /// A measure to lower, in the same way
+    #[arg(long, value_name = "MEASURE[=WEIGHT]")]
+    lower: Vec<WeightedMeasure>,
+    /// A number that may change, and its range, as in crown_angle=30:38 or tier:P1=40:44; may be repeated [default: the goal file's, or
+    /// else all that the design gives]
+    #[arg(long, value_name = "KEY=FROM:TO")]
+    vary: Vec<VariedRange>,
+    /// A material's name, or an index, instead of the file's
+    #[arg(long, value_name = "MATERIAL")]
+    material: Option<String>,
+    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
+    #[arg(long, value_name = "SIZE")]
+    stone: Option<Size>,
+    /// The file to write the design to; its ending names the format
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Draw how the best grew, as .svg, .png or .pdf
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// Stop after this time with the best so far, as Ctrl-C does
+    #[arg(long, value_name = "SECONDS", value_parser = number)]
+    seconds: Option<f64>,
+    /// Follow the beams near the best until no more than this part of the light is unresolved
+    #[arg(long, value_name = "PART", default_value_t = SearchOptions::default().unresolved, value_parser = number)]
+    unresolved: f64,
+    /// The number of designs that are scattered over all ranges first [default: as many as the numbers need]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    scatter: Option<u32>,
+    /// From how many of the scattered designs the search goes on
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    climbs: u32,
+    /// Another number scatters other designs
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u32,
+    /// Treat the light as unpolarised at every surface
+    #[arg(long)]
+    unpolarised: bool,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// A measure with its weight as it is written on the command line.
+#[derive(Debug, Clone)]
+struct WeightedMeasure(MeasureName, f64);
+
+/// Why a text is no part of a goal.
+#[derive(Debug, thiserror::Error)]
+enum GoalArgumentError {
+    #[error("'{0}': give a weight above 0, as in fire=0.5")]
+    Weight(String),
+    #[error(transparent)]
+    Measure(#[from] NoMeasure),
+    #[error("'{0}': give a number and its range, as in crown_angle=30:38")]
+    Range(String),
+}
+
+impl FromStr for WeightedMeasure {
+    type Err = GoalArgumentError;
+
+    fn from_str(text: &str) -> Result<Self, GoalArgumentError> {
+        let (name, weight) = text.rsplit_once('=').unwrap_or((text, "1"));
+        let weight = weight.trim().parse::<f64>().ok().filter(|weight| *weight > 0.0 && weight.is_finite());
+        let weight = weight.ok_or_else(|| GoalArgumentError::Weight(text.to_owned()))?;
+        Ok(Self(name.trim().parse()?, weight))
+    }
+}
+
+/// A number with its range as it is written on the command line.
+#[derive(Debug, Clone)]
+struct VariedRange(String, [f64; 2]);
+
+impl FromStr for VariedRange {
+    type Err = GoalArgumentError;
+
+    fn from_str(text: &str) -> Result<Self, GoalArgumentError> {
+        let fault = || GoalArgumentError::Range(text.to_owned());
+        // Names of tiers may hold an equals sign; ranges never do.
+        let (key, range) = text.rsplit_once('=').ok_or_else(fault)?;
+        let (from, to) = range.split_once(':').ok_or_else(fault)?;
+        match (from.trim().parse(), to.trim().parse()) {
+            (Ok(from), Ok(to)) if from < to => Ok(Self(key.trim().to_owned(), [from, to])),
+            _ => Err(fault()),
+        }
+    }
+}
+
+/// A measure before and after that the goal does not weigh.
+pub struct OtherMeasure {
+    pub name: MeasureName,
+    pub before: Interval,
+    pub after: Interval,
+}
+
+impl OptimiseArguments {
+    pub fn run(&self) -> Result<(), Failure> {
+        let goal = self.goal()?;
+        let format = self.format()?;
+        let plot = self.plot.as_deref().map(PlotFile::new).transpose()?;
+        let specimen = LoadedSpecimen::load(&self.file, crate::io::mesh_options::MeshOptions::default())?;
+        let specimen = specimen.made_of(self.material.as_deref(), self.stone)?;
+        let path = specimen.path.clone();
+        let refused = |error: SearchError| match error {
+            SearchError::Stopped => Failure::Stopped,
+            error => Failure::Usage(format!("{path}: {error}")),
+        };
+        let search = DesignSearch::new(&specimen.design, &goal, self.options(), &crate::trace::unwatched);
+        let search = search.map_err(refused)?;
+        for held in search.objective().held() {
+            say(&format!(
+                "note: {path}: {} is held: no meet that is known would be kept if it changed",
+                held.key
+            ));
+        }
+        let outcome = self.searched(&search, &path).map_err(refused)?;
+        if outcome.was_stopped {
+            say("note: the search was stopped before its end");
+        }
+        if !outcome.keeps_limits {
+            say(&format!(
+                "warning: {path}: no design was found that keeps all limits; the design stays as it is"
+            ));
+        }
+        let others = self.others(&search, &outcome)?;
+        match self.json {
+            true => print(&super::console::json(&json_value(&path, &search, &outcome, &others)))?,
+            false => print(&text(&goal, &search, &outcome, &others))?,
+        }
+        if let Some(plot) = plot {
+            let title = format!("{}: the best of the designs so far", specimen.design.name);
+            let svg = progress_svg(&title, &outcome).map_err(|error| plot.failed(&error))?;
+            plot.write(&svg, &title)?;
+        }
+        self.write(format, outcome.design)
+    }
+
+    /// Returns the goal of the file and of the options.
+    fn goal(&self) -> Result<Goal, Failure> {
+        let mut goal = match &self.goal {
+            Some(path) => goal_file::read(path)?,
+            None => Goal::of([]),
+        };
+        let raised = self.raise.iter().map(|WeightedMeasure(of, weight)| GoalMeasure::new(*of, *weight));
+        let lowered = self.lower.iter().map(|WeightedMeasure(of, weight)| GoalMeasure::new(*of, -*weight));
+        goal.measure.extend(raised.chain(lowered));
+        goal.vary.extend(self.vary.iter().map(|VariedRange(key, range)| (key.clone(), *range)));
+        if goal.measure.is_empty() {
+            return Err(Failure::Usage("give a goal: --goal FILE, or --raise MEASURE".to_owned()));
+        }
+        if !(self.unresolved > 0.0 && self.unresolved < 1.0) {
+            return Err(Failure::Usage(format!(
+                "--unresolved {}: give a part between 0 and 1",
+                self.unresolved
+            )));
+        }
+        goal.check().map_err(|fault| Failure::Usage(fault.to_string()))?;
+        Ok(goal)
+    }
+
+    fn format(&self) -> Result<Option<DesignFormat>, Failure> {
+        let of = |path: &PathBuf| {
+            DesignFormat::of_name(path).filter(|format| format.holds_designs()).ok_or_else(|| {
+                let what = "give a name that ends in .toml, .asc, .gem or .gcs";
+                Failure::Usage(format!("{}: {what}", path.display()))
+            })
+        };
+        self.out.as_ref().map(of).transpose()
+    }
+
+    fn options(&self) -> SearchOptions {
+        SearchOptions {
+            unresolved: self.unresolved,
+            scattered: self.scatter.map(|count| count as usize),
+            climbs: self.climbs as usize,
+            seed: self.seed.into(),
+            polarised: !self.unpolarised,
+            ..SearchOptions::default()
+        }
+    }
+
+    /// Searches under a progress bar, until the end, the time or a signal.
+    fn searched(&self, search: &DesignSearch, path: &str) -> Result<SearchOutcome, SearchError> {
+        let begun = Instant::now();
+        finish_on_signals();
+        let progress = WorkProgress::new(&format!("improving {path}"));
+        let show = progress.watch();
+        let watch = |part: f64| {
+            let is_over = self.seconds.is_some_and(|seconds| begun.elapsed().as_secs_f64() > seconds);
+            match is_over || is_asked_to_finish() {
+                true => ControlFlow::Break(()),
+                false => show(part),
+            }
+        };
+        search.run(&watch, &|_| {})
+    }
+
+    /// Measures what the goal does not weigh: the usual measures of both designs, face up, in the design's own material.
+    fn others(&self, search: &DesignSearch, outcome: &SearchOutcome) -> Result<Vec<OtherMeasure>, Failure> {
+        let measured = |design: &Design| {
+            let sweep = Sweep {
+                design: design.clone(),
+                viewpoint: Viewpoint::default(),
+                axes: vec![],
+                settings: MeasureSettings::usual([1.0; 2]),
+                wavelength_nm: line::SODIUM_D,
+                unresolved: self.unresolved,
+                polarised: !self.unpolarised,
+            };
+            sweep.point(0, &crate::trace::unwatched).map_err(|error| Failure::Usage(error.to_string()))
+        };
+        let (before, after) = (measured(search.objective().design())?, measured(&outcome.design)?);
+        let is_weighed = |name: &MeasureName| {
+            let is_it = |value: &crate::search::GoalValue| {
+                value.of == *name && value.material.is_none() && value.tilt_deg == 0.0
+            };
+            outcome.best.values.iter().any(is_it)
+        };
+        let names = MeasureName::all(&MeasureSettings::usual([1.0; 2]));
+        let other = |name: MeasureName| {
+            let (before, after) = (name.of(&before.measures)?, name.of(&after.measures)?);
+            Some(OtherMeasure { name, before, after })
+        };
+        Ok(names.into_iter().filter(|name| !is_weighed(name)).filter_map(other).collect())
+    }
+
+    fn write(&self, format: Option<DesignFormat>, design: Design) -> Result<(), Failure> {
+        let (Some(out), Some(format)) = (&self.out, format) else { return Ok(()) };
+        let made = Specimen::new(design).map_err(|error| Failure::Output(error.to_string()))?;
+        let lost = design_file::write(&made, format, out)?;
+        lost.iter().for_each(|what| say(&format!("note: {}: {what}", out.display())));
+        Ok(())
+    }
+}
+
+/// Draws the total of the best against the number of designs that were appraised.
+fn progress_svg(title: &str, outcome: &SearchOutcome) -> Result<String, crate::io::plot::PlotError> {
+    let mut places = vec![];
+    let mut bands = vec![];
+    for point in &outcome.curve {
+        let at = point.appraised as f64;
+        // Two may be found while the same number was appraised; the better one counts.
+        if places.last() == Some(&at) {
+            places.pop();
+            bands.pop();
+        }
+        // Between two finds the best stays as it is.
+        if let (Some(before), true) =
+            (bands.last().copied(), places.last().is_some_and(|last| at - last > 1.0))
+        {
+            places.push(at - 0.5);
+            bands.push(before);
+        }
+        places.push(at);
+        bands.push(Some([point.total; 2]));
+    }
+    if let Some(last) = bands.last().copied() {
+        let end = outcome.appraised as f64;
+        if places.last().is_some_and(|place| *place < end) {
+            places.push(end);
+            bands.push(last);
+        }
+    }
+    let axis = PlotAxis { label: "designs appraised".to_owned(), values: places };
+    curves(title, &axis, "goal", &[PlotCurve { name: "best so far".to_owned(), bands }])
+}

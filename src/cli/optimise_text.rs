@@ -1,0 +1,189 @@
+//! What `optimise` prints: what was won, what was given up, and which numbers did it.
+
+use super::optimise::OtherMeasure;
+use super::sweep_plot::label;
+use crate::cut::Cut;
+use crate::measure::Interval;
+use crate::search::{DesignSearch, Goal, GoalValue, SearchOutcome, VariedNumber};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// Changes of a measure below this part of the face are none.
+const SAME: f64 = 5e-5;
+
+/// One line about a measure.
+struct Change {
+    name: String,
+    before: Interval,
+    after: Interval,
+    /// Whether more of it is better, worse, or neither.
+    wanted: f64,
+}
+
+impl Change {
+    fn by(&self) -> f64 {
+        self.after.middle() - self.before.middle()
+    }
+
+    /// Returns whether the change is better, or worse, than none.
+    fn gain(&self) -> f64 {
+        if self.by().abs() < SAME { 0.0 } else { self.wanted * self.by() }
+    }
+
+    fn line(&self) -> String {
+        let part = |value: Interval| match value.most.is_finite() {
+            true => format!("{:7.2} ± {:.2} %", 100.0 * value.middle(), 100.0 * value.error()),
+            false => format!("at least {:.2} %", 100.0 * value.least),
+        };
+        format!(
+            "  {:<38}{:>18}{:>18}{:>+9.2}\n",
+            self.name,
+            part(self.before),
+            part(self.after),
+            100.0 * self.by()
+        )
+    }
+}
+
+/// Formats the outcome of a search.
+pub fn text(goal: &Goal, search: &DesignSearch, outcome: &SearchOutcome, others: &[OtherMeasure]) -> String {
+    let start = search.objective().start();
+    let mut text = String::new();
+    let name = goal.name.as_deref().unwrap_or("goal");
+    let total = |value: Interval| format!("{:.5} ± {:.5}", value.middle(), value.error());
+    let by = outcome.best.total.middle() - start.total.middle();
+    let _ = writeln!(
+        text,
+        "{name}: {} before, {} after, {by:+.5}",
+        total(start.total),
+        total(outcome.best.total)
+    );
+    let _ = writeln!(text, "{} designs appraised\n", outcome.appraised);
+    let _ = writeln!(text, "  {:<38}{:>18}{:>18}{:>9}", "", "before", "after", "change");
+    let weighed = start.values.iter().zip(&outcome.best.values).map(|(before, after)| Change {
+        name: name_of(before),
+        before: before.value,
+        after: after.value,
+        wanted: before.weight,
+    });
+    let other = others.iter().map(|other| Change {
+        name: other.name.to_string(),
+        before: other.before,
+        after: other.after,
+        wanted: wanted(other),
+    });
+    let (weighed, other): (Vec<Change>, Vec<Change>) = (weighed.collect(), other.collect());
+    section(&mut text, "Won", weighed.iter().filter(|change| change.gain() > 0.0));
+    section(&mut text, "Given up for it", weighed.iter().filter(|change| change.gain() < 0.0));
+    section(&mut text, "As it was", weighed.iter().filter(|change| change.gain() == 0.0));
+    section(&mut text, "Not weighed, better", other.iter().filter(|change| change.gain() > 0.0));
+    section(&mut text, "Not weighed, worse", other.iter().filter(|change| change.gain() < 0.0));
+    section(&mut text, "Not weighed, a matter of taste", other.iter().filter(|change| change.wanted == 0.0));
+    let _ = writeln!(text, "Numbers");
+    for (number, value) in search.objective().numbers().iter().zip(&outcome.values) {
+        let VariedNumber { key, least, most, start } = number;
+        let range = format!("from {least} to {most}");
+        let label = label(key, &search.objective().design().cut);
+        let _ = writeln!(text, "  {label:<38}{start:>12.4}{value:>18.4}{:>+15.4}   {range}", value - start);
+    }
+    if !start.figures.is_empty() {
+        let _ = writeln!(text, "Limits");
+    }
+    for ((name, before), (_, after)) in start.figures.iter().zip(&outcome.best.figures) {
+        let (low, high) =
+            goal.limit.get(name).map_or((f64::NEG_INFINITY, f64::INFINITY), |limit| limit.ends());
+        let ends = match (low.is_finite(), high.is_finite()) {
+            (true, true) => format!("from {low} to {high}"),
+            (true, false) => format!("at least {low}"),
+            _ => format!("at most {high}"),
+        };
+        let _ = writeln!(text, "  {name:<38}{before:>12.4}{after:>18.4}{:>+15.4}   {ends}", after - before);
+    }
+    let corners = search.objective().kept_corners();
+    if let (Cut::Tiers(_), true) = (&outcome.design.cut, corners > 0) {
+        let miss = |design| search.objective().miss_of_meets(design);
+        let (before, after) = (miss(search.objective().design()), miss(&outcome.design));
+        let _ = writeln!(
+            text,
+            "Meets: all {corners} corners of four facets or more are kept; planes miss them by at most {after:.0e} girdle \
+             radii, before by {before:.0e}"
+        );
+    }
+    text
+}
+
+fn section<'a>(text: &mut String, title: &str, changes: impl Iterator<Item = &'a Change>) {
+    let lines: String = changes.map(Change::line).collect();
+    if !lines.is_empty() {
+        let _ = write!(text, "{title}\n{lines}");
+    }
+}
+
+/// Returns whether people want more of a measure that the goal does not weigh (1), less (-1), or neither (0).
+fn wanted(other: &OtherMeasure) -> f64 {
+    match other.name.to_string().as_str() {
+        "leakage" | "windowing" | "obstruction" | "extinction" | "absorbed" => -1.0,
+        "contrast" => 0.0,
+        _ => 1.0,
+    }
+}
+
+fn name_of(value: &GoalValue) -> String {
+    let material = value.material.as_ref().map_or(String::new(), |name| format!(", {name}"));
+    let tilt = match (value.tilt_deg, value.azimuth_deg) {
+        (0.0, _) => String::new(),
+        (tilt, 0.0) => format!(", tilt {tilt}"),
+        (tilt, azimuth) => format!(", tilt {tilt} toward {azimuth}"),
+    };
+    format!("{}{material}{tilt}", value.of)
+}
+
+/// Returns the outcome of a search as docs/formats.md describes it.
+pub fn json_value(
+    file: &str,
+    search: &DesignSearch,
+    outcome: &SearchOutcome,
+    others: &[OtherMeasure],
+) -> Value {
+    let start = search.objective().start();
+    let value = |(before, after): (&GoalValue, &GoalValue)| {
+        json!({
+            "of": before.of.to_string(),
+            "material": before.material.as_ref().map(ToString::to_string),
+            "tilt": before.tilt_deg,
+            "azimuth": before.azimuth_deg,
+            "weight": before.weight,
+            "before": before.value,
+            "after": after.value,
+        })
+    };
+    let values: Vec<Value> = start.values.iter().zip(&outcome.best.values).map(value).collect();
+    let number = |(number, value): (&VariedNumber, &f64)| {
+        json!({
+            "key": number.key.to_string(),
+            "least": number.least,
+            "most": number.most,
+            "before": number.start,
+            "after": value,
+        })
+    };
+    let numbers: Vec<Value> = search.objective().numbers().iter().zip(&outcome.values).map(number).collect();
+    let limit = |((name, before), (_, after)): (&(String, f64), &(String, f64))| json!({ "name": name, "before": before, "after": after });
+    let limits: Vec<Value> = start.figures.iter().zip(&outcome.best.figures).map(limit).collect();
+    let other = |other: &OtherMeasure| json!({ "of": other.name.to_string(), "before": other.before, "after": other.after });
+    json!({
+        "file": file,
+        "total": { "before": start.total, "after": outcome.best.total },
+        "measures": values,
+        "others": others.iter().map(other).collect::<Vec<Value>>(),
+        "numbers": numbers,
+        "held": search.objective().held().iter().map(|number| number.key.to_string()).collect::<Vec<String>>(),
+        "limits": limits,
+        "keeps_limits": outcome.keeps_limits,
+        "kept_corners": search.objective().kept_corners(),
+        "miss_of_meets": search.objective().miss_of_meets(&outcome.design),
+        "appraised": outcome.appraised,
+        "stopped": outcome.was_stopped,
+        "curve": outcome.curve.iter().map(|point| json!([point.appraised, point.total])).collect::<Vec<Value>>(),
+    })
+}

@@ -1,0 +1,56 @@
+//! The figures of a stone's hearts and arrows, and their JSON.
+
+use super::viewing::Viewing;
+use crate::io::Failure;
+use crate::measure::{ClassDeviations, HeartsAndArrows, HeartsError, facet_deviations, hearts_and_arrows};
+use crate::scene::VIEWER_CONES_DEG;
+use crate::trace::Watch;
+use serde_json::{Value, json};
+
+/// The part of the light that may usually stay unresolved in hearts and arrows.
+const UNRESOLVED: f64 = 1e-3;
+
+/// Hearts and arrows, and how they were measured.
+pub struct HeartsReport<'a> {
+    /// The stone and its light. The view is the patterns' own.
+    pub viewing: Viewing<'a>,
+    /// The figures of the patterns.
+    pub patterns: HeartsAndArrows,
+    /// The deviations of the facets that make them.
+    pub deviations: Vec<ClassDeviations>,
+}
+
+/// Measures the hearts and arrows of a stone in the program's viewer.
+///
+/// # Errors
+/// [`Failure::Usage`] where the stone is no convex brilliant of eight mains, or [`Failure::Stopped`] when `watch` asks to stop.
+pub fn hearts<'a>(viewing: &Viewing<'a>, watch: Watch) -> Result<HeartsReport<'a>, Failure> {
+    let refused = |why: &dyn std::fmt::Display| Failure::Usage(format!("{}: {why}", viewing.file));
+    let not_convex = "hearts and arrows are measured of round brilliants, which are convex stones between planes; this is none";
+    let stone = viewing.specimen.stone().map_err(|_| refused(&not_convex))?;
+    let deviations = facet_deviations(stone).map_err(|why| refused(&why))?;
+    let beams = viewing.beams(UNRESOLVED);
+    let patterns = hearts_and_arrows(stone, viewing.medium, VIEWER_CONES_DEG, &beams, watch);
+    let patterns = patterns.map_err(|why| match why {
+        HeartsError::Stopped(stopped) => stopped.into(),
+        HeartsError::NotEightfold(why) => refused(&why),
+    })?;
+    Ok(HeartsReport { viewing: *viewing, patterns, deviations })
+}
+
+impl HeartsReport<'_> {
+    /// Returns the figures and how they were measured, as docs/formats.md describes them.
+    pub fn json(&self) -> Value {
+        let viewing = &self.viewing;
+        json!({
+            "file": viewing.file,
+            "name": viewing.specimen.design.name,
+            "hearts_and_arrows": self.patterns,
+            "deviations": self.deviations,
+            "material": viewing.specimen.material.name,
+            "index": viewing.medium.index,
+            "wavelength_nm": viewing.wavelength_nm,
+            "polarised": viewing.polarised,
+        })
+    }
+}

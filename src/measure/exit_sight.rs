@@ -1,0 +1,43 @@
+//! What an eye sees by exits: the head, the dome or what lies below, how bright it is, and which colours it parts.
+
+use crate::scene::elevation_deg;
+use crate::trace::beam::{Beam, Beams};
+
+/// What the eye sees along an exit.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum ExitSight {
+    Below,
+    Head,
+    Dome,
+}
+
+impl ExitSight {
+    pub fn of(beam: &Beam, beams: &Beams, head_deg: f64) -> Self {
+        let elevation = elevation_deg(beam.exit, beams.zenith);
+        match elevation {
+            below if below < 0.0 => Self::Below,
+            above if head_deg > 0.0 && above >= 90.0 - head_deg => Self::Head,
+            _ => Self::Dome,
+        }
+    }
+}
+
+/// Returns the brightness through each beam under an even dome with a head, without glare: the light of all exits up to the
+/// beam's end.
+pub(super) fn brightness(beams: &Beams, head_deg: f64) -> Vec<f64> {
+    let mut bright: Vec<f64> = Vec::with_capacity(beams.len());
+    for beam in beams.iter() {
+        let before = beam.parent.map_or(0.0, |parent| bright[parent as usize]);
+        let shines = !beam.is_surface()
+            && beam.weight > 0.0
+            && ExitSight::of(&beam, beams, head_deg) == ExitSight::Dome;
+        bright.push(before + if shines { beam.weight } else { 0.0 });
+    }
+    bright
+}
+
+/// Returns the part of a fan's colours that an eye sees apart, 0 to 1; `fan` is in radians.
+pub(super) fn seen_apart(fan: f64, blur_deg: f64) -> f64 {
+    let blur = blur_deg.to_radians();
+    if fan > blur { 1.0 - blur / fan } else { 0.0 }
+}

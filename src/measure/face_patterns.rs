@@ -1,0 +1,138 @@
+//! Measures of the pattern that an eye sees on the face: contrast and fire at the scale of what it resolves, patches, crushed ice,
+//! bow tie and fish eye.
+//!
+//! They need the stone's size, as the eye resolves less of a small stone. Formulas are in docs/optics.md, "Pattern".
+
+use super::bow_tie::bow_tie;
+use super::exit_sight::{ExitSight, brightness, seen_apart};
+use super::eye_grid::{EyeGrid, rms_contrast};
+use super::interval::Interval;
+use super::virtual_facets::VirtualFacets;
+use crate::cut::{is_girdle, is_table};
+use crate::math::Polytope;
+use crate::trace::beam::{Beam, Beams};
+use serde::{Deserialize, Serialize};
+
+/// What an eye resolves, mm: one minute of arc at 250 mm.
+pub const EYE_RESOLVES_MM: f64 = 250.0 * std::f64::consts::PI / (180.0 * 60.0);
+
+/// How many times as large as what the eye resolves a thing must be before its shape is seen: letters of a line that is just
+/// read are five times as high as their strokes are wide (H. Snellen, Optotypi ad visum determinandum, 1862).
+pub const SHAPE_IS_SEEN: f64 = 5.0;
+
+/// The angle in degrees by which a stone usually rocks for scintillation.
+pub const ROCK_DEG: f64 = 3.0;
+
+/// How large the stone is, and what the eye resolves.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PatternSettings {
+    /// What the eye resolves, mm, above 0; [`EYE_RESOLVES_MM`] unless the stone is seen from another distance.
+    pub resolves_mm: f64,
+    /// The girdle radius in mm, above 0.
+    pub unit_mm: f64,
+    /// By how many degrees, above 0 and at most 45, the stone rocks for scintillation; `None` leaves scintillation out.
+    pub rock_deg: Option<f64>,
+}
+
+impl PatternSettings {
+    /// Returns the usual settings for a stone of this girdle radius, without scintillation.
+    pub fn usual(unit_mm: f64) -> Self {
+        Self { resolves_mm: EYE_RESOLVES_MM, unit_mm, rock_deg: None }
+    }
+
+    /// Returns what the eye resolves, in girdle radii.
+    pub(super) fn resolves(&self) -> f64 {
+        self.resolves_mm / self.unit_mm
+    }
+}
+
+/// The measures of the pattern on the face.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PatternMeasures {
+    /// The contrast of the face after it was averaged over squares as large as what the eye resolves.
+    pub eye_contrast: Interval,
+    /// The mean diameter of the patches of such squares that are all brighter, or all darker, than the mean of the face,
+    /// weighted by area; as a part of the face's diameter. Diameters are those of circles of the same area.
+    pub patch_size: Interval,
+    /// The part of the face in virtual facets of the strongest exits that are smaller than a circle of [`SHAPE_IS_SEEN`] times
+    /// what the eye resolves.
+    pub crushed_ice: Interval,
+    /// The part of the fire from virtual facets that are at least as large as a circle of what the eye resolves; as a part of
+    /// the silhouette's light.
+    pub fire_seen: Interval,
+    /// The obstruction toward the face's short axis less that toward its long axis, -1 to 1; `None` where the face has no area.
+    pub bow_tie: Option<Interval>,
+    /// The part of the table through which one sees the girdle, reflected once in the pavilion; `None` where no table is seen.
+    pub fish_eye: Option<Interval>,
+}
+
+impl PatternMeasures {
+    /// Takes the measures of exact beams; `fans` are those of [`Beams::fans`]. Angles are degrees.
+    pub(super) fn of(
+        beams: &Beams,
+        polytope: &Polytope,
+        fans: &[f64],
+        (head_deg, blur_deg, pattern): (f64, f64, &PatternSettings),
+    ) -> Self {
+        let resolves = pattern.resolves();
+        let grid = EyeGrid::of(beams, &brightness(beams, head_deg), resolves);
+        let facets = VirtualFacets::of(beams, polytope);
+        Self {
+            eye_contrast: rms_contrast(grid.cells.iter().copied()),
+            patch_size: grid.patch_size(),
+            crushed_ice: facets.smaller_than(SHAPE_IS_SEEN * resolves),
+            fire_seen: fire_seen(&facets.areas(), beams, fans, (head_deg, blur_deg, resolves)),
+            bow_tie: bow_tie(beams, polytope, head_deg),
+            fish_eye: fish_eye(beams, polytope),
+        }
+    }
+}
+
+/// Returns the fire of virtual facets that are at least as large as a circle of what the eye resolves, girdle radii.
+fn fire_seen(
+    areas: &[Interval],
+    beams: &Beams,
+    fans: &[f64],
+    (head_deg, blur_deg, resolves): (f64, f64, f64),
+) -> Interval {
+    let limit = std::f64::consts::FRAC_PI_4 * resolves * resolves;
+    let share = f64::from(beams.symmetry.order()) / beams.silhouette_area;
+    let mut fire = Interval { least: 0.0, most: beams.unresolved() };
+    for (beam, area) in beams.iter().zip(areas) {
+        let is_seen = !beam.is_surface()
+            && beam.weight > 0.0
+            && ExitSight::of(&beam, beams, head_deg) != ExitSight::Below;
+        if !is_seen {
+            continue;
+        }
+        let energy = beam.weight * beam.area * share * seen_apart(fans[beam.id as usize], blur_deg);
+        fire.least += if area.least >= limit { energy } else { 0.0 };
+        fire.most += if area.most >= limit { energy } else { 0.0 };
+    }
+    fire
+}
+
+/// Returns the part of the table through which one sees the girdle by one reflection in the pavilion; `None` without a table.
+fn fish_eye(beams: &Beams, polytope: &Polytope) -> Option<Interval> {
+    let facets = polytope.facets();
+    let under_table = |beam: &Beam| beam.is_surface() && is_table(&facets[beam.facet as usize]);
+    let in_pavilion = |beam: &Beam| {
+        let facet = &facets[beam.facet as usize];
+        let before = beam.parent.map(|parent| beams.get(parent));
+        !is_girdle(facet) && facet.plane.normal.z < 0.0 && before.is_some_and(|before| under_table(&before))
+    };
+    let [mut table, mut girdle, mut open] = [0.0; 3];
+    for beam in beams.iter() {
+        let after_pavilion = || beam.parent.is_some_and(|parent| in_pavilion(&beams.get(parent)));
+        if under_table(&beam) {
+            table += beam.area;
+        } else if is_girdle(&facets[beam.facet as usize]) && after_pavilion() {
+            girdle += beam.area;
+        }
+        // The next facet of what was not followed may be the pavilion's or the girdle's.
+        if beam.open && (under_table(&beam) || in_pavilion(&beam)) {
+            open += beam.area;
+        }
+    }
+    (table > 0.0).then(|| Interval::from(girdle / table, open / table))
+}

@@ -1,0 +1,141 @@
+//! Scintillation: how much the brightness of the face changes, and in patches of which size, as the stone rocks.
+
+use super::exit_sight::brightness;
+use super::eye_grid::EyeGrid;
+use super::face_patterns::PatternSettings;
+use super::interval::Interval;
+use crate::scene::View;
+use crate::trace::beam::Beams;
+use glam::{DQuat, DVec2};
+use serde::Serialize;
+
+/// The directions into which the stone rocks: two axes, both ways.
+const DIRECTIONS: [DVec2; 4] = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y];
+
+/// The part of the face's mean brightness by which a place must change to count as one that changes.
+const CHANGES: f64 = 0.5;
+
+/// What changes as the stone rocks, under an even dome with the observer's head.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Scintillation {
+    /// The mean change of the brightness of a place, up or down, as a part of the face's mean brightness. `most` is infinite where
+    /// the mean may be 0.
+    pub change: Interval,
+    /// The mean diameter of the patches that change by more than half the mean brightness, weighted by area, as a part of the face's
+    /// diameter. Diameters are those of circles of the same area.
+    pub size: Interval,
+}
+
+/// Returns the views of a stone that has rocked by an angle, degrees, into each direction, while eye and light stay.
+pub fn rocked_views(view: &View, rock_deg: f64) -> Vec<View> {
+    let basis = view.basis();
+    let rocked = |direction: &DVec2| {
+        // The axis lies in the image; a turn is given in the frame before it.
+        let axis = view.turn * basis.lift(*direction);
+        View {
+            turn: DQuat::from_axis_angle(axis.normalize_or(glam::DVec3::X), rock_deg.to_radians())
+                * view.turn,
+            ..*view
+        }
+    };
+    DIRECTIONS.iter().map(rocked).collect()
+}
+
+impl Scintillation {
+    /// Compares the beams of a view with those of the same stone in [`rocked_views`].
+    pub fn of(beams: &Beams, rocked: &[Beams], head_deg: f64, pattern: &PatternSettings) -> Self {
+        let grid = |beams: &Beams| EyeGrid::of(beams, &brightness(beams, head_deg), pattern.resolves());
+        let start = grid(beams);
+        let mean = start.mean();
+        let pairs: Vec<Changes> = rocked.iter().map(|beams| Changes::of(&start, grid(beams))).collect();
+        let average = |of: &dyn Fn(&Changes) -> Interval| {
+            let each: Vec<Interval> = pairs.iter().map(of).collect();
+            let n = each.len().max(1) as f64;
+            let sum = |pick: fn(&Interval) -> f64| each.iter().map(pick).sum::<f64>() / n;
+            Interval { least: sum(|of| of.least), most: sum(|of| of.most) }
+        };
+        Self { change: average(&|changes| changes.mean(mean)), size: average(&|changes| changes.size(mean)) }
+    }
+}
+
+/// The changes of all cells from one view to another.
+struct Changes {
+    /// The cells of the other view, whose patches are measured.
+    grid: EyeGrid,
+    /// How much the brightness of each cell changes, up or down.
+    of: Vec<Interval>,
+    /// The part of each cell that is covered in both views, as a part of the face.
+    common: Vec<f64>,
+}
+
+impl Changes {
+    fn of(start: &EyeGrid, grid: EyeGrid) -> Self {
+        let pairs = grid.cells.iter().enumerate().map(|(k, cell)| (grid.same_place(k, start), *cell));
+        let common = pairs.clone().map(|(before, after)| before.area.min(after.area)).collect();
+        let change = |(before, after): (super::eye_grid::EyeCell, super::eye_grid::EyeCell)| {
+            let (a, b) = (before.brightness(), after.brightness());
+            let least = (a.least - b.most).max(b.least - a.most).max(0.0);
+            Interval { least, most: (a.most - b.least).max(b.most - a.least) }
+        };
+        let of = pairs.map(change).collect();
+        Self { of, common, grid }
+    }
+
+    fn mean(&self, brightness: Interval) -> Interval {
+        let area: f64 = self.common.iter().sum();
+        let sum = |pick: fn(&Interval) -> f64| {
+            let each = self.of.iter().zip(&self.common);
+            each.map(|(change, area)| pick(change) * area).sum::<f64>()
+        };
+        let (least, most) = (sum(|of| of.least), sum(|of| of.most));
+        let part = |change: f64, brightness: f64, none: f64| match area * brightness {
+            whole if whole > 0.0 => change / whole,
+            _ if change > 0.0 => f64::INFINITY,
+            _ => none,
+        };
+        Interval { least: part(least, brightness.most, 0.0), most: part(most, brightness.least, 0.0) }
+    }
+
+    fn size(&self, brightness: Interval) -> Interval {
+        let is_common = |k: usize| self.common[k] > 0.0;
+        let certain = |k: usize| is_common(k) && self.of[k].least > CHANGES * brightness.most;
+        let possible = |k: usize| is_common(k) && self.of[k].most > CHANGES * brightness.least;
+        let area = |is_in: &dyn Fn(usize) -> bool| {
+            (0..self.of.len()).filter(|&k| is_in(k)).fold(0.0, |sum, k| sum + self.grid.cells[k].area)
+        };
+        let [of_certain, of_possible] = [area(&certain), area(&possible)];
+        let least = if of_possible > 0.0 { self.grid.sizes(certain) / of_possible } else { 0.0 };
+        let most = match of_certain > 0.0 {
+            true => (self.grid.sizes(possible) / of_certain).min(1.0),
+            false if of_possible > 0.0 => 1.0,
+            false => 0.0,
+        };
+        Interval { least, most }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Side;
+
+    #[test]
+    fn a_stone_rocks_by_the_angle_under_eye_and_light_that_stay() {
+        for view in [
+            View::default(),
+            View { tilt: 0.2, azimuth: 0.7, ..View::default() },
+            View { side: Side::Culet, turn: DQuat::from_rotation_z(0.3), ..View::default() },
+        ] {
+            let rocked = rocked_views(&view, 3.0);
+            for (other, direction) in rocked.iter().zip(DIRECTIONS) {
+                let angle = other.basis().toward.angle_between(view.basis().toward).to_degrees();
+                assert!((angle - 3.0).abs() < 1e-9, "{angle}");
+                let lean = |view: &View| view.basis().toward.dot(view.zenith());
+                assert!((lean(other) - lean(&view)).abs() < 1e-12);
+                // What lies on the axis stays in its place of the image.
+                let axis = view.basis().lift(direction);
+                assert!(other.basis().project(axis).distance(direction) < 1e-12);
+            }
+        }
+    }
+}

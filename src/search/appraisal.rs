@@ -1,0 +1,101 @@
+//! What a design is worth by a goal, or why that cannot be said.
+
+use super::goal::{GoalFault, GoalMaterial};
+use crate::measure::{Interval, MeasureName};
+use crate::render::SweepError;
+use crate::scene::SpecimenError;
+
+/// Why a design cannot be appraised, or a goal not be sought.
+#[derive(Debug, thiserror::Error)]
+pub enum SearchError {
+    /// The goal is at fault.
+    #[error(transparent)]
+    Goal(#[from] GoalFault),
+    /// The design has no numbers to change.
+    #[error(
+        "the design has no numbers that may change: it is a mesh or a list of planes, or no tier keeps all meets when it moves"
+    )]
+    NoNumbers,
+    /// A key that is no number of the design.
+    #[error(
+        "vary: {0} is no number of a design; give the key of a proportion, or tier: and the name of a tier"
+    )]
+    NotOfDesign(String),
+    /// The design as it was given lies outside a range.
+    #[error("vary: {key}: the design has {start}, which is not from {least} to {most}; widen the range")]
+    StartOutside {
+        /// The number.
+        key: String,
+        /// Its value in the design.
+        start: f64,
+        /// The least value of the range.
+        least: f64,
+        /// The greatest value of the range.
+        most: f64,
+    },
+    /// A limit of something that the design does not have.
+    #[error("limit: {name}: there is no such figure; the design has {known}")]
+    NoLimit {
+        /// The name as given.
+        name: String,
+        /// The names that there are, in words.
+        known: String,
+    },
+    /// The design makes no stone.
+    #[error(transparent)]
+    Specimen(#[from] SpecimenError),
+    /// The stone is not convex.
+    #[error("{0}")]
+    NotConvex(String),
+    /// The design cannot be set or measured.
+    #[error(transparent)]
+    Sweep(#[from] SweepError),
+    /// Facets vanish, or the girdle comes to have others.
+    #[error("the stone no longer has all its facets")]
+    Vanished,
+    /// Facets that met in a point do so no longer.
+    #[error("the facets {0} no longer meet in a point")]
+    Broken(String),
+    /// Whoever watches has stopped the work.
+    #[error("stopped")]
+    Stopped,
+}
+
+/// A measure of a goal in one material and view.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GoalValue {
+    /// The measure.
+    pub of: MeasureName,
+    /// The material; `None` for the design's own.
+    pub material: Option<GoalMaterial>,
+    /// The tilt, degrees.
+    pub tilt_deg: f64,
+    /// The azimuth of the tilt, degrees.
+    pub azimuth_deg: f64,
+    /// How much the value counts: its share of the measure's weight.
+    pub weight: f64,
+    /// The value.
+    pub value: Interval,
+}
+
+/// How well a design meets a goal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Appraisal {
+    /// The sum of the weighted measures.
+    pub total: Interval,
+    /// The measures.
+    pub values: Vec<GoalValue>,
+    /// The name of each limit on the geometry, and its figure.
+    pub figures: Vec<(String, f64)>,
+    /// By how much each limit is kept; below 0 where it is not.
+    pub(super) slacks: Vec<f64>,
+    /// How the total and each slack change over the whole range of each number.
+    pub(super) slopes: Option<Slopes>,
+}
+
+/// How an appraisal changes over the whole range of each number.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Slopes {
+    pub total: Vec<f64>,
+    pub slacks: Vec<Vec<f64>>,
+}

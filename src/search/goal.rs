@@ -1,0 +1,235 @@
+//! Goals: what a design is to be good at, as a goal file says it.
+
+use crate::cut::MaterialRef;
+use crate::measure::MeasureName;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// The most measures of a goal, each counted once for every material and view.
+const MOST_TERMS: usize = 200;
+
+/// What a design is to be good at, which of its numbers may change, and what must hold.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Goal {
+    /// The name of the goal, for people.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// The measures that are weighed, at least one.
+    pub measure: Vec<GoalMeasure>,
+    /// The numbers that may change, with the least and the greatest value of each: keys of proportions, `tier:` and the name
+    /// of a tier. Where none is given, all that the design gives may change within usual ranges.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub vary: BTreeMap<String, [f64; 2]>,
+    /// Limits on the geometry: keys of the cut's proportions, or [`LIMIT_NAMES`](super::LIMIT_NAMES).
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub limit: BTreeMap<String, AtLeastAtMost>,
+}
+
+/// A measure that a goal weighs. With several materials or views it is taken in each, and the weight is shared out evenly.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GoalMeasure {
+    /// The measure.
+    pub of: MeasureName,
+    /// How much it counts: above 0 where more is better, below 0 where less is, 0 where it is only limited.
+    #[serde(default = "one")]
+    pub weight: f64,
+    /// The materials; that of the design where none is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<OneOrMore<GoalMaterial>>,
+    /// The tilts of the view, degrees, -90 to 90; face up where none is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tilt: Option<OneOrMore<f64>>,
+    /// The azimuths of the tilts, degrees; 0 where none is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub azimuth: Option<OneOrMore<f64>>,
+    /// The least value, in each material and view; none where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_least: Option<f64>,
+    /// The greatest value, in each material and view; none where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_most: Option<f64>,
+    /// By how much it may get worse than in the design as it was given, in each material and view: lower where the weight
+    /// is 0 or above, higher where it is below 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub may_lose: Option<f64>,
+}
+
+/// A least and a greatest value, of which one may be left out.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AtLeastAtMost {
+    /// The least value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_least: Option<f64>,
+    /// The greatest value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_most: Option<f64>,
+}
+
+/// A material of a goal.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum GoalMaterial {
+    /// The same refractive index for every wavelength, 1 to 5, without absorption.
+    Index(f64),
+    /// A material of the library, by its name.
+    Name(String),
+}
+
+impl GoalMaterial {
+    /// Returns the material as a design has it.
+    pub fn reference(&self) -> MaterialRef {
+        match self {
+            Self::Index(index) => MaterialRef::Index(*index),
+            Self::Name(name) => MaterialRef::Name(name.clone()),
+        }
+    }
+}
+
+impl fmt::Display for GoalMaterial {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Index(index) => write!(f, "{index}"),
+            Self::Name(name) => f.write_str(name),
+        }
+    }
+}
+
+/// A value, or a list of values.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum OneOrMore<T> {
+    /// One value.
+    One(T),
+    /// A list, which must not be empty.
+    More(Vec<T>),
+}
+
+impl<T> OneOrMore<T> {
+    /// Returns the values.
+    pub fn all(&self) -> &[T] {
+        match self {
+            Self::One(value) => std::slice::from_ref(value),
+            Self::More(values) => values,
+        }
+    }
+}
+
+/// What is wrong with a goal, and where.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{problem}")]
+pub struct GoalFault {
+    /// The key at fault as a path, such as `measure/0/weight`.
+    pub key: String,
+    /// What is wrong, and what to give.
+    pub problem: String,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl Goal {
+    /// Makes a goal that weighs measures of the design as it lies, face up.
+    pub fn of(measures: impl IntoIterator<Item = (MeasureName, f64)>) -> Self {
+        let measure = measures.into_iter().map(|(of, weight)| GoalMeasure::new(of, weight)).collect();
+        Self { name: None, measure, vary: BTreeMap::new(), limit: BTreeMap::new() }
+    }
+
+    /// Checks that the goal has a measure to raise or lower, and that its numbers are in their ranges.
+    ///
+    /// # Errors
+    /// The first thing at fault.
+    pub fn check(&self) -> Result<(), GoalFault> {
+        let fault = |key: String, problem: &str| Err(GoalFault { key, problem: problem.to_owned() });
+        for (place, measure) in self.measure.iter().enumerate() {
+            let materials = measure.material.iter().flat_map(OneOrMore::all);
+            for material in materials {
+                if let Err(error) = material.reference().material() {
+                    return fault(format!("measure/{place}/material"), &error.to_string());
+                }
+            }
+            if let Some((key, problem)) = measure.fault() {
+                return fault(format!("measure/{place}/{key}"), &format!("{key}: {problem}"));
+            }
+        }
+        if self.measure.iter().all(|measure| measure.weight == 0.0) {
+            let problem = "measure: give at least one [[measure]] whose weight is not 0";
+            return fault("measure".to_owned(), problem);
+        }
+        if self.measure.iter().map(GoalMeasure::terms).sum::<usize>() > MOST_TERMS {
+            let problem =
+                format!("measure: materials and views make more than {MOST_TERMS} values; give fewer");
+            return fault("measure".to_owned(), &problem);
+        }
+        for (key, [from, to]) in &self.vary {
+            if !(from.is_finite() && to.is_finite() && from < to) {
+                let problem = format!("{key}: give the least and then the greatest value, such as [30, 38]");
+                return fault(format!("vary/{key}"), &problem);
+            }
+        }
+        for (key, limit) in &self.limit {
+            let (low, high) = limit.ends();
+            if limit.at_least.or(limit.at_most).is_none() || low.is_nan() || high.is_nan() || low > high {
+                let problem =
+                    format!("{key}: give at_least, at_most or both, the first not above the second");
+                return fault(format!("limit/{key}"), &problem);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl GoalMeasure {
+    /// Makes a measure of the design's material, face up, without limits.
+    pub fn new(of: MeasureName, weight: f64) -> Self {
+        let (material, tilt, azimuth) = (None, None, None);
+        Self { of, weight, material, tilt, azimuth, at_least: None, at_most: None, may_lose: None }
+    }
+
+    /// Returns the number of materials and views in which the measure is taken.
+    pub(super) fn terms(&self) -> usize {
+        let materials = self.material.as_ref().map_or(1, |all| all.all().len());
+        let tilts = self.tilt.as_ref().map_or(1, |all| all.all().len());
+        let azimuths = self.azimuth.as_ref().map_or(1, |all| all.all().len());
+        materials.saturating_mul(tilts).saturating_mul(azimuths)
+    }
+
+    /// Returns the key at fault, and what to give there.
+    fn fault(&self) -> Option<(&'static str, &'static str)> {
+        let numbers = |list: &Option<OneOrMore<f64>>| list.as_ref().map_or(vec![], |all| all.all().to_vec());
+        let limits = [self.at_least, self.at_most, self.may_lose];
+        match () {
+            () if !(-1000.0..=1000.0).contains(&self.weight) => {
+                Some(("weight", "give a number from -1000 to 1000"))
+            }
+            () if self.terms() == 0 => {
+                Some(("of", "a list of materials, tilts or azimuths is empty; leave it out"))
+            }
+            () if numbers(&self.tilt).iter().any(|tilt| !(-90.0..=90.0).contains(tilt)) => {
+                Some(("tilt", "give -90 to 90 degrees"))
+            }
+            () if numbers(&self.azimuth).iter().any(|azimuth| !(-360.0..=360.0).contains(azimuth)) => {
+                Some(("azimuth", "give -360 to 360 degrees"))
+            }
+            () if limits.iter().flatten().any(|limit| !limit.is_finite()) => {
+                Some(("at_least", "limits are finite numbers"))
+            }
+            () if self.may_lose.is_some_and(|lost| lost < 0.0) => Some(("may_lose", "give 0 or more")),
+            () if self.at_least > self.at_most && self.at_most.is_some() => {
+                Some(("at_least", "it must not be above at_most"))
+            }
+            () => None,
+        }
+    }
+}
+
+impl AtLeastAtMost {
+    /// Returns both ends; infinite where one is left out.
+    pub fn ends(&self) -> (f64, f64) {
+        (self.at_least.unwrap_or(f64::NEG_INFINITY), self.at_most.unwrap_or(f64::INFINITY))
+    }
+}

@@ -1,0 +1,24 @@
+//! Floor 6: finds better designs. A [`Goal`] says as plain data what a design is to be good at, which of its numbers may
+//! change, and what must hold; an [`Objective`] appraises a design by it, with derivatives where the light has them; a
+//! [`DesignSearch`] looks for the best, from everywhere and then from near.
+
+mod appraisal;
+mod goal;
+mod kept_corners;
+mod limits;
+mod local;
+mod numbers;
+mod objective;
+mod outcome;
+mod run;
+
+#[cfg(test)]
+mod tests;
+
+pub use appraisal::{Appraisal, GoalValue, SearchError};
+pub use goal::{AtLeastAtMost, Goal, GoalFault, GoalMaterial, GoalMeasure, OneOrMore};
+pub use limits::LIMIT_NAMES;
+pub use numbers::VariedNumber;
+pub use objective::Objective;
+pub use outcome::{ProgressPoint, SearchOutcome, SearchProgress};
+pub use run::{DesignSearch, SearchOptions};

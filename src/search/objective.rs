@@ -1,0 +1,418 @@
+//! Appraises designs by a goal.
+
+use super::appraisal::{Appraisal, GoalValue, SearchError, Slopes};
+use super::goal::{Goal, GoalMaterial, GoalMeasure};
+use super::kept_corners::KeptCorners;
+use super::limits::GeometryLimit;
+use super::numbers::VariedNumber;
+use crate::cut::{Cut, Design, TierOutcome, Tiers};
+use crate::measure::{Interval, MeasureName, MeasureSettings, PatternSettings, ROCK_DEG};
+use crate::optics::line;
+use crate::render::{PlaneChanges, RenderError, Sweep, SweepError, SweptStone, with_numbers};
+use crate::scene::{Medium, Specimen, Viewpoint};
+use crate::trace::Watch;
+use rayon::prelude::*;
+
+/// The part of a number's range by which it is changed to find how the geometry changes with it.
+const GEOMETRY_STEP: f64 = 1e-4;
+
+/// The part of a number's range by which it is changed to see whether it keeps all meets.
+const MEET_STEP: f64 = 0.01;
+
+/// A material and view in which measures are taken together.
+struct GoalView {
+    material: Option<GoalMaterial>,
+    viewpoint: Viewpoint,
+    names: Vec<MeasureName>,
+}
+
+/// One measure in one material and view.
+struct Term {
+    view: usize,
+    name: MeasureName,
+    weight: f64,
+    /// The limits of the value; infinite where there are none.
+    ends: (f64, f64),
+}
+
+/// A goal for one design.
+pub struct Objective {
+    design: Design,
+    numbers: Vec<VariedNumber>,
+    views: Vec<GoalView>,
+    terms: Vec<Term>,
+    limits: Vec<GeometryLimit>,
+    corners: KeptCorners,
+    /// The numbers that were left as they are, because a change of them alone breaks a meet.
+    held: Vec<VariedNumber>,
+    start: Appraisal,
+    polarised: bool,
+}
+
+/// Returns the materials of a goal; `None` for the design's own.
+pub(super) fn materials(goal: &Goal) -> Vec<Option<GoalMaterial>> {
+    goal.measure.iter().flat_map(materials_of).collect()
+}
+
+fn materials_of(measure: &GoalMeasure) -> Vec<Option<GoalMaterial>> {
+    match &measure.material {
+        None => vec![None],
+        Some(names) => names.all().iter().cloned().map(Some).collect(),
+    }
+}
+
+impl Objective {
+    /// Takes a goal for a design, and appraises the design as it is until no more than `unresolved` of the light is open.
+    ///
+    /// The meets that a design of tiers states, and those that its geometry shows, are followed from here on, but for stated ones
+    /// that contradict the design. Numbers that break a meet when they alone change are held.
+    ///
+    /// # Errors
+    /// The goal or the design is at fault, or `watch` stops.
+    pub fn new(
+        design: &Design,
+        goal: &Goal,
+        polarised: bool,
+        unresolved: f64,
+        watch: Watch,
+    ) -> Result<Self, SearchError> {
+        goal.check()?;
+        let mut design = design.clone();
+        if let Cut::Tiers(tiers) = &mut design.cut {
+            *tiers = followed(tiers.with_stated_meets().with_found_meets());
+        }
+        let numbers = VariedNumber::all(goal, &design)?;
+        let specimen = Specimen::new(design.clone())?;
+        let stone = specimen.stone().map_err(|why| SearchError::NotConvex(why.to_string()))?;
+        let corners = KeptCorners::of(stone);
+        let limits = GeometryLimit::all(goal, &design, stone)?;
+        let (views, terms) = views_and_terms(goal);
+        let blank = Appraisal {
+            total: Interval::from(0.0, 0.0),
+            values: vec![],
+            figures: vec![],
+            slacks: vec![],
+            slopes: None,
+        };
+        let mut new =
+            Self { design, numbers, views, terms, limits, corners, held: vec![], start: blank, polarised };
+        new.hold_what_breaks_meets();
+        if new.numbers.is_empty() {
+            return Err(SearchError::NoNumbers);
+        }
+        new.start = new.appraise(&new.start_places(), unresolved, false, watch)?;
+        new.limit_losses(goal);
+        new.start = new.appraise(&new.start_places(), unresolved, false, watch)?;
+        Ok(new)
+    }
+
+    /// Returns the design as it was given, with its meets.
+    pub fn design(&self) -> &Design {
+        &self.design
+    }
+
+    /// Returns the numbers that change.
+    pub fn numbers(&self) -> &[VariedNumber] {
+        &self.numbers
+    }
+
+    /// Returns the numbers that are held, because a change of them alone breaks a meet.
+    pub fn held(&self) -> &[VariedNumber] {
+        &self.held
+    }
+
+    /// Returns the appraisal of the design as it was given.
+    pub fn start(&self) -> &Appraisal {
+        &self.start
+    }
+
+    /// Returns the number of corners that are kept: those where four or more facets meet.
+    pub fn kept_corners(&self) -> usize {
+        self.corners.count()
+    }
+
+    /// Returns by how much the planes of a design miss the corners that are kept, at most, girdle radii: within 1e-9, or no more
+    /// than in the design as it was given, but for a tenth. It is infinite where the design makes no such stone.
+    pub fn miss_of_meets(&self, design: &Design) -> f64 {
+        let specimen = Specimen::new(design.clone()).ok();
+        let stone = specimen.as_ref().and_then(|specimen| specimen.stone().ok());
+        stone.map_or(f64::INFINITY, |stone| self.corners.miss(stone))
+    }
+
+    /// Returns where the design as it was given lies in the ranges of its numbers, each 0 to 1.
+    pub(super) fn start_places(&self) -> Vec<f64> {
+        self.numbers.iter().map(VariedNumber::start_place).collect()
+    }
+
+    /// Returns whether derivatives of all that counts are known: nothing absorbs, and no fire, contrast or extinction counts.
+    pub(super) fn has_slopes(&self) -> bool {
+        let is_clear = |view: &GoalView| {
+            let material = self.of_material(view, self.design.clone()).material.material();
+            material.is_ok_and(|of| Medium::absorption_of(&of, line::SODIUM_D, 1.0) == [0.0; 2])
+        };
+        self.terms.iter().all(|term| term.name.is_energy()) && self.views.iter().all(is_clear)
+    }
+
+    /// Returns the design at a place of the ranges, with its meets followed.
+    ///
+    /// # Errors
+    /// A meet cannot be followed.
+    pub(super) fn design_at(&self, places: &[f64]) -> Result<Design, SearchError> {
+        let values = self.numbers.iter().zip(places).map(|(number, &place)| (&number.key, number.at(place)));
+        Ok(with_numbers(&self.design, values)?)
+    }
+
+    /// Appraises the design at a place of the ranges.
+    ///
+    /// # Errors
+    /// There is no such stone, it does not keep the meets, or `watch` stops.
+    pub(super) fn appraise(
+        &self,
+        places: &[f64],
+        unresolved: f64,
+        with_slopes: bool,
+        watch: Watch,
+    ) -> Result<Appraisal, SearchError> {
+        let design = self.design_at(places)?;
+        let figures = self.figures(&design)?;
+        let sweeps: Vec<Sweep> =
+            self.views.iter().map(|view| self.sweep(view, &design, unresolved)).collect();
+        let changes = match (with_slopes, sweeps.first()) {
+            (true, Some(sweep)) => {
+                let keys: Vec<_> = self.numbers.iter().map(|number| number.key.clone()).collect();
+                Some(sweep.plane_changes(&keys)?)
+            }
+            _ => None,
+        };
+        let measured: Vec<(SweptStone, Vec<Vec<f64>>)> = sweeps
+            .par_iter()
+            .zip(&self.views)
+            .map(|(sweep, view)| taken(sweep, view, changes.as_ref(), watch))
+            .collect::<Result<_, _>>()?;
+        let mut appraisal = self.summed(&measured, figures);
+        if changes.is_some() {
+            appraisal.slopes = Some(self.slopes(places, &measured));
+        }
+        Ok(appraisal)
+    }
+
+    /// Returns the figures that are limited, of a design that keeps its meets.
+    fn figures(&self, design: &Design) -> Result<Vec<(String, f64)>, SearchError> {
+        let specimen = Specimen::new(design.clone())?;
+        let stone = specimen.stone().map_err(|why| SearchError::NotConvex(why.to_string()))?;
+        if !self.corners.has_all_facets(stone) {
+            return Err(SearchError::Vanished);
+        }
+        if let Some(facets) = self.corners.broken(stone) {
+            return Err(SearchError::Broken(facets.join(", ")));
+        }
+        let figure = |limit: &GeometryLimit| (limit.name.clone(), limit.value(&design.cut, stone));
+        Ok(self.limits.iter().map(figure).collect())
+    }
+
+    fn of_material(&self, view: &GoalView, mut design: Design) -> Design {
+        if let Some(material) = &view.material {
+            design.material = material.reference();
+        }
+        design
+    }
+
+    fn sweep(&self, view: &GoalView, design: &Design, unresolved: f64) -> Sweep {
+        let mut domes = vec![];
+        for dome in view.names.iter().filter_map(|name| name.dome()) {
+            if !domes.contains(&dome) {
+                domes.push(dome);
+            }
+        }
+        Sweep {
+            design: self.of_material(view, design.clone()),
+            viewpoint: view.viewpoint,
+            axes: vec![],
+            // The indices of colours are those of each stone's material.
+            settings: MeasureSettings {
+                domes,
+                pattern: PatternSettings::needed_by(&view.names, 0.5 * design.diameter_mm, ROCK_DEG),
+                ..MeasureSettings::usual([1.0; 2])
+            },
+            wavelength_nm: line::SODIUM_D,
+            unresolved,
+            polarised: self.polarised,
+        }
+    }
+
+    /// Adds up what was measured in each view.
+    fn summed(&self, measured: &[(SweptStone, Vec<Vec<f64>>)], figures: Vec<(String, f64)>) -> Appraisal {
+        let (mut least, mut most) = (0.0, 0.0);
+        let (mut values, mut slacks) = (vec![], vec![]);
+        for term in &self.terms {
+            let view = &self.views[term.view];
+            let value = term.name.of(&measured[term.view].0.measures).unwrap_or(Interval::from(0.0, 1.0));
+            let (worse, better) =
+                if term.weight < 0.0 { (value.most, value.least) } else { (value.least, value.most) };
+            // A weight of 0 times an infinite end would be no number.
+            if term.weight != 0.0 {
+                (least, most) = (least + term.weight * worse, most + term.weight * better);
+            }
+            // A limit is kept where the whole interval keeps it.
+            push_slacks(&mut slacks, term.ends, (value.least, value.most));
+            values.push(GoalValue {
+                of: term.name,
+                material: view.material.clone(),
+                tilt_deg: view.viewpoint.tilt_deg,
+                azimuth_deg: view.viewpoint.azimuth_deg,
+                weight: term.weight,
+                value,
+            });
+        }
+        for (limit, (_, figure)) in self.limits.iter().zip(&figures) {
+            push_slacks(&mut slacks, limit.ends, (*figure, *figure));
+        }
+        Appraisal { total: Interval { least, most }, values, figures, slacks, slopes: None }
+    }
+
+    /// Returns how total and slacks change, of which the light's part was measured.
+    fn slopes(&self, places: &[f64], measured: &[(SweptStone, Vec<Vec<f64>>)]) -> Slopes {
+        let count = self.numbers.len();
+        let (mut total, mut slacks) = (vec![0.0; count], vec![]);
+        for term in &self.terms {
+            let place = self.views[term.view].names.iter().position(|name| *name == term.name);
+            let per = place.and_then(|place| measured[term.view].1.get(place));
+            let whole =
+                |k: usize| per.map_or(0.0, |per| per[k]) * (self.numbers[k].most - self.numbers[k].least);
+            let slope: Vec<f64> = (0..count).map(whole).collect();
+            total.iter_mut().zip(&slope).for_each(|(sum, slope)| *sum += term.weight * slope);
+            push_slopes(&mut slacks, term.ends, &slope);
+        }
+        let changes: Vec<Vec<f64>> = (0..count).map(|k| self.figure_slopes(places, k)).collect();
+        for (place, limit) in self.limits.iter().enumerate() {
+            let slope: Vec<f64> = changes.iter().map(|of_number| of_number[place]).collect();
+            push_slopes(&mut slacks, limit.ends, &slope);
+        }
+        Slopes { total, slacks }
+    }
+
+    /// Returns how the limited figures change over the range of a number; 0 where one side of the place makes no stone.
+    fn figure_slopes(&self, places: &[f64], number: usize) -> Vec<f64> {
+        if self.limits.is_empty() {
+            return vec![];
+        }
+        let at = |by: f64| {
+            let mut places = places.to_vec();
+            places[number] = (places[number] + by).clamp(0.0, 1.0);
+            let figures = self.design_at(&places).and_then(|design| self.figures(&design)).ok()?;
+            Some((places[number], figures))
+        };
+        match (at(-GEOMETRY_STEP), at(GEOMETRY_STEP)) {
+            (Some((low, below)), Some((high, above))) if high > low => {
+                below.iter().zip(&above).map(|((_, a), (_, b))| (b - a) / (high - low)).collect()
+            }
+            _ => vec![0.0; self.limits.len()],
+        }
+    }
+
+    /// Holds the numbers that break a meet when they alone change.
+    fn hold_what_breaks_meets(&mut self) {
+        let start = self.start_places();
+        let keeps = |number: usize| {
+            let mut places = start.clone();
+            places[number] += if places[number] < 0.5 { MEET_STEP } else { -MEET_STEP };
+            self.design_at(&places).and_then(|design| self.figures(&design)).is_ok()
+        };
+        let kept: Vec<bool> = (0..self.numbers.len()).map(keeps).collect();
+        let all = std::mem::take(&mut self.numbers).into_iter().zip(kept);
+        let (numbers, held): (Vec<_>, Vec<_>) = all.partition(|(_, keeps)| *keeps);
+        self.numbers = numbers.into_iter().map(|(number, _)| number).collect();
+        self.held = held.into_iter().map(|(number, _)| number).collect();
+    }
+
+    /// Turns what may be lost against the start into limits.
+    fn limit_losses(&mut self, goal: &Goal) {
+        let mut places = 0..;
+        for measure in &goal.measure {
+            for _ in 0..measure.terms() {
+                let Some(place) = places.next() else { return };
+                let (Some(lost), Some(start)) = (measure.may_lose, self.start.values.get(place)) else {
+                    continue;
+                };
+                let ends = &mut self.terms[place].ends;
+                if measure.weight < 0.0 {
+                    ends.1 = ends.1.min(start.value.most + lost);
+                } else {
+                    ends.0 = ends.0.max(start.value.least - lost);
+                }
+            }
+        }
+    }
+}
+
+/// Follows all meets but those that cannot be followed, which are dropped: their tiers stay where they are.
+fn followed(mut tiers: Tiers) -> Tiers {
+    loop {
+        let solved = tiers.solved();
+        let is_failed = |outcome: &TierOutcome| matches!(outcome, TierOutcome::Failed(_));
+        match solved.outcomes.iter().position(is_failed) {
+            Some(place) => tiers.tiers[place].meet = None,
+            None => return solved.tiers,
+        }
+    }
+}
+
+/// Measures one view; with `changes` also how its measures change with each number.
+fn taken(
+    sweep: &Sweep,
+    view: &GoalView,
+    changes: Option<&PlaneChanges>,
+    watch: Watch,
+) -> Result<(SweptStone, Vec<Vec<f64>>), SearchError> {
+    let stopped = |error: SweepError| match error {
+        SweepError::Render(RenderError::Stopped(_)) => SearchError::Stopped,
+        error => SearchError::Sweep(error),
+    };
+    match changes {
+        None => Ok((sweep.point(0, watch).map_err(stopped)?, vec![])),
+        Some(changes) => {
+            let graded = sweep.graded(changes, &view.names, watch).map_err(stopped)?;
+            Ok((graded.stone, graded.gradients.into_iter().map(|gradient| gradient.per).collect()))
+        }
+    }
+}
+
+fn push_slacks(slacks: &mut Vec<f64>, (low, high): (f64, f64), (least, most): (f64, f64)) {
+    slacks.extend(low.is_finite().then_some(least - low));
+    slacks.extend(high.is_finite().then_some(high - most));
+}
+
+fn push_slopes(slopes: &mut Vec<Vec<f64>>, (low, high): (f64, f64), slope: &[f64]) {
+    slopes.extend(low.is_finite().then(|| slope.to_vec()));
+    slopes.extend(high.is_finite().then(|| slope.iter().map(|slope| -slope).collect()));
+}
+
+/// Returns the views of a goal, each once, and its measures in them.
+fn views_and_terms(goal: &Goal) -> (Vec<GoalView>, Vec<Term>) {
+    let (mut views, mut terms): (Vec<GoalView>, Vec<Term>) = (vec![], vec![]);
+    for measure in &goal.measure {
+        let list = |given: &Option<super::OneOrMore<f64>>| {
+            given.as_ref().map_or(vec![0.0], |all| all.all().to_vec())
+        };
+        let weight = measure.weight / measure.terms() as f64;
+        for material in materials_of(measure) {
+            for tilt_deg in list(&measure.tilt) {
+                for azimuth_deg in list(&measure.azimuth) {
+                    let viewpoint = Viewpoint { tilt_deg, azimuth_deg, ..Viewpoint::default() };
+                    let is_same = |view: &GoalView| view.material == material && view.viewpoint == viewpoint;
+                    let view = views.iter().position(is_same).unwrap_or_else(|| {
+                        views.push(GoalView { material: material.clone(), viewpoint, names: vec![] });
+                        views.len() - 1
+                    });
+                    if !views[view].names.contains(&measure.of) {
+                        views[view].names.push(measure.of);
+                    }
+                    let ends =
+                        super::AtLeastAtMost { at_least: measure.at_least, at_most: measure.at_most }.ends();
+                    terms.push(Term { view, name: measure.of, weight, ends });
+                }
+            }
+        }
+    }
+    (views, terms)
+}

@@ -1,0 +1,261 @@
+//! Laws of a search.
+
+use super::{
+    AtLeastAtMost, DesignSearch, Goal, GoalMaterial, Objective, OneOrMore, SearchError, SearchOptions,
+    SearchProgress,
+};
+use crate::cut::{Crown, Cut, Design, MaterialRef, Pavilion, RoundBrilliant, TOLKOWSKY};
+use crate::measure::MeasureSettings;
+use crate::optics::line;
+use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue};
+use crate::scene::{DomeLight, Viewpoint};
+use crate::trace::{Stopped, unwatched};
+use std::ops::ControlFlow;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Rough enough to be quick, fine enough to tell hills apart.
+const ROUGH: SearchOptions = SearchOptions {
+    unresolved: 0.02,
+    scattered: Some(24),
+    climbs: 2,
+    seed: 0,
+    by_slopes: true,
+    polarised: false,
+};
+
+fn brilliant(crown: f64, pavilion: f64) -> Design {
+    Design {
+        name: "brilliant".to_owned(),
+        source: None,
+        notes: None,
+        material: MaterialRef::Index(2.417),
+        diameter_mm: 6.5,
+        cut: Cut::RoundBrilliant(RoundBrilliant {
+            crown: Crown::Angle(crown),
+            pavilion: Pavilion::Angle(pavilion),
+            ..TOLKOWSKY
+        }),
+    }
+}
+
+fn goal(of: &[(&str, f64)]) -> Goal {
+    let mut goal = Goal::of(of.iter().map(|(name, weight)| (name.parse().unwrap(), *weight)));
+    goal.vary =
+        [("crown_angle".to_owned(), [24.0, 40.0]), ("pavilion_angle".to_owned(), [38.0, 43.0])].into();
+    goal
+}
+
+fn searched(design: &Design, goal: &Goal) -> (DesignSearch, super::SearchOutcome) {
+    let search = DesignSearch::new(design, goal, ROUGH, &unwatched).unwrap();
+    let outcome = search.run(&unwatched, &|_| {}).unwrap();
+    (search, outcome)
+}
+
+/// Returns the best total of a map over crown and pavilion.
+fn map_best(goal: &Goal, steps: usize, unresolved: f64) -> f64 {
+    let values = |[from, to]: [f64; 2]| {
+        let at = |k: usize| SweepValue::Number(from + (to - from) * k as f64 / steps as f64);
+        (0..=steps).map(at).collect()
+    };
+    let axis =
+        |(key, range): (&String, &[f64; 2])| SweepAxis { key: SweepKey::of(key), values: values(*range) };
+    let sweep = Sweep {
+        design: brilliant(34.0, 41.0),
+        viewpoint: Viewpoint::default(),
+        axes: goal.vary.iter().map(axis).collect(),
+        settings: MeasureSettings {
+            domes: goal.measure.iter().filter_map(|measure| measure.of.dome()).collect(),
+            ..MeasureSettings::usual([1.0; 2])
+        },
+        wavelength_nm: line::SODIUM_D,
+        unresolved,
+        polarised: true,
+    };
+    let mut best = f64::NEG_INFINITY;
+    let each = |_, found: Result<crate::render::SweptStone, _>| {
+        if let Ok(found) = found {
+            let value = |measure: &super::GoalMeasure| {
+                measure.weight * measure.of.of(&found.measures).unwrap().middle()
+            };
+            best = best.max(goal.measure.iter().map(value).sum());
+        }
+        Ok(())
+    };
+    sweep.run::<Stopped>(0..sweep.count(), &unwatched, each).unwrap();
+    best
+}
+
+#[test]
+fn slopes_of_an_appraisal_are_the_weighed_gradients_of_its_measures() {
+    let mut goal = goal(&[("return-cos2", 1.0), ("return-cos3+glare", -0.3)]);
+    goal.measure[0].tilt = Some(OneOrMore::More(vec![0.0, 5.0]));
+    goal.measure[1].at_most = Some(0.9);
+    let limit = |at_least, at_most| AtLeastAtMost { at_least, at_most };
+    goal.limit.insert("height_to_width".to_owned(), limit(Some(0.4), Some(0.7)));
+    goal.limit.insert("above_critical".to_owned(), limit(Some(1.0), None));
+    let design = brilliant(33.0, 40.9);
+    let objective = Objective::new(&design, &goal, true, 0.01, &unwatched).unwrap();
+    let places = objective.start_places();
+    let slopes = objective.appraise(&places, 0.01, true, &unwatched).unwrap().slopes.unwrap();
+    let ranges = [16.0, 5.0];
+    let keys = ["crown_angle", "pavilion_angle"].map(SweepKey::of);
+    let gradient = |name: &str, tilt_deg| {
+        let domes = vec![DomeLight::of(2.0), DomeLight::of(3.0)];
+        let sweep = Sweep {
+            design: design.clone(),
+            viewpoint: Viewpoint { tilt_deg, ..Viewpoint::default() },
+            axes: vec![],
+            settings: MeasureSettings { domes, ..MeasureSettings::usual([1.0; 2]) },
+            wavelength_nm: line::SODIUM_D,
+            unresolved: 0.01,
+            polarised: true,
+        };
+        sweep.gradient(&keys, &[name.parse().unwrap()], &unwatched).unwrap().remove(0).per
+    };
+    let (flat, tilted) = (gradient("return-cos2", 0.0), gradient("return-cos2", 5.0));
+    let glare = gradient("return-cos3+glare", 0.0);
+    let step = 1e-3;
+    for number in 0..2 {
+        let total = ranges[number] * (0.5 * (flat[number] + tilted[number]) - 0.3 * glare[number]);
+        assert!((slopes.total[number] - total).abs() < 1e-9 * total.abs(), "{number}: {slopes:?} {total}");
+        // The greatest value of a measure is limited, then the angle, then both ends of the height.
+        let mut moved = [places.clone(), places.clone()];
+        moved[0][number] -= step;
+        moved[1][number] += step;
+        let [below, above] =
+            moved.map(|places| objective.appraise(&places, 0.05, false, &unwatched).unwrap().slacks);
+        let limited = -ranges[number] * glare[number];
+        assert!((slopes.slacks[0][number] - limited).abs() < 1e-9 * limited.abs());
+        for k in 1..4 {
+            let slack = (above[k] - below[k]) / (2.0 * step);
+            assert!((slopes.slacks[k][number] - slack).abs() < 1e-4, "{number} {k}: {slopes:?} {slack}");
+        }
+    }
+    assert!(slopes.slacks[2][0] > 0.05 && slopes.slacks[3][0] < -0.05 && slopes.slacks[1][1] > 4.9);
+}
+
+#[test]
+fn a_search_finds_the_hill_from_wherever_it_starts() {
+    let goal = goal(&[("return-cos2", 1.0)]);
+    let best = map_best(&goal, 8, 0.02);
+    for (crown, pavilion) in [(24.5, 38.5), (39.0, 42.5)] {
+        let (search, outcome) = searched(&brilliant(crown, pavilion), &goal);
+        assert!(outcome.best.total.middle() > best - 0.005, "{best}: {outcome:?}");
+        assert!(outcome.keeps_limits && !outcome.was_stopped);
+        let start = search.objective().start().total.middle();
+        assert!(outcome.best.total.middle() > start + 0.01, "{start}: {:?}", outcome.best.total);
+        let rises = outcome.curve.windows(2).all(|pair| pair[0].total < pair[1].total);
+        assert!(rises && outcome.curve.len() > 1, "{:?}", outcome.curve);
+        // The design is the one that was appraised.
+        let Cut::RoundBrilliant(cut) = &outcome.design.cut else { panic!("another cut") };
+        let pavilion = outcome.values[1];
+        assert!(matches!(cut.pavilion, Pavilion::Angle(angle) if (angle - pavilion).abs() < 1e-12));
+    }
+}
+
+#[test]
+fn limits_of_geometry_and_of_measures_are_kept() {
+    let mut goal = goal(&[("return-cos2", 1.0), ("return-even@15", 0.0)]);
+    let design = brilliant(34.0, 41.0);
+    let (_, free) = searched(&design, &goal);
+    goal.limit.insert("height_to_width".to_owned(), AtLeastAtMost { at_least: None, at_most: Some(0.57) });
+    goal.measure[1].may_lose = Some(0.02);
+    let (search, held) = searched(&design, &goal);
+    let height = |outcome: &super::SearchOutcome| outcome.best.figures[0].1;
+    assert!(held.keeps_limits && height(&held) <= 0.57 + 1e-9, "{held:?}");
+    let of_start = search.objective().start().values[1].value;
+    assert!(held.best.values[1].value.least >= of_start.least - 0.02 - 0.02);
+    let (of_free, of_held) = (free.best.total.middle(), held.best.total.middle());
+    assert!(of_held < of_free - 1e-3, "limits cost something: {of_free} {of_held} {:?}", free.values);
+    assert!(held.best.total.middle() >= search.objective().start().total.middle());
+    let lost = of_start.least - free.best.values[1].value.least;
+    assert!(lost > 0.05, "without the limit more is lost: {lost}");
+}
+
+#[test]
+fn a_limit_that_nothing_keeps_leaves_the_design_as_it_is() {
+    let mut goal = goal(&[("return-cos2", 1.0)]);
+    goal.measure[0].at_least = Some(0.99);
+    let design = brilliant(34.0, 41.0);
+    let (_, outcome) = searched(&design, &goal);
+    assert!(!outcome.keeps_limits && outcome.design == design && outcome.curve.is_empty());
+}
+
+#[test]
+fn a_compromise_weighs_every_material_and_tilt() {
+    let mut goal = goal(&[("return-cos2", 1.0)]);
+    let materials = ["quartz", "sapphire"].map(|name| GoalMaterial::Name(name.to_owned()));
+    let materials = materials.into_iter().chain([GoalMaterial::Index(2.16)]).collect();
+    goal.measure[0].material = Some(OneOrMore::More(materials));
+    goal.measure[0].tilt = Some(OneOrMore::More(vec![0.0, 10.0]));
+    goal.measure[0].may_lose = Some(0.0);
+    let objective = Objective::new(&brilliant(34.0, 41.0), &goal, false, 0.02, &unwatched).unwrap();
+    let start = objective.start();
+    assert_eq!(start.values.len(), 6);
+    let mean: f64 = start.values.iter().map(|value| value.value.middle() / 6.0).sum();
+    assert!((start.total.middle() - mean).abs() < 1e-12);
+    assert_eq!(start.slacks.len(), 6);
+    assert!(start.slacks.iter().all(|slack| slack.abs() < 1e-12), "{:?}", start.slacks);
+    let different =
+        |a: usize, b: usize| (start.values[a].value.middle() - start.values[b].value.middle()).abs();
+    assert!(different(0, 2) > 1e-3 && different(0, 1) > 1e-3);
+}
+
+#[test]
+fn a_search_that_is_stopped_hands_out_the_best_so_far() {
+    let search =
+        DesignSearch::new(&brilliant(26.0, 42.5), &goal(&[("return-cos2", 1.0)]), ROUGH, &unwatched).unwrap();
+    let asked = AtomicUsize::new(0);
+    let seen: Mutex<Vec<f64>> = Mutex::default();
+    let report = |progress: &SearchProgress| {
+        assert!((0.0..=1.0).contains(&progress.part));
+        seen.lock().unwrap().extend(progress.new_best.as_ref().and(progress.best_total));
+    };
+    let watch = |_: f64| {
+        let found_better = seen.lock().unwrap().len() > 1;
+        asked.fetch_add(1, Ordering::Relaxed);
+        if found_better { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let outcome = search.run(&watch, &report).unwrap();
+    assert!(outcome.was_stopped && asked.load(Ordering::Relaxed) > 1);
+    assert_eq!(outcome.curve.len(), seen.lock().unwrap().len());
+    assert!(outcome.best.total.middle() >= search.objective().start().total.middle());
+    let whole = search.run(&unwatched, &|_| {}).unwrap();
+    assert!(!whole.was_stopped && whole.appraised > outcome.appraised);
+}
+
+#[test]
+fn what_cannot_be_sought_is_refused() {
+    let refused = |change: fn(&mut Goal)| {
+        let mut goal = goal(&[("return-cos2", 1.0)]);
+        change(&mut goal);
+        let design = brilliant(34.0, 41.0);
+        Objective::new(&design, &goal, true, 0.05, &unwatched).err().expect("a refusal").to_string()
+    };
+    let range = |goal: &mut Goal, key: &str| goal.vary.insert(key.to_owned(), [1.0, 2.0]);
+    for (told, words) in [
+        (refused(|goal| goal.measure.clear()), "at least one [[measure]]"),
+        (refused(|goal| goal.vary = [("crown_angle".into(), [36.0, 38.0])].into()), "widen the range"),
+        (refused(|goal| goal.vary = [("tilt".into(), [0.0, 1.0])].into()), "no number of a design"),
+        (refused(|goal| goal.vary = [("crown_angel".into(), [30.0, 38.0])].into()), "no such proportion"),
+        (refused(|goal| goal.vary = [("tier:P1".into(), [30.0, 38.0])].into()), "no tiers"),
+        (
+            refused(|goal| {
+                let limit = AtLeastAtMost { at_least: Some(1.0), at_most: None };
+                goal.limit.insert("weight".into(), limit);
+            }),
+            "there is no such figure; the design has above_critical",
+        ),
+    ] {
+        assert!(told.contains(words), "{told}");
+    }
+    let mut culet = goal(&[("return-cos2", 1.0)]);
+    range(&mut culet, "culet");
+    assert!(Objective::new(&brilliant(34.0, 41.0), &culet, true, 0.05, &unwatched).is_err());
+    let mut planes = brilliant(34.0, 41.0);
+    planes.cut = Cut::Planes(planes.facets().unwrap());
+    let free = Goal::of([("return-cos2".parse().unwrap(), 1.0)]);
+    let found = Objective::new(&planes, &free, true, 0.05, &unwatched);
+    assert!(!matches!(found, Err(SearchError::Stopped)));
+}

@@ -1,0 +1,175 @@
+//! A search moves the tiers of cutters' designs along their meets.
+#![cfg(feature = "interchange")]
+
+use super::corpus::files;
+use brillianteer::cut::{Cut, Design, MaterialRef};
+use brillianteer::io::{as_tiers, cut_file, design_file, library};
+use brillianteer::measure::MeasureSettings;
+use brillianteer::optics::line;
+use brillianteer::render::{Sweep, SweepAxis, SweepKey, SweepValue, SweptStone, with_numbers};
+use brillianteer::scene::{Specimen, Viewpoint};
+use brillianteer::search::{DesignSearch, Goal, GoalMeasure, SearchError, SearchOptions};
+use brillianteer::trace::{Stopped, unwatched};
+use std::path::Path;
+use std::time::Instant;
+
+/// Real designs, where they are there.
+const LIBRARY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/asc/library");
+
+/// Returns a cut of the program as tiers.
+fn tiers(name: &str) -> Design {
+    let design = cut_file::parse(library::cut(name).unwrap(), name).unwrap();
+    let specimen = Specimen::new(design).unwrap();
+    let tiers = as_tiers(&specimen).unwrap();
+    Design { cut: Cut::Tiers(tiers), ..specimen.design }
+}
+
+/// Returns the numbers of facets and corners. A meet that opens becomes several corners.
+fn counts(design: &Design) -> (usize, usize) {
+    let specimen = Specimen::new(design.clone()).unwrap();
+    let stone = specimen.stone().unwrap();
+    (stone.polytope.facets().len(), stone.polytope.vertices().len())
+}
+
+#[test]
+fn tiers_are_better_after_a_search_and_keep_every_meet() {
+    let mut designs = vec![("tolkowsky".to_owned(), tiers("tolkowsky"))];
+    // Of the real designs every twentieth, among those that are open enough to be moved.
+    let real =
+        files(&["asc"]).into_iter().filter(|file| file.starts_with(Path::new(LIBRARY))).step_by(25).take(10);
+    designs.extend(real.map(|file| (file.display().to_string(), design_file::read(&file).unwrap().design)));
+    let mut improved = 0;
+    for (name, design) in &designs {
+        let goal = Goal::of([("return-cos2".parse().unwrap(), 1.0)]);
+        let options = SearchOptions {
+            unresolved: 0.03,
+            scattered: Some(16),
+            climbs: 2,
+            polarised: false,
+            ..SearchOptions::default()
+        };
+        let search = match DesignSearch::new(design, &goal, options, &unwatched) {
+            // Each tier of this design holds a meet that nothing states.
+            Err(SearchError::NoNumbers) => continue,
+            search => search.unwrap(),
+        };
+        let outcome = search.run(&unwatched, &|_| {}).unwrap();
+        let start = search.objective().start().total.middle();
+        assert!(outcome.best.total.middle() >= start, "{name}: {start} {:?}", outcome.best.total);
+        improved += u32::from(outcome.best.total.middle() > start + 0.01);
+        let objective = search.objective();
+        let [before, after] =
+            [objective.design(), &outcome.design].map(|design| objective.miss_of_meets(design));
+        assert!(after <= (1.1 * before).max(1e-9), "{name}: {before} {after}");
+        assert_eq!(counts(objective.design()).0, counts(&outcome.design).0, "{name}");
+        let Cut::Tiers(tiers) = &outcome.design.cut else { panic!("no tiers") };
+        let solved = tiers.solved();
+        assert_eq!(solved.errors().count(), 0, "{name}");
+        for (own, solved) in tiers.tiers.iter().zip(&solved.tiers.tiers) {
+            assert!((own.distance - solved.distance).abs() < 1e-9, "{name}: {}", own.name());
+        }
+    }
+    println!("{improved} of {} designs are better", designs.len());
+    assert!(
+        improved as usize * 10 >= designs.len() * 7,
+        "{improved} of {} designs are better",
+        designs.len()
+    );
+}
+
+#[test]
+fn a_corner_that_opens_is_counted() {
+    let mut design = tiers("tolkowsky");
+    let before = counts(&design);
+    let Cut::Tiers(tiers) = &mut design.cut else { panic!("no tiers") };
+    let place = tiers.tiers.iter().position(|tier| tier.angle < -30.0).unwrap();
+    tiers.tiers[place].angle += 1e-4;
+    assert!(counts(&design).1 > before.1);
+}
+
+/// Returns a brilliant of diamond's index.
+fn brilliant(crown: f64, pavilion: f64) -> Design {
+    let mut design = cut_file::parse(library::cut("tolkowsky").unwrap(), "tolkowsky").unwrap();
+    design.material = MaterialRef::Index(2.417);
+    let keys = ["crown_angle", "pavilion_angle"].map(SweepKey::of);
+    with_numbers(&design, keys.iter().zip([crown, pavilion])).unwrap()
+}
+
+fn goal(of: &[(&str, f64)]) -> Goal {
+    let mut goal = Goal::of(of.iter().map(|(name, weight)| (name.parse().unwrap(), *weight)));
+    goal.vary =
+        [("crown_angle".to_owned(), [24.0, 40.0]), ("pavilion_angle".to_owned(), [38.0, 43.0])].into();
+    goal
+}
+
+/// Returns the best total of a map over crown and pavilion, and the seconds that the map took.
+fn map_best(goal: &Goal, steps: usize, unresolved: f64) -> (f64, f64) {
+    let begun = Instant::now();
+    let values = |[from, to]: [f64; 2]| {
+        let at = |k: usize| SweepValue::Number(from + (to - from) * k as f64 / steps as f64);
+        (0..=steps).map(at).collect()
+    };
+    let axis =
+        |(key, range): (&String, &[f64; 2])| SweepAxis { key: SweepKey::of(key), values: values(*range) };
+    let sweep = Sweep {
+        design: brilliant(34.0, 41.0),
+        viewpoint: Viewpoint::default(),
+        axes: goal.vary.iter().map(axis).collect(),
+        settings: MeasureSettings {
+            domes: goal.measure.iter().filter_map(|measure| measure.of.dome()).collect(),
+            ..MeasureSettings::usual([1.0; 2])
+        },
+        wavelength_nm: line::SODIUM_D,
+        unresolved,
+        polarised: true,
+    };
+    let mut best = f64::NEG_INFINITY;
+    let each = |_, found: Result<SweptStone, _>| {
+        if let Ok(found) = found {
+            let value =
+                |measure: &GoalMeasure| measure.weight * measure.of.of(&found.measures).unwrap().middle();
+            best = best.max(goal.measure.iter().map(value).sum());
+        }
+        Ok(())
+    };
+    sweep.run::<Stopped>(0..sweep.count(), &unwatched, each).unwrap();
+    (best, begun.elapsed().as_secs_f64())
+}
+
+/// The time is that of a map of 65 by 65 points at the same bound, in the same run.
+#[test]
+#[ignore = "prints figures and times for a person to read"]
+fn random_starts_against_a_fine_map() {
+    for of in
+        [&[("return-cos2", 1.0)][..], &[("return-even", 1.0)], &[("return-even@15", 1.0), ("leakage", -1.0)]]
+    {
+        let goal = goal(of);
+        let (best, seconds) = map_best(&goal, 64, SearchOptions::default().unresolved);
+        for by_slopes in [true, false] {
+            let found: Vec<(f64, f64)> = (0..20)
+                .map(|seed| {
+                    random_start(&goal, SearchOptions { seed, by_slopes, ..SearchOptions::default() })
+                })
+                .collect();
+            let missing = |total: f64| 1.0 - total / best;
+            let reached = found.iter().filter(|(total, _)| missing(*total) < 1e-3).count();
+            let worst = found.iter().map(|(total, _)| missing(*total)).fold(f64::MIN, f64::max);
+            let longest = found.iter().map(|(_, time)| time / seconds).fold(0.0, f64::max);
+            println!(
+                "{of:?}, by slopes {by_slopes}: the map has {best:.5} after {seconds:.1} s; {reached} of 20 reach it, the worst \
+                 misses {:.3} %; the longest takes {longest:.3} of the map's time",
+                100.0 * worst
+            );
+        }
+    }
+}
+
+/// Searches from a random brilliant, and returns the total and the seconds that it took.
+fn random_start(goal: &Goal, options: SearchOptions) -> (f64, f64) {
+    let at = |k: f64| f64::fract(0.37 + options.seed as f64 * (0.618 + 0.31 * k));
+    let start = brilliant(24.0 + 16.0 * at(0.0), 38.0 + 5.0 * at(1.0));
+    let begun = Instant::now();
+    let search = DesignSearch::new(&start, goal, options, &unwatched).unwrap();
+    let found = search.run(&unwatched, &|_| {}).unwrap();
+    (found.best.total.middle(), begun.elapsed().as_secs_f64())
+}
