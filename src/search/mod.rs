@@ -11,6 +11,7 @@ mod numbers;
 mod objective;
 mod outcome;
 mod run;
+mod terms;
 
 #[cfg(test)]
 mod tests;
