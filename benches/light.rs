@@ -146,7 +146,7 @@ fn gradients(c: &mut Criterion) {
         polarised: true,
     };
     let keys: Vec<SweepKey> =
-        ["table", "crown_angle", "pavilion_angle", "star_length", "lower_half", "girdle_thickness"]
+        ["table", "crown_angle", "pavilion_angle", "star_length", "lower_half_length", "girdle_thickness"]
             .into_iter()
             .map(SweepKey::of)
             .chain([SweepKey::Index])

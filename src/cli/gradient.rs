@@ -71,11 +71,9 @@ fn all_keys(cut: &Cut) -> Vec<SweepKey> {
     let inside = given.filter(|row| (row.get)(cut) > 0.0);
     let mut keys: Vec<SweepKey> = inside.map(|row| SweepKey::Proportion(row.key.to_owned())).collect();
     for setting in cut.settings() {
-        let key = SweepKey::Tier(setting.name);
-        // The angle of a table says nothing; names that come again stand for their first tier.
-        let leans = setting.angle.abs() > 0.0 && setting.angle.abs() < 90.0;
-        if leans && !keys.contains(&key) {
-            keys.push(key);
+        // The angle of a table says nothing.
+        if setting.angle.abs() > 0.0 && setting.angle.abs() < 90.0 {
+            keys.push(SweepKey::Tier(setting.name));
         }
     }
     keys.push(SweepKey::Index);

@@ -2,11 +2,12 @@
 
 use super::{Cut, TierZone, tier_stem};
 use crate::math::{Plane, grouped};
+use std::collections::HashSet;
 
 /// A tier as it is set on a faceting machine. Where its facets differ, the numbers are their means.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineSetting {
-    /// The name of its facets, without their numbers.
+    /// The name of its facets, without their numbers; of several tiers with one name the second has `#2` behind it, and so on.
     pub name: String,
     /// The number of facets.
     pub facets: usize,
@@ -18,7 +19,25 @@ pub struct MachineSetting {
 
 impl Cut {
     /// Returns the tiers in the order in which they are listed; none for a cut that is shaped by proportions, or a mesh.
+    ///
+    /// No two have the same name: where a design has several tiers of one name, as `2` in crown and pavilion, the second is `2#2`.
     pub fn settings(&self) -> Vec<MachineSetting> {
+        let mut settings = self.settings_as_named();
+        let mut names: HashSet<String> = settings.iter().map(|setting| setting.name.clone()).collect();
+        let mut seen: HashSet<String> = HashSet::new();
+        for setting in &mut settings {
+            if seen.insert(setting.name.clone()) {
+                continue;
+            }
+            let mut numbered = (2..).map(|number: usize| format!("{}#{number}", setting.name));
+            if let Some(name) = numbered.find(|name| names.insert(name.clone())) {
+                setting.name = name;
+            }
+        }
+        settings
+    }
+
+    fn settings_as_named(&self) -> Vec<MachineSetting> {
         match self {
             Self::RoundBrilliant(_) | Self::Family(_) | Self::Mesh(_) | Self::Glass(_) => vec![],
             Self::Tiers(design) => {
@@ -115,6 +134,27 @@ mod tests {
 
     fn planes() -> Cut {
         Cut::Planes(MODERN.facets().unwrap())
+    }
+
+    #[test]
+    fn tiers_of_one_name_are_told_apart() {
+        use super::super::{Indexed, Tier, Tiers};
+        let tier = |name: &str| Tier {
+            angle: 40.0,
+            distance: 1.0,
+            instructions: String::new(),
+            meet: None,
+            is_cut: true,
+            frosting: 0.0,
+            facets: vec![Indexed { index: 0.0, name: name.to_owned() }],
+        };
+        let tiers = ["2", "1", "2", "2#2", "2"].map(tier).to_vec();
+        let names: Vec<String> = Cut::Tiers(Tiers { tiers, ..Tiers::default() })
+            .settings()
+            .into_iter()
+            .map(|setting| setting.name)
+            .collect();
+        assert_eq!(names, ["2", "1", "2#3", "2#2", "2#4"]);
     }
 
     #[test]

@@ -429,7 +429,7 @@ fn set_proportion(cut: &mut Cut, key: &str, value: f64) -> Result<(), SweepError
     Ok(())
 }
 
-/// Returns the place and the setting of a tier. Of tiers with one name it is the first.
+/// Returns the place and the setting of a tier.
 fn tier_of(cut: &Cut, key: &SweepKey, name: &str) -> Result<(usize, MachineSetting), SweepError> {
     let settings = cut.settings();
     if let Some(place) = settings.iter().position(|setting| setting.name == name) {

@@ -4,7 +4,6 @@ use super::appraisal::SearchError;
 use super::goal::Goal;
 use crate::cut::{Cut, Design, MachineSetting, Unit};
 use crate::render::{SweepKey, with_numbers};
-use std::collections::HashSet;
 
 /// By how many degrees the angle of a tier may usually change, either way.
 const TIER_RANGE_DEG: f64 = 5.0;
@@ -93,12 +92,9 @@ fn usual(cut: &Cut) -> Vec<VariedNumber> {
             (start > 0.0).then(|| VariedNumber { key, least: least.min(start), most: most.max(start), start })
         })
         .collect();
-    let mut named = HashSet::new();
     for setting in cut.settings() {
         let start = setting.angle.abs();
-        // Names that come again stand for their first tier.
-        let leans = (TIER_ANGLES_DEG[0]..=TIER_ANGLES_DEG[1]).contains(&start);
-        if leans && named.insert(setting.name.clone()) {
+        if (TIER_ANGLES_DEG[0]..=TIER_ANGLES_DEG[1]).contains(&start) {
             let least = (start - TIER_RANGE_DEG).max(TIER_ANGLES_DEG[0]);
             let most = (start + TIER_RANGE_DEG).min(TIER_ANGLES_DEG[1]);
             numbers.push(VariedNumber { key: SweepKey::Tier(setting.name), least, most, start });

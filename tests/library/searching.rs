@@ -49,14 +49,23 @@ fn tiers_are_better_after_a_search_and_keep_every_meet() {
             ..SearchOptions::default()
         };
         let search = match DesignSearch::new(design, &goal, options, &unwatched) {
-            // Each tier of this design holds a meet that nothing states.
-            Err(SearchError::NoNumbers) => continue,
-            search => search.unwrap(),
+            Err(SearchError::NoNumbers) => {
+                println!("{name}: each tier holds a meet that nothing states");
+                continue;
+            }
+            search => search.unwrap_or_else(|why| panic!("{name}: {why}")),
         };
         let outcome = search.run(&unwatched, &|_| {}).unwrap();
         let start = search.objective().start().total.middle();
-        assert!(outcome.best.total.middle() >= start, "{name}: {start} {:?}", outcome.best.total);
-        improved += u32::from(outcome.best.total.middle() > start + 0.01);
+        assert!(outcome.best.total.middle() > start + 0.005, "{name}: {start} {:?}", outcome.best.total);
+        improved += 1;
+        println!(
+            "{name}: {start:.3} before, {:.3} after {} designs; {} tiers change, {} are held",
+            outcome.best.total.middle(),
+            outcome.appraised,
+            search.objective().numbers().len(),
+            search.objective().held().len()
+        );
         let objective = search.objective();
         let [before, after] =
             [objective.design(), &outcome.design].map(|design| objective.miss_of_meets(design));
@@ -69,12 +78,9 @@ fn tiers_are_better_after_a_search_and_keep_every_meet() {
             assert!((own.distance - solved.distance).abs() < 1e-9, "{name}: {}", own.name());
         }
     }
-    println!("{improved} of {} designs are better", designs.len());
-    assert!(
-        improved as usize * 10 >= designs.len() * 7,
-        "{improved} of {} designs are better",
-        designs.len()
-    );
+    // Where each tier holds a meet that nothing states, none can move alone.
+    assert!(improved > 0 || designs.len() == 1);
+    assert!(improved * 10 >= designs.len() * 7 - 7, "{improved} of {} designs are better", designs.len());
 }
 
 #[test]
@@ -176,7 +182,7 @@ fn slopes_against_none() {
         ("crown_angle", [24.0, 40.0]),
         ("pavilion_angle", [38.0, 43.0]),
         ("star_length", [40.0, 60.0]),
-        ("lower_half", [70.0, 88.0]),
+        ("lower_half_length", [70.0, 88.0]),
     ] {
         goal.vary.insert(key.to_owned(), range);
     }

@@ -58,10 +58,8 @@ impl MapAxis {
         let [least, most] = TIER_ANGLES;
         let settings = cut.settings();
         let is_slanted = |angle: f64| (least..=most).contains(&angle.abs());
-        let first_of_name = |place: usize| settings[..place].iter().all(|s| s.name != settings[place].name);
-        let tiers = settings.iter().enumerate();
-        let tiers = tiers.filter(|(place, tier)| is_slanted(tier.angle) && first_of_name(*place));
-        let tier = |(_, tier): (usize, &crate::cut::MachineSetting)| Self {
+        let tiers = settings.iter().filter(|tier| is_slanted(tier.angle));
+        let tier = |tier: &crate::cut::MachineSetting| Self {
             key: SweepKey::Tier(tier.name.clone()),
             name: format!("Angle of {}", tier.name),
             unit: "°",
