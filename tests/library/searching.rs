@@ -33,7 +33,8 @@ fn counts(design: &Design) -> (usize, usize) {
 
 #[test]
 fn tiers_are_better_after_a_search_and_keep_every_meet() {
-    let mut designs = vec![("tolkowsky".to_owned(), tiers("tolkowsky"))];
+    let mut designs: Vec<(String, Design)> =
+        ["tolkowsky", "single-cut", "hexagon"].map(|name| (name.to_owned(), tiers(name))).into();
     // Of the real designs every twentieth, among those that are open enough to be moved.
     let real =
         files(&["asc"]).into_iter().filter(|file| file.starts_with(Path::new(LIBRARY))).step_by(25).take(10);
@@ -79,8 +80,7 @@ fn tiers_are_better_after_a_search_and_keep_every_meet() {
         }
     }
     // Where each tier holds a meet that nothing states, none can move alone.
-    assert!(improved > 0 || designs.len() == 1);
-    assert!(improved * 10 >= designs.len() * 7 - 7, "{improved} of {} designs are better", designs.len());
+    assert!(improved * 10 >= designs.len() * 6, "{improved} of {} designs are better", designs.len());
 }
 
 #[test]
