@@ -1,5 +1,9 @@
 //! Plots of numbers over one or two axes, as SVG.
 
+mod panels;
+
+pub use panels::{PlotPanel, panels};
+
 use contour::ContourBuilder;
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -18,8 +22,11 @@ const KEY_WIDTH: i32 = 240;
 /// About how many lines of equal value a map has.
 const LINES: f64 = 8.0;
 
+/// The number of colours of curves; from then on they come again.
+pub const COLOURS_OF_CURVES: usize = 7;
+
 /// The colours of curves, told apart by people who see no red or no green (B. Wong, Nature Methods 8, 441 (2011)).
-const COLOURS: [RGBColor; 7] = [
+const COLOURS: [RGBColor; COLOURS_OF_CURVES] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -115,49 +122,65 @@ impl PlotAxis {
 /// # Errors
 /// A [`PlotError`]: an axis that does not rise or fall, or no number.
 pub fn curves(title: &str, axis: &PlotAxis, unit: &str, curves: &[PlotCurve]) -> Result<String, PlotError> {
-    let across = axis.ends()?;
-    let all = || curves.iter().flat_map(|curve| curve.bands.iter().flatten().flatten().copied());
-    let up = room(all()).ok_or(PlotError::Nothing)?;
-    drawn(|root| {
+    axis.check()?;
+    room(numbers(curves)).ok_or(PlotError::Nothing)?;
+    drawn(SIZE, |root| {
         let (left, right) = root.split_horizontally(SIZE.0 as i32 - KEY_WIDTH);
-        draw_key(&right, curves)?;
-        let mut chart = ChartBuilder::on(&left)
-            .margin(24)
-            .margin_right(0)
-            .caption(title, ("sans-serif", 24))
-            .x_label_area_size(52)
-            .y_label_area_size(72)
-            .build_cartesian_2d(across.clone(), up.clone())
-            .map_err(failed)?;
-        chart
-            .configure_mesh()
-            .x_label_formatter(&number)
-            .y_label_formatter(&number)
-            .light_line_style(WHITE)
-            .bold_line_style(RGBColor(215, 215, 215))
-            .x_desc(&axis.label)
-            .y_desc(unit)
-            .label_style(("sans-serif", 16))
-            .axis_desc_style(("sans-serif", 18))
-            .draw()
-            .map_err(failed)?;
-        let parts: Vec<_> =
-            curves.iter().zip(COLOURS.iter().cycle()).flat_map(|(c, of)| c.parts(axis, of)).collect();
-        let bands = parts.iter().map(|(part, colour)| {
-            let back = part.iter().rev().map(|&(x, [_, most])| (x, most));
-            Polygon::new(
-                part.iter().map(|&(x, [least, _])| (x, least)).chain(back).collect::<Vec<_>>(),
-                pale(**colour),
-            )
-        });
-        chart.draw_series(bands).map_err(failed)?;
-        let middles = parts.iter().map(|(part, colour)| {
-            let points = part.iter().map(|&(x, [least, most])| (x, f64::midpoint(least, most)));
-            PathElement::new(points.collect::<Vec<_>>(), colour.stroke_width(2))
-        });
-        chart.draw_series(middles).map_err(failed)?;
-        Ok(())
+        draw_key(&right, 90, curves)?;
+        draw_curves(&left, (title, 24), axis, unit, curves)
     })
+}
+
+/// Returns all numbers of curves.
+fn numbers(curves: &[PlotCurve]) -> impl Iterator<Item = f64> {
+    curves.iter().flat_map(|curve| curve.bands.iter().flatten().flatten().copied())
+}
+
+/// Draws a chart of curves, with a title of this size above it.
+fn draw_curves(
+    area: &Area,
+    (title, size): (&str, u32),
+    axis: &PlotAxis,
+    unit: &str,
+    curves: &[PlotCurve],
+) -> Result<(), PlotError> {
+    let (across, up) = (axis.ends()?, room(numbers(curves)).ok_or(PlotError::Nothing)?);
+    let mut chart = ChartBuilder::on(area)
+        .margin(24)
+        .margin_right(0)
+        .caption(title, ("sans-serif", size))
+        .x_label_area_size(52)
+        .y_label_area_size(72)
+        .build_cartesian_2d(across, up)
+        .map_err(failed)?;
+    chart
+        .configure_mesh()
+        .x_label_formatter(&number)
+        .y_label_formatter(&number)
+        .light_line_style(WHITE)
+        .bold_line_style(RGBColor(215, 215, 215))
+        .x_desc(&axis.label)
+        .y_desc(unit)
+        .label_style(("sans-serif", 16))
+        .axis_desc_style(("sans-serif", 18))
+        .draw()
+        .map_err(failed)?;
+    let parts: Vec<_> =
+        curves.iter().zip(COLOURS.iter().cycle()).flat_map(|(c, of)| c.parts(axis, of)).collect();
+    let bands = parts.iter().map(|(part, colour)| {
+        let back = part.iter().rev().map(|&(x, [_, most])| (x, most));
+        Polygon::new(
+            part.iter().map(|&(x, [least, _])| (x, least)).chain(back).collect::<Vec<_>>(),
+            pale(**colour),
+        )
+    });
+    chart.draw_series(bands).map_err(failed)?;
+    let middles = parts.iter().map(|(part, colour)| {
+        let points = part.iter().map(|&(x, [least, most])| (x, f64::midpoint(least, most)));
+        PathElement::new(points.collect::<Vec<_>>(), colour.stroke_width(2))
+    });
+    chart.draw_series(middles).map_err(failed)?;
+    Ok(())
 }
 
 /// A place of an axis, with the least and the greatest value there.
@@ -173,10 +196,10 @@ impl PlotCurve {
     }
 }
 
-/// Draws which colour is which curve.
-fn draw_key(area: &Area, curves: &[PlotCurve]) -> Result<(), PlotError> {
+/// Draws which colour is which curve, from this height down.
+fn draw_key(area: &Area, top: i32, curves: &[PlotCurve]) -> Result<(), PlotError> {
     for (row, (curve, colour)) in (0..).zip(curves.iter().zip(COLOURS.iter().cycle())) {
-        let y = 90 + 28 * row;
+        let y = top + 28 * row;
         area.draw(&PathElement::new([(16, y), (44, y)], colour.stroke_width(3))).map_err(failed)?;
         area.draw(&Text::new(curve.name.clone(), (52, y - 7), ("sans-serif", 16))).map_err(failed)?;
     }
@@ -201,7 +224,7 @@ pub fn heat_map(
         values.iter().flatten().fold((range.end, range.start), |(l, h), v| (l.min(*v), h.max(*v)));
     let range = if high > low { low..high } else { range };
     let levels = levels(&range);
-    drawn(|root| {
+    drawn(SIZE, |root| {
         let (left, right) = root.split_horizontally(SIZE.0 as i32 - SCALE_WIDTH);
         draw_map((&left, title), (x, y), values, (&range, &levels))?;
         draw_scale(&right, unit, &range, &levels)
@@ -288,10 +311,10 @@ fn draw_scale(area: &Area, unit: &str, range: &Range<f64>, levels: &[f64]) -> Re
     Ok(())
 }
 
-fn drawn(draw: impl FnOnce(&Area) -> Result<(), PlotError>) -> Result<String, PlotError> {
+fn drawn(size: (u32, u32), draw: impl FnOnce(&Area) -> Result<(), PlotError>) -> Result<String, PlotError> {
     let mut text = String::new();
     {
-        let root = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+        let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
         root.fill(&WHITE).map_err(failed)?;
         draw(&root)?;
         root.present().map_err(failed)?;

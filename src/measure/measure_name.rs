@@ -64,9 +64,13 @@ pub enum MeasureNeeds {
 #[error(
     "'{0}' is no measure: give leakage, windowing, obstruction, extinction, contrast, fire, absorbed, eye-contrast, \
      patch-size, crushed-ice, fire-seen, bow-tie, fish-eye, scintillation, scintillation-size, or the return of a dome: \
-     return-even, return-cos, return-cos2, with a head as in return-even@15, with glare as in return-cos2+glare"
+     return-even, return-cos, return-cos2, with a head as in return-even@15, with glare as in return-cos2+glare{}",
+    if .0 == SAMPLED { "; wlr is sampled and has no bound, so only `measure --measures --wlr` takes it" } else { "" }
 )]
 pub struct NoMeasure(pub String);
+
+/// A measure that people may look for among these, though it is sampled and seen from all around.
+const SAMPLED: &str = "wlr";
 
 /// What the names of all returns begin with.
 const RETURN: &str = "return-";
