@@ -1,7 +1,7 @@
 //! Measures of light: the laws that they obey, an independent tracer, and what is published about them.
 
 use crate::common::*;
-use brillianteer::math::Polytope;
+use brillianteer::math::{Plane, Polytope};
 use brillianteer::measure::{Interval, LightMeasures, MeasureSettings, hemisphere_return};
 use brillianteer::optics::{line, material};
 use brillianteer::scene::{DomeLight, Medium, Stone, View, elevation_deg};
@@ -238,6 +238,62 @@ fn weighted_light_return_orders_brilliants_as_published() {
     for beyond in [36.5, 45.0] {
         assert!(of_pavilion(beyond) < within, "{beyond}: {} is not below {within}", of_pavilion(beyond));
     }
+}
+
+/// Returns a round brilliant whose table lies at the girdle's upper edge, so that it has no crown.
+fn without_crown(pavilion: f64) -> Polytope {
+    let facets = brilliant((53.0, 23.0, pavilion), (50.0, 75.0), 96).facets().unwrap();
+    let edge = facets.iter().find(|(name, _)| name.starts_with("bezel")).map(|(_, bezel)| {
+        // The bezel's plane meets the circle of the girdle at its upper edge.
+        (bezel.offset - bezel.normal.truncate().length()) / bezel.normal.z
+    });
+    let below = facets.iter().map(|(_, plane)| *plane).filter(|plane| plane.normal.z < 1e-9);
+    let planes: Vec<Plane> = below.chain([Plane::new(glam::DVec3::Z, edge.unwrap())]).collect();
+    Polytope::from_planes(&planes).unwrap()
+}
+
+#[test]
+fn temp_wlr() {
+    let wlr = |stone: &Polytope| {
+        hemisphere_return(stone, Medium::clear(DIAMOND[2]), 2.0, (RayOptions::default(), 12_000))
+    };
+    for pavilion in [36.0, 38.0, 39.0, 40.0, 40.5, 41.0, 42.0, 43.0, 45.0] {
+        let row: Vec<String> = [2.0, 5.0, 8.0, 14.0, 20.0, 23.0, 26.0, 29.0, 34.5]
+            .iter()
+            .map(|&crown| {
+                let f = wlr(&built(&brilliant((53.0, crown, pavilion), (50.0, 75.0), 96)).polytope);
+                format!("{:.4}", f.value)
+            })
+            .collect();
+        let none = wlr(&without_crown(pavilion));
+        println!("{pavilion}: none {:.4} +- {:.4}; {row:?}", none.value, none.standard_error);
+    }
+}
+
+/// GIA's range of excellent stones leans: over a steeper crown it wants a flatter pavilion. So does the return of a dome that is
+/// brightest above, once a head hides its middle.
+#[test]
+fn over_a_steeper_crown_the_best_pavilion_is_flatter() {
+    let settings = MeasureSettings { domes: vec!["cos2@15".parse().unwrap()], ..usual() };
+    let with = |crown: f64, pavilion: f64| {
+        let stone = built(&brilliant((57.0, crown, pavilion), (50.0, 77.0), 96));
+        let medium = Medium::clear(DIAMOND[2]);
+        measures(&stone.polytope, medium, &View::default(), 0.01, &settings).domes[0].inside
+    };
+    let pavilions: Vec<f64> = (0..=10).map(|k| 40.2 + 0.2 * f64::from(k)).collect();
+    let crowns = [32.5, 34.5, 36.5];
+    let best = crowns.map(|crown| {
+        let found: Vec<(f64, Interval)> = pavilions.iter().map(|&p| (p, with(crown, p))).collect();
+        let best = found.iter().max_by(|a, b| a.1.middle().total_cmp(&b.1.middle())).unwrap();
+        // It is no end of the range, and better than both ends by more than any bound.
+        for end in [found[0], found[found.len() - 1]] {
+            assert!(best.1.least > end.1.most, "crown {crown}: {best:?} is not above {end:?}");
+        }
+        best.0
+    });
+    assert!(best[0] > best[1] && best[1] > best[2], "{best:?}");
+    let slope = (best[2] - best[0]) / (crowns[2] - crowns[0]);
+    assert!((-0.4..-0.15).contains(&slope), "{slope}° of pavilion for each degree of the crown, from {best:?}");
 }
 
 /// The example of BOG's manual: in tourmaline, a round with pavilion 41 and crown 28 is brighter with crown 19 under an even
