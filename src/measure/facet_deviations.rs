@@ -48,7 +48,7 @@ pub enum NotEightfold {
     /// The crown or the pavilion has another number of facets.
     #[error(
         "the {part} has {found} facets between {between}, but that of an eightfold round brilliant has {wanted}; \
-         facet deviations, hearts and arrows are measured of round brilliants alone"
+         facet deviations, classes, hearts and arrows are of round brilliants alone"
     )]
     Facets {
         /// `crown` or `pavilion`.
@@ -63,7 +63,7 @@ pub enum NotEightfold {
     /// The facets that should be one class do not lie one in each octant, or two in each for halves.
     #[error(
         "the facets that should be the class '{class}' by their slope do not lie evenly in eight octants; facet deviations, \
-         hearts and arrows are measured of eightfold round brilliants alone"
+         classes, hearts and arrows are of eightfold round brilliants alone"
     )]
     Uneven {
         /// The class.

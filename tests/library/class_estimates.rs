@@ -3,7 +3,6 @@
 
 use brillianteer::cut::{BrilliantProportions, ClassEstimate, CutClass, PUBLISHED_RANGES};
 use proptest::prelude::*;
-use std::path::Path;
 
 /// Notes beside the checkout that hold a transcription of GIA's charts. The charts are under copyright, so no copy of them is here.
 const NOTES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/facts/scores.md");

@@ -255,10 +255,10 @@ fn without_crown(pavilion: f64) -> Polytope {
 #[test]
 fn temp_wlr() {
     let wlr = |stone: &Polytope| {
-        hemisphere_return(stone, Medium::clear(DIAMOND[2]), 2.0, (RayOptions::default(), 12_000))
+        hemisphere_return(stone, Medium::clear(DIAMOND[2]), 2.0, (RayOptions::default(), 3_000))
     };
-    for pavilion in [36.0, 38.0, 39.0, 40.0, 40.5, 41.0, 42.0, 43.0, 45.0] {
-        let row: Vec<String> = [2.0, 5.0, 8.0, 14.0, 20.0, 23.0, 26.0, 29.0, 34.5]
+    for pavilion in [38.0, 40.5, 43.0] {
+        let row: Vec<String> = [3.0, 8.0, 14.0, 23.0, 34.5]
             .iter()
             .map(|&crown| {
                 let f = wlr(&built(&brilliant((53.0, crown, pavilion), (50.0, 75.0), 96)).polytope);
@@ -278,9 +278,9 @@ fn over_a_steeper_crown_the_best_pavilion_is_flatter() {
     let with = |crown: f64, pavilion: f64| {
         let stone = built(&brilliant((57.0, crown, pavilion), (50.0, 77.0), 96));
         let medium = Medium::clear(DIAMOND[2]);
-        measures(&stone.polytope, medium, &View::default(), 0.01, &settings).domes[0].inside
+        measures(&stone.polytope, medium, &View::default(), 0.004, &settings).domes[0].inside
     };
-    let pavilions: Vec<f64> = (0..=10).map(|k| 40.2 + 0.2 * f64::from(k)).collect();
+    let pavilions: Vec<f64> = (0..=12).map(|k| 40.2 + 0.2 * f64::from(k)).collect();
     let crowns = [32.5, 34.5, 36.5];
     let best = crowns.map(|crown| {
         let found: Vec<(f64, Interval)> = pavilions.iter().map(|&p| (p, with(crown, p))).collect();
@@ -293,7 +293,10 @@ fn over_a_steeper_crown_the_best_pavilion_is_flatter() {
     });
     assert!(best[0] > best[1] && best[1] > best[2], "{best:?}");
     let slope = (best[2] - best[0]) / (crowns[2] - crowns[0]);
-    assert!((-0.4..-0.15).contains(&slope), "{slope}° of pavilion for each degree of the crown, from {best:?}");
+    assert!(
+        (-0.4..-0.15).contains(&slope),
+        "{slope}° of pavilion for each degree of the crown, from {best:?}"
+    );
 }
 
 /// The example of BOG's manual: in tourmaline, a round with pavilion 41 and crown 28 is brighter with crown 19 under an even

@@ -1,6 +1,7 @@
 //! Families of curves: one panel for each measure, and in each one curve for each member of the family.
 
-use super::{PlotAxis, PlotCurve, PlotError, SIZE, draw_curves, draw_key, drawn, failed, room};
+use super::curves::{draw_curves, draw_key, numbers};
+use super::{PlotAxis, PlotCurve, PlotError, SIZE, drawn, failed, room};
 use plotters::prelude::*;
 
 /// One panel of a plot.
@@ -14,6 +15,9 @@ pub struct PlotPanel {
 
 /// The size of one of several panels, in units of the drawing.
 const PANEL: (u32, u32) = (460, 320);
+
+/// The size of the name above a panel.
+const NAME: u32 = 18;
 
 /// The width of the key beside panels, and the height of the title above them.
 const MARGIN: (u32, u32) = (190, 56);
@@ -42,8 +46,7 @@ pub fn panels(
         _ => (columns as u32 * PANEL.0 + MARGIN.0, rows as u32 * PANEL.1 + MARGIN.1),
     };
     for panel in panels {
-        let numbers = panel.curves.iter().flat_map(|curve| curve.bands.iter().flatten().flatten());
-        room(numbers.copied()).ok_or(PlotError::Nothing)?;
+        room(numbers(&panel.curves)).ok_or(PlotError::Nothing)?;
     }
     drawn(size, |root| {
         let (head, body) = root.split_vertically(MARGIN.1);
@@ -54,9 +57,7 @@ pub fn panels(
         right.draw(&Text::new(family.to_owned(), (16, 8), heading)).map_err(failed)?;
         draw_key(&right, 44, &first.curves)?;
         for (area, panel) in left.split_evenly((rows, columns)).iter().zip(panels) {
-            let (name, size) =
-                if panels.len() == 1 { (panel.name.as_str(), 20) } else { (panel.name.as_str(), 18) };
-            draw_curves(area, (name, size), axis, unit, &panel.curves)?;
+            draw_curves(area, (&panel.name, NAME), axis, unit, &panel.curves)?;
         }
         Ok(())
     })

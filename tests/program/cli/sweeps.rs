@@ -230,7 +230,8 @@ fn plots_are_curves_over_one_axis_and_a_map_or_a_family_of_curves_over_two() {
     let turned = "sweep tolkowsky --over tilt=0:8:4 --over azimuth=0,22.5 --unresolved 0.05 --of fire";
     desk.done(&format!("{turned} --plot turned.svg"));
     assert_eq!(desk.read("turned.svg"), one);
-    let materials = "sweep tolkowsky --over material=diamond,quartz --over tilt=0,5 --unresolved 0.05 --of fire";
+    let materials =
+        "sweep tolkowsky --over material=diamond,quartz --over tilt=0,5 --unresolved 0.05 --of fire";
     desk.done(&format!("{materials} --plot materials.svg"));
     assert!(desk.read("materials.svg").contains("quartz"));
     for (line, told) in [
