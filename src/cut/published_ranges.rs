@@ -111,7 +111,12 @@ impl PublishedRange {
 
     /// Rounds a value to the step; a half goes up.
     pub fn rounded(&self, value: f64) -> f64 {
-        (value / self.step + 0.5 + ROUNDING).floor() * self.step
+        self.at((value / self.step + 0.5 + ROUNDING).floor())
+    }
+
+    /// Returns the value at so many steps, without the digits of rounding that 204 times 0.2 leaves.
+    fn at(&self, steps: f64) -> f64 {
+        (1e6 * steps * self.step).round() / 1e6
     }
 
     /// Returns what a value within this part of a step from a border of rounding would be rounded to beyond it; `None` for another
@@ -120,7 +125,7 @@ impl PublishedRange {
         let steps = value / self.step;
         let rounded = self.rounded(value) / self.step;
         let beyond = steps - rounded;
-        (beyond.abs() > 0.5 - part).then(|| (rounded + beyond.signum()) * self.step)
+        (beyond.abs() > 0.5 - part).then(|| self.at(rounded.round() + beyond.signum()))
     }
 
     /// Returns the best class whose range holds a value.

@@ -252,40 +252,42 @@ fn without_crown(pavilion: f64) -> Polytope {
     Polytope::from_planes(&planes).unwrap()
 }
 
+/// The same reviews: no crown at all is the overall maximum. So it is here, if each crown has the pavilion that is best for it.
 #[test]
-fn temp_wlr() {
+fn no_crown_at_all_returns_the_most_light() {
     let wlr = |stone: &Polytope| {
-        hemisphere_return(stone, Medium::clear(DIAMOND[2]), 2.0, (RayOptions::default(), 3_000))
+        hemisphere_return(stone, Medium::clear(DIAMOND[2]), 2.0, (RayOptions::default(), 6_000))
     };
-    for pavilion in [38.0, 40.5, 43.0] {
-        let row: Vec<String> = [3.0, 8.0, 14.0, 23.0, 34.5]
-            .iter()
-            .map(|&crown| {
-                let f = wlr(&built(&brilliant((53.0, crown, pavilion), (50.0, 75.0), 96)).polytope);
-                format!("{:.4}", f.value)
-            })
-            .collect();
-        let none = wlr(&without_crown(pavilion));
-        println!("{pavilion}: none {:.4} +- {:.4}; {row:?}", none.value, none.standard_error);
+    let none = wlr(&without_crown(44.0));
+    for (crown, pavilion) in [(3.0, 43.0), (8.0, 44.0), (14.0, 43.0), (23.0, 40.5), (34.5, 40.5)] {
+        let with = wlr(&built(&brilliant((53.0, crown, pavilion), (50.0, 75.0), 96)).polytope);
+        let error = none.standard_error.hypot(with.standard_error);
+        assert!(with.value + 3.0 * error < none.value, "crown {crown}: {with:?} is not below {none:?}");
     }
 }
 
 /// GIA's range of excellent stones leans: over a steeper crown it wants a flatter pavilion. So does the return of a dome that is
-/// brightest above, once a head hides its middle.
+/// brightest above, once a head hides its middle. A head with a sharp border makes the return jump where light crosses it, so
+/// heads of 10° to 20° are averaged.
 #[test]
 fn over_a_steeper_crown_the_best_pavilion_is_flatter() {
-    let settings = MeasureSettings { domes: vec!["cos2@15".parse().unwrap()], ..usual() };
+    let heads = (10..=20).step_by(2).map(|deg| DomeLight { head_deg: f64::from(deg), ..DomeLight::of(2.0) });
+    let settings = MeasureSettings { domes: heads.collect(), ..usual() };
     let with = |crown: f64, pavilion: f64| {
         let stone = built(&brilliant((57.0, crown, pavilion), (50.0, 77.0), 96));
         let medium = Medium::clear(DIAMOND[2]);
-        measures(&stone.polytope, medium, &View::default(), 0.004, &settings).domes[0].inside
+        let found = measures(&stone.polytope, medium, &View::default(), 0.01, &settings);
+        let mean = |end: fn(&Interval) -> f64| {
+            found.domes.iter().map(|dome| end(&dome.inside)).sum::<f64>() / found.domes.len() as f64
+        };
+        Interval { least: mean(|of| of.least), most: mean(|of| of.most) }
     };
-    let pavilions: Vec<f64> = (0..=12).map(|k| 40.2 + 0.2 * f64::from(k)).collect();
+    let pavilions: Vec<f64> = (0..=10).map(|k| 39.6 + 0.3 * f64::from(k)).collect();
     let crowns = [32.5, 34.5, 36.5];
     let best = crowns.map(|crown| {
         let found: Vec<(f64, Interval)> = pavilions.iter().map(|&p| (p, with(crown, p))).collect();
         let best = found.iter().max_by(|a, b| a.1.middle().total_cmp(&b.1.middle())).unwrap();
-        // It is no end of the range, and better than both ends by more than any bound.
+        // It is no end of the range.
         for end in [found[0], found[found.len() - 1]] {
             assert!(best.1.least > end.1.most, "crown {crown}: {best:?} is not above {end:?}");
         }

@@ -83,10 +83,19 @@ pub(super) fn draw_curves(
         let back = part.iter().rev().map(|&(x, [_, most])| (x, most));
         Polygon::new(
             part.iter().map(|&(x, [least, _])| (x, least)).chain(back).collect::<Vec<_>>(),
-            pale(**colour),
+            paler(**colour, 4),
         )
     });
     chart.draw_series(bands).map_err(failed)?;
+    // Bands hide those below them, so their borders are drawn above all.
+    let borders = parts.iter().flat_map(|(part, colour)| {
+        let border = |end: usize| {
+            let points = part.iter().map(|&(x, band)| (x, band[end]));
+            PathElement::new(points.collect::<Vec<_>>(), paler(**colour, 2).stroke_width(1))
+        };
+        [border(0), border(1)]
+    });
+    chart.draw_series(borders).map_err(failed)?;
     let middles = parts.iter().map(|(part, colour)| {
         let points = part.iter().map(|&(x, [least, most])| (x, f64::midpoint(least, most)));
         PathElement::new(points.collect::<Vec<_>>(), colour.stroke_width(2))
@@ -118,9 +127,10 @@ pub(super) fn draw_key(area: &Area, top: i32, curves: &[PlotCurve]) -> Result<()
     Ok(())
 }
 
-/// Returns a quarter of a colour on white. Drawings have no transparency, so that they can be written as PDF.
-fn pale(colour: RGBColor) -> RGBColor {
-    let part = |value: u8| 255 - (255 - value) / 4;
+/// Returns a part of a colour on white: its half by 2, its quarter by 4. Drawings have no transparency, so that they can be written as
+/// PDF.
+fn paler(colour: RGBColor, by: u8) -> RGBColor {
+    let part = |value: u8| 255 - (255 - value) / by;
     RGBColor(part(colour.0), part(colour.1), part(colour.2))
 }
 
