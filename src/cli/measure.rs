@@ -2,13 +2,14 @@
 
 use super::batch::each_file;
 use super::console::{json, print, say};
+use super::estimate_list::{estimate_json, estimated, table_of_estimate};
 use super::hearts_list::{table_of_hearts, table_of_spread};
 use super::mesh_options::MeshArguments;
 use super::options::{LightOptions, ViewOptions, pupil_diameter, rock_angle, scoped};
 use super::progress::WorkProgress;
 use super::specimen::LoadedSpecimen;
 use crate::io::Failure;
-use crate::io::export::{FigureReport, MeasureReport, Viewing, hearts, light_measures, measure};
+use crate::io::export::{FigureReport, MeasureReport, Reporter, Viewing, hearts, light_measures, measure};
 use crate::measure::{
     ClassDeviations, FaceUpSize, FacetDeviation, PatternSettings, facet_deviations, pupil_deg,
 };
@@ -45,6 +46,11 @@ pub struct Measure {
     #[arg(long, conflicts_with_all = ["scope", "no_glare", "timing", "measures", "deviations", "hearts", "side", "tilt", "eye_tilt",
         "azimuth", "perspective", "tracer", "head"])]
     spread: bool,
+    /// Print instead a class of the cut of a round brilliant of diamond, estimated after the ranges that GIA publishes and a fit of our
+    /// own. It is not a grade
+    #[arg(long, conflicts_with_all = ["scope", "no_glare", "timing", "measures", "deviations", "hearts", "spread", "side", "tilt",
+        "eye_tilt", "azimuth", "perspective", "tracer", "head"])]
+    estimate: bool,
     /// A dome whose return --measures lists: even, cos, cos2 or cos with another power, and if you like a head's half angle, as in
     /// cos2@15; may be repeated. Without it: even, cos, cos2 and even@15
     #[arg(long = "dome", value_name = "DOME", requires = "measures")]
@@ -52,6 +58,10 @@ pub struct Measure {
     /// List scintillation among the measures as well: what changes as the stone rocks by so many degrees, such as 3
     #[arg(long, value_name = "DEGREES", requires = "measures", value_parser = rock_angle)]
     rock: Option<f64>,
+    /// List the weighted light return among the measures as well (after Hemphill, Reinitz and others, 1998): it is seen from all around
+    /// and sampled, so it has a standard error instead of a bound
+    #[arg(long, requires = "measures")]
+    wlr: bool,
     /// The diameter in mm of the pupil over which colours must spread to count as fire among the measures [default: 3.3]
     #[arg(long, value_name = "MM", requires = "measures", value_parser = pupil_diameter)]
     pupil: Option<f64>,
@@ -90,6 +100,9 @@ impl Measure {
             if self.spread {
                 return self.list_spread(&specimen);
             }
+            if self.estimate {
+                return self.list_estimate(&specimen);
+            }
             let mut renderer = Renderer::new(Card::Machine);
             let viewing = self.light.viewing(&specimen, &self.view, &renderer)?;
             if self.hearts {
@@ -124,7 +137,13 @@ impl Measure {
             let mut settings = viewing.measure_settings(&self.domes);
             settings.blur_deg = self.pupil.map_or(settings.blur_deg, pupil_deg);
             settings.pattern = settings.pattern.map(|of| PatternSettings { rock_deg: self.rock, ..of });
-            light_measures(viewing, settings, renderer, &progress.watch(), &|event| progress.report(event))?
+            let watch = progress.watch();
+            let tell: Reporter = &|event| progress.report(event);
+            let mut report = light_measures(viewing, settings, renderer, &watch, tell)?;
+            if self.wlr {
+                report.weigh_return();
+            }
+            report
         };
         if !self.json {
             return print(&list_of_measures(&report));
@@ -177,6 +196,18 @@ impl Measure {
     }
 }
 
+impl Measure {
+    /// Prints the class of a stone, estimated after GIA, as a table or as JSON.
+    fn list_estimate(&self, specimen: &LoadedSpecimen) -> Result<(), Failure> {
+        let estimate = estimated(specimen)?;
+        if !self.json {
+            return print(&table_of_estimate(&specimen.path, &estimate));
+        }
+        let value = estimate_json(&specimen.path, &estimate);
+        print(&if self.files.len() > 1 { value.to_string() } else { json(&value) })
+    }
+}
+
 /// Formats deviations as a table, in degrees.
 fn table_of_deviations(path: &str, classes: &[ClassDeviations]) -> String {
     let mut text = format!(
@@ -202,7 +233,7 @@ const NOT_SHOWN_DEG: f64 = 5e-4;
 
 /// Formats measures as a table, in percent of the silhouette.
 fn list_of_measures(report: &MeasureReport) -> String {
-    let MeasureReport { viewing, settings, measures } = report;
+    let MeasureReport { viewing, settings, measures, weighted_return } = report;
     let mut text = format!(
         "{}: {}, {}, index {:.4}, {}\n\n{:<28}{:>9}{:>10}\n",
         viewing.file,
@@ -220,12 +251,22 @@ fn list_of_measures(report: &MeasureReport) -> String {
             [interval.middle(), interval.error()].map(|part| (1e11 * part).round() / 1e9 + 0.0);
         let _ = writeln!(text, "{:<28}{value:>9.3}{error:>10.3}", name.to_string());
     }
+    if let Some(found) = weighted_return {
+        let [value, error] = [found.value, found.standard_error].map(|part| 100.0 * part);
+        let _ = writeln!(text, "{:<28}{value:>9.3}{error:>10.3} (standard error)", "wlr");
+    }
     let head = settings.head_deg;
     let _ = write!(
         text,
         "\nThe head of obstruction, extinction and contrast has a half angle of {head}°; contrast is in percent of the mean \
          brightness."
     );
+    if weighted_return.is_some() {
+        text.push_str(
+            "\nThe weighted light return (wlr) is seen from all around, under an even hemisphere and without glare; it is in percent of \
+             what a white sheet in place of the stone returns, counted alike.",
+        );
+    }
     if let Some(spread) = measures.spread_deg {
         let [red, violet] = settings.indices;
         let _ = write!(

@@ -9,6 +9,7 @@ mod batch;
 mod bench;
 mod console;
 mod convert;
+mod estimate_list;
 mod export;
 mod gradient;
 mod hearts_list;

@@ -1,9 +1,11 @@
-//! The plot that `sweep` draws: curves over one axis, or a map over two.
+//! The plot that `sweep` draws: curves over one axis, a map over two, or a family of curves: one for each azimuth or material.
 
 use super::plot_file::PlotFile;
 use crate::cut::Cut;
 use crate::io::Failure;
-use crate::io::plot::{PlotAxis, PlotCurve, PlotError, curves, heat_map};
+use crate::io::plot::{
+    COLOURS_OF_CURVES, PlotAxis, PlotCurve, PlotError, PlotPanel, curves, heat_map, panels,
+};
 use crate::measure::{Interval, MeasureName};
 use crate::render::{SweepAxis, SweepKey, SweepValue, SweptStone};
 use std::path::Path;
@@ -11,43 +13,96 @@ use std::path::Path;
 /// A plot, as its numbers come in.
 pub struct SweepPlot<'a> {
     file: PlotFile,
-    axes: Vec<PlotAxis>,
+    shape: PlotShape,
     measures: &'a [MeasureName],
     /// For each point, its measures; none where there is no stone.
     points: Vec<Vec<Option<Interval>>>,
 }
 
+/// What a plot shows of the points of a sweep.
+enum PlotShape {
+    /// Measures over the only axis.
+    Curves(PlotAxis),
+    /// One measure over the first axis and the second.
+    Map([PlotAxis; 2]),
+    /// One curve for each value of one axis over the other, in one panel for each measure.
+    Family {
+        axis: PlotAxis,
+        /// What varies from curve to curve.
+        key: &'static str,
+        /// The names of the curves.
+        members: Vec<String>,
+        /// Whether the axis of the curves is the first of the two, which varies slowest.
+        is_first: bool,
+    },
+}
+
+impl PlotShape {
+    /// Chooses what is drawn of this number of measures over these axes.
+    fn of(cut: &Cut, axes: &[SweepAxis], measures: usize) -> Result<Self, &'static str> {
+        match axes {
+            [axis] => Ok(Self::Curves(plotted(axis, cut)?)),
+            [first, second] => {
+                for (is_first, family, along) in [(true, first, second), (false, second, first)] {
+                    if let Some(members) = members(family, along) {
+                        let key = if family.key == SweepKey::Azimuth { "azimuth" } else { "material" };
+                        return Ok(Self::Family { axis: plotted(along, cut)?, key, members, is_first });
+                    }
+                }
+                match measures {
+                    1 => Ok(Self::Map([plotted(first, cut)?, plotted(second, cut)?])),
+                    _ => Err("a map over two axes shows one measure; choose it by --of"),
+                }
+            }
+            _ => Err("plots are over one --over or two"),
+        }
+    }
+}
+
+/// Returns the names of curves, one for each azimuth of a tilt or for each material; `None` where a map shows more.
+fn members(family: &SweepAxis, along: &SweepAxis) -> Option<Vec<String>> {
+    let unit = match family.key {
+        SweepKey::Azimuth if along.key == SweepKey::Tilt => "°",
+        SweepKey::Material => "",
+        _ => return None,
+    };
+    let is_told_apart = (1..=COLOURS_OF_CURVES).contains(&family.values.len());
+    is_told_apart.then(|| family.values.iter().map(|value| format!("{value}{unit}")).collect())
+}
+
+/// Returns the axis of a plot for that of a sweep.
+fn plotted(axis: &SweepAxis, cut: &Cut) -> Result<PlotAxis, &'static str> {
+    let number = |value: &SweepValue| match value {
+        SweepValue::Number(number) => Some(*number),
+        SweepValue::Name(_) => None,
+    };
+    let values = axis.values.iter().map(number).collect::<Option<Vec<f64>>>();
+    let values =
+        values.ok_or("axes of a plot are numbers, but for up to seven materials over another axis")?;
+    Ok(PlotAxis { label: label(&axis.key, cut), values })
+}
+
 impl<'a> SweepPlot<'a> {
-    /// Begins the plot of a cut over one or two axes of numbers.
+    /// Begins the plot of a cut over one or two axes.
     ///
     /// # Errors
-    /// [`Failure::Usage`]: another ending than svg, png or pdf, other axes, or several measures over two axes.
+    /// [`Failure::Usage`]: another ending than svg, png or pdf, other axes, or several measures on a map.
     pub fn new(
         path: &Path,
         (cut, axes): (&Cut, &[SweepAxis]),
         measures: &'a [MeasureName],
     ) -> Result<Self, Failure> {
-        let refused = |what: &str| Err(Failure::Usage(format!("--plot {}: {what}", path.display())));
+        let refused = |what: &str| Failure::Usage(format!("--plot {}: {what}", path.display()));
         let file = PlotFile::new(path)?;
-        match (axes.len(), measures.len()) {
-            (1, _) | (2, 1) => {}
-            (2, _) => return refused("a map over two axes shows one measure; choose it by --of"),
-            _ => return refused("plots are over one --over or two"),
-        }
-        let mut plotted = vec![];
-        for axis in axes {
-            let number = |value: &SweepValue| match value {
-                SweepValue::Number(number) => Some(*number),
-                SweepValue::Name(_) => None,
-            };
-            let Some(values) = axis.values.iter().map(number).collect::<Option<Vec<f64>>>() else {
-                return refused("axes of a plot are numbers");
-            };
-            let axis = PlotAxis { label: label(&axis.key, cut), values };
+        let shape = PlotShape::of(cut, axes, measures.len()).map_err(refused)?;
+        let drawn = match &shape {
+            PlotShape::Curves(axis) | PlotShape::Family { axis, .. } => std::slice::from_ref(axis),
+            PlotShape::Map(axes) => axes.as_slice(),
+        };
+        for axis in drawn {
             axis.check().map_err(|error| Failure::Usage(format!("--plot: {error}")))?;
-            plotted.push(axis);
         }
-        Ok(Self { file, axes: plotted, measures, points: vec![] })
+        Ok(Self { file, shape, measures, points: vec![] })
     }
 
     /// Takes in the next point.
@@ -63,27 +118,48 @@ impl<'a> SweepPlot<'a> {
     }
 
     fn svg(&self, title: &str) -> Result<String, PlotError> {
-        let percent = |interval: Interval| [interval.least, interval.most].map(|part| 100.0 * part);
-        match (self.axes.as_slice(), self.measures) {
+        let band = |point: usize, measure: usize| {
+            let interval = self.points.get(point)?[measure]?;
+            Some([interval.least, interval.most].map(|part| 100.0 * part))
+        };
+        let named = || self.measures.iter().map(MeasureName::to_string).enumerate();
+        match &self.shape {
             // The last axis varies quickest: it runs up, so points come in columns.
-            ([x, y], [measure]) => {
-                let at =
-                    |i: usize, j: usize| self.points.get(i * y.values.len() + j)?.first().copied().flatten();
+            PlotShape::Map([x, y]) => {
+                let at = |i: usize, j: usize| self.points.get(i * y.values.len() + j)?[0];
                 let rows = (0..y.values.len()).flat_map(|j| (0..x.values.len()).map(move |i| at(i, j)));
                 let values: Vec<Option<f64>> = rows.map(|value| Some(100.0 * value?.middle())).collect();
-                heat_map(&format!("{title}: {measure}"), (x, y), "% of face", &values)
+                let measure = self.measures[0];
+                heat_map(&format!("{title}: {measure}"), (x, y), UNIT, &values)
             }
-            (axes, measures) => {
-                let curve = |(k, name): (usize, &MeasureName)| PlotCurve {
-                    name: name.to_string(),
-                    bands: self.points.iter().map(|point| point[k].map(percent)).collect(),
+            PlotShape::Curves(axis) => {
+                let bands = |k: usize| (0..axis.values.len()).map(|point| band(point, k)).collect();
+                let all: Vec<PlotCurve> =
+                    named().map(|(k, name)| PlotCurve { name, bands: bands(k) }).collect();
+                curves(title, axis, UNIT, &all)
+            }
+            PlotShape::Family { axis, key, members, is_first } => {
+                let along = axis.values.len();
+                let point = |member: usize, place: usize| match is_first {
+                    true => member * along + place,
+                    false => place * members.len() + member,
                 };
-                let all: Vec<PlotCurve> = measures.iter().enumerate().map(curve).collect();
-                curves(title, &axes[0], "% of face", &all)
+                let curve = |k: usize, (member, name): (usize, &String)| PlotCurve {
+                    name: name.clone(),
+                    bands: (0..along).map(|place| band(point(member, place), k)).collect(),
+                };
+                let panel = |(k, name): (usize, String)| PlotPanel {
+                    name,
+                    curves: members.iter().enumerate().map(|member| curve(k, member)).collect(),
+                };
+                panels(title, axis, (UNIT, key), &named().map(panel).collect::<Vec<_>>())
             }
         }
     }
 }
+
+/// What stands beside the values of measures.
+const UNIT: &str = "% of face";
 
 /// Returns what stands beside the axis of a number of a cut.
 pub fn label(key: &SweepKey, cut: &Cut) -> String {

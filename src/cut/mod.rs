@@ -7,6 +7,7 @@
 
 pub mod audit;
 mod beyond_gear;
+mod class_estimate;
 mod derive;
 mod design;
 mod facet_net;
@@ -28,6 +29,7 @@ mod names;
 mod outline;
 mod proportion_error;
 mod proportions;
+mod published_ranges;
 mod report;
 mod retarget;
 mod rough;
@@ -43,6 +45,7 @@ mod warning;
 
 pub use audit::{Audit, AuditSubject, Finding, FindingKind, FindingUnit};
 pub use beyond_gear::BeyondGear;
+pub use class_estimate::{BrilliantProportions, ClassEstimate, ClassLimit, CutClass, NearbyClass};
 pub use design::{DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFault};
 pub use facet_net::NoRoom;
 pub use families::{BY_TIERS, FAMILIES, GROUPS};
@@ -57,6 +60,7 @@ pub use mesh_shape::MeshShape;
 pub use outline::{AlongAxes, Outline, is_girdle, is_table, round_diameter};
 pub use proportion_error::{Limit, ProportionError};
 pub use proportions::Derived;
+pub use published_ranges::{PUBLISHED_RANGES, PublishedRange};
 pub use report::{MeshHeights, ProportionReport, Spread, TierReport};
 pub use retarget::{RetargetError, RetargetRule, Retargeted, RetargetedTier, retarget};
 pub use rough::{Finished, FitLimit, Rough, RoughError};

@@ -7,6 +7,7 @@ use super::Cut;
 use super::family::BoundAt::{Fixed, Of};
 use super::family::{Bound, Family, ProfileHandle, Proportion, Unit};
 use super::proportions::{Derived, Proportions, STAR_AZIMUTH};
+use super::published_ranges;
 use super::round_brilliant::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
 use std::f64::consts::FRAC_PI_8;
 
@@ -31,7 +32,7 @@ pub static ROUND_BRILLIANT: Family = Family {
             usual: [45.0, 75.0],
             least: Bound::at(Fixed(5.0), "the smallest table allowed"),
             most: Bound::before(Fixed(100.0 * STAR_COS), "where no star facet fits between table and girdle"),
-            excellent: Some([52.0, 62.0]),
+            excellent: published_ranges::TABLE.excellent(),
             handles: &[ProfileHandle::TableEdge],
             get: |cut| of(cut, |b| b.table),
             give: Some(|cut, v| give(cut, |b| b.table = v)),
@@ -44,7 +45,7 @@ pub static ROUND_BRILLIANT: Family = Family {
             usual: [22.0, 44.0],
             least: Bound::at(Fixed(LEAST_ANGLE), "the flattest facet allowed"),
             most: Bound::before(Fixed(90.0), "where the bezels would stand upright"),
-            excellent: Some([31.5, 36.5]),
+            excellent: published_ranges::CROWN_ANGLE.excellent(),
             handles: &[ProfileHandle::CrownSlope],
             get: |cut| of(cut, |b| crown(b).0),
             give: Some(|cut, v| give(cut, |b| b.crown = Crown::Angle(v))),
@@ -76,7 +77,7 @@ pub static ROUND_BRILLIANT: Family = Family {
             usual: [38.0, 45.0],
             least: Bound::at(Fixed(LEAST_ANGLE), "the flattest facet allowed"),
             most: Bound::before(Fixed(90.0), "where the mains would stand upright"),
-            excellent: Some([40.6, 41.8]),
+            excellent: published_ranges::PAVILION_ANGLE.excellent(),
             handles: &[ProfileHandle::PavilionSlope],
             get: |cut| of(cut, |b| pavilion(b).0),
             give: Some(|cut, v| give(cut, |b| b.pavilion = Pavilion::Angle(v))),
@@ -114,7 +115,7 @@ pub static ROUND_BRILLIANT: Family = Family {
                 Fixed(100.0),
                 "where the star tips would lie on the girdle and the upper halves stand upright",
             ),
-            excellent: Some([45.0, 65.0]),
+            excellent: published_ranges::STAR_LENGTH.excellent(),
             get: |cut| of(cut, |b| b.star_length),
             give: Some(|cut, v| give(cut, |b| b.star_length = v)),
             ..Proportion::BLANK
@@ -134,7 +135,7 @@ pub static ROUND_BRILLIANT: Family = Family {
                 Fixed(100.0),
                 "where the lower halves would meet in the centre and leave no mains",
             ),
-            excellent: Some([70.0, 85.0]),
+            excellent: published_ranges::LOWER_HALF_LENGTH.excellent(),
             get: |cut| of(cut, |b| lower_half(b).0),
             give: Some(|cut, v| give(cut, |b| b.lower_half = LowerHalf::Radial(v))),
             pair: Some("lower_half_length_vertical"),

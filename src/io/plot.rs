@@ -1,5 +1,11 @@
 //! Plots of numbers over one or two axes, as SVG.
 
+mod curves;
+mod panels;
+
+pub use curves::{COLOURS_OF_CURVES, PlotCurve, curves};
+pub use panels::{PlotPanel, panels};
+
 use contour::ContourBuilder;
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -12,22 +18,8 @@ const SIZE: (u32, u32) = (1000, 680);
 /// The width of a map's scale of colours.
 const SCALE_WIDTH: i32 = 150;
 
-/// The width of the key of curves.
-const KEY_WIDTH: i32 = 240;
-
 /// About how many lines of equal value a map has.
 const LINES: f64 = 8.0;
-
-/// The colours of curves, told apart by people who see no red or no green (B. Wong, Nature Methods 8, 441 (2011)).
-const COLOURS: [RGBColor; 7] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(86, 180, 233),
-    RGBColor(230, 159, 0),
-    RGBColor(0, 0, 0),
-];
 
 /// The colour of places without a value.
 const NOTHING: RGBColor = RGBColor(225, 225, 225);
@@ -59,15 +51,6 @@ pub struct PlotAxis {
     pub label: String,
     /// Its places, which rise or fall throughout.
     pub values: Vec<f64>,
-}
-
-/// A curve, drawn as a band from its least to its greatest values.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PlotCurve {
-    /// What the key calls it.
-    pub name: String,
-    /// The least and the greatest value at each place of the axis; `None` where there is none.
-    pub bands: Vec<Option<[f64; 2]>>,
 }
 
 impl PlotAxis {
@@ -110,79 +93,6 @@ impl PlotAxis {
     }
 }
 
-/// Draws curves over one axis. `unit` stands beside their values.
-///
-/// # Errors
-/// A [`PlotError`]: an axis that does not rise or fall, or no number.
-pub fn curves(title: &str, axis: &PlotAxis, unit: &str, curves: &[PlotCurve]) -> Result<String, PlotError> {
-    let across = axis.ends()?;
-    let all = || curves.iter().flat_map(|curve| curve.bands.iter().flatten().flatten().copied());
-    let up = room(all()).ok_or(PlotError::Nothing)?;
-    drawn(|root| {
-        let (left, right) = root.split_horizontally(SIZE.0 as i32 - KEY_WIDTH);
-        draw_key(&right, curves)?;
-        let mut chart = ChartBuilder::on(&left)
-            .margin(24)
-            .margin_right(0)
-            .caption(title, ("sans-serif", 24))
-            .x_label_area_size(52)
-            .y_label_area_size(72)
-            .build_cartesian_2d(across.clone(), up.clone())
-            .map_err(failed)?;
-        chart
-            .configure_mesh()
-            .x_label_formatter(&number)
-            .y_label_formatter(&number)
-            .light_line_style(WHITE)
-            .bold_line_style(RGBColor(215, 215, 215))
-            .x_desc(&axis.label)
-            .y_desc(unit)
-            .label_style(("sans-serif", 16))
-            .axis_desc_style(("sans-serif", 18))
-            .draw()
-            .map_err(failed)?;
-        let parts: Vec<_> =
-            curves.iter().zip(COLOURS.iter().cycle()).flat_map(|(c, of)| c.parts(axis, of)).collect();
-        let bands = parts.iter().map(|(part, colour)| {
-            let back = part.iter().rev().map(|&(x, [_, most])| (x, most));
-            Polygon::new(
-                part.iter().map(|&(x, [least, _])| (x, least)).chain(back).collect::<Vec<_>>(),
-                pale(**colour),
-            )
-        });
-        chart.draw_series(bands).map_err(failed)?;
-        let middles = parts.iter().map(|(part, colour)| {
-            let points = part.iter().map(|&(x, [least, most])| (x, f64::midpoint(least, most)));
-            PathElement::new(points.collect::<Vec<_>>(), colour.stroke_width(2))
-        });
-        chart.draw_series(middles).map_err(failed)?;
-        Ok(())
-    })
-}
-
-/// A place of an axis, with the least and the greatest value there.
-type BandPoint = (f64, [f64; 2]);
-
-impl PlotCurve {
-    /// Returns the parts into which places without a value divide the curve.
-    fn parts<'a>(&self, axis: &PlotAxis, colour: &'a RGBColor) -> Vec<(Vec<BandPoint>, &'a RGBColor)> {
-        let points: Vec<_> = axis.values.iter().copied().zip(self.bands.iter().copied()).collect();
-        let parts = points.split(|(_, band)| band.is_none()).filter(|part| !part.is_empty());
-        let known = |point: &(f64, Option<[f64; 2]>)| Some((point.0, point.1?));
-        parts.map(|part| (part.iter().filter_map(known).collect(), colour)).collect()
-    }
-}
-
-/// Draws which colour is which curve.
-fn draw_key(area: &Area, curves: &[PlotCurve]) -> Result<(), PlotError> {
-    for (row, (curve, colour)) in (0..).zip(curves.iter().zip(COLOURS.iter().cycle())) {
-        let y = 90 + 28 * row;
-        area.draw(&PathElement::new([(16, y), (44, y)], colour.stroke_width(3))).map_err(failed)?;
-        area.draw(&Text::new(curve.name.clone(), (52, y - 7), ("sans-serif", 16))).map_err(failed)?;
-    }
-    Ok(())
-}
-
 /// Draws a map of values over two axes with lines of equal value. `values` has the places of `x` row by row, as many rows as `y` has
 /// places; `None` where there is no value. `unit` stands beside the scale of colours.
 ///
@@ -201,7 +111,7 @@ pub fn heat_map(
         values.iter().flatten().fold((range.end, range.start), |(l, h), v| (l.min(*v), h.max(*v)));
     let range = if high > low { low..high } else { range };
     let levels = levels(&range);
-    drawn(|root| {
+    drawn(SIZE, |root| {
         let (left, right) = root.split_horizontally(SIZE.0 as i32 - SCALE_WIDTH);
         draw_map((&left, title), (x, y), values, (&range, &levels))?;
         draw_scale(&right, unit, &range, &levels)
@@ -288,10 +198,10 @@ fn draw_scale(area: &Area, unit: &str, range: &Range<f64>, levels: &[f64]) -> Re
     Ok(())
 }
 
-fn drawn(draw: impl FnOnce(&Area) -> Result<(), PlotError>) -> Result<String, PlotError> {
+fn drawn(size: (u32, u32), draw: impl FnOnce(&Area) -> Result<(), PlotError>) -> Result<String, PlotError> {
     let mut text = String::new();
     {
-        let root = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+        let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
         root.fill(&WHITE).map_err(failed)?;
         draw(&root)?;
         root.present().map_err(failed)?;
@@ -325,12 +235,6 @@ pub fn levels(range: &Range<f64>) -> Vec<f64> {
     let first = (range.start / step).ceil();
     let count = (((range.end / step).floor() - first).max(-1.0) + 1.0).min(100.0) as usize;
     (0..count).map(|k| (first + k as f64) * step).collect()
-}
-
-/// Returns a quarter of a colour on white. Drawings have no transparency, so that they can be written as PDF.
-fn pale(colour: RGBColor) -> RGBColor {
-    let part = |value: u8| 255 - (255 - value) / 4;
-    RGBColor(part(colour.0), part(colour.1), part(colour.2))
 }
 
 fn colour(value: f64, range: &Range<f64>) -> RGBColor {
@@ -423,18 +327,5 @@ mod tests {
             heat_map("t", (&bad, &y), "%", &[Some(1.0); 4]),
             Err(PlotError::Axis { label: "x".into() })
         );
-    }
-
-    #[test]
-    fn a_curve_has_a_gap_where_it_has_no_value() {
-        let x = axis("x", &[1.0, 2.0, 3.0, 4.0, 5.0]);
-        let of = |gap: Option<usize>| {
-            let bands = (0..5).map(|k| (Some(k) != gap).then_some([k as f64, k as f64 + 0.5])).collect();
-            curves("t", &x, "%", &[PlotCurve { name: "fire".into(), bands }]).unwrap()
-        };
-        let parts = |text: &str| text.matches("<polygon").count();
-        assert_eq!(parts(&of(Some(2))), parts(&of(None)) + 1);
-        assert!(of(None).contains("fire"));
-        assert_eq!(curves("t", &x, "%", &[]), Err(PlotError::Nothing));
     }
 }

@@ -48,7 +48,7 @@ pub enum NotEightfold {
     /// The crown or the pavilion has another number of facets.
     #[error(
         "the {part} has {found} facets between {between}, but that of an eightfold round brilliant has {wanted}; \
-         facet deviations, hearts and arrows are measured of round brilliants alone"
+         facet deviations, classes, hearts and arrows are of round brilliants alone"
     )]
     Facets {
         /// `crown` or `pavilion`.
@@ -63,7 +63,7 @@ pub enum NotEightfold {
     /// The facets that should be one class do not lie one in each octant, or two in each for halves.
     #[error(
         "the facets that should be the class '{class}' by their slope do not lie evenly in eight octants; facet deviations, \
-         hearts and arrows are measured of eightfold round brilliants alone"
+         classes, hearts and arrows are of eightfold round brilliants alone"
     )]
     Uneven {
         /// The class.
@@ -121,19 +121,21 @@ impl Mains {
 }
 
 /// The facets between table and girdle and between girdle and culet, the flattest first.
-struct FacetClasses {
-    crown: Vec<LeaningFacet>,
-    pavilion: Vec<LeaningFacet>,
+pub(super) struct FacetClasses {
+    /// The stars, the bezels and the upper halves.
+    pub crown: Vec<LeaningFacet>,
+    /// The mains and the lower halves.
+    pub pavilion: Vec<LeaningFacet>,
 }
 
 impl FacetClasses {
     /// Finds the facets of a stone that has as many as a round brilliant of eight mains.
-    fn of(stone: &Stone) -> Result<Self, NotEightfold> {
+    pub fn of(stone: &Stone) -> Result<Self, NotEightfold> {
         let leaning = |is_up: bool| -> Vec<LeaningFacet> {
-            let facets = (0..).zip(stone.polytope.facets());
+            let facets = stone.polytope.facets().iter().enumerate();
             let mut all: Vec<LeaningFacet> = facets
                 .filter(|(_, facet)| (facet.plane.normal.z > 0.0) == is_up)
-                .filter_map(|(number, facet)| LeaningFacet::of(&facet.plane, stone.name(number).into_owned()))
+                .filter_map(|(number, facet)| LeaningFacet::of(&facet.plane, number, stone))
                 .collect();
             all.sort_by(|a, b| a.slope_deg.total_cmp(&b.slope_deg));
             all
@@ -150,20 +152,24 @@ impl FacetClasses {
 }
 
 /// A facet of crown or pavilion.
-struct LeaningFacet {
+pub(super) struct LeaningFacet {
+    /// Its number in the stone.
+    pub number: usize,
     name: String,
     /// Radians.
     azimuth: f64,
-    slope_deg: f64,
+    /// Degrees from the girdle plane.
+    pub slope_deg: f64,
 }
 
 impl LeaningFacet {
-    /// Returns the facet of this plane; `None` for table, culet and girdle.
-    fn of(plane: &Plane, name: String) -> Option<Self> {
+    /// Returns the facet of this plane and number; `None` for table, culet and girdle.
+    fn of(plane: &Plane, number: usize, stone: &Stone) -> Option<Self> {
         let (normal, across) = (plane.normal, plane.normal.truncate());
         let slope_deg = across.length().atan2(normal.z.abs()).to_degrees();
         let leans = slope_deg >= LEVEL_DEG && normal.z.abs() >= UPRIGHT;
-        leans.then(|| Self { name, azimuth: across.to_angle(), slope_deg })
+        let name = || stone.name(number as u32).into_owned();
+        leans.then(|| Self { number, name: name(), azimuth: across.to_angle(), slope_deg })
     }
 }
 

@@ -64,9 +64,18 @@ pub enum MeasureNeeds {
 #[error(
     "'{0}' is no measure: give leakage, windowing, obstruction, extinction, contrast, fire, absorbed, eye-contrast, \
      patch-size, crushed-ice, fire-seen, bow-tie, fish-eye, scintillation, scintillation-size, or the return of a dome: \
-     return-even, return-cos, return-cos2, with a head as in return-even@15, with glare as in return-cos2+glare"
+     return-even, return-cos, return-cos2, with a head as in return-even@15, with glare as in return-cos2+glare{hint}",
+    hint = hint(.0)
 )]
 pub struct NoMeasure(pub String);
+
+/// Returns what is said of the weighted light return, which people may look for among these measures.
+fn hint(text: &str) -> &'static str {
+    match text {
+        "wlr" => "; wlr is sampled and has no bound, so only `measure --measures --wlr` takes it",
+        _ => "",
+    }
+}
 
 /// What the names of all returns begin with.
 const RETURN: &str = "return-";

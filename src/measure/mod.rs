@@ -3,6 +3,7 @@
 //! [`measure`](crate::measure()) takes a design to its figures in one call.
 
 mod bow_tie;
+mod brilliant_proportions;
 mod energy_derivatives;
 mod estimated;
 mod exit_sight;
@@ -22,6 +23,7 @@ mod sampled;
 mod scintillation;
 mod virtual_facets;
 
+pub use brilliant_proportions::brilliant_proportions;
 pub use energy_derivatives::EnergyDerivatives;
 pub use estimated::{Estimate, by_beams_and_rays};
 pub use face_patterns::{EYE_RESOLVES_MM, PatternMeasures, PatternSettings, ROCK_DEG, SHAPE_IS_SEEN};

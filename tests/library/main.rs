@@ -9,6 +9,7 @@
 )]
 
 mod card_limits;
+mod class_estimates;
 #[path = "../common/mod.rs"]
 mod common;
 mod corpus;

@@ -1,7 +1,7 @@
 //! Measures of light: the laws that they obey, an independent tracer, and what is published about them.
 
 use crate::common::*;
-use brillianteer::math::Polytope;
+use brillianteer::math::{Plane, Polytope};
 use brillianteer::measure::{Interval, LightMeasures, MeasureSettings, hemisphere_return};
 use brillianteer::optics::{line, material};
 use brillianteer::scene::{DomeLight, Medium, Stone, View, elevation_deg};
@@ -238,6 +238,67 @@ fn weighted_light_return_orders_brilliants_as_published() {
     for beyond in [36.5, 45.0] {
         assert!(of_pavilion(beyond) < within, "{beyond}: {} is not below {within}", of_pavilion(beyond));
     }
+}
+
+/// Returns a round brilliant whose table lies at the girdle's upper edge, so that it has no crown.
+fn without_crown(pavilion: f64) -> Polytope {
+    let facets = brilliant((53.0, 23.0, pavilion), (50.0, 75.0), 96).facets().unwrap();
+    let edge = facets.iter().find(|(name, _)| name.starts_with("bezel")).map(|(_, bezel)| {
+        // The bezel's plane meets the circle of the girdle at its upper edge.
+        (bezel.offset - bezel.normal.truncate().length()) / bezel.normal.z
+    });
+    let below = facets.iter().map(|(_, plane)| *plane).filter(|plane| plane.normal.z < 1e-9);
+    let planes: Vec<Plane> = below.chain([Plane::new(glam::DVec3::Z, edge.unwrap())]).collect();
+    Polytope::from_planes(&planes).unwrap()
+}
+
+/// The same reviews: no crown at all is the overall maximum. So it is here, if each crown has the pavilion that is best for it.
+#[test]
+fn no_crown_at_all_returns_the_most_light() {
+    let wlr = |stone: &Polytope| {
+        hemisphere_return(stone, Medium::clear(DIAMOND[2]), 2.0, (RayOptions::default(), 6_000))
+    };
+    let none = wlr(&without_crown(44.0));
+    for (crown, pavilion) in [(3.0, 43.0), (8.0, 44.0), (14.0, 43.0), (23.0, 40.5), (34.5, 40.5)] {
+        let with = wlr(&built(&brilliant((53.0, crown, pavilion), (50.0, 75.0), 96)).polytope);
+        let error = none.standard_error.hypot(with.standard_error);
+        assert!(with.value + 3.0 * error < none.value, "crown {crown}: {with:?} is not below {none:?}");
+    }
+}
+
+/// GIA's range of excellent stones leans: over a steeper crown it wants a flatter pavilion. So does the return of a dome that is
+/// brightest above, once a head hides its middle. A head with a sharp border makes the return jump where light crosses it, so
+/// heads of 10° to 20° are averaged.
+#[test]
+fn over_a_steeper_crown_the_best_pavilion_is_flatter() {
+    let heads = (10..=20).step_by(2).map(|deg| DomeLight { head_deg: f64::from(deg), ..DomeLight::of(2.0) });
+    let settings = MeasureSettings { domes: heads.collect(), ..usual() };
+    let with = |crown: f64, pavilion: f64| {
+        let stone = built(&brilliant((57.0, crown, pavilion), (50.0, 77.0), 96));
+        let medium = Medium::clear(DIAMOND[2]);
+        let found = measures(&stone.polytope, medium, &View::default(), 0.01, &settings);
+        let mean = |end: fn(&Interval) -> f64| {
+            found.domes.iter().map(|dome| end(&dome.inside)).sum::<f64>() / found.domes.len() as f64
+        };
+        Interval { least: mean(|of| of.least), most: mean(|of| of.most) }
+    };
+    let pavilions: Vec<f64> = (0..=10).map(|k| 39.6 + 0.3 * f64::from(k)).collect();
+    let crowns = [32.5, 34.5, 36.5];
+    let best = crowns.map(|crown| {
+        let found: Vec<(f64, Interval)> = pavilions.iter().map(|&p| (p, with(crown, p))).collect();
+        let best = found.iter().max_by(|a, b| a.1.middle().total_cmp(&b.1.middle())).unwrap();
+        // It is no end of the range.
+        for end in [found[0], found[found.len() - 1]] {
+            assert!(best.1.least > end.1.most, "crown {crown}: {best:?} is not above {end:?}");
+        }
+        best.0
+    });
+    assert!(best[0] > best[1] && best[1] > best[2], "{best:?}");
+    let slope = (best[2] - best[0]) / (crowns[2] - crowns[0]);
+    assert!(
+        (-0.4..-0.15).contains(&slope),
+        "{slope}° of pavilion for each degree of the crown, from {best:?}"
+    );
 }
 
 /// The example of BOG's manual: in tourmaline, a round with pavilion 41 and crown 28 is brighter with crown 19 under an even

@@ -5,7 +5,8 @@ use super::figures::seen_from;
 use super::viewing::{Viewing, note};
 use crate::io::Failure;
 use crate::measure::{
-    Interval, LightMeasures, MEASURES_HEAD_DEG, MeasureName, MeasureSettings, PatternSettings,
+    Interval, LightMeasures, MEASURES_HEAD_DEG, MeasureName, MeasureSettings, PatternSettings, SampledNumber,
+    hemisphere_return,
 };
 use crate::optics::line;
 use crate::render::{MeasuresProduct, Product, Renderer};
@@ -24,7 +25,15 @@ pub struct MeasureReport<'a> {
     pub settings: MeasureSettings,
     /// The measures.
     pub measures: LightMeasures,
+    /// The weighted light return of the stone seen from all around, where [`weigh_return`](Self::weigh_return) has taken it.
+    pub weighted_return: Option<SampledNumber>,
 }
+
+/// The power of the cosine by which the weighted light return counts the angle from the axis.
+const WEIGHTED_POWER: f64 = 2.0;
+
+/// The rays on each lattice for the weighted light return, by which its standard error is usually below 0.1 %.
+const WEIGHTED_RAYS: u32 = 50_000;
 
 impl Viewing<'_> {
     /// Returns the settings of measures of this stone under these domes, or the usual ones where there are none. The head is
@@ -58,10 +67,18 @@ pub fn light_measures<'a>(
     job.quality.samples = None;
     renderer.plan(&job).map_err(|why| Failure::Usage(format!("{}: {why}", viewing.file)))?;
     let measures = renderer.run(&job, watch, &mut |part| note(&part, tell))?.measures()?.measures;
-    Ok(MeasureReport { viewing: *viewing, settings, measures })
+    Ok(MeasureReport { viewing: *viewing, settings, measures, weighted_return: None })
 }
 
 impl MeasureReport<'_> {
+    /// Takes the weighted light return by sampling. It does not depend on the view.
+    pub fn weigh_return(&mut self) {
+        let (body, rays) = (&*self.viewing.specimen.body, self.viewing.rays(UNRESOLVED));
+        let options = (rays, WEIGHTED_RAYS);
+        self.weighted_return =
+            Some(hemisphere_return(body.solid(), self.viewing.medium, WEIGHTED_POWER, options));
+    }
+
     /// Returns the measures by name, in the order in which they are listed.
     pub fn by_name(&self) -> impl Iterator<Item = (MeasureName, Interval)> + '_ {
         let all = MeasureName::all(&self.settings).into_iter();
@@ -78,6 +95,7 @@ impl MeasureReport<'_> {
             "file": viewing.file,
             "name": viewing.specimen.design.name,
             "measures": measures,
+            "wlr": self.weighted_return,
             "spread_deg": self.measures.spread_deg,
             "unresolved": self.measures.unresolved,
             "material": material.name,

@@ -192,3 +192,29 @@ fn spread_is_the_same_in_every_size_and_follows_the_girdle() {
     assert!(desk.done("measure --spread tolkowsky").contains("mm²/ct"));
     assert!(desk.refused("measure --spread heart", 2).contains("convex"));
 }
+
+#[test]
+fn a_class_is_an_estimate_of_brilliants_of_diamond_and_never_called_a_grade() {
+    let desk = Desk::new();
+    let of = |line: &str| desk.json(&format!("measure --estimate --json {line}"));
+    let ideal = of("modern-ideal");
+    let estimate = &ideal["estimate_after_gia"];
+    assert_eq!(estimate["class"], "EX", "{ideal}");
+    assert_eq!(list(&estimate["limits"]).len(), 8, "{ideal}");
+    assert!(ideal["note"].as_str().unwrap().contains("not a grade"));
+    assert_ne!(of("steep-deep")["estimate_after_gia"]["class"], "EX");
+    // A cutter's file has no proportions, so they are measured on the stone.
+    assert_eq!(desk.run("convert modern-ideal ideal.asc").0, 0);
+    assert_eq!(of("ideal.asc --material diamond")["estimate_after_gia"]["class"], "EX");
+    let table = desk.done("measure --estimate modern-ideal tolkowsky");
+    assert!(table.contains("not a grade") && table.contains("Pavilion angle, °"), "{table}");
+    for (line, why) in [
+        ("modern-ideal --material ruby", "diamond"),
+        ("heart", "convex"),
+        ("princess --material diamond", "round brilliant"),
+    ] {
+        let stderr = desk.refused(&format!("measure --estimate {line}"), 2);
+        assert!(stderr.contains(why), "{line}: {stderr}");
+    }
+    assert!(desk.refused("measure --estimate tolkowsky --tilt 3", 2).contains("--tilt"));
+}

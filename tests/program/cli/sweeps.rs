@@ -45,6 +45,7 @@ fn measures_are_intervals_around_the_figures_of_zones() {
 fn patterns_and_scintillation_are_listed_and_swept_as_they_are_measured() {
     let desk = Desk::new();
     let still = desk.json("measure tolkowsky --measures --json --unresolved 0.02");
+    assert!(still["wlr"].is_null(), "{still}");
     assert!(still["measures"]["scintillation"].is_null() && still["rock_deg"].is_null(), "{still}");
     let found =
         desk.json("measure tolkowsky --measures --json --unresolved 0.02 --rock 3 --stone 9mm --pupil 4");
@@ -64,6 +65,22 @@ fn patterns_and_scintillation_are_listed_and_swept_as_they_are_measured() {
     }
     assert!(desk.refused("measure tolkowsky --measures --rock 90", 2).contains("45 degrees"));
     assert!(desk.refused("sweep tolkowsky --pupil 0", 2).contains("50 mm"));
+}
+
+#[test]
+fn the_weighted_light_return_has_a_standard_error_and_no_view() {
+    let desk = Desk::new();
+    let line = "measure tolkowsky --measures --wlr --unresolved 0.05";
+    let found = desk.json(&format!("{line} --json"))["wlr"].clone();
+    assert!((0.0..2e-3).contains(&at(&found, "standard_error")), "{found}");
+    assert!((0.5..1.0).contains(&at(&found, "value")), "{found}");
+    // A tilted view has the same, in percent.
+    let table = desk.done(&format!("{line} --tilt 20"));
+    let shown = format!("{:.3}", 100.0 * at(&found, "value"));
+    let row = table.lines().find(|row| row.starts_with("wlr ")).unwrap();
+    assert!(row.contains(&shown) && row.contains("(standard error)"), "{row} is not {shown}");
+    assert!(desk.refused("measure tolkowsky --wlr", 2).contains("--measures"));
+    assert!(desk.refused("sweep tolkowsky --of wlr", 2).contains("measure --measures --wlr"));
 }
 
 #[test]
@@ -181,7 +198,7 @@ fn folders_and_several_designs_are_measured_at_once() {
 }
 
 #[test]
-fn plots_are_curves_over_one_axis_and_a_map_over_two() {
+fn plots_are_curves_over_one_axis_and_a_map_or_a_family_of_curves_over_two() {
     let desk = Desk::new();
     let line = "sweep tolkowsky --over tilt=0:8:4 --unresolved 0.05 --of fire --of extinction --plot";
     assert_eq!(desk.done(&format!("{line} tilt.svg")).trim(), "tilt.svg");
@@ -203,6 +220,22 @@ fn plots_are_curves_over_one_axis_and_a_map_over_two() {
         (grey.max_element() - grey.min_element()) < 1e-9
             && filled.max_element() > filled.min_element() + 0.05
     );
+    // Azimuths of a tilt and materials are families of curves: one key, and a panel for each measure.
+    let family = "sweep tolkowsky --over azimuth=0,22.5 --over tilt=0:8:4 --unresolved 0.05 --of fire";
+    desk.done(&format!("{family} --plot one.svg"));
+    let one = desk.read("one.svg");
+    assert!(["22.5°", "azimuth", "tilt, degrees", "fire"].iter().all(|text| one.contains(text)), "{one}");
+    desk.done(&format!("{family} --of extinction --of leakage --plot three.svg"));
+    let three = desk.read("three.svg");
+    assert_eq!((three.matches("22.5°").count(), three.matches("tilt, degrees").count()), (1, 3));
+    // The order of the axes changes no curve.
+    let turned = "sweep tolkowsky --over tilt=0:8:4 --over azimuth=0,22.5 --unresolved 0.05 --of fire";
+    desk.done(&format!("{turned} --plot turned.svg"));
+    assert_eq!(desk.read("turned.svg"), one);
+    let materials =
+        "sweep tolkowsky --over material=diamond,quartz --over tilt=0,5 --unresolved 0.05 --of fire";
+    desk.done(&format!("{materials} --plot materials.svg"));
+    assert!(desk.read("materials.svg").contains("quartz"));
     for (line, told) in [
         ("tolkowsky --plot a.svg", "one --over or two"),
         ("tolkowsky --over table=50:60:5 --plot a.txt", ".svg, .png or .pdf"),

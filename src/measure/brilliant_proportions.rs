@@ -1,0 +1,118 @@
+//! The proportions of a round brilliant, measured on the stone: of a design, a cutter's file or a scan alike.
+
+use super::facet_deviations::{FacetClasses, LeaningFacet, NotEightfold, OCTANTS, facet_deviations};
+use crate::cut::{BrilliantProportions, Outline};
+use crate::math::Facet;
+use crate::scene::Stone;
+use glam::DVec2;
+use std::f64::consts::FRAC_PI_8;
+
+/// Measures the proportions of a round brilliant of eight mains, as docs/optics.md defines them. Each is the mean over its facets,
+/// around the middle of the outline; lengths are in percent of the diameter.
+///
+/// # Errors
+/// [`NotEightfold`] where the stone is no round brilliant of eight mains.
+pub fn brilliant_proportions(stone: &Stone) -> Result<BrilliantProportions, NotEightfold> {
+    facet_deviations(stone)?;
+    let FacetClasses { crown, pavilion } = FacetClasses::of(stone)?;
+    let (star, bezel) = (&crown[..OCTANTS], &crown[OCTANTS..2 * OCTANTS]);
+    let (main, lower) = pavilion.split_at(OCTANTS);
+    let outline = Outline::of(&stone.polytope);
+    let radius = 0.5 * outline.diameter;
+    let on = FacetsOnStone { stone, outline, radius };
+    let table = on.table_radius() / radius;
+    let tip = on.mean(star, |facet| on.radii(facet).fold(0.0, f64::max)) / radius;
+    let inner = on.mean(lower, |facet| on.radii(facet).fold(f64::INFINITY, f64::min)) / radius;
+    let slope =
+        |class: &[LeaningFacet]| class.iter().map(|facet| facet.slope_deg).sum::<f64>() / class.len() as f64;
+    let [upper_edge, lower_edge] = [bezel, main].map(|class| on.mean(class, |facet| on.height_at_rim(facet)));
+    let percent = |length: f64| 50.0 * length / radius;
+    let edge = table * FRAC_PI_8.cos();
+    Ok(BrilliantProportions {
+        table: 100.0 * table,
+        crown_angle: slope(bezel),
+        pavilion_angle: slope(main),
+        star_length: 100.0 * (tip - edge) / (1.0 - edge),
+        lower_half_length: 100.0 * (1.0 - inner),
+        girdle_thickness: percent(upper_edge - lower_edge),
+        crown_height: percent(on.outline.top - upper_edge),
+    })
+}
+
+/// A stone with its outline.
+struct FacetsOnStone<'a> {
+    stone: &'a Stone,
+    outline: Outline,
+    /// Half the diameter.
+    radius: f64,
+}
+
+impl FacetsOnStone<'_> {
+    /// Returns the mean of a number over the facets of a class.
+    fn mean(&self, class: &[LeaningFacet], of: impl Fn(&Facet) -> f64) -> f64 {
+        let facets = self.stone.polytope.facets();
+        class.iter().map(|facet| of(&facets[facet.number])).sum::<f64>() / class.len() as f64
+    }
+
+    /// Returns the distances of a facet's corners from the middle of the outline, seen from above.
+    fn radii(&self, facet: &Facet) -> impl Iterator<Item = f64> {
+        let middle = self.outline.middle;
+        self.stone.polytope.corners(facet).map(move |corner| corner.truncate().distance(middle))
+    }
+
+    /// Returns the mean distance of the table's corners from the middle.
+    fn table_radius(&self) -> f64 {
+        let facets = self.stone.polytope.facets().iter();
+        let table = facets.max_by(|a, b| a.plane.normal.z.total_cmp(&b.plane.normal.z));
+        let radii: Vec<f64> = table.into_iter().flat_map(|facet| self.radii(facet)).collect();
+        radii.iter().sum::<f64>() / radii.len().max(1) as f64
+    }
+
+    /// Returns the height at which a facet's plane meets the circle of the outline, at the facet's azimuth.
+    fn height_at_rim(&self, facet: &Facet) -> f64 {
+        let normal = facet.plane.normal;
+        let rim: DVec2 = self.outline.middle + self.radius * normal.truncate().normalize_or(DVec2::X);
+        (facet.plane.offset - normal.truncate().dot(rim)) / normal.z
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
+    use crate::math::Plane;
+
+    fn fields(of: &BrilliantProportions) -> [f64; 7] {
+        let BrilliantProportions { table, crown_angle, pavilion_angle, star_length, .. } = *of;
+        let BrilliantProportions { lower_half_length, girdle_thickness, crown_height, .. } = *of;
+        [table, crown_angle, pavilion_angle, star_length, lower_half_length, girdle_thickness, crown_height]
+    }
+
+    #[test]
+    fn a_stone_measures_what_its_design_gives_however_it_is_turned() {
+        let flat = RoundBrilliant {
+            table: 61.5,
+            crown: Crown::Height(11.0),
+            pavilion: Pavilion::Angle(42.3),
+            star_length: 57.0,
+            lower_half: LowerHalf::Vertical(83.0),
+            girdle_thickness: 4.2,
+            girdle_facets: 64,
+            culet: 1.5,
+        };
+        for design in [TOLKOWSKY, flat] {
+            for turn in [0.0, 11.0_f64, 200.3] {
+                let facets = design.facets().unwrap().into_iter().map(|(name, plane)| {
+                    let across = DVec2::from_angle(turn.to_radians()).rotate(plane.normal.truncate());
+                    (name, Plane { normal: across.extend(plane.normal.z), ..plane })
+                });
+                let stone = Stone::new(&facets.collect::<Vec<_>>()).unwrap();
+                let [found, given] =
+                    [brilliant_proportions(&stone).unwrap(), BrilliantProportions::of(&design)];
+                for (a, b) in fields(&found).into_iter().zip(fields(&given)) {
+                    assert!((a - b).abs() < 1e-6, "{turn}: {found:?} is not {given:?}");
+                }
+            }
+        }
+    }
+}
