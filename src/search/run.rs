@@ -102,6 +102,11 @@ impl DesignSearch {
         Ok(Self { objective, options })
     }
 
+    /// Returns how the search goes.
+    pub fn options(&self) -> &SearchOptions {
+        &self.options
+    }
+
     /// Returns the goal for the design.
     pub fn objective(&self) -> &Objective {
         &self.objective
@@ -239,8 +244,9 @@ impl Trials<'_> {
         match self.search.objective.appraise(places, unresolved, with_slopes, &watch) {
             Ok(found) => {
                 // Rough figures only say where to look.
-                if unresolved <= self.search.options.unresolved {
-                    self.note(places, &found);
+                match unresolved <= self.search.options.unresolved {
+                    true => self.note(places, &found),
+                    false => self.tell(done, self.best_total(), None),
                 }
                 Some(found)
             }
@@ -265,12 +271,13 @@ impl Trials<'_> {
         let best_total = record.best.as_ref().map(|(_, total)| *total);
         drop(record);
         let design = is_best.then(|| self.search.objective.design_at(places).ok()).flatten();
-        (self.report)(&SearchProgress {
-            appraised,
-            part: (appraised as f64 / self.most as f64).min(1.0),
-            best_total,
-            new_best: design.map(Box::new),
-        });
+        self.tell(appraised, best_total, design);
+    }
+
+    /// Says how far the search is.
+    fn tell(&self, appraised: usize, best_total: Option<f64>, new_best: Option<Design>) {
+        let part = (appraised as f64 / self.most as f64).min(1.0);
+        (self.report)(&SearchProgress { appraised, part, best_total, new_best: new_best.map(Box::new) });
     }
 
     fn record(&self) -> std::sync::MutexGuard<'_, Record> {

@@ -1,6 +1,7 @@
 //! What is to be done outside a model. Most tasks are carried out in the background and answer with an action.
 
 use super::choosing::Question;
+use super::cut_search::SearchRequest;
 use super::export::ExportPlan;
 use super::fitting::LightRequest;
 use super::opening::FileRequest;
@@ -48,6 +49,10 @@ pub enum Task {
     MeasureLight(Box<LightRequest>),
     /// Stop measuring.
     StopLight,
+    /// Search for a better cut.
+    Search(Box<SearchRequest>),
+    /// Stop the search, which then answers with the best so far.
+    StopSearch,
     /// Trace the pictures and figures of all views in sight.
     Trace(Box<Order>),
     Window(WindowTask),

@@ -13,9 +13,11 @@ mod look_ups;
 pub mod lookup;
 pub mod open;
 pub mod runner;
+mod search;
 
 use crate::app::model::action::{Computed, DialogAction, FileAction, NoteAction};
 use crate::app::model::choosing::{Choice, Question};
+use crate::app::model::cut_search::{SearchEvent, SearchRequest};
 use crate::app::model::export::ExportPlan;
 use crate::app::model::exporting::ExportEvent;
 use crate::app::model::fitting::LightRequest;
@@ -54,6 +56,7 @@ enum Key {
     Copy,
     Audit,
     StoneLight,
+    Search,
     LookUp(Slot),
 }
 
@@ -131,6 +134,8 @@ impl Outside {
             Task::Audit(specimen) => self.audit(specimen),
             Task::MeasureLight(request) => self.measure_light(*request),
             Task::StopLight => self.runner.stop(Key::StoneLight),
+            Task::Search(request) => self.search(*request),
+            Task::StopSearch => self.runner.stop(Key::Search),
             Task::Trace(_) | Task::Window(_) => {}
         }
     }
@@ -238,6 +243,15 @@ impl Outside {
         let failed = Computed::StoneLight(request.number, Err(fault("measuring the light failed")));
         self.run(Key::StoneLight, failed, move |job| {
             Computed::StoneLight(request.number, light::measured(&request, &|| job.is_stopped()))
+        });
+    }
+
+    fn search(&mut self, request: SearchRequest) {
+        let failed = SearchEvent::Ended(Err(fault("the search failed")));
+        self.run(Key::Search, Computed::Search(request.number, failed), move |job| {
+            let say = |event| job.send(Computed::Search(request.number, event).into());
+            let found = search::search(&request, &say, &|| job.is_stopped());
+            Computed::Search(request.number, SearchEvent::Ended(found))
         });
     }
 
