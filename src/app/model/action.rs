@@ -26,6 +26,7 @@ use crate::io::lighting::Lighting;
 use crate::io::mesh_options::MeshOptions;
 use crate::measure::Figures;
 use crate::scene::{Pose, Specimen};
+use crate::search::Goal;
 use glam::DVec2;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -291,6 +292,10 @@ pub enum Computed {
     Audit(Arc<Specimen>, Result<Audit, Failure>),
     /// The light of the stones of this question, in the dialog that fits the design to another material.
     StoneLight(u64, Result<Vec<StoneLight>, Failure>),
+    /// A goal has been read from a file.
+    Goal(PathBuf, Result<Box<Goal>, Failure>),
+    /// The goal has been written to a file.
+    GoalSaved(PathBuf, Result<(), Failure>),
     /// What the search for a better cut of this number says.
     Search(u64, SearchEvent),
     /// The width and height of a picture that is in the clipboard now, pixels.

@@ -9,6 +9,7 @@ use super::recovery::UnsavedWork;
 use super::saving::{SaveRequest, Stamp};
 use crate::app::studio::{Order, Shot};
 use crate::scene::Specimen;
+use crate::search::Goal;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -51,6 +52,10 @@ pub enum Task {
     StopLight,
     /// Search for a better cut.
     Search(Box<SearchRequest>),
+    /// Read a goal for the search.
+    ReadGoal(PathBuf),
+    /// Write the goal of the search to a file.
+    WriteGoal(PathBuf, Box<Goal>),
     /// Stop the search, which then answers with the best so far.
     StopSearch,
     /// Trace the pictures and figures of all views in sight.

@@ -4,7 +4,7 @@ use super::measure_words;
 use super::rows::{ANY, NOT_KNOWN, Number, UNKNOWN, choice_row, spoken};
 use crate::app::model::goal_form::{GoalForm, NumberChoice, SearchEffort, goal_measures};
 use crate::search::GoalMeasure;
-use egui::{ComboBox, DragValue, Grid, Id, RichText, Ui, vec2};
+use egui::{ComboBox, DragValue, Grid, Id, Label, RichText, Ui, vec2};
 
 /// The widths of the fields of a measure, of what is wanted of it, and of numbers, points.
 const WIDTHS: [f32; 3] = [212.0, 92.0, 62.0];
@@ -34,6 +34,7 @@ pub fn show(form: &mut GoalForm, ui: &mut Ui) {
     if ui.button("Add measure").clicked() {
         form.add_measure();
     }
+    limits(form, ui);
     ui.add_space(8.0);
     ui.label(RichText::new("What may change").strong());
     numbers(&mut form.numbers, ui);
@@ -67,10 +68,56 @@ fn measures(form: &mut GoalForm, ui: &mut Ui) {
                 removed = Some(place);
             }
             ui.end_row();
+            let taken = taken_in(measure);
+            if !taken.is_empty() {
+                ui.add(Label::new(RichText::new(&taken).weak().small()).truncate()).on_hover_text(&taken);
+                ui.end_row();
+            }
         }
     });
     if let Some(place) = removed {
         form.goal.measure.remove(place);
+    }
+}
+
+/// Says what a goal file states of a measure besides what the row shows: materials, views, and what may be lost.
+fn taken_in(measure: &GoalMeasure) -> String {
+    let mut said = vec![];
+    if let Some(materials) = &measure.material {
+        said.push(format!("in {}", joined(materials.all())));
+    }
+    if let Some(tilts) = &measure.tilt {
+        said.push(format!("tilted by {}°", joined(tilts.all())));
+    }
+    if let Some(azimuths) = &measure.azimuth {
+        said.push(format!("toward {}°", joined(azimuths.all())));
+    }
+    if let Some(lost) = measure.may_lose {
+        said.push(format!("may lose {} %", 100.0 * lost));
+    }
+    said.join("; ")
+}
+
+fn joined(all: &[impl std::fmt::Display]) -> String {
+    all.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
+/// Lists the limits on the geometry that a goal file gave, with a button that lifts them; nothing where there are none.
+fn limits(form: &mut GoalForm, ui: &mut Ui) {
+    if form.goal.limit.is_empty() {
+        return;
+    }
+    let mut are_lifted = false;
+    ui.horizontal_wrapped(|ui| {
+        for (name, limit) in &form.goal.limit {
+            let least = limit.at_least.map(|least| format!(" at least {least}")).unwrap_or_default();
+            let most = limit.at_most.map(|most| format!(" at most {most}")).unwrap_or_default();
+            ui.label(format!("{name}{least}{most};"));
+        }
+        are_lifted = ui.small_button("Lift limits").clicked();
+    });
+    if are_lifted {
+        form.goal.limit.clear();
     }
 }
 

@@ -6,7 +6,8 @@ use super::rows::explain;
 use super::search_plot;
 use super::search_table;
 use crate::app::model::Model;
-use crate::app::model::action::{Actions, SearchAction};
+use crate::app::model::action::{Actions, FileAction, SearchAction};
+use crate::app::model::choosing::Purpose;
 use crate::app::model::command::Command;
 use crate::app::model::cut_search::{EndedSearch, RunningSearch, SearchEnd, SearchState};
 use crate::app::model::goal_form::GoalForm;
@@ -86,6 +87,13 @@ fn choosing(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let fault = now.wanted().err();
     actions.push_changed(form, now, |now| SearchAction::Form(Box::new(now)));
     ui.horizontal(|ui| {
+        let open = ui.button("Open goal…");
+        let meaning = "Reads measures, limits and numbers from a goal file, as `brillianteer optimise` does.";
+        actions.push_if(explain(ui, open, meaning).clicked(), FileAction::Choose(Purpose::Goal));
+        let save = ui.add_enabled(fault.is_none(), Button::new("Save goal…"));
+        let meaning = "Writes what is asked for here as a goal file.";
+        actions.push_if(explain(ui, save, meaning).clicked(), FileAction::Choose(Purpose::SaveGoal));
+        ui.separator();
         let start = ui.add_enabled(fault.is_none(), Button::new("Start"));
         let meaning =
             "Searches until it finds nothing better. The best so far is shown in the views; Stop keeps it.";

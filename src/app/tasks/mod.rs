@@ -27,9 +27,10 @@ use crate::app::model::task::CopyRequest;
 use crate::app::model::{Action, Task};
 use crate::app::shows::Shows;
 use crate::app::studio::{Slot, TakenPicture, Wake};
-use crate::io::Failure;
 use crate::io::lighting::Lighting;
+use crate::io::{Failure, goal_file};
 use crate::scene::Specimen;
+use crate::search::Goal;
 use autosave::Autosave;
 use egui::ColorImage;
 use files::Chooser;
@@ -57,6 +58,7 @@ enum Key {
     Audit,
     StoneLight,
     Search,
+    Goal,
     LookUp(Slot),
 }
 
@@ -135,6 +137,8 @@ impl Outside {
             Task::MeasureLight(request) => self.measure_light(*request),
             Task::StopLight => self.runner.stop(Key::StoneLight),
             Task::Search(request) => self.search(*request),
+            Task::ReadGoal(path) => self.read_goal(path),
+            Task::WriteGoal(path, goal) => self.write_goal(path, *goal),
             Task::StopSearch => self.runner.stop(Key::Search),
             Task::Trace(_) | Task::Window(_) => {}
         }
@@ -252,6 +256,22 @@ impl Outside {
             let say = |event| job.send(Computed::Search(request.number, event).into());
             let found = search::search(&request, &say, &|| job.is_stopped());
             Computed::Search(request.number, SearchEvent::Ended(found))
+        });
+    }
+
+    fn read_goal(&mut self, path: PathBuf) {
+        let why = fault(&format!("{}: reading the goal failed", path.display()));
+        self.run(Key::Goal, Computed::Goal(path.clone(), Err(why)), move |_| {
+            let goal = goal_file::read(&path).map(Box::new).map_err(Failure::from);
+            Computed::Goal(path, goal)
+        });
+    }
+
+    fn write_goal(&mut self, path: PathBuf, goal: Goal) {
+        let why = fault(&format!("{}: writing the goal failed", path.display()));
+        self.run(Key::Goal, Computed::GoalSaved(path.clone(), Err(why)), move |_| {
+            let written = goal_file::write(&goal, &path);
+            Computed::GoalSaved(path, written)
         });
     }
 

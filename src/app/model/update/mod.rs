@@ -109,6 +109,9 @@ fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
         }
         Computed::Audit(specimen, Ok(found)) => session.audit.take(&specimen, found),
         Computed::StoneLight(number, light) => fitting::take_light(model, number, light),
+        Computed::Goal(path, Ok(goal)) => searching::take_goal(model, &path, *goal),
+        Computed::GoalSaved(path, Ok(())) => session.notes.say(&format!("{} saved", path.display())),
+        Computed::Goal(_, Err(why)) | Computed::GoalSaved(_, Err(why)) => session.notes.trouble(why),
         Computed::Search(number, event) => searching::take(model, number, event),
         Computed::Audit(_, Err(why)) => session.notes.trouble(why),
         Computed::Copied(made) => {

@@ -6,6 +6,8 @@ use crate::app::model::action::SearchAction;
 use crate::app::model::cut_search::{SearchEvent, SearchState};
 use crate::app::model::task::Task;
 use crate::cut::Design;
+use crate::search::Goal;
+use std::path::{Path, PathBuf};
 
 /// Changes the search as the user asks.
 pub fn change(model: &mut Model, tasks: &mut Vec<Task>, action: SearchAction) {
@@ -42,6 +44,23 @@ pub fn toggle(model: &mut Model, tasks: &mut Vec<Task>) {
 pub fn take(model: &mut Model, number: u64, event: SearchEvent) {
     if let Some(design) = model.session.search.take(number, event) {
         show(model, design);
+    }
+}
+
+/// Takes the goal of a file into the form.
+pub fn take_goal(model: &mut Model, path: &Path, goal: Goal) {
+    let missing = model.session.search.form.take(goal);
+    if !missing.is_empty() {
+        let (file, missing) = (path.display(), missing.join(", "));
+        model.session.notes.say(&format!("{file}: the design has no {missing}; the rest is taken"));
+    }
+}
+
+/// Writes the goal of the form to a file, or says what is missing.
+pub fn save_goal(model: &mut Model, tasks: &mut Vec<Task>, path: PathBuf) {
+    match model.session.search.form.wanted() {
+        Ok(goal) => tasks.push(Task::WriteGoal(path, Box::new(goal))),
+        Err(why) => model.session.notes.trouble(format!("{}: the goal was not saved: {why}", path.display())),
     }
 }
 
