@@ -29,6 +29,9 @@ const AFTER_CLIMB: f64 = 0.02;
 /// How far from a promising design others are scattered, a part of each range.
 const NEAR: f64 = 0.1;
 
+/// The number of scattered designs after which the best of them is looked at for the first time; each time it takes twice as many.
+const FIRST_BATCH: usize = 8;
+
 /// The number of places from which the search feels its way at last: one for each core of a small machine.
 const FELT_TOPS: usize = 2;
 
@@ -165,8 +168,23 @@ impl DesignSearch {
         let dimensions = start.len();
         let coarse = self.options.unresolved * COARSER;
         let tried = |places: Vec<Vec<f64>>| -> Vec<(f64, Vec<f64>)> {
-            let merit = |places: Vec<f64>| Some((merit(&trials.appraise(&places, coarse, false)?), places));
-            places.into_par_iter().filter_map(merit).collect()
+            let merit =
+                |places: &Vec<f64>| Some((merit(&trials.appraise(places, coarse, false)?), places.clone()));
+            let (mut found, mut rest, mut count) = (vec![], places.as_slice(), FIRST_BATCH);
+            while !rest.is_empty() {
+                let (batch, later) = rest.split_at(count.min(rest.len()));
+                let batch: Vec<(f64, Vec<f64>)> = batch.par_iter().filter_map(merit).collect();
+                // What promises most is measured finely at once, so that a better design is seen early.
+                let promising = batch.iter().max_by(|a, b| a.0.total_cmp(&b.0));
+                if let Some((_, places)) =
+                    promising.filter(|(merit, _)| trials.best_total().is_none_or(|best| *merit > best))
+                {
+                    trials.near(places, false);
+                }
+                found.extend(batch);
+                (rest, count) = (later, 2 * count);
+            }
+            found
         };
         let mut found = vec![(merit(self.objective.start()), start)];
         found.extend(tried(scattered(count, dimensions, self.options.seed)));

@@ -62,7 +62,7 @@ fn measures(form: &mut GoalForm, ui: &mut Ui) {
             weight(measure, (row, heads[2]), ui);
             limit(&mut measure.at_least, &format!("At least {row}"), ui);
             limit(&mut measure.at_most, &format!("At most {row}"), ui);
-            let remove = ui.add_enabled(!is_last, egui::Button::new("✖").frame(false));
+            let remove = ui.add_enabled(!is_last, egui::Button::new("×").frame(false));
             spoken(&remove, &format!("Remove measure {row}"));
             if remove.on_hover_text("Takes the measure out of the goal.").clicked() {
                 removed = Some(place);

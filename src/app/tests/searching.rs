@@ -5,6 +5,8 @@ use super::*;
 use crate::app::model::cut_search::{EndedSearch, SearchEnd, SearchState};
 use crate::cut::Design;
 use egui::{Role, vec2};
+use egui_kittest::kittest::NodeT;
+use std::path::Path;
 
 /// Opens an editor of a large window with the window of the search.
 fn opened(setup: Setup) -> Bench {
@@ -35,20 +37,23 @@ fn quick(bench: &mut Bench) {
     bench.click("Vary Crown angle");
 }
 
-/// Runs frames until the document shows a better design than the one that the search began with.
-fn better(bench: &mut Bench) {
+/// Opens a design that is easily bettered, begins a search that takes long, and waits for something better.
+fn begun() -> Bench {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts/steep-deep.toml");
+    let mut bench = opened(Setup { file: Some(file), ..Setup::default() });
+    pick(&mut bench, "Effort", "thorough");
+    bench.click("All");
+    bench.click("Start");
     bench.wait(|editor| {
         let running = editor.model.session.search.running();
         running.is_some_and(|running| running.curve.len() > 1 && running.shown() != running.before())
     });
+    bench
 }
 
-/// Begins a search that takes long, and waits for something better.
-fn begun(bench: &mut Bench) {
-    pick(bench, "Effort", "thorough");
-    pick(bench, "Measure 1", "Scintillation");
-    bench.click("Start");
-    better(bench);
+/// Returns the design with which the search that is under way has begun.
+fn given(bench: &Bench) -> Design {
+    bench.editor().model.session.search.running().unwrap().before().clone()
 }
 
 fn steps(bench: &Bench) -> (bool, bool) {
@@ -100,9 +105,8 @@ fn the_outcome_is_taken_back_by_its_own_button() {
 
 #[test]
 fn a_search_that_is_stopped_keeps_the_best_so_far() {
-    let mut bench = opened(Setup::default());
-    let before = design(&bench).clone();
-    begun(&mut bench);
+    let mut bench = begun();
+    let before = given(&bench);
     assert!(bench.harness.query_by_label_contains("designs tried; the goal has grown from").is_some());
     bench.click("Stop");
     bench.wait(|editor| matches!(state(editor), SearchState::Ended(_)));
@@ -115,9 +119,8 @@ fn a_search_that_is_stopped_keeps_the_best_so_far() {
 
 #[test]
 fn a_search_that_is_discarded_leaves_no_trace() {
-    let mut bench = opened(Setup::default());
-    let before = design(&bench).clone();
-    begun(&mut bench);
+    let mut bench = begun();
+    let before = given(&bench);
     assert_ne!(*design(&bench), before);
     bench.click("Discard");
     assert_eq!(*design(&bench), before);
@@ -128,9 +131,8 @@ fn a_search_that_is_discarded_leaves_no_trace() {
 
 #[test]
 fn an_edit_stops_the_search_and_both_are_steps_of_undo() {
-    let mut bench = opened(Setup::default());
-    let before = design(&bench).clone();
-    begun(&mut bench);
+    let mut bench = begun();
+    let before = given(&bench);
     bench.type_number("Table", "60");
     let changed = design(&bench).clone();
     assert!(matches!(ended(&bench).end, SearchEnd::Interrupted));
@@ -146,9 +148,8 @@ fn an_edit_stops_the_search_and_both_are_steps_of_undo() {
 
 #[test]
 fn undo_in_a_search_ends_it_and_takes_it_back() {
-    let mut bench = opened(Setup::default());
-    let before = design(&bench).clone();
-    begun(&mut bench);
+    let mut bench = begun();
+    let before = given(&bench);
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
     bench.harness.run_steps(3);
     assert!(matches!(ended(&bench).end, SearchEnd::Interrupted));
@@ -157,9 +158,8 @@ fn undo_in_a_search_ends_it_and_takes_it_back() {
 
 #[test]
 fn another_exposure_does_not_stop_a_search_and_is_a_step_of_its_own() {
-    let mut bench = opened(Setup::default());
-    let before = design(&bench).clone();
-    begun(&mut bench);
+    let mut bench = begun();
+    let before = given(&bench);
     bench.harness.state_mut().act(crate::app::model::action::Edit::Exposure(1.0));
     bench.harness.run_steps(3);
     assert!(bench.editor().model.session.search.running().is_some());
@@ -172,13 +172,12 @@ fn another_exposure_does_not_stop_a_search_and_is_a_step_of_its_own() {
 
 #[test]
 fn another_document_ends_the_search() {
-    let mut bench = opened(Setup::default());
-    begun(&mut bench);
+    let mut bench = begun();
     use crate::app::model::action::FileAction;
     use crate::app::model::dialog::Then;
     bench.harness.state_mut().act(FileAction::Ask(Then::Library("oval".to_owned())));
     if bench.editor().model.session.dialog.is_some() {
-        bench.click("Discard changes");
+        bench.click("Don't save");
     }
     bench.settle();
     let oval = design(&bench).clone();
@@ -203,4 +202,39 @@ fn the_window_says_what_is_missing_and_why_a_mesh_cannot_be_searched() {
     let bench = opened(Setup { file: Some(file), ..Setup::default() });
     assert!(bench.harness.query_by_label_contains("Turn into tiers lists its facets").is_some());
     assert!(bench.harness.query_by_label("Start").is_none());
+}
+
+#[test]
+fn a_goal_is_saved_and_opened_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("goal.toml");
+    let mut bench = opened(Setup::default());
+    bench.click("Add measure");
+    pick(&mut bench, "Measure 2", "Leakage");
+    pick(&mut bench, "Wanted 2", "less");
+    bench.type_number("Weight 2", "0.5");
+    bench.type_number("At most 2", "4");
+    bench.type_number("Greatest Crown angle", "36");
+    bench.choices.lock().unwrap().push(file.clone());
+    bench.click("Save goal…");
+    bench.wait(|_| crate::io::goal_file::read(&file).is_ok());
+    let goal = crate::io::goal_file::read(&file).unwrap();
+    assert_eq!((goal.measure[1].weight, goal.measure[1].at_most), (-0.5, Some(0.04)));
+    assert_eq!(goal.vary["crown_angle"][1], 36.0);
+    let mut bench = opened(Setup::default());
+    bench.choices.lock().unwrap().push(file.clone());
+    bench.click("Open goal…");
+    bench.wait(|editor| editor.model.session.search.form.wanted() == Ok(goal.clone()));
+    // A limit that is emptied is none.
+    let field = bench.field(Role::SpinButton, "At most 2");
+    field.focus();
+    bench.harness.run_steps(2);
+    bench.harness.get_by_role_and_label(Role::SpinButton, "At most 2").click();
+    bench.harness.run_steps(2);
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    bench.harness.key_press(egui::Key::Delete);
+    bench.harness.run_steps(1);
+    bench.harness.key_press(egui::Key::Enter);
+    bench.harness.run_steps(3);
+    assert_eq!(bench.editor().model.session.search.form.goal.measure[1].at_most, None);
 }
