@@ -64,7 +64,7 @@ mod tests {
         let goal = goal(GOAL).unwrap();
         write(&goal, &path).unwrap();
         assert_eq!(read(&path).unwrap(), goal);
-        assert!(write(&goal, &folder.path().join("no/goal.toml")).is_err());
+        assert!(write(&goal, folder.path()).is_err(), "a folder is no file");
     }
 
     #[test]

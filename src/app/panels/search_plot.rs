@@ -2,7 +2,7 @@
 
 use crate::search::ProgressPoint;
 use egui::{Color32, Role, Ui, WidgetInfo};
-use egui_plot::{HoverPosition, Line, Plot, PlotPoints, Points};
+use egui_plot::{GridInput, GridMark, HoverPosition, Line, Plot, PlotPoints, Points};
 
 /// The colour of the curve, which can be read on light and dark (B. Wong, Nature Methods 8, 441 (2011)).
 const CURVE: Color32 = Color32::from_rgb(0, 158, 115);
@@ -22,6 +22,7 @@ pub fn show(curve: &[ProgressPoint], tried: usize, ui: &mut Ui) {
         .show_y(false)
         .include_x(0.0)
         .include_x(end)
+        .x_grid_spacer(sixths)
         .x_axis_label("designs tried")
         .y_axis_label("goal");
     let plot = plot.label_formatter(|nearest| match nearest {
@@ -31,7 +32,9 @@ pub fn show(curve: &[ProgressPoint], tried: usize, ui: &mut Ui) {
         HoverPosition::Elsewhere { .. } => None,
     });
     let shown = plot.show(ui, |plot| {
-        plot.line(Line::new("best so far", PlotPoints::from(steps(curve, end))).color(CURVE).width(1.8));
+        // As a band, the plot would fill what lies between places one above the other.
+        let line = Line::new("best so far", PlotPoints::from(steps(curve, end))).allow_band(false);
+        plot.line(line.color(CURVE).width(1.8));
         let found: Vec<[f64; 2]> = curve.iter().map(|point| [point.appraised as f64, point.total]).collect();
         plot.points(Points::new("best so far", PlotPoints::from(found)).color(CURVE).radius(3.0));
     });
@@ -40,6 +43,17 @@ pub fn show(curve: &[ProgressPoint], tried: usize, ui: &mut Ui) {
         [.., last] => format!("Progress of the search: {:.4} after {tried} designs", last.total),
     };
     shown.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &spoken));
+}
+
+/// Returns marks at round numbers of designs, about six of them, so that each has room for its number.
+fn sixths(input: GridInput) -> Vec<GridMark> {
+    let (first, last) = input.bounds;
+    let least = ((last - first) / 6.0).max(1.0);
+    let power = 10.0_f64.powf(least.log10().floor());
+    let step = [1.0, 2.0, 5.0].map(|factor| factor * power).into_iter().find(|step| *step >= least);
+    let step = step.unwrap_or(10.0 * power);
+    let marks = (first / step).ceil() as i32..=(last / step).floor() as i32;
+    marks.map(|k| GridMark { value: step * f64::from(k), step_size: step }).collect()
 }
 
 /// Returns the corners of the curve: the best stays as it is until a better one is found.

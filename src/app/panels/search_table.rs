@@ -7,10 +7,13 @@ use crate::app::model::goal_form::NumberChoice;
 use crate::app::theme;
 use crate::measure::Interval;
 use crate::search::GoalValue;
-use egui::{Color32, Grid, RichText, Ui};
+use egui::{Color32, Grid, Response, RichText, Ui, vec2};
 
 /// Changes of a measure below this part of the face are none.
 const SAME: f64 = 5e-5;
+
+/// The width of a column of numbers, points.
+const COLUMN: f32 = 76.0;
 
 /// A measure before and after.
 struct Change {
@@ -70,8 +73,9 @@ pub fn show(model: &Model, report: &SearchReport, ui: &mut Ui) {
 }
 
 fn heads(ui: &mut Ui) {
-    for name in ["", "before", "after", "change"] {
-        ui.label(RichText::new(name).weak());
+    ui.label("");
+    for name in ["before", "after", "change"] {
+        right(ui, RichText::new(name).weak());
     }
     ui.end_row();
 }
@@ -86,9 +90,10 @@ fn group<'a>(ui: &mut Ui, (name, colour): (&str, Color32), changes: impl Iterato
     ui.end_row();
     for change in changes {
         ui.label(&change.name);
-        ui.label(part(change.before)).on_hover_text(measure_words::value(change.before));
-        ui.label(part(change.after)).on_hover_text(measure_words::value(change.after));
-        ui.label(RichText::new(format!("{:+.2}", 100.0 * change.by())).color(colour));
+        for value in [change.before, change.after] {
+            right(ui, part(value).into()).on_hover_text(measure_words::value(value));
+        }
+        right(ui, RichText::new(format!("{:+.2}", 100.0 * change.by())).color(colour));
         ui.end_row();
     }
 }
@@ -122,9 +127,20 @@ fn numbers(model: &Model, report: &SearchReport, ui: &mut Ui) {
 fn line(ui: &mut Ui, name: &str, texts: [String; 3]) {
     ui.label(name);
     for text in texts {
-        ui.label(text);
+        right(ui, text.into());
     }
     ui.end_row();
+}
+
+/// Draws a text at the right end of its column.
+fn right(ui: &mut Ui, text: RichText) -> Response {
+    let layout = egui::Layout::right_to_left(egui::Align::Center);
+    let size = vec2(COLUMN, ui.spacing().interact_size.y);
+    ui.allocate_ui_with_layout(size, layout, |ui| {
+        ui.set_min_width(COLUMN);
+        ui.label(text)
+    })
+    .inner
 }
 
 /// Returns the name of a measure with the material and the view in which it is taken.

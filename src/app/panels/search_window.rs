@@ -15,10 +15,11 @@ use crate::app::theme;
 use egui::{Button, Context, Pos2, ProgressBar, RichText, ScrollArea, Ui, Vec2, Window, pos2, vec2};
 
 /// The size of the window at first, and at least, points.
-const SIZES: [Vec2; 2] = [vec2(600.0, 560.0), vec2(440.0, 320.0)];
+const SIZES: [Vec2; 2] = [vec2(600.0, 400.0), vec2(440.0, 240.0)];
 
-/// Where the upper left corner of the window is at first, points: right of the design panel, whose fields it does not cover.
-const PLACE: Pos2 = pos2(376.0, 64.0);
+/// Where the upper left corner of the window is at first, points: right of the design panel, whose fields it does not cover, and below
+/// the upper views, which show the best so far.
+const PLACE: Pos2 = pos2(376.0, 440.0);
 
 /// The room below what scrolls, for a row of buttons and for what is missing, points.
 const BELOW: f32 = 40.0;

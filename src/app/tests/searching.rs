@@ -10,7 +10,7 @@ use std::path::Path;
 
 /// Opens an editor of a large window with the window of the search.
 fn opened(setup: Setup) -> Bench {
-    let mut bench = Bench::sized(setup, vec2(1400.0, 1000.0));
+    let mut bench = Bench::sized(setup, vec2(1000.0, 680.0));
     bench.settle();
     bench.choose("View", "Find a better cut");
     bench
