@@ -1,7 +1,7 @@
 //! The rows in which a person says what a better cut is: measures with weights and limits, and the numbers that may change.
 
 use super::measure_words;
-use super::rows::{ANY, NOT_KNOWN, Number, UNKNOWN, choice_row, spoken};
+use super::rows::{ANY, NOT_KNOWN, Number, UNKNOWN, spoken};
 use crate::app::model::goal_form::{GoalForm, NumberChoice, SearchEffort, goal_measures};
 use crate::search::GoalMeasure;
 use egui::{ComboBox, DragValue, Grid, Id, Label, RichText, Ui, vec2};
@@ -38,14 +38,19 @@ pub fn show(form: &mut GoalForm, ui: &mut Ui) {
     ui.add_space(8.0);
     ui.label(RichText::new("What may change").strong());
     numbers(&mut form.numbers, ui);
-    ui.add_space(8.0);
-    let effort = form.effort;
-    choice_row(ui, "Effort", "How many designs are tried, and how finely.", effort.name(), |ui| {
+}
+
+/// Draws the choice of the effort.
+pub fn effort(form: &mut GoalForm, ui: &mut Ui) {
+    let label = ui.label("Effort").on_hover_text("How many designs are tried, and how finely.");
+    let combo = ComboBox::from_id_salt("effort").width(WIDTHS[1]).selected_text(form.effort.name());
+    let shown = combo.show_ui(ui, |ui| {
         for offered in SearchEffort::ALL {
             let entry = ui.selectable_value(&mut form.effort, offered, offered.name());
             entry.on_hover_text(offered.meaning());
         }
     });
+    shown.response.labelled_by(label.id);
 }
 
 fn measures(form: &mut GoalForm, ui: &mut Ui) {

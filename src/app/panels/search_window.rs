@@ -12,7 +12,9 @@ use crate::app::model::command::Command;
 use crate::app::model::cut_search::{EndedSearch, RunningSearch, SearchEnd, SearchState};
 use crate::app::model::goal_form::GoalForm;
 use crate::app::theme;
-use egui::{Button, Context, Pos2, ProgressBar, RichText, ScrollArea, Ui, Vec2, Window, pos2, vec2};
+use egui::{
+    Button, Context, Pos2, ProgressBar, RichText, ScrollArea, TextStyle, Ui, Vec2, Window, pos2, vec2,
+};
 
 /// The size of the window at first, and at least, points.
 const SIZES: [Vec2; 2] = [vec2(600.0, 400.0), vec2(440.0, 240.0)];
@@ -21,7 +23,7 @@ const SIZES: [Vec2; 2] = [vec2(600.0, 400.0), vec2(440.0, 240.0)];
 /// the upper views, which show the best so far.
 const PLACE: Pos2 = pos2(376.0, 440.0);
 
-/// The room below what scrolls, for a row of buttons and for what is missing, points.
+/// The room below what scrolls, for a row of buttons, points.
 const BELOW: f32 = 40.0;
 
 /// Draws the window where it is open.
@@ -48,9 +50,9 @@ fn contents(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     }
 }
 
-/// Draws the contents in a part that scrolls, and leaves room for the buttons below.
-fn scrolled(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
-    let height = (ui.available_height() - BELOW).max(80.0);
+/// Draws the contents in a part that scrolls, and leaves room for the buttons below, and for `more` points.
+fn scrolled(ui: &mut Ui, more: f32, contents: impl FnOnce(&mut Ui)) {
+    let height = (ui.available_height() - BELOW - more).max(80.0);
     ScrollArea::vertical()
         .max_height(height)
         .min_scrolled_height(height)
@@ -84,9 +86,13 @@ fn choosing(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     }
     let form = &model.session.search.form;
     let mut now = form.clone();
-    scrolled(ui, |ui| goal_rows::show(&mut now, ui));
-    let fault = now.wanted().err();
-    actions.push_changed(form, now, |now| SearchAction::Form(Box::new(now)));
+    let fault = form.wanted().err();
+    let line = if fault.is_some() { ui.text_style_height(&TextStyle::Body) + 6.0 } else { 0.0 };
+    scrolled(ui, line, |ui| goal_rows::show(&mut now, ui));
+    if let Some(fault) = &fault {
+        let text = RichText::new(fault.to_string()).color(theme::bad(ui.visuals()));
+        ui.add(egui::Label::new(text).truncate());
+    }
     ui.horizontal(|ui| {
         let open = ui.button("Open goal…");
         let meaning = "Reads measures, limits and numbers from a goal file, as `brillianteer optimise` does.";
@@ -95,15 +101,12 @@ fn choosing(model: &Model, actions: &mut Actions, ui: &mut Ui) {
         let meaning = "Writes what is asked for here as a goal file.";
         actions.push_if(explain(ui, save, meaning).clicked(), FileAction::Choose(Purpose::SaveGoal));
         ui.separator();
+        goal_rows::effort(&mut now, ui);
         let start = ui.add_enabled(fault.is_none(), Button::new("Start"));
         let meaning =
             "Searches until it finds nothing better. The best so far is shown in the views; Stop keeps it.";
+        actions.push_changed(form, now, |now| SearchAction::Form(Box::new(now)));
         actions.push_if(explain(ui, start, meaning).clicked(), SearchAction::Start);
-        if let Some(fault) = fault {
-            ui.add(
-                egui::Label::new(RichText::new(fault.to_string()).color(theme::bad(ui.visuals()))).truncate(),
-            );
-        }
     });
 }
 
@@ -125,7 +128,7 @@ fn asked(form: &GoalForm) -> String {
 }
 
 fn under_way(form: &GoalForm, running: &RunningSearch, actions: &mut Actions, ui: &mut Ui) {
-    scrolled(ui, |ui| {
+    scrolled(ui, 0.0, |ui| {
         ui.label(asked(form));
         ui.add(ProgressBar::new(running.part as f32).desired_height(6.0));
         ui.label(RichText::new(state(running)).weak().small());
@@ -158,7 +161,7 @@ fn state(running: &RunningSearch) -> String {
 }
 
 fn over(model: &Model, ended: &EndedSearch, actions: &mut Actions, ui: &mut Ui) {
-    scrolled(ui, |ui| {
+    scrolled(ui, 0.0, |ui| {
         ui.label(RichText::new(summary(ended)).strong());
         if let SearchEnd::Found(report) = &ended.end {
             if ended.has_changed() {

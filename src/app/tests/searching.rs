@@ -56,6 +56,11 @@ fn given(bench: &Bench) -> Design {
     bench.editor().model.session.search.running().unwrap().before().clone()
 }
 
+fn undo(bench: &mut Bench) {
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    bench.harness.run_steps(3);
+}
+
 fn steps(bench: &Bench) -> (bool, bool) {
     bench.editor().model.document.steps()
 }
@@ -113,7 +118,7 @@ fn a_search_that_is_stopped_keeps_the_best_so_far() {
     let SearchEnd::Found(report) = &ended(&bench).end else { panic!("{:?}", ended(&bench).end) };
     assert!(report.outcome.was_stopped);
     assert_eq!(*design(&bench), ended(&bench).after);
-    bench.choose("Edit", "Undo");
+    undo(&mut bench);
     assert_eq!(*design(&bench), before);
 }
 
@@ -150,8 +155,7 @@ fn an_edit_stops_the_search_and_both_are_steps_of_undo() {
 fn undo_in_a_search_ends_it_and_takes_it_back() {
     let mut bench = begun();
     let before = given(&bench);
-    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
-    bench.harness.run_steps(3);
+    undo(&mut bench);
     assert!(matches!(ended(&bench).end, SearchEnd::Interrupted));
     assert_eq!((design(&bench), steps(&bench)), (&before, (false, true)));
 }
@@ -188,20 +192,35 @@ fn another_document_ends_the_search() {
 }
 
 #[test]
-fn the_window_says_what_is_missing_and_why_a_mesh_cannot_be_searched() {
+fn the_window_says_what_is_missing_and_why_glass_cannot_be_searched() {
     let mut bench = opened(Setup::default());
     bench.click("None");
     assert!(bench.harness.query_by_label_contains("Tick at least one number").is_some());
     assert!(bench.field(Role::Button, "Start").accesskit_node().is_disabled());
     bench.click("All");
     assert!(!bench.field(Role::Button, "Start").accesskit_node().is_disabled());
+    let cuts = Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts");
+    let bench = opened(Setup { file: Some(cuts.join("pill.toml")), ..Setup::default() });
+    assert!(
+        bench.harness.query_by_label_contains("Only a convex stone between planes can be searched").is_some()
+    );
+    assert!(bench.harness.query_by_label("Start").is_none());
+}
+
+#[test]
+fn a_mesh_whose_facets_cannot_move_says_so_and_stays() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("stone.stl");
-    let stone = bench.editor().model.document.specimen().clone();
+    let stone = crate::app::model::document::Document::first().unwrap().specimen().clone();
     crate::io::design_file::write(&stone, crate::io::design_file::DesignFormat::Stl, &file).unwrap();
-    let bench = opened(Setup { file: Some(file), ..Setup::default() });
-    assert!(bench.harness.query_by_label_contains("Turn into tiers lists its facets").is_some());
-    assert!(bench.harness.query_by_label("Start").is_none());
+    let mut bench = opened(Setup { file: Some(file), ..Setup::default() });
+    let before = design(&bench).clone();
+    bench.click("Start");
+    bench.wait(|editor| matches!(state(editor), SearchState::Ended(_)));
+    assert!(matches!(ended(&bench).end, SearchEnd::Failed(_)), "{:?}", ended(&bench).end);
+    assert!(bench.harness.query_by_label_contains("has no numbers that may change").is_some());
+    bench.click("Back");
+    assert_eq!(*design(&bench), before);
 }
 
 #[test]
