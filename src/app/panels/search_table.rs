@@ -60,8 +60,9 @@ pub fn show(model: &Model, report: &SearchReport, ui: &mut Ui) {
         group(ui, ("Won", good), weighed.iter().filter(is(1)));
         group(ui, ("Given up", bad), weighed.iter().filter(is(-1)));
         group(ui, ("As it was", plain), weighed.iter().filter(is(0)));
-        group(ui, ("Not asked for, better", good), other.iter().filter(is(1)));
+        // What was lost is read first.
         group(ui, ("Not asked for, worse", bad), other.iter().filter(is(-1)));
+        group(ui, ("Not asked for, better", good), other.iter().filter(is(1)));
         group(ui, ("Not asked for, a matter of taste", plain), other.iter().filter(taste));
         numbers(model, report, ui);
     });

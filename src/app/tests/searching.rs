@@ -180,9 +180,8 @@ fn another_document_ends_the_search() {
     use crate::app::model::action::FileAction;
     use crate::app::model::dialog::Then;
     bench.harness.state_mut().act(FileAction::Ask(Then::Library("oval".to_owned())));
-    if bench.editor().model.session.dialog.is_some() {
-        bench.click("Don't save");
-    }
+    bench.harness.run_steps(4);
+    bench.click("Don't save");
     bench.settle();
     let oval = design(&bench).clone();
     assert!(matches!(state(bench.editor()), SearchState::Choosing));
