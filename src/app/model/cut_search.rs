@@ -278,3 +278,38 @@ impl CutSearch {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::model::document::Document;
+
+    /// Returns the message of a best design with this crown angle.
+    fn best(design: &Design, appraised: usize, total: f64, crown: f64) -> SearchEvent {
+        let mut best = design.clone();
+        let row = best.cut.proportion("crown_angle").and_then(|row| row.give).unwrap();
+        row(&mut best.cut, crown);
+        let new_best = Some(Box::new(best));
+        SearchEvent::Progress(SearchProgress { appraised, part: 0.1, best_total: Some(total), new_best })
+    }
+
+    #[test]
+    fn what_an_older_search_says_and_what_comes_too_late_is_dropped() {
+        let design = Document::first().unwrap().work.design;
+        let mut search = CutSearch::default();
+        search.follow(&design.cut);
+        let older = search.start(&design).unwrap().number;
+        assert_eq!(search.discard(), Some(design.clone()));
+        assert!(search.take(older, best(&design, 3, 0.9, 30.0)).is_none());
+        let number = search.start(&design).unwrap().number;
+        assert!(search.take(older, best(&design, 3, 0.9, 30.0)).is_none());
+        assert!(search.take(number, best(&design, 0, 0.5, 34.5)).is_none(), "the design as it was given");
+        let shown = search.take(number, best(&design, 7, 0.7, 31.0)).unwrap();
+        assert_ne!(shown.cut, design.cut);
+        assert!(search.take(number, best(&design, 6, 0.6, 32.0)).is_none(), "a worse one that comes later");
+        let running = search.running().unwrap();
+        assert_eq!((running.shown(), running.tried, running.curve.len()), (&shown, 7, 2));
+        let failed = SearchEvent::Ended(Err(Failure::Stopped));
+        assert_eq!(search.take(number, failed), Some(design), "nothing is kept that was not measured");
+    }
+}
