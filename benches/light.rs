@@ -1,11 +1,13 @@
 //! The benchmarks that docs/performance.md reports: `cargo bench`. They run on one core, so that figures of different
 //! machines can be compared.
 
-use brillianteer::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
-use brillianteer::io::{WriteError, write_png};
-use brillianteer::measure::by_beams_and_rays;
+use brillianteer::cut::{Crown, LowerHalf, MaterialRef, Pavilion, RoundBrilliant};
+use brillianteer::io::{WriteError, cut_file, library, write_png};
+use brillianteer::measure::{MeasureName, MeasureSettings, by_beams_and_rays};
+use brillianteer::optics::line;
 use brillianteer::picture::{Layer, Palette, paint};
-use brillianteer::scene::{ASET_CONE, Backing, Film, Glare, Medium, Scope, Stone, View};
+use brillianteer::render::{Sweep, SweepKey};
+use brillianteer::scene::{ASET_CONE, Backing, Film, Glare, Medium, Scope, Stone, View, Viewpoint};
 use brillianteer::trace::{beam, ray, unwatched};
 use criterion::{Criterion, criterion_group, criterion_main};
 use glam::DVec2;
@@ -125,11 +127,46 @@ fn geometry(c: &mut Criterion) {
     });
 }
 
+/// One figure of a design without and with its gradient by seven numbers. Both make the stone and trace it.
+fn gradients(c: &mut Criterion) {
+    let mut design =
+        cut_file::parse(library::cut("modern-ideal").expect("a cut"), "modern-ideal").expect("a cut");
+    design.material = MaterialRef::Index(2.4175);
+    let name: MeasureName = "return-cos2".parse().expect("a measure");
+    let sweep = |tilt_deg: f64| Sweep {
+        design: design.clone(),
+        viewpoint: Viewpoint { tilt_deg, azimuth_deg: 11.0, ..Viewpoint::default() },
+        axes: vec![],
+        settings: MeasureSettings {
+            domes: name.dome().into_iter().collect(),
+            ..MeasureSettings::usual([1.0; 2])
+        },
+        wavelength_nm: line::SODIUM_D,
+        unresolved: 0.002,
+        polarised: true,
+    };
+    let keys: Vec<SweepKey> =
+        ["table", "crown_angle", "pavilion_angle", "star_length", "lower_half", "girdle_thickness"]
+            .into_iter()
+            .map(SweepKey::of)
+            .chain([SweepKey::Index])
+            .collect();
+    for (how, tilt_deg) in [("face up", 0.0), ("tilted 15 degrees", 15.0)] {
+        let sweep = sweep(tilt_deg);
+        c.bench_function(&format!("measures: {how}, 0.2 % unresolved"), |b| {
+            b.iter(|| sweep.point(0, &unwatched).expect("a stone"));
+        });
+        c.bench_function(&format!("gradient: {how}, by 7 numbers (goal 4 times the measures)"), |b| {
+            b.iter(|| sweep.gradient(&keys, &[name], &unwatched).expect("a stone"));
+        });
+    }
+}
+
 fn on_one_core() -> Criterion {
     // This fails only where a pool exists already, and then that pool is used.
     let _ = rayon::ThreadPoolBuilder::new().num_threads(1).build_global();
     Criterion::default().sample_size(20)
 }
 
-criterion_group! { name = light; config = on_one_core(); targets = beam_tracing, figures, energy_picture, rays, geometry }
+criterion_group! { name = light; config = on_one_core(); targets = beam_tracing, figures, energy_picture, rays, geometry, gradients }
 criterion_main!(light);

@@ -20,7 +20,7 @@ const USUAL: [&str; 6] =
 pub struct GradientArguments {
     /// A design, a mesh, or the name of a cut that comes with the program
     file: PathBuf,
-    /// A number to change: the key of a proportion, tier: and the name of a tier, or index; may be repeated [default: all that the
+    /// A number to change: the key of a proportion, tier: or distance: and the name of a tier, or index; may be repeated [default: all that the
     /// design gives, and the index]
     #[arg(long, value_name = "KEY")]
     by: Vec<String>,

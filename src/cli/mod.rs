@@ -38,6 +38,7 @@ mod shell;
 mod specimen;
 mod spin;
 mod sweep;
+mod sweep_parquet;
 mod sweep_plot;
 mod sweep_table;
 mod without_window;

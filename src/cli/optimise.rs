@@ -1,6 +1,6 @@
 //! `optimise`: finds a better design by a goal, and says what it gave up for what it won.
 
-use super::console::{print, say};
+use super::console::{print, say, written};
 use super::optimise_text::{json_value, text};
 use super::options::number;
 use super::plot_file::PlotFile;
@@ -156,7 +156,10 @@ impl OptimiseArguments {
         if let Some(plot) = plot {
             let title = format!("{}: the best of the designs so far", specimen.design.name);
             let svg = progress_svg(&title, &outcome).map_err(|error| plot.failed(&error))?;
-            plot.write(&svg, &title)?;
+            match self.json {
+                true => plot.write_silently(&svg, &title)?,
+                false => plot.write(&svg, &title)?,
+            }
         }
         self.write(format, outcome.design)
     }
@@ -226,7 +229,7 @@ impl OptimiseArguments {
         let made = Specimen::new(design).map_err(|error| Failure::Output(error.to_string()))?;
         let lost = design_file::write(&made, format, out)?;
         lost.iter().for_each(|what| say(&format!("note: {}: {what}", out.display())));
-        Ok(())
+        if self.json { Ok(()) } else { written(out) }
     }
 }
 

@@ -47,6 +47,12 @@ impl PlotFile {
 
     /// Writes a plot that was drawn as SVG, and prints the file's name.
     pub fn write(&self, svg: &str, title: &str) -> Result<(), Failure> {
+        self.write_silently(svg, title)?;
+        written(&self.path)
+    }
+
+    /// Writes a plot that was drawn as SVG. Nothing is printed, for commands whose output is JSON.
+    pub fn write_silently(&self, svg: &str, title: &str) -> Result<(), Failure> {
         match self.format {
             PlotFormat::Svg => self.write_bytes(svg.as_bytes())?,
             PlotFormat::Pdf => {
@@ -60,7 +66,7 @@ impl PlotFile {
                 write_png(&self.path, (width, height), title, |rows| rows.push(&pixels))?;
             }
         }
-        written(&self.path)
+        Ok(())
     }
 
     fn write_bytes(&self, bytes: &[u8]) -> Result<(), WriteError> {

@@ -30,7 +30,7 @@ pub struct SweepArguments {
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// What varies, and its values: crown_angle=30:38:0.5 (from, to, step), crown_angle=33,34.5 or material=diamond,ruby; the key of a
-    /// proportion, tier: and the name of a tier, index, material, tilt or azimuth. May be repeated; the last varies quickest
+    /// proportion, tier: (its angle) or distance: and the name of a tier, index, material, tilt or azimuth. May be repeated; the last varies quickest
     #[arg(long, value_name = "KEY=VALUES")]
     over: Vec<AxisArgument>,
     /// A measure to list: return-even, return-cos2@15, return-even+glare, leakage, windowing, obstruction, extinction, contrast,
@@ -38,7 +38,7 @@ pub struct SweepArguments {
     /// repeated [default: eight of them]
     #[arg(long = "of", value_name = "MEASURE")]
     measures: Vec<MeasureName>,
-    /// The file to write, .csv or .jsonl, row by row [default: CSV on standard output]
+    /// The file to write: .csv or .jsonl, row by row, or .parquet in the end [default: CSV on standard output]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Go on with the file of --out, where the same command was stopped
@@ -139,7 +139,7 @@ impl SweepArguments {
         let mut outputs =
             self.outputs(&files, loaded.as_ref().and_then(|sweep| sweep.as_ref().ok()), &measures)?;
         let points = self.points();
-        let kept = outputs.table.as_ref().map_or(0, |table| table.kept);
+        let kept = outputs.table.as_ref().map_or(0, SweepTable::kept);
         for (number, file) in files.iter().enumerate().skip(kept / points) {
             let sweep = loaded.take().filter(|_| number == 0).unwrap_or_else(|| self.sweep(file, &measures));
             let from = kept.saturating_sub(number * points);
@@ -147,6 +147,9 @@ impl SweepArguments {
         }
         if let Some(plot) = &outputs.plot {
             plot.write(&stem(&files[0]))?;
+        }
+        if let Some(table) = outputs.table {
+            table.finish()?;
         }
         match (outputs.failed, files.len() * points) {
             (0, _) => Ok(()),
@@ -205,11 +208,13 @@ impl SweepArguments {
         let of_measures = measures.iter().flat_map(|name| [name.to_string(), format!("{name}_error")]);
         let before = ["file".to_owned()].into_iter().chain(axes).chain(["carats".to_owned()]);
         let columns = before.chain(of_measures).chain(["unresolved", "error"].map(String::from)).collect();
-        let table =
-            SweepTable::open(columns, self.over.len(), (self.out.as_deref(), self.json, self.resume))?;
-        if table.kept > 0 {
-            let (number, point) = ((table.kept - 1) / self.points(), (table.kept - 1) % self.points());
-            let file = files.get(number).ok_or_else(|| another_sweep(table.path()))?;
+        let is_name = |value: &SweepValue| matches!(value, SweepValue::Name(_));
+        let axes: Vec<bool> = self.over.iter().map(|axis| axis.0.values.iter().any(is_name)).collect();
+        let table = SweepTable::open(columns, &axes, (self.out.as_deref(), self.json, self.resume))?;
+        if let Some(last) = table.kept().checked_sub(1) {
+            let (number, point) = (last / self.points(), last % self.points());
+            let out = self.out.as_deref().unwrap_or(Path::new("-"));
+            let file = files.get(number).ok_or_else(|| another_sweep(out))?;
             table.follows(&file.display().to_string(), &self.labels(point))?;
         }
         Ok(table)
@@ -271,7 +276,7 @@ impl SweepOutputs<'_> {
             plot.take_in(found.0);
         }
         match &mut self.table {
-            Some(table) => table.write(file, point, self.measures, found),
+            Some(table) => table.write((file, point), self.measures, found),
             None => Ok(()),
         }
     }

@@ -94,6 +94,7 @@ pub fn label(key: &SweepKey, cut: &Cut) -> String {
             None => key.clone(),
         },
         SweepKey::Tier(name) => format!("angle of {name}, degrees"),
+        SweepKey::Distance(name) => format!("distance of {name}"),
         SweepKey::Index => "refractive index".to_owned(),
         SweepKey::Material => "material".to_owned(),
         SweepKey::Tilt => "tilt, degrees".to_owned(),

@@ -1,6 +1,7 @@
-//! The table that `sweep` writes, row by row, as CSV or JSON lines.
+//! The table that `sweep` writes: row by row as CSV or JSON lines, or as Parquet in the end.
 
 use super::console::print;
+use super::sweep_parquet::ParquetTable;
 use crate::io::Failure;
 use crate::measure::{Interval, MeasureName};
 use crate::render::{SweepValue, SweptStone};
@@ -9,13 +10,107 @@ use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+/// One row of a sweep's table, in the order of its columns.
+pub struct SweepRow<'a> {
+    pub file: &'a str,
+    /// The value of each axis.
+    pub point: &'a [String],
+    /// The carats, each measure with its error, and what is unresolved; `None` where there is no number.
+    pub numbers: Vec<Option<f64>>,
+    pub error: &'a str,
+}
+
+impl<'a> SweepRow<'a> {
+    fn of(
+        (file, point): (&'a str, &'a [String]),
+        measures: &[MeasureName],
+        (stone, error): (Option<&SweptStone>, &'a str),
+    ) -> Self {
+        let of = |name: &MeasureName| stone.and_then(|stone| name.of(&stone.measures));
+        let parts = |interval: Interval| [interval.middle(), interval.error()];
+        let intervals =
+            measures.iter().flat_map(|name| of(name).map_or([None; 2], |interval| parts(interval).map(Some)));
+        let carats = stone.and_then(|stone| stone.carats);
+        let unresolved = stone.map(|stone| stone.measures.unresolved);
+        let numbers = std::iter::once(carats).chain(intervals).chain([unresolved]).collect();
+        Self { file, point, numbers, error }
+    }
+}
+
+/// The table of a sweep, in whichever form it is written.
+pub enum SweepTable {
+    /// Its rows are written at once, so that a sweep that was stopped can go on.
+    ByRow(RowTable),
+    /// Its file appears in the end.
+    Parquet(Box<ParquetTable>),
+}
+
+impl SweepTable {
+    /// Opens the file of a table, or standard output where there is none. The axes named by `is_text` hold names, not numbers.
+    pub fn open(
+        columns: Vec<String>,
+        axes: &[bool],
+        (out, is_json, resume): (Option<&Path>, bool, bool),
+    ) -> Result<Self, Failure> {
+        let Some(path) = out.filter(|path| path.extension().is_some_and(|ending| ending == "parquet")) else {
+            return RowTable::open(columns, axes.len(), (out, is_json, resume)).map(Self::ByRow);
+        };
+        if resume {
+            let text = format!("--out {}: only .csv and .jsonl can be resumed", path.display());
+            return Err(Failure::Usage(text));
+        }
+        let last = columns.len() - 1;
+        let is_text =
+            |place: usize| place == 0 || place == last || axes.get(place - 1).is_some_and(|is_text| *is_text);
+        Ok(Self::Parquet(Box::new(ParquetTable::begin(path, &columns, is_text)?)))
+    }
+
+    /// Returns the number of rows that the file held already.
+    pub fn kept(&self) -> usize {
+        match self {
+            Self::ByRow(table) => table.kept,
+            Self::Parquet(_) => 0,
+        }
+    }
+
+    /// Checks that the last row of a file that is resumed is that of this file and point.
+    pub fn follows(&self, file: &str, point: &[String]) -> Result<(), Failure> {
+        match self {
+            Self::ByRow(table) => table.follows(file, point),
+            Self::Parquet(_) => Ok(()),
+        }
+    }
+
+    /// Writes the row of a point.
+    pub fn write(
+        &mut self,
+        place: (&str, &[String]),
+        measures: &[MeasureName],
+        found: (Option<&SweptStone>, &str),
+    ) -> Result<(), Failure> {
+        let row = SweepRow::of(place, measures, found);
+        match self {
+            Self::ByRow(table) => table.write(&row),
+            Self::Parquet(table) => table.push(&row),
+        }
+    }
+
+    /// Brings the file to its place where that is still to be done.
+    pub fn finish(self) -> Result<(), Failure> {
+        match self {
+            Self::ByRow(_) => Ok(()),
+            Self::Parquet(table) => table.finish(),
+        }
+    }
+}
+
 /// The rows of a table, as they are written.
-pub struct SweepTable {
+pub struct RowTable {
     columns: Vec<String>,
     is_json: bool,
     file: Option<(PathBuf, File)>,
     /// The number of rows that the file held already.
-    pub kept: usize,
+    kept: usize,
     /// The last of these rows: what it holds in the columns of file and axes.
     last_kept: Vec<String>,
     /// Where the rows of a file that is resumed end. What comes after them was not written to its end; it is dropped before the
@@ -23,9 +118,9 @@ pub struct SweepTable {
     end: Option<u64>,
 }
 
-impl SweepTable {
+impl RowTable {
     /// Opens the file of a table, or standard output where there is none, and writes the names of the columns.
-    pub fn open(
+    fn open(
         columns: Vec<String>,
         axes: usize,
         (out, is_json, resume): (Option<&Path>, bool, bool),
@@ -39,7 +134,8 @@ impl SweepTable {
             Some("csv") => false,
             Some("jsonl") => true,
             _ => {
-                let text = format!("--out {}: give a name that ends in .csv or .jsonl", path.display());
+                let text =
+                    format!("--out {}: give a name that ends in .csv, .jsonl or .parquet", path.display());
                 return Err(Failure::Usage(text));
             }
         };
@@ -62,10 +158,6 @@ impl SweepTable {
             table.write_columns()?
         }
         Ok(table)
-    }
-
-    pub fn path(&self) -> &Path {
-        self.file.as_ref().map_or(Path::new("-"), |(path, _)| path)
     }
 
     /// Counts the rows of a file that is resumed, up to the last whole one.
@@ -116,46 +208,32 @@ impl SweepTable {
         self.columns[..count].iter().map(text).collect()
     }
 
-    /// Checks that the last row of a file that is resumed is that of this file and point.
-    pub fn follows(&self, file: &str, point: &[String]) -> Result<(), Failure> {
+    fn follows(&self, file: &str, point: &[String]) -> Result<(), Failure> {
         let is_same =
             self.last_kept.split_first().is_some_and(|(first, rest)| first == file && rest == point);
-        if is_same { Ok(()) } else { Err(another_sweep(self.path())) }
+        let path = self.file.as_ref().map_or(Path::new("-"), |(path, _)| path);
+        if is_same { Ok(()) } else { Err(another_sweep(path)) }
     }
 
     fn write_columns(&mut self) -> Result<(), Failure> {
         if self.is_json { Ok(()) } else { self.put(&csv_line(&self.columns)) }
     }
 
-    /// Writes the row of a point.
-    pub fn write(
-        &mut self,
-        file: &str,
-        point: &[String],
-        measures: &[MeasureName],
-        (stone, error): (Option<&SweptStone>, &str),
-    ) -> Result<(), Failure> {
-        let of = |name: &MeasureName| stone.and_then(|stone| name.of(&stone.measures));
-        let carats = stone.and_then(|stone| stone.carats);
-        let unresolved = stone.map(|stone| stone.measures.unresolved);
-        let parts = |interval: Interval| [interval.middle(), interval.error()];
-        let intervals: Vec<Option<f64>> = measures
-            .iter()
-            .flat_map(|name| of(name).map_or([None; 2], |interval| parts(interval).map(Some)))
-            .collect();
-        let numbers = std::iter::once(carats).chain(intervals).chain([unresolved]);
+    fn write(&mut self, row: &SweepRow) -> Result<(), Failure> {
+        let SweepRow { file, point, numbers, error } = row;
         let line = if self.is_json {
-            let texts = std::iter::once(file).chain(point.iter().map(String::as_str));
+            let texts = std::iter::once(*file).chain(point.iter().map(String::as_str));
             let texts =
                 texts.map(|text| text.parse::<f64>().map_or_else(|_| json!(text), |number| json!(number)));
-            let values = texts.chain(numbers.map(|number| json!(number))).chain([json!(error)]);
+            let values = texts.chain(numbers.iter().map(|number| json!(number))).chain([json!(error)]);
             let mut row: Map<String, Value> = self.columns.iter().cloned().zip(values).collect();
             row.insert("file".into(), json!(file));
             format!("{}\n", Value::Object(row))
         } else {
-            let texts = std::iter::once(file.to_owned()).chain(point.iter().cloned());
-            let number = |number: Option<f64>| number.map_or(String::new(), |number| format!("{number:.7}"));
-            let row: Vec<String> = texts.chain(numbers.map(number)).chain([error.to_owned()]).collect();
+            let texts = std::iter::once((*file).to_owned()).chain(point.iter().cloned());
+            let number = |number: &Option<f64>| number.map_or(String::new(), |number| format!("{number:.7}"));
+            let numbers = numbers.iter().map(number);
+            let row: Vec<String> = texts.chain(numbers).chain([(*error).to_owned()]).collect();
             csv_line(&row)
         };
         self.put(&line)

@@ -33,6 +33,9 @@ pub struct PlaneChanges {
     of_keys: Vec<Option<Vec<(DVec3, f64)>>>,
 }
 
+#[cfg(test)]
+mod tests;
+
 /// A stone's measures, with how some of them change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GradedStone {
@@ -121,8 +124,10 @@ impl Sweep {
             SweepKey::Index => return Ok(None),
             SweepKey::Proportion(name) => proportion(&start.design.cut, name),
             SweepKey::Tier(name) => (tier(&start.design.cut, name), STEP),
+            SweepKey::Distance(name) => distance(&start.design.cut, name),
             other => {
-                let why = format!("{other} has no derivatives; give a proportion, a tier or index");
+                let why =
+                    format!("{other} has no derivatives; give a proportion, a tier, a distance or index");
                 return Err(SweepError::NoDerivative(why));
             }
         };
@@ -160,4 +165,12 @@ fn proportion(cut: &Cut, key: &str) -> (f64, f64) {
 /// Returns the angle of a tier, degrees above 0; 0 where there is none, which setting it finds.
 fn tier(cut: &Cut, name: &str) -> f64 {
     cut.settings().iter().find(|setting| setting.name == name).map_or(0.0, |setting| setting.angle.abs())
+}
+
+/// Returns the distance of a tier, and a step that is small beside those of all tiers. One that is not there is found by the step.
+fn distance(cut: &Cut, name: &str) -> (f64, f64) {
+    let settings = cut.settings();
+    let largest = settings.iter().map(|setting| setting.distance.abs()).fold(0.0, f64::max);
+    let own = settings.iter().find(|setting| setting.name == name).map_or(0.0, |setting| setting.distance);
+    (own, RATIO_STEP * if largest > 0.0 { largest } else { 1.0 })
 }

@@ -3,7 +3,7 @@
 use super::job::{Job, MeasuresProduct, Product, Quality};
 use super::renderer::{RenderError, Renderer, TakenMeasures};
 use super::{Card, Wanted};
-use crate::cut::{Cut, Design, MaterialRef, MeetError};
+use crate::cut::{Cut, Design, MachineSetting, MaterialRef, MeetError};
 use crate::measure::{Bounds, LightMeasures, MeasureName, MeasureSettings};
 use crate::optics::{DispersionError, Material, line};
 use crate::scene::{Film, Medium, Scene, Specimen, SpecimenError, Viewpoint};
@@ -16,6 +16,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// The points that are measured before they are handed out.
 const AT_ONCE: usize = 64;
 
+/// A distance that was set is kept where it differs by no more than this part of it.
+const SAME_DISTANCE: f64 = 1e-9;
+
 /// What varies along an axis of a sweep.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SweepKey {
@@ -23,6 +26,9 @@ pub enum SweepKey {
     Proportion(String),
     /// The angle of a tier, by its name: degrees from the girdle plane, above 0 on either side. Meets are followed.
     Tier(String),
+    /// The distance of a tier from the origin, by the tier's name, in the design's own unit. A tier whose distance follows from a meet
+    /// has none to give.
+    Distance(String),
     /// The refractive index, 1 to 5, the same at all wavelengths.
     Index,
     /// The material, by its name.
@@ -33,21 +39,23 @@ pub enum SweepKey {
     Azimuth,
 }
 
-/// What the keys of tiers begin with.
+/// What the keys of the angles and of the distances of tiers begin with.
 const TIER: &str = "tier:";
+const DISTANCE: &str = "distance:";
 
 impl SweepKey {
-    /// Returns the key of this name: `index`, `material`, `tilt`, `azimuth`, `tier:` and the name of a tier, or else a
-    /// proportion.
+    /// Returns the key of this name: `index`, `material`, `tilt`, `azimuth`, `tier:` or `distance:` and the name of
+    /// a tier, or else a proportion.
     pub fn of(name: &str) -> Self {
         match name {
             "index" => Self::Index,
             "material" => Self::Material,
             "tilt" => Self::Tilt,
             "azimuth" => Self::Azimuth,
-            _ => match name.strip_prefix(TIER) {
-                Some(tier) => Self::Tier(tier.to_owned()),
-                None => Self::Proportion(name.to_owned()),
+            _ => match (name.strip_prefix(TIER), name.strip_prefix(DISTANCE)) {
+                (Some(tier), _) => Self::Tier(tier.to_owned()),
+                (None, Some(tier)) => Self::Distance(tier.to_owned()),
+                (None, None) => Self::Proportion(name.to_owned()),
             },
         }
     }
@@ -58,6 +66,7 @@ impl fmt::Display for SweepKey {
         match self {
             Self::Proportion(key) => f.write_str(key),
             Self::Tier(name) => write!(f, "{TIER}{name}"),
+            Self::Distance(name) => write!(f, "{DISTANCE}{name}"),
             Self::Index => f.write_str("index"),
             Self::Material => f.write_str("material"),
             Self::Tilt => f.write_str("tilt"),
@@ -158,10 +167,10 @@ pub enum SweepError {
         known: String,
     },
     /// The cut has no tier of this name.
-    #[error("tier:{name}: the design has no such tier; {known}")]
+    #[error("{key}: the design has no such tier; {known}")]
     NoTier {
-        /// The name as given.
-        name: String,
+        /// The key as given.
+        key: String,
         /// The tiers that there are, in words.
         known: String,
     },
@@ -188,6 +197,12 @@ pub enum SweepError {
         /// The number that is changed.
         key: String,
     },
+    /// The distance of a tier that has a meet.
+    #[error("{key}: the tier's meet gives its distance; vary an angle, or take the meet away")]
+    GivenByMeet {
+        /// The key as given.
+        key: String,
+    },
     /// A meet that cannot be followed with the angle of a tier.
     #[error(transparent)]
     Meet(#[from] MeetError),
@@ -201,6 +216,8 @@ pub(super) struct VariedDesign {
     index: Option<f64>,
     /// Whether a tier has been moved, so that meets are to be followed.
     moved: bool,
+    /// The keys of distances that were set, and the distances.
+    distances: Vec<(SweepKey, f64)>,
 }
 
 impl Sweep {
@@ -310,7 +327,7 @@ impl Sweep {
     }
 
     pub(super) fn start(&self) -> VariedDesign {
-        VariedDesign { design: self.design.clone(), viewpoint: self.viewpoint, index: None, moved: false }
+        VariedDesign::new(self.design.clone(), self.viewpoint)
     }
 
     /// Returns the medium, and the indices of its colours.
@@ -328,6 +345,10 @@ impl Sweep {
 }
 
 impl VariedDesign {
+    fn new(design: Design, viewpoint: Viewpoint) -> Self {
+        Self { design, viewpoint, index: None, moved: false, distances: vec![] }
+    }
+
     /// Returns the design with its meets followed where a tier was moved.
     fn followed(mut self) -> Result<Self, SweepError> {
         if let (true, Cut::Tiers(tiers)) = (self.moved, &mut self.design.cut) {
@@ -338,7 +359,15 @@ impl VariedDesign {
                 None => *tiers = solved.tiers,
             }
         }
-        Ok(self)
+        let is_kept = |(key, distance): &&(SweepKey, f64)| match key {
+            SweepKey::Distance(name) => distance_of(&self.design.cut, name)
+                .is_some_and(|now| (now - distance).abs() <= SAME_DISTANCE * distance.abs().max(1.0)),
+            _ => true,
+        };
+        match self.distances.iter().find(|set| !is_kept(set)) {
+            Some((key, _)) => Err(SweepError::GivenByMeet { key: key.to_string() }),
+            None => Ok(self),
+        }
     }
 
     pub fn set(&mut self, key: &SweepKey, value: &SweepValue) -> Result<(), SweepError> {
@@ -360,8 +389,18 @@ impl VariedDesign {
             SweepKey::Azimuth => self.viewpoint.azimuth_deg = number?,
             SweepKey::Proportion(key) => set_proportion(&mut self.design.cut, key, number?)?,
             SweepKey::Tier(name) => {
-                set_angle(&mut self.design.cut, name, number?)?;
+                let cut = &mut self.design.cut;
+                let (place, before) = tier_of(cut, key, name)?;
+                cut.set(place, number?.copysign(before.angle), before.distance);
                 self.moved = true;
+            }
+            SweepKey::Distance(name) => {
+                let cut = &mut self.design.cut;
+                let (place, before) = tier_of(cut, key, name)?;
+                let distance = number?;
+                cut.set(place, before.angle, distance);
+                self.moved = true;
+                self.distances.push((key.clone(), distance));
             }
         }
         if *key == SweepKey::Index && self.index.is_none() {
@@ -390,19 +429,23 @@ fn set_proportion(cut: &mut Cut, key: &str, value: f64) -> Result<(), SweepError
     Ok(())
 }
 
-/// Sets the angle of a tier. Meets are not followed yet.
-fn set_angle(cut: &mut Cut, name: &str, angle_deg: f64) -> Result<(), SweepError> {
+/// Returns the place and the setting of a tier. Of tiers with one name it is the first.
+fn tier_of(cut: &Cut, key: &SweepKey, name: &str) -> Result<(usize, MachineSetting), SweepError> {
     let settings = cut.settings();
-    let Some(place) = settings.iter().position(|setting| setting.name == name) else {
-        let names: Vec<&str> = settings.iter().map(|setting| setting.name.as_str()).collect();
-        let known = match names.is_empty() {
-            true => "it has no tiers: vary its proportions".to_owned(),
-            false => format!("it has {}", names.join(", ")),
-        };
-        return Err(SweepError::NoTier { name: name.to_owned(), known });
+    if let Some(place) = settings.iter().position(|setting| setting.name == name) {
+        return Ok((place, settings[place].clone()));
+    }
+    let names: Vec<&str> = settings.iter().map(|setting| setting.name.as_str()).collect();
+    let known = match names.is_empty() {
+        true => "it has no tiers: vary its proportions".to_owned(),
+        false => format!("it has {}", names.join(", ")),
     };
-    cut.set(place, angle_deg.copysign(settings[place].angle), settings[place].distance);
-    Ok(())
+    Err(SweepError::NoTier { key: key.to_string(), known })
+}
+
+/// Returns the distance of a tier.
+fn distance_of(cut: &Cut, name: &str) -> Option<f64> {
+    cut.settings().iter().find(|setting| setting.name == name).map(|setting| setting.distance)
 }
 
 /// Returns a design with some of its numbers set, and its meets followed.
@@ -413,8 +456,7 @@ pub fn with_numbers<'a>(
     design: &Design,
     numbers: impl IntoIterator<Item = (&'a SweepKey, f64)>,
 ) -> Result<Design, SweepError> {
-    let mut varied =
-        VariedDesign { design: design.clone(), viewpoint: Viewpoint::default(), index: None, moved: false };
+    let mut varied = VariedDesign::new(design.clone(), Viewpoint::default());
     for (key, number) in numbers {
         varied.set(key, &SweepValue::Number(number))?;
     }

@@ -101,7 +101,7 @@ fn flattest_deg(stone: &Stone) -> f64 {
 /// Returns the greatest critical angle of the goal's materials, degrees.
 fn critical_deg(goal: &Goal, design: &Design) -> Result<f64, SearchError> {
     let mut greatest: f64 = 0.0;
-    for material in super::objective::materials(goal) {
+    for material in super::terms::materials(goal) {
         let mut design = design.clone();
         if let Some(material) = material {
             design.material = material.reference();

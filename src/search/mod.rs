@@ -12,6 +12,7 @@ mod objective;
 mod others;
 mod outcome;
 mod run;
+mod terms;
 
 #[cfg(test)]
 mod tests;

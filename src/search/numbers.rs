@@ -2,7 +2,7 @@
 
 use super::appraisal::SearchError;
 use super::goal::Goal;
-use crate::cut::{Cut, Design, Unit};
+use crate::cut::{Cut, Design, MachineSetting, Unit};
 use crate::render::{SweepKey, with_numbers};
 use std::collections::HashSet;
 
@@ -58,7 +58,8 @@ impl VariedNumber {
         let key = SweepKey::of(name);
         let start = match &key {
             SweepKey::Proportion(key) => cut.proportion(key).map_or(f64::NAN, |row| (row.get)(cut)),
-            SweepKey::Tier(tier) => tier_angle(cut, tier).unwrap_or(f64::NAN),
+            SweepKey::Tier(tier) => of_tier(cut, tier, |setting| setting.angle.abs()),
+            SweepKey::Distance(tier) => of_tier(cut, tier, |setting| setting.distance),
             _ => return Err(SearchError::NotOfDesign(name.to_owned())),
         };
         // A key that the design does not have is refused by the design, with what it has.
@@ -80,8 +81,9 @@ impl VariedNumber {
     }
 }
 
-fn tier_angle(cut: &Cut, name: &str) -> Option<f64> {
-    cut.settings().iter().find(|setting| setting.name == name).map(|setting| setting.angle.abs())
+/// Returns a number of a tier; not a number where there is no such tier.
+fn of_tier(cut: &Cut, name: &str, number: impl Fn(&MachineSetting) -> f64) -> f64 {
+    cut.settings().iter().find(|setting| setting.name == name).map_or(f64::NAN, number)
 }
 
 /// Returns the numbers that a design gives, with their usual ranges, widened to the design's own values.

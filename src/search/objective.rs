@@ -1,15 +1,16 @@
 //! Appraises designs by a goal.
 
 use super::appraisal::{Appraisal, GoalValue, SearchError, Slopes};
-use super::goal::{Goal, GoalMaterial, GoalMeasure};
+use super::goal::Goal;
 use super::kept_corners::KeptCorners;
 use super::limits::GeometryLimit;
 use super::numbers::VariedNumber;
+use super::terms::{GoalView, Term, views_and_terms};
 use crate::cut::{Cut, Design, TierOutcome, Tiers};
-use crate::measure::{Interval, MeasureName, MeasureSettings, PatternSettings, ROCK_DEG};
+use crate::measure::{Interval, MeasureSettings, PatternSettings, ROCK_DEG};
 use crate::optics::line;
 use crate::render::{PlaneChanges, RenderError, Sweep, SweepError, SweptStone, with_numbers};
-use crate::scene::{Medium, Specimen, Viewpoint};
+use crate::scene::{Medium, Specimen};
 use crate::trace::Watch;
 use rayon::prelude::*;
 
@@ -18,22 +19,6 @@ const GEOMETRY_STEP: f64 = 1e-4;
 
 /// The part of a number's range by which it is changed to see whether it keeps all meets.
 const MEET_STEP: f64 = 0.01;
-
-/// A material and view in which measures are taken together.
-struct GoalView {
-    material: Option<GoalMaterial>,
-    viewpoint: Viewpoint,
-    names: Vec<MeasureName>,
-}
-
-/// One measure in one material and view.
-struct Term {
-    view: usize,
-    name: MeasureName,
-    weight: f64,
-    /// The limits of the value; infinite where there are none.
-    ends: (f64, f64),
-}
 
 /// A goal for one design.
 pub struct Objective {
@@ -47,18 +32,6 @@ pub struct Objective {
     held: Vec<VariedNumber>,
     start: Appraisal,
     polarised: bool,
-}
-
-/// Returns the materials of a goal; `None` for the design's own.
-pub(super) fn materials(goal: &Goal) -> Vec<Option<GoalMaterial>> {
-    goal.measure.iter().flat_map(materials_of).collect()
-}
-
-fn materials_of(measure: &GoalMeasure) -> Vec<Option<GoalMaterial>> {
-    match &measure.material {
-        None => vec![None],
-        Some(names) => names.all().iter().cloned().map(Some).collect(),
-    }
 }
 
 impl Objective {
@@ -96,6 +69,7 @@ impl Objective {
         };
         let mut new =
             Self { design, numbers, views, terms, limits, corners, held: vec![], start: blank, polarised };
+        new.drop_unsteady_meets();
         new.hold_what_breaks_meets();
         if new.numbers.is_empty() {
             return Err(SearchError::NoNumbers);
@@ -310,6 +284,18 @@ impl Objective {
         }
     }
 
+    /// Drops meets that rounding alone breaks: they could be followed once, but not from the distances that they gave.
+    fn drop_unsteady_meets(&mut self) {
+        let start = self.start_places();
+        while let Err(SearchError::Sweep(SweepError::Meet(error))) = self.design_at(&start) {
+            let Cut::Tiers(tiers) = &mut self.design.cut else { return };
+            match tiers.tiers.get_mut(error.tier - 1).and_then(|tier| tier.meet.take()) {
+                Some(_) => (),
+                None => return,
+            }
+        }
+    }
+
     /// Holds the numbers that break a meet when they alone change.
     fn hold_what_breaks_meets(&mut self) {
         let start = self.start_places();
@@ -346,15 +332,20 @@ impl Objective {
 }
 
 /// Follows all meets but those that cannot be followed, which are dropped: their tiers stay where they are.
+///
+/// Distances that meets have given can break another meet, so the meets are followed until nothing moves any more.
 fn followed(mut tiers: Tiers) -> Tiers {
-    loop {
+    // Every pass but the last moves tiers or drops a meet; a design that never rests is left as the last pass made it.
+    for _ in 0..2 * tiers.tiers.len() + 2 {
         let solved = tiers.solved();
         let is_failed = |outcome: &TierOutcome| matches!(outcome, TierOutcome::Failed(_));
         match solved.outcomes.iter().position(is_failed) {
             Some(place) => tiers.tiers[place].meet = None,
-            None => return solved.tiers,
+            None if solved.tiers == tiers => break,
+            None => tiers = solved.tiers,
         }
     }
+    tiers
 }
 
 /// Measures one view; with `changes` also how its measures change with each number.
@@ -385,34 +376,4 @@ fn push_slacks(slacks: &mut Vec<f64>, (low, high): (f64, f64), (least, most): (f
 fn push_slopes(slopes: &mut Vec<Vec<f64>>, (low, high): (f64, f64), slope: &[f64]) {
     slopes.extend(low.is_finite().then(|| slope.to_vec()));
     slopes.extend(high.is_finite().then(|| slope.iter().map(|slope| -slope).collect()));
-}
-
-/// Returns the views of a goal, each once, and its measures in them.
-fn views_and_terms(goal: &Goal) -> (Vec<GoalView>, Vec<Term>) {
-    let (mut views, mut terms): (Vec<GoalView>, Vec<Term>) = (vec![], vec![]);
-    for measure in &goal.measure {
-        let list = |given: &Option<super::OneOrMore<f64>>| {
-            given.as_ref().map_or(vec![0.0], |all| all.all().to_vec())
-        };
-        let weight = measure.weight / measure.terms() as f64;
-        for material in materials_of(measure) {
-            for tilt_deg in list(&measure.tilt) {
-                for azimuth_deg in list(&measure.azimuth) {
-                    let viewpoint = Viewpoint { tilt_deg, azimuth_deg, ..Viewpoint::default() };
-                    let is_same = |view: &GoalView| view.material == material && view.viewpoint == viewpoint;
-                    let view = views.iter().position(is_same).unwrap_or_else(|| {
-                        views.push(GoalView { material: material.clone(), viewpoint, names: vec![] });
-                        views.len() - 1
-                    });
-                    if !views[view].names.contains(&measure.of) {
-                        views[view].names.push(measure.of);
-                    }
-                    let ends =
-                        super::AtLeastAtMost { at_least: measure.at_least, at_most: measure.at_most }.ends();
-                    terms.push(Term { view, name: measure.of, weight, ends });
-                }
-            }
-        }
-    }
-    (views, terms)
 }

@@ -17,23 +17,56 @@ const KEPT: f64 = 1e-9;
 /// How much a limit that is missed by 1 counts against the total, while designs are compared that keep none.
 const MISSED: f64 = 10.0;
 
-/// Places nearer than this in every number, parts of its range, are climbed from only once.
-const SAME_HILL: f64 = 0.12;
+/// Of fewer numbers than this no slopes are taken: they cost more than the designs that they save.
+const FEWEST_WITH_SLOPES: usize = 3;
 
 /// The first step of a search without slopes, a part of each range.
-const FELT_STEP: f64 = 0.06;
-
-/// The first step without slopes from where a climb ended, a part of each range.
-const AFTER_CLIMB: f64 = 0.02;
-
-/// How far from a promising design others are scattered, a part of each range.
-const NEAR: f64 = 0.1;
+const FELT_STEP: f64 = 0.005;
 
 /// The number of scattered designs after which the best of them is looked at for the first time; each time it takes twice as many.
 const FIRST_BATCH: usize = 8;
 
 /// The number of places from which the search feels its way at last: one for each core of a small machine.
 const FELT_TOPS: usize = 2;
+
+/// Designs are scattered over this many times each range and brought back to its ends, because the best often lies there.
+const WIDENED: f64 = 1.15;
+
+/// By how many times more light may stay unresolved in designs that are scattered over all ranges.
+const COARSEST: f64 = 10.0;
+
+/// Designs that are scattered around the most promising of those before them.
+///
+/// Totals of light jump and bend within hundredths of a degree, so that neither slopes nor steps lead far; what is scattered near and
+/// nearer finds the way over the jumps.
+struct Zoom {
+    /// How far from a promising design others are scattered, a part of each range.
+    reach: f64,
+    /// The number of promising designs for each climb.
+    hills: usize,
+    /// Designs nearer than this in every number, parts of its range, count as one.
+    apart: f64,
+    /// The number of designs around each for each number, beside four.
+    per_number: usize,
+    /// By how many times more light may stay unresolved.
+    coarser: f64,
+}
+
+const ZOOMS: [Zoom; 3] = [
+    Zoom { reach: 0.1, hills: 4, apart: 0.12, per_number: 4, coarser: 10.0 },
+    Zoom { reach: 0.04, hills: 2, apart: 0.06, per_number: 3, coarser: 5.0 },
+    Zoom { reach: 0.012, hills: 2, apart: 0.024, per_number: 2, coarser: 2.5 },
+];
+
+impl Zoom {
+    /// Returns the number of designs around one.
+    fn around(&self, dimensions: usize) -> usize {
+        4 + self.per_number * dimensions
+    }
+}
+
+/// Designs nearer than this in every number, parts of its range, are gone on from only once.
+const SAME_TOP: f64 = 0.012;
 
 /// How a search goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,8 +91,8 @@ impl Default for SearchOptions {
     }
 }
 
-/// By how many times more light may stay unresolved in scattered designs.
-const COARSER: f64 = 5.0;
+/// No design is followed so roughly that more of its light than this is unresolved.
+const MOST_UNRESOLVED: f64 = 0.05;
 
 /// By how many times less light stays unresolved in the figures that are handed out.
 const FINER: f64 = 4.0;
@@ -127,53 +160,53 @@ impl DesignSearch {
         report: &(dyn Fn(&SearchProgress) + Sync),
     ) -> Result<SearchOutcome, SearchError> {
         let dimensions = self.objective.numbers().len();
-        let scattered = self.options.scattered.unwrap_or(16 + 12 * dimensions);
-        let has_slopes = self.options.by_slopes && self.objective.has_slopes();
-        let climbing = if has_slopes { 10 + 6 * dimensions } else { 0 };
-        let feeling = 20 + 15 * dimensions;
+        let scattered = self.options.scattered.unwrap_or(80 + 25 * dimensions);
         let climbs = self.options.climbs.max(1);
+        let has_slopes =
+            self.options.by_slopes && dimensions >= FEWEST_WITH_SLOPES && self.objective.has_slopes();
+        let climbing = if has_slopes { 10 + 6 * dimensions } else { 0 };
+        let feeling = 10 + 10 * dimensions;
+        let zoomed: usize = ZOOMS.iter().map(|zoom| climbs * zoom.hills * zoom.around(dimensions)).sum();
         let trials = Trials {
             search: self,
             watch,
             report,
-            most: scattered
-                + 2 * climbs * near_count(dimensions)
-                + climbs * if has_slopes { climbing } else { feeling }
-                + FELT_TOPS * feeling,
+            most: scattered + zoomed + climbs * climbing + FELT_TOPS * feeling,
             appraised: AtomicUsize::new(0),
             stopped: AtomicBool::new(false),
             record: Mutex::default(),
         };
         let start = self.objective.start_places();
         trials.note(&start, self.objective.start());
-        let hills = self.hills(&trials, scattered, start);
-        let climbed = hills.par_iter().take(climbs).filter_map(|from| {
-            let places = match has_slopes {
-                true => climb(&trials, from, climbing),
-                false => feel(&trials, from, FELT_STEP, feeling),
-            };
-            Some((merit(&trials.near(&places, false)?), places))
-        });
-        let mut tops: Vec<(f64, Vec<f64>)> = climbed.collect();
-        // The best that was met on the way may be better than where a climb ended.
-        tops.extend(trials.best().map(|(places, total)| (total, places)));
-        distinct(tops).par_iter().take(FELT_TOPS).for_each(|top| {
-            feel(&trials, top, AFTER_CLIMB, feeling);
+        let mut tops = self.tops(&trials, scattered, start);
+        if has_slopes {
+            let climbed = distinct(&tops, SAME_TOP).into_par_iter().take(climbs).filter_map(|from| {
+                let places = climb(&trials, &from, climbing);
+                Some((merit(&trials.near(&places, false)?), places))
+            });
+            let climbed: Vec<(f64, Vec<f64>)> = climbed.collect();
+            tops.extend(climbed);
+            // The best that was met on the way may be better than where a climb ended.
+            tops.extend(trials.best().map(|(places, total)| (total, places)));
+        }
+        distinct(&tops, SAME_TOP).par_iter().take(FELT_TOPS).for_each(|top| {
+            feel(&trials, top, FELT_STEP, feeling);
         });
         self.outcome(&trials)
     }
 
-    /// Scatters designs over all ranges and then near the most promising, and returns the places to go on from, the best first.
-    fn hills(&self, trials: &Trials, count: usize, start: Vec<f64>) -> Vec<Vec<f64>> {
+    /// Scatters designs over all ranges, and then nearer and nearer around the most promising. Returns all with their merit.
+    fn tops(&self, trials: &Trials, count: usize, start: Vec<f64>) -> Vec<(f64, Vec<f64>)> {
         let dimensions = start.len();
-        let coarse = self.options.unresolved * COARSER;
-        let tried = |places: Vec<Vec<f64>>| -> Vec<(f64, Vec<f64>)> {
-            let merit =
-                |places: &Vec<f64>| Some((merit(&trials.appraise(places, coarse, false)?), places.clone()));
+        let tried = |places: Vec<Vec<f64>>, coarser: f64| -> Vec<(f64, Vec<f64>)> {
+            let unresolved = (self.options.unresolved * coarser).min(MOST_UNRESOLVED);
+            let tried = |places: &Vec<f64>| {
+                Some((merit(&trials.appraise(places, unresolved, false)?), places.clone()))
+            };
             let (mut found, mut rest, mut count) = (vec![], places.as_slice(), FIRST_BATCH);
             while !rest.is_empty() {
                 let (batch, later) = rest.split_at(count.min(rest.len()));
-                let batch: Vec<(f64, Vec<f64>)> = batch.par_iter().filter_map(merit).collect();
+                let batch: Vec<(f64, Vec<f64>)> = batch.par_iter().filter_map(tried).collect();
                 // What promises most is measured finely at once, so that a better design is seen early.
                 let promising = batch.iter().max_by(|a, b| a.0.total_cmp(&b.0));
                 if let Some((_, places)) =
@@ -187,15 +220,20 @@ impl DesignSearch {
             found
         };
         let mut found = vec![(merit(self.objective.start()), start)];
-        found.extend(tried(scattered(count, dimensions, self.options.seed)));
-        let near = scattered(near_count(dimensions), dimensions, self.options.seed);
-        let around = |hill: &Vec<f64>| -> Vec<Vec<f64>> {
-            let place = |(at, to): (&f64, &f64)| (at + NEAR * (2.0 * to - 1.0)).clamp(0.0, 1.0);
-            near.iter().map(|offset| hill.iter().zip(offset).map(place).collect()).collect()
-        };
-        let promising = distinct(found.clone());
-        found.extend(tried(promising.iter().take(2 * self.options.climbs).flat_map(around).collect()));
-        distinct(found)
+        let mut everywhere = scattered(count, dimensions, self.options.seed);
+        everywhere.iter_mut().flatten().for_each(|place| *place = beyond_the_ends(*place));
+        found.extend(tried(everywhere, COARSEST));
+        for zoom in &ZOOMS {
+            let near = scattered(zoom.around(dimensions), dimensions, self.options.seed);
+            let around = |hill: Vec<f64>| -> Vec<Vec<f64>> {
+                let place = |(at, to): (&f64, &f64)| (at + zoom.reach * (2.0 * to - 1.0)).clamp(0.0, 1.0);
+                near.iter().map(|offset| hill.iter().zip(offset).map(place).collect()).collect()
+            };
+            let hills =
+                distinct(&found, zoom.apart).into_iter().take(zoom.hills * self.options.climbs.max(1));
+            found.extend(tried(hills.flat_map(around).collect(), zoom.coarser));
+        }
+        found
     }
 
     fn outcome(&self, trials: &Trials) -> Result<SearchOutcome, SearchError> {
@@ -312,22 +350,23 @@ fn merit(found: &Appraisal) -> f64 {
     found.total.middle() - MISSED * found.slacks.iter().map(|slack| (-slack).max(0.0)).sum::<f64>()
 }
 
-/// Returns the places, those of the greatest merit first, without those that lie beside a better one.
-fn distinct(mut found: Vec<(f64, Vec<f64>)>) -> Vec<Vec<f64>> {
-    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+/// Returns the places, those of the greatest merit first, without those that lie in every number nearer than `apart` to a better one.
+fn distinct(found: &[(f64, Vec<f64>)], apart: f64) -> Vec<Vec<f64>> {
+    let mut sorted: Vec<&(f64, Vec<f64>)> = found.iter().collect();
+    sorted.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut hills: Vec<Vec<f64>> = vec![];
-    for (_, places) in found {
-        let is_near = |hill: &Vec<f64>| hill.iter().zip(&places).all(|(a, b)| (a - b).abs() < SAME_HILL);
+    for (_, places) in sorted {
+        let is_near = |hill: &Vec<f64>| hill.iter().zip(places).all(|(a, b)| (a - b).abs() < apart);
         if !hills.iter().any(is_near) {
-            hills.push(places);
+            hills.push(places.clone());
         }
     }
     hills
 }
 
-/// Returns the number of designs that are scattered near a promising one.
-fn near_count(dimensions: usize) -> usize {
-    4 + 2 * dimensions
+/// Returns a place of the widened range, brought back to the ends.
+fn beyond_the_ends(place: f64) -> f64 {
+    (0.5 + WIDENED * (place - 0.5)).clamp(0.0, 1.0)
 }
 
 /// Returns places spread evenly over the unit cube: the additive recurrence of M. Roberts ("The unreasonable effectiveness of

@@ -141,7 +141,8 @@ fn a_search_finds_the_hill_from_wherever_it_starts() {
     let best = map_best(&goal, 8, 0.02);
     for (crown, pavilion) in [(24.5, 38.5), (39.0, 42.5)] {
         let (search, outcome) = searched(&brilliant(crown, pavilion), &goal);
-        assert!(outcome.best.total.middle() > best - 0.005, "{best}: {outcome:?}");
+        // Both leave 2 % of the light open, in which the middle is uncertain.
+        assert!(outcome.best.total.middle() > best - 0.01, "{best}: {outcome:?}");
         assert!(outcome.keeps_limits && !outcome.was_stopped);
         let start = search.objective().start().total.middle();
         assert!(outcome.best.total.middle() > start + 0.01, "{start}: {:?}", outcome.best.total);
@@ -170,7 +171,25 @@ fn limits_of_geometry_and_of_measures_are_kept() {
     assert!(of_held < of_free - 1e-3, "limits cost something: {of_free} {of_held} {:?}", free.values);
     assert!(held.best.total.middle() >= search.objective().start().total.middle());
     let lost = of_start.least - free.best.values[1].value.least;
-    assert!(lost > 0.05, "without the limit more is lost: {lost}");
+    assert!(lost > 0.03, "without the limit more is lost: {lost}");
+}
+
+/// With three numbers the search climbs by slopes as well.
+#[test]
+fn a_search_by_slopes_is_better_than_its_start_and_about_as_good_as_one_without() {
+    let mut goal = goal(&[("return-cos2", 1.0)]);
+    goal.vary.insert("table".to_owned(), [50.0, 62.0]);
+    let design = brilliant(34.0, 41.0);
+    let [with, without] = [true, false].map(|by_slopes| {
+        let options = SearchOptions { by_slopes, ..ROUGH };
+        let search = DesignSearch::new(&design, &goal, options, &unwatched).unwrap();
+        assert!(search.objective().has_slopes());
+        search.run(&unwatched, &|_| {}).unwrap()
+    });
+    let start = Objective::new(&design, &goal, false, 0.005, &unwatched).unwrap().start().total.middle();
+    let [with, without] = [with, without].map(|outcome| outcome.best.total.middle());
+    assert!(with > start + 0.02 && without > start + 0.02, "{start} {with} {without}");
+    assert!((with - without).abs() < 0.02, "{with} {without}");
 }
 
 #[test]

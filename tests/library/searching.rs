@@ -102,7 +102,8 @@ fn goal(of: &[(&str, f64)]) -> Goal {
     goal
 }
 
-/// Returns the best total of a map over crown and pavilion, and the seconds that the map took.
+/// Returns the best total of a map over crown and pavilion, and the seconds that the map took. As in a search, the best places are
+/// measured again four times finer.
 fn map_best(goal: &Goal, steps: usize, unresolved: f64) -> (f64, f64) {
     let begun = Instant::now();
     let values = |[from, to]: [f64; 2]| {
@@ -111,7 +112,7 @@ fn map_best(goal: &Goal, steps: usize, unresolved: f64) -> (f64, f64) {
     };
     let axis =
         |(key, range): (&String, &[f64; 2])| SweepAxis { key: SweepKey::of(key), values: values(*range) };
-    let sweep = Sweep {
+    let mut sweep = Sweep {
         design: brilliant(34.0, 41.0),
         viewpoint: Viewpoint::default(),
         axes: goal.vary.iter().map(axis).collect(),
@@ -123,17 +124,21 @@ fn map_best(goal: &Goal, steps: usize, unresolved: f64) -> (f64, f64) {
         unresolved,
         polarised: true,
     };
-    let mut best = f64::NEG_INFINITY;
-    let each = |_, found: Result<SweptStone, _>| {
-        if let Ok(found) = found {
-            let value =
-                |measure: &GoalMeasure| measure.weight * measure.of.of(&found.measures).unwrap().middle();
-            best = best.max(goal.measure.iter().map(value).sum());
-        }
+    let total = |found: &SweptStone| -> f64 {
+        let value = |measure: &GoalMeasure| measure.weight * measure.of.of(&found.measures).unwrap().middle();
+        goal.measure.iter().map(value).sum()
+    };
+    let mut totals = vec![];
+    let each = |point, found: Result<SweptStone, _>| {
+        totals.extend(found.ok().map(|found| (total(&found), point)));
         Ok(())
     };
     sweep.run::<Stopped>(0..sweep.count(), &unwatched, each).unwrap();
-    (best, begun.elapsed().as_secs_f64())
+    let seconds = begun.elapsed().as_secs_f64();
+    totals.sort_by(|a, b| b.0.total_cmp(&a.0));
+    sweep.unresolved *= 0.25;
+    let finely = totals.iter().take(40).map(|(_, point)| total(&sweep.point(*point, &unwatched).unwrap()));
+    (finely.fold(f64::NEG_INFINITY, f64::max), seconds)
 }
 
 /// The time is that of a map of 65 by 65 points at the same bound, in the same run.
@@ -145,22 +150,41 @@ fn random_starts_against_a_fine_map() {
     {
         let goal = goal(of);
         let (best, seconds) = map_best(&goal, 64, SearchOptions::default().unresolved);
-        for by_slopes in [true, false] {
-            let found: Vec<(f64, f64)> = (0..20)
-                .map(|seed| {
-                    random_start(&goal, SearchOptions { seed, by_slopes, ..SearchOptions::default() })
-                })
-                .collect();
-            let missing = |total: f64| 1.0 - total / best;
-            let reached = found.iter().filter(|(total, _)| missing(*total) < 1e-3).count();
-            let worst = found.iter().map(|(total, _)| missing(*total)).fold(f64::MIN, f64::max);
-            let longest = found.iter().map(|(_, time)| time / seconds).fold(0.0, f64::max);
-            println!(
-                "{of:?}, by slopes {by_slopes}: the map has {best:.5} after {seconds:.1} s; {reached} of 20 reach it, the worst \
-                 misses {:.3} %; the longest takes {longest:.3} of the map's time",
-                100.0 * worst
-            );
-        }
+        let found: Vec<(f64, f64)> = (0..20)
+            .map(|seed| random_start(&goal, SearchOptions { seed, ..SearchOptions::default() }))
+            .collect();
+        let missing = |total: f64| 100.0 * (1.0 - total / best);
+        let mut misses: Vec<f64> = found.iter().map(|(total, _)| missing(*total)).collect();
+        misses.sort_by(f64::total_cmp);
+        let reached = misses.iter().filter(|miss| **miss < 0.1).count();
+        let longest = found.iter().map(|(_, time)| time / seconds).fold(0.0, f64::max);
+        println!(
+            "{of:?}: the map has {best:.5} after {seconds:.1} s; {reached} of 20 reach it, the middle one misses {:.3} %, the \
+             worst {:.3} %; the longest takes {longest:.3} of the map's time",
+            misses[10], misses[19]
+        );
+    }
+}
+
+/// All numbers of a brilliant, with slopes and without them.
+#[test]
+#[ignore = "prints figures and times for a person to read"]
+fn slopes_against_none() {
+    let mut goal = Goal::of([("return-cos2".parse().unwrap(), 1.0), ("leakage".parse().unwrap(), -1.0)]);
+    for (key, range) in [
+        ("table", [50.0, 64.0]),
+        ("crown_angle", [24.0, 40.0]),
+        ("pavilion_angle", [38.0, 43.0]),
+        ("star_length", [40.0, 60.0]),
+        ("lower_half", [70.0, 88.0]),
+    ] {
+        goal.vary.insert(key.to_owned(), range);
+    }
+    for by_slopes in [true, false] {
+        let found: Vec<(f64, f64)> = (0..6)
+            .map(|seed| random_start(&goal, SearchOptions { seed, by_slopes, ..SearchOptions::default() }))
+            .collect();
+        println!("by slopes {by_slopes}: total and seconds {found:.4?}");
     }
 }
 

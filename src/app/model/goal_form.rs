@@ -52,12 +52,12 @@ impl SearchEffort {
         let usual = SearchOptions::default();
         match self {
             Self::Quick => {
-                let scattered = Some(8 + 4 * numbers);
+                let scattered = Some(24 + 8 * numbers);
                 SearchOptions { unresolved: 0.01, scattered, climbs: 1, ..usual }
             }
             Self::Usual => usual,
             Self::Thorough => {
-                SearchOptions { scattered: Some(48 + 36 * numbers), climbs: 2 * usual.climbs, ..usual }
+                SearchOptions { scattered: Some(240 + 75 * numbers), climbs: 2 * usual.climbs, ..usual }
             }
         }
     }

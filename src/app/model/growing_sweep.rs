@@ -115,7 +115,7 @@ mod tests {
 
     /// An answer that no stone was found at a point.
     fn nothing(point: usize) -> SweptPoint {
-        let error = SweepError::NoTier { name: String::new(), known: String::new() };
+        let error = SweepError::NoTier { key: String::new(), known: String::new() };
         (point, Arc::new(Err(error)))
     }
 
