@@ -7,7 +7,7 @@ use super::model::ordering::Seen;
 use super::model::task::WindowTask;
 use super::model::workspace::Workspace;
 use super::model::{Action, Model, Task, update};
-use super::panels::{audit_panel, map_window, side_panels, tier_table};
+use super::panels::{audit_panel, map_window, search_window, side_panels, tier_table};
 use super::setup::{PaintedBy, Setup};
 use super::shows::Shows;
 use super::state_file::StateFile;
@@ -232,6 +232,7 @@ impl Editor {
         let awaited = &session.awaited;
         self.studio.is_idle()
             && !self.outside.is_looking_up()
+            && session.search.running().is_none()
             && session.light.loading.is_none()
             && awaited.choosing.is_none()
             && awaited.opening.is_empty()
@@ -267,6 +268,7 @@ impl Editor {
         self.run();
         light_path_window::show(&self.model, &mut self.views, &mut self.actions, &ctx);
         map_window::show(&self.model, &mut self.actions, &ctx);
+        search_window::show(&self.model, &mut self.actions, &ctx);
         dialogs::show(&self.model, &self.thumbnails, &mut self.actions, &ctx);
         drops::invite(&ctx);
         let moves = |pane: usize| self.model.workspace.panes[pane].shows.has_copies();

@@ -8,11 +8,24 @@ use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_pr
 /// busy programs stop the tracing.
 const BEHIND: u8 = 42;
 
+/// The priority of work that takes minutes, 0 to 99, below that of pictures, which show what it finds; on Linux this becomes
+/// niceness 7.
+const LAST: u8 = 30;
+
 /// Lowers the priority of this thread. If the system refuses, the window follows the hand less quickly; nothing else
 /// changes.
 pub fn lower() {
-    if let Ok(behind) = ThreadPriorityValue::try_from(BEHIND) {
-        let _ = set_current_thread_priority(ThreadPriority::Crossplatform(behind));
+    lower_to(BEHIND);
+}
+
+/// Lowers the priority of this thread below that of the threads that trace pictures.
+pub fn lower_most() {
+    lower_to(LAST);
+}
+
+fn lower_to(priority: u8) {
+    if let Ok(priority) = ThreadPriorityValue::try_from(priority) {
+        let _ = set_current_thread_priority(ThreadPriority::Crossplatform(priority));
     }
 }
 

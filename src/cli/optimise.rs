@@ -10,11 +10,12 @@ use crate::cut::{Design, Size};
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::plot::{PlotAxis, PlotCurve, curves};
 use crate::io::{Failure, goal_file};
-use crate::measure::{Interval, MeasureName, MeasureSettings, NoMeasure};
-use crate::optics::line;
-use crate::render::Sweep;
-use crate::scene::{Specimen, Viewpoint};
-use crate::search::{DesignSearch, Goal, GoalMeasure, SearchError, SearchOptions, SearchOutcome};
+use crate::measure::{MeasureName, NoMeasure};
+use crate::scene::Specimen;
+use crate::search::{
+    DesignSearch, Goal, GoalMeasure, OtherMeasure, SearchError, SearchOptions, SearchOutcome,
+};
+use crate::trace::unwatched;
 use clap::Args;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -118,13 +119,6 @@ impl FromStr for VariedRange {
     }
 }
 
-/// A measure before and after that the goal does not weigh.
-pub struct OtherMeasure {
-    pub name: MeasureName,
-    pub before: Interval,
-    pub after: Interval,
-}
-
 impl OptimiseArguments {
     pub fn run(&self) -> Result<(), Failure> {
         let goal = self.goal()?;
@@ -154,7 +148,7 @@ impl OptimiseArguments {
                 "warning: {path}: no design was found that keeps all limits; the design stays as it is"
             ));
         }
-        let others = self.others(&search, &outcome)?;
+        let others = OtherMeasure::all(&search, &outcome, &unwatched).map_err(refused)?;
         match self.json {
             true => print(&super::console::json(&json_value(&path, &search, &outcome, &others)))?,
             false => print(&text(&goal, &search, &outcome, &others))?,
@@ -228,35 +222,6 @@ impl OptimiseArguments {
             }
         };
         search.run(&watch, &|_| {})
-    }
-
-    /// Measures what the goal does not weigh: the usual measures of both designs, face up, in the design's own material.
-    fn others(&self, search: &DesignSearch, outcome: &SearchOutcome) -> Result<Vec<OtherMeasure>, Failure> {
-        let measured = |design: &Design| {
-            let sweep = Sweep {
-                design: design.clone(),
-                viewpoint: Viewpoint::default(),
-                axes: vec![],
-                settings: MeasureSettings::usual([1.0; 2]),
-                wavelength_nm: line::SODIUM_D,
-                unresolved: self.unresolved,
-                polarised: !self.unpolarised,
-            };
-            sweep.point(0, &crate::trace::unwatched).map_err(|error| Failure::Usage(error.to_string()))
-        };
-        let (before, after) = (measured(search.objective().design())?, measured(&outcome.design)?);
-        let is_weighed = |name: &MeasureName| {
-            let is_it = |value: &crate::search::GoalValue| {
-                value.of == *name && value.material.is_none() && value.tilt_deg == 0.0
-            };
-            outcome.best.values.iter().any(is_it)
-        };
-        let names = MeasureName::all(&MeasureSettings::usual([1.0; 2]));
-        let other = |name: MeasureName| {
-            let (before, after) = (name.of(&before.measures)?, name.of(&after.measures)?);
-            Some(OtherMeasure { name, before, after })
-        };
-        Ok(names.into_iter().filter(|name| !is_weighed(name)).filter_map(other).collect())
     }
 
     fn write(&self, format: Option<DesignFormat>, design: Design) -> Result<(), Failure> {

@@ -1,10 +1,9 @@
 //! What `optimise` prints: what was won, what was given up, and which numbers did it.
 
-use super::optimise::OtherMeasure;
 use super::sweep_plot::label;
 use crate::cut::Cut;
 use crate::measure::Interval;
-use crate::search::{DesignSearch, Goal, GoalValue, SearchOutcome, VariedNumber};
+use crate::search::{DesignSearch, Goal, GoalValue, OtherMeasure, SearchOutcome, VariedNumber};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -70,7 +69,7 @@ pub fn text(goal: &Goal, search: &DesignSearch, outcome: &SearchOutcome, others:
         name: other.name.to_string(),
         before: other.before,
         after: other.after,
-        wanted: wanted(other),
+        wanted: other.wanted(),
     });
     let (weighed, other): (Vec<Change>, Vec<Change>) = (weighed.collect(), other.collect());
     section(&mut text, "Won", weighed.iter().filter(|change| change.gain() > 0.0));
@@ -116,15 +115,6 @@ fn section<'a>(text: &mut String, title: &str, changes: impl Iterator<Item = &'a
     let lines: String = changes.map(Change::line).collect();
     if !lines.is_empty() {
         let _ = write!(text, "{title}\n{lines}");
-    }
-}
-
-/// Returns whether people want more of a measure that the goal does not weigh (1), less (-1), or neither (0).
-fn wanted(other: &OtherMeasure) -> f64 {
-    match other.name.to_string().as_str() {
-        "leakage" | "windowing" | "obstruction" | "extinction" | "absorbed" => -1.0,
-        "contrast" => 0.0,
-        _ => 1.0,
     }
 }
 

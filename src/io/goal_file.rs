@@ -1,8 +1,8 @@
-//! Reads goal files: TOML that says what a design is to be good at, which of its numbers may change, and what must hold.
+//! Reads and writes goal files: TOML that says what a design is to be good at, which of its numbers may change, and what must hold.
 
 use super::file_error::{Fault, FileError};
-use super::text;
 use super::toml_text::TomlText;
+use super::{Failure, WriteError, text, write as write_whole};
 use crate::search::Goal;
 use std::path::Path;
 
@@ -16,6 +16,17 @@ const MAX_BYTES: u64 = 1 << 20;
 pub fn read(path: &Path) -> Result<Goal, FileError> {
     let goal = text::read(path, MAX_BYTES).and_then(|text| goal(&text));
     goal.map_err(|fault| fault.in_file(path.display()))
+}
+
+/// Writes a goal to a file that [`read`] reads as the same goal.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn write(goal: &Goal, path: &Path) -> Result<(), Failure> {
+    // Infinite numbers, which TOML has, are refused by the goal's own check.
+    let text = toml::to_string(goal).map_err(|error| Failure::Output(error.to_string()))?;
+    write_whole(path, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(path, e)))?;
+    Ok(())
 }
 
 fn goal(text: &str) -> Result<Goal, Fault> {
@@ -44,6 +55,16 @@ mod tests {
         assert_eq!(goal.measure[0].tilt.as_ref().unwrap().all(), [10.0]);
         assert_eq!(goal.vary["tier:P 1"], [40.0, 43.0]);
         assert_eq!(goal.limit["girdle_to_width"].ends(), (0.02, f64::INFINITY));
+    }
+
+    #[test]
+    fn a_goal_that_is_written_reads_back_equal() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("goal.toml");
+        let goal = goal(GOAL).unwrap();
+        write(&goal, &path).unwrap();
+        assert_eq!(read(&path).unwrap(), goal);
+        assert!(write(&goal, folder.path()).is_err(), "a folder is no file");
     }
 
     #[test]

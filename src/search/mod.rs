@@ -9,6 +9,7 @@ mod limits;
 mod local;
 mod numbers;
 mod objective;
+mod others;
 mod outcome;
 mod run;
 mod terms;
@@ -21,5 +22,6 @@ pub use goal::{AtLeastAtMost, Goal, GoalFault, GoalMaterial, GoalMeasure, OneOrM
 pub use limits::LIMIT_NAMES;
 pub use numbers::VariedNumber;
 pub use objective::Objective;
+pub use others::OtherMeasure;
 pub use outcome::{ProgressPoint, SearchOutcome, SearchProgress};
 pub use run::{DesignSearch, SearchOptions};

@@ -25,6 +25,12 @@ pub struct VariedNumber {
 }
 
 impl VariedNumber {
+    /// Returns the numbers that a cut gives, with their usual ranges, widened to the cut's own values: what a search changes
+    /// where its goal names no number.
+    pub fn usual(cut: &Cut) -> Vec<Self> {
+        usual(cut)
+    }
+
     /// Returns the numbers that the goal names, or all that the design gives.
     ///
     /// # Errors

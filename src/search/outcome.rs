@@ -3,7 +3,8 @@
 use super::appraisal::Appraisal;
 use crate::cut::Design;
 
-/// How far a search is. It is handed out whenever a better design is found, and else now and then.
+/// How far a search is. It is handed out for each design that was appraised. The threads of a search hand theirs out as they come, so
+/// that one with a smaller number may follow.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SearchProgress {
     /// The number of designs that were appraised.

@@ -23,6 +23,9 @@ const FEWEST_WITH_SLOPES: usize = 3;
 /// The first step of a search without slopes, a part of each range.
 const FELT_STEP: f64 = 0.005;
 
+/// The number of scattered designs after which the best of them is looked at for the first time; each time it takes twice as many.
+const FIRST_BATCH: usize = 8;
+
 /// The number of places from which the search feels its way at last: one for each core of a small machine.
 const FELT_TOPS: usize = 2;
 
@@ -135,6 +138,11 @@ impl DesignSearch {
         Ok(Self { objective, options })
     }
 
+    /// Returns how the search goes.
+    pub fn options(&self) -> &SearchOptions {
+        &self.options
+    }
+
     /// Returns the goal for the design.
     pub fn objective(&self) -> &Objective {
         &self.objective
@@ -192,9 +200,24 @@ impl DesignSearch {
         let dimensions = start.len();
         let tried = |places: Vec<Vec<f64>>, coarser: f64| -> Vec<(f64, Vec<f64>)> {
             let unresolved = (self.options.unresolved * coarser).min(MOST_UNRESOLVED);
-            let tried =
-                |places: Vec<f64>| Some((merit(&trials.appraise(&places, unresolved, false)?), places));
-            places.into_par_iter().filter_map(tried).collect()
+            let tried = |places: &Vec<f64>| {
+                Some((merit(&trials.appraise(places, unresolved, false)?), places.clone()))
+            };
+            let (mut found, mut rest, mut count) = (vec![], places.as_slice(), FIRST_BATCH);
+            while !rest.is_empty() {
+                let (batch, later) = rest.split_at(count.min(rest.len()));
+                let batch: Vec<(f64, Vec<f64>)> = batch.par_iter().filter_map(tried).collect();
+                // What promises most is measured finely at once, so that a better design is seen early.
+                let promising = batch.iter().max_by(|a, b| a.0.total_cmp(&b.0));
+                if let Some((_, places)) =
+                    promising.filter(|(merit, _)| trials.best_total().is_none_or(|best| *merit > best))
+                {
+                    trials.near(places, false);
+                }
+                found.extend(batch);
+                (rest, count) = (later, 2 * count);
+            }
+            found
         };
         let mut found = vec![(merit(self.objective.start()), start)];
         let mut everywhere = scattered(count, dimensions, self.options.seed);
@@ -277,8 +300,9 @@ impl Trials<'_> {
         match self.search.objective.appraise(places, unresolved, with_slopes, &watch) {
             Ok(found) => {
                 // Rough figures only say where to look.
-                if unresolved <= self.search.options.unresolved {
-                    self.note(places, &found);
+                match unresolved <= self.search.options.unresolved {
+                    true => self.note(places, &found),
+                    false => self.tell(done, self.best_total(), None),
                 }
                 Some(found)
             }
@@ -303,12 +327,13 @@ impl Trials<'_> {
         let best_total = record.best.as_ref().map(|(_, total)| *total);
         drop(record);
         let design = is_best.then(|| self.search.objective.design_at(places).ok()).flatten();
-        (self.report)(&SearchProgress {
-            appraised,
-            part: (appraised as f64 / self.most as f64).min(1.0),
-            best_total,
-            new_best: design.map(Box::new),
-        });
+        self.tell(appraised, best_total, design);
+    }
+
+    /// Says how far the search is.
+    fn tell(&self, appraised: usize, best_total: Option<f64>, new_best: Option<Design>) {
+        let part = (appraised as f64 / self.most as f64).min(1.0);
+        (self.report)(&SearchProgress { appraised, part, best_total, new_best: new_best.map(Box::new) });
     }
 
     fn record(&self) -> std::sync::MutexGuard<'_, Record> {

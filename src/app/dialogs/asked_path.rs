@@ -10,7 +10,7 @@ use egui::{Key, RichText, TextEdit, Ui};
 /// Returns the name of the button that accepts the path.
 fn verb(purpose: Purpose) -> &'static str {
     match purpose {
-        Purpose::SaveAs => "Save",
+        Purpose::SaveAs | Purpose::SaveGoal => "Save",
         Purpose::Folder => "Choose",
         _ => "Open",
     }
@@ -34,9 +34,9 @@ pub fn show(actions: &mut Actions, ui: &mut Ui, form: &PathForm) {
         field.request_focus();
     }
     let path = form.path();
-    if form.purpose == Purpose::SaveAs && path.is_file() {
+    if form.purpose.is_new() && path.is_file() {
         ui.label(RichText::new("The file exists and will be replaced.").color(theme::caution(ui.visuals())));
-    } else if form.purpose != Purpose::SaveAs && !path.exists() {
+    } else if !form.purpose.is_new() && !path.exists() {
         ui.label(RichText::new("This file does not exist.").weak());
     }
     match buttons_alone(ui, &[verb(form.purpose), "Cancel"]) {

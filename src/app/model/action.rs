@@ -2,12 +2,14 @@
 
 use super::choosing::{Choice, Purpose, Question};
 use super::command::Command;
+use super::cut_search::SearchEvent;
 use super::cutting::CuttingProgress;
 use super::dialog::{AboutPage, Then};
 use super::export::Selection;
 use super::exporting::ExportEvent;
 use super::eye::Eye;
 use super::fitting::{FitOptions, StoneLight, YieldOptions};
+use super::goal_form::GoalForm;
 use super::measure_map::MapOptions;
 use super::measure_tilt::TiltOptions;
 use super::opening::{FileRequest, OpenedFile, OpeningPurpose};
@@ -24,6 +26,7 @@ use crate::io::lighting::Lighting;
 use crate::io::mesh_options::MeshOptions;
 use crate::measure::Figures;
 use crate::scene::{Pose, Specimen};
+use crate::search::Goal;
 use glam::DVec2;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -41,6 +44,8 @@ pub enum Action {
     File(FileAction),
     /// Answers the open dialog, or opens one.
     Dialog(DialogAction),
+    /// Searches for a better cut.
+    Search(SearchAction),
     /// Adds a message that the window shows, or removes one.
     Note(NoteAction),
     /// Hands in a result of the studio or of a task.
@@ -241,6 +246,23 @@ pub enum DialogAction {
     Apply,
 }
 
+/// What is done in the window that finds a better cut.
+#[derive(Debug)]
+pub enum SearchAction {
+    /// Sets what the search is asked for.
+    Form(Box<GoalForm>),
+    /// Begins the search.
+    Start,
+    /// Stops the search; the best so far stays.
+    Stop,
+    /// Stops the search and brings the design back as it was before.
+    Discard,
+    /// Keeps what the search has found, and closes its outcome.
+    Keep,
+    /// Takes back what the search has changed, and closes its outcome.
+    Undo,
+}
+
 /// What is done to the messages that the window shows.
 #[derive(Debug)]
 pub enum NoteAction {
@@ -270,6 +292,12 @@ pub enum Computed {
     Audit(Arc<Specimen>, Result<Audit, Failure>),
     /// The light of the stones of this question, in the dialog that fits the design to another material.
     StoneLight(u64, Result<Vec<StoneLight>, Failure>),
+    /// A goal has been read from a file.
+    Goal(PathBuf, Result<Box<Goal>, Failure>),
+    /// The goal has been written to a file.
+    GoalSaved(PathBuf, Result<(), Failure>),
+    /// What the search for a better cut of this number says.
+    Search(u64, SearchEvent),
     /// The width and height of a picture that is in the clipboard now, pixels.
     Copied(Result<[usize; 2], Failure>),
     /// The order of all that is in sight, which the studio then traces.
@@ -336,6 +364,7 @@ into_action!(
     ViewAction => View,
     FileAction => File,
     DialogAction => Dialog,
+    SearchAction => Search,
     NoteAction => Note,
     Computed => Computed
 );

@@ -17,6 +17,10 @@ pub enum Purpose {
     Behind,
     /// A folder to export to.
     Folder,
+    /// A goal of the search for a better cut.
+    Goal,
+    /// A file to save that goal to.
+    SaveGoal,
 }
 
 impl Purpose {
@@ -29,7 +33,14 @@ impl Purpose {
             Self::Light => "Choose a light or a panorama",
             Self::Behind => "Choose a background picture",
             Self::Folder => "Choose a folder for the files",
+            Self::Goal => "Open a goal",
+            Self::SaveGoal => "Save the goal as",
         }
+    }
+
+    /// Whether the file is one to be written, which need not exist.
+    pub fn is_new(self) -> bool {
+        matches!(self, Self::SaveAs | Self::SaveGoal)
     }
 }
 

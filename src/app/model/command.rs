@@ -62,6 +62,8 @@ pub enum Command by keys {
         "Lists places of the stone that may not be what its designer meant.";
     Map: "Shift+M", "Map of a measure",
         "Maps how well the cut handles light over two of its proportions; a click on the map moves the design.";
+    Search: "Shift+F", "Find a better cut",
+        "Searches for a design that handles light better, by the measures that you choose; one step of undo.";
     Panels: "H", "Hide panels", "Hides the panels at both sides, or shows them again.";
     FullScreen: "F11", "Full screen", "Fills the screen with the window, or makes it smaller again.";
     ResetView: "", "Reset view",
@@ -102,7 +104,7 @@ pub const MENUS: [Menu; 6] = [
             &[Wireframe, Facets, Bounces, Unresolved, Total, Strongest, Glare],
             &[LightPath],
             &[Play, LayOut, NextBehind],
-            &[Tiers, BenchMode, Audit, Map],
+            &[Tiers, BenchMode, Audit, Map, Search],
             &[Panels, FullScreen],
             &[ResetView, ResetLayout],
         ],

@@ -200,6 +200,17 @@ impl Document {
         self.history.settle(&self.work)
     }
 
+    /// Makes a step of all that was changed, but with this design in the place of the present one. Returns whether it is another
+    /// than the last step.
+    pub fn settle_with(&mut self, design: &Design) -> bool {
+        self.history.settle(&Work { design: design.clone(), ..self.work.clone() })
+    }
+
+    /// Returns the work before the last step, which undo brings back.
+    pub fn step_before(&self) -> Option<&Work> {
+        self.history.before()
+    }
+
     /// Returns the last stone that could be built.
     pub fn specimen(&self) -> &Arc<Specimen> {
         &self.specimen

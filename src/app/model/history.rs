@@ -35,6 +35,11 @@ impl<T: Clone + PartialEq> History<T> {
         &self.present
     }
 
+    /// Returns the state before the last step; `None` where there is none.
+    pub fn before(&self) -> Option<&T> {
+        self.past.last()
+    }
+
     /// Whether there is anything to undo.
     pub fn can_undo(&self) -> bool {
         !self.past.is_empty()

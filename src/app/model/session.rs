@@ -3,6 +3,7 @@
 use super::audit::SessionAudit;
 use super::choosing::Purpose;
 use super::compare::Compared;
+use super::cut_search::CutSearch;
 use super::dialog::{Dialog, Then};
 use super::document::{Document, FIRST_LIGHT};
 use super::export::Selection;
@@ -126,6 +127,8 @@ pub struct Session {
     pub map: MeasureMap,
     /// The measure that is plotted against tilt.
     pub tilt: MeasureTilt,
+    /// The search for a better cut.
+    pub search: CutSearch,
     /// How many sweeps were begun. It numbers them.
     pub sweeps: u64,
     /// How often copies were laid out; this seeds the next layout.
@@ -182,6 +185,7 @@ impl Session {
             audit: SessionAudit::default(),
             map: MeasureMap::default(),
             tilt: MeasureTilt::default(),
+            search: CutSearch::default(),
             sweeps: 0,
             layings: 0,
             message: String::new(),

@@ -1,6 +1,7 @@
 //! What is to be done outside a model. Most tasks are carried out in the background and answer with an action.
 
 use super::choosing::Question;
+use super::cut_search::SearchRequest;
 use super::export::ExportPlan;
 use super::fitting::LightRequest;
 use super::opening::FileRequest;
@@ -8,6 +9,7 @@ use super::recovery::UnsavedWork;
 use super::saving::{SaveRequest, Stamp};
 use crate::app::studio::{Order, Shot};
 use crate::scene::Specimen;
+use crate::search::Goal;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -48,6 +50,14 @@ pub enum Task {
     MeasureLight(Box<LightRequest>),
     /// Stop measuring.
     StopLight,
+    /// Search for a better cut.
+    Search(Box<SearchRequest>),
+    /// Read a goal for the search.
+    ReadGoal(PathBuf),
+    /// Write the goal of the search to a file.
+    WriteGoal(PathBuf, Box<Goal>),
+    /// Stop the search, which then answers with the best so far.
+    StopSearch,
     /// Trace the pictures and figures of all views in sight.
     Trace(Box<Order>),
     Window(WindowTask),

@@ -227,6 +227,12 @@ pub fn explain(ui: &Ui, response: Response, meaning: &str) -> Response {
     response
 }
 
+/// Gives a widget the name by which screen readers and tests find it.
+pub fn spoken(widget: &Response, name: &str) {
+    let name = name.to_owned();
+    widget.ctx.accesskit_node_builder(widget.id, |node| node.set_label(name));
+}
+
 /// Draws the name of a row, with its meaning; it is as wide in all rows, and shortened where it is wider.
 pub fn named(ui: &mut Ui, name: &str, meaning: &str) -> egui::Response {
     let height = ui.spacing().interact_size.y;

@@ -6,7 +6,7 @@
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit, ViewAction};
 use crate::app::panels::gear_fields;
-use crate::app::panels::rows::{ANY, Number, explain};
+use crate::app::panels::rows::{ANY, Number, explain, spoken};
 use crate::cut::{Cut, Tier, TierChange, TierZone, Tiers, read_indices};
 use egui::{Color32, ComboBox, Id, Panel, Response, RichText, ScrollArea, Sense, TextEdit, Ui, vec2};
 
@@ -131,7 +131,7 @@ fn row(model: &Model, tiers: &Tiers, place: usize, actions: &mut Actions, ui: &m
             actions.push_if(grip.clicked(), ViewAction::Tier(Some(place)));
             let mut is_cut = tier.is_cut;
             let cut = cell(ui, WIDTHS[1], |ui| ui.checkbox(&mut is_cut, ""));
-            name(&cut, &format!("Cut {called}"));
+            spoken(&cut, &format!("Cut {called}"));
             actions.push_if(cut.changed(), Edit::Tiers(TierChange::IsCut(place, is_cut)));
             let named = text(ui, WIDTHS[2], (place, "Name", &called), tier.name(), |text| {
                 Some(TierChange::Name(place, text.trim().to_owned()))
@@ -170,7 +170,7 @@ fn grip(place: usize, called: &str, is_selected: bool, ui: &mut Ui) -> Response 
         visuals.text_color(),
     );
     response.dnd_set_drag_payload(place);
-    name(&response, &format!("Select {called}"));
+    spoken(&response, &format!("Select {called}"));
     explain(ui, response, HEADS[0].1)
 }
 
@@ -201,7 +201,7 @@ fn zone((place, tier, called): (usize, &Tier, &str), ui: &mut Ui) -> Option<Tier
             }
         }
     });
-    name(&shown.response, &format!("Zone of {called}"));
+    spoken(&shown.response, &format!("Zone of {called}"));
     let leaning = if matches!(tier.angle.abs(), 0.0 | 90.0) { LEANING } else { tier.angle.abs() };
     let angle = match chosen? {
         TierZone::Pavilion => -leaning,
@@ -230,7 +230,7 @@ fn setting(
             let width = WIDTHS[column];
             cell(ui, width, |ui| {
                 let shown = Number { decimals, speed, range: ANY, unit }.show(ui, (width - 8.0, grip), value);
-                name(&shown, &format!("{} of {called}", HEADS[column].0));
+                spoken(&shown, &format!("{} of {called}", HEADS[column].0));
             });
         };
     number(ui, &mut angle, 4, (2, 0.02, "°"));
@@ -260,7 +260,7 @@ fn meet(model: &Model, (place, tiers, called): (usize, &Tiers, &str), ui: &mut U
         ui.painter().rect_stroke(cell, 3.0, egui::Stroke::new(1.0, colour), egui::StrokeKind::Inside);
         let under = ui.interact(cell, ui.scope_id().with(("fault", place)), Sense::hover());
         let said = format!("The meet of {called} cannot be followed: {fault}");
-        name(&under, &said);
+        spoken(&under, &said);
         under.on_hover_text(said);
     }
     changed
@@ -286,7 +286,7 @@ fn text(
             field = field.text_color(ui.visuals().error_fg_color);
         }
         let shown = ui.add(field);
-        name(&shown, &format!("{column} of {called}"));
+        spoken(&shown, &format!("{column} of {called}"));
         if shown.has_focus() {
             ui.data_mut(|data| data.insert_temp(typed, text.clone()));
         } else {
@@ -294,10 +294,4 @@ fn text(
         }
         change(&text).filter(|_| shown.lost_focus() && text != own)
     })
-}
-
-/// Gives a widget the name by which screen readers and tests find it.
-fn name(widget: &Response, name: &str) {
-    let name = name.to_owned();
-    widget.ctx.accesskit_node_builder(widget.id, |node| node.set_label(name));
 }

@@ -44,6 +44,8 @@ fn dialog(question: &Question) -> Option<PathBuf> {
         Purpose::Light => dialog.add_filter("Lights", &pictures).pick_file(),
         Purpose::Behind => dialog.add_filter("Pictures", &pictures[1..]).pick_file(),
         Purpose::Folder => dialog.pick_folder(),
+        Purpose::Goal => dialog.add_filter("Goals", &["toml"]).pick_file(),
+        Purpose::SaveGoal => dialog.set_file_name(&question.name).save_file(),
     }
 }
 

@@ -13,9 +13,11 @@ mod look_ups;
 pub mod lookup;
 pub mod open;
 pub mod runner;
+mod search;
 
 use crate::app::model::action::{Computed, DialogAction, FileAction, NoteAction};
 use crate::app::model::choosing::{Choice, Question};
+use crate::app::model::cut_search::{SearchEvent, SearchRequest};
 use crate::app::model::export::ExportPlan;
 use crate::app::model::exporting::ExportEvent;
 use crate::app::model::fitting::LightRequest;
@@ -25,9 +27,10 @@ use crate::app::model::task::CopyRequest;
 use crate::app::model::{Action, Task};
 use crate::app::shows::Shows;
 use crate::app::studio::{Slot, TakenPicture, Wake};
-use crate::io::Failure;
 use crate::io::lighting::Lighting;
+use crate::io::{Failure, goal_file};
 use crate::scene::Specimen;
+use crate::search::Goal;
 use autosave::Autosave;
 use egui::ColorImage;
 use files::Chooser;
@@ -54,6 +57,8 @@ enum Key {
     Copy,
     Audit,
     StoneLight,
+    Search,
+    Goal,
     LookUp(Slot),
 }
 
@@ -131,6 +136,10 @@ impl Outside {
             Task::Audit(specimen) => self.audit(specimen),
             Task::MeasureLight(request) => self.measure_light(*request),
             Task::StopLight => self.runner.stop(Key::StoneLight),
+            Task::Search(request) => self.search(*request),
+            Task::ReadGoal(path) => self.read_goal(path),
+            Task::WriteGoal(path, goal) => self.write_goal(path, *goal),
+            Task::StopSearch => self.runner.stop(Key::Search),
             Task::Trace(_) | Task::Window(_) => {}
         }
     }
@@ -238,6 +247,31 @@ impl Outside {
         let failed = Computed::StoneLight(request.number, Err(fault("measuring the light failed")));
         self.run(Key::StoneLight, failed, move |job| {
             Computed::StoneLight(request.number, light::measured(&request, &|| job.is_stopped()))
+        });
+    }
+
+    fn search(&mut self, request: SearchRequest) {
+        let failed = SearchEvent::Ended(Err(fault("the search failed")));
+        self.run(Key::Search, Computed::Search(request.number, failed), move |job| {
+            let say = |event| job.send(Computed::Search(request.number, event).into());
+            let found = search::search(&request, &say, &|| job.is_stopped());
+            Computed::Search(request.number, SearchEvent::Ended(found))
+        });
+    }
+
+    fn read_goal(&mut self, path: PathBuf) {
+        let why = fault(&format!("{}: reading the goal failed", path.display()));
+        self.run(Key::Goal, Computed::Goal(path.clone(), Err(why)), move |_| {
+            let goal = goal_file::read(&path).map(Box::new).map_err(Failure::from);
+            Computed::Goal(path, goal)
+        });
+    }
+
+    fn write_goal(&mut self, path: PathBuf, goal: Goal) {
+        let why = fault(&format!("{}: writing the goal failed", path.display()));
+        self.run(Key::Goal, Computed::GoalSaved(path.clone(), Err(why)), move |_| {
+            let written = goal_file::write(&goal, &path);
+            Computed::GoalSaved(path, written)
         });
     }
 

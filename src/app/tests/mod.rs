@@ -20,6 +20,7 @@ mod looks;
 mod maps;
 mod reading;
 mod recorder;
+mod searching;
 mod tiers;
 mod views;
 

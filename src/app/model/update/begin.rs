@@ -1,6 +1,6 @@
 //! Documents that begin: opened, read again, or out of the program's library.
 
-use super::safe;
+use super::{safe, searching};
 use crate::app::model::Model;
 use crate::app::model::audit::SessionAudit;
 use crate::app::model::document::Document;
@@ -12,6 +12,7 @@ use crate::io::background::BackgroundRef;
 
 /// Begins to work on another document, under the present light.
 pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
+    searching::begin(model, tasks);
     let work = &model.document.work;
     let (light, exposure) = model.workspace.light_after_scene((work.light.clone(), work.exposure));
     document.begin(&light, exposure, work.head);

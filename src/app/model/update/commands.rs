@@ -1,7 +1,7 @@
 //! Commands: when each is possible, whether it is switched on, and what it does.
 
 use super::begin::compare_no_more;
-use super::{dialogs, edits, files, fitting};
+use super::{dialogs, edits, files, fitting, searching};
 use crate::app::model::Model;
 use crate::app::model::action::{DialogAction, Edit, FileAction};
 use crate::app::model::choosing::Purpose;
@@ -58,6 +58,11 @@ impl Model {
         self.workspace.shows_map && !self.is_at_bench()
     }
 
+    /// Whether the window of the search for a better cut is in sight.
+    pub fn shows_search(&self) -> bool {
+        self.session.search.is_open && !self.is_at_bench()
+    }
+
     /// Whether a command is switched on, as menus show it.
     pub fn is_chosen(&self, command: Command) -> bool {
         let workspace = &self.workspace;
@@ -83,6 +88,7 @@ impl Model {
             Command::BenchMode => workspace.cutting.is_open,
             Command::Audit => workspace.shows_audit,
             Command::Map => workspace.shows_map,
+            Command::Search => self.session.search.is_open,
             _ => false,
         }
     }
@@ -114,7 +120,9 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
         Command::Retarget => fitting::open_retarget(model, tasks),
         Command::Yield => fitting::open_yield(model),
         Command::LayOut => edits::edit(model, Edit::LayOut(model.document.work.copies.poses.len())),
+        Command::Search => searching::toggle(model, tasks),
         Command::Undo | Command::Redo => {
+            searching::interrupt(model, tasks);
             if command == Command::Undo {
                 model.document.undo()
             } else {

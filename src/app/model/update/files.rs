@@ -1,7 +1,7 @@
 //! Files that are opened, saved and watched.
 
 use super::begin::{begin, begin_again, begin_library, begin_preset, begin_scene};
-use super::safe;
+use super::{safe, searching};
 use crate::app::model::Model;
 use crate::app::model::action::{Edit, FileAction};
 use crate::app::model::choosing::{Choice, Purpose, Question};
@@ -162,7 +162,8 @@ pub fn choose(model: &mut Model, tasks: &mut Vec<Task>, purpose: Purpose) {
     }
     model.session.after_save = None;
     model.session.awaited.choosing = Some(purpose);
-    let question = Question { purpose, name: suggested(model), document: model.session.begun };
+    let name = if purpose == Purpose::SaveGoal { "goal.toml".to_owned() } else { suggested(model) };
+    let question = Question { purpose, name, document: model.session.begun };
     tasks.push(Task::ChooseFile(question));
 }
 
@@ -180,8 +181,7 @@ fn answered(model: &mut Model, tasks: &mut Vec<Task>, question: Question, choice
         // The export dialog has its own field for the folder.
         Choice::NoDialog if model.session.dialog.is_none() => {
             let folder = model.document.folder();
-            let is_new = question.purpose == Purpose::SaveAs;
-            let begin = if is_new { folder.join(suggested(model)) } else { folder };
+            let begin = if question.purpose.is_new() { folder.join(&question.name) } else { folder };
             model.session.dialog =
                 Some(Dialog::Path(PathForm::new(question.purpose, model.session.begun, &begin)));
         }
@@ -206,6 +206,8 @@ pub fn chosen(model: &mut Model, tasks: &mut Vec<Task>, purpose: Purpose, docume
         Purpose::Compare => open(model, tasks, path, OpeningPurpose::Beside),
         Purpose::Light => super::edits::edit(model, Edit::Light(path.display().to_string())),
         Purpose::Behind => model.workspace.behind = Some(path.display().to_string()),
+        Purpose::Goal => tasks.push(Task::ReadGoal(path)),
+        Purpose::SaveGoal => searching::save_goal(model, tasks, path),
         Purpose::Folder => {
             if let Some(Dialog::Export(export)) = &mut model.session.dialog {
                 export.plan.folder = path;

@@ -7,6 +7,7 @@ mod edits;
 mod files;
 mod fitting;
 mod safe;
+mod searching;
 #[cfg(test)]
 mod tests;
 mod views;
@@ -22,6 +23,7 @@ use std::sync::Arc;
 pub fn update(model: &mut Model, action: Action) -> Vec<Task> {
     let mut tasks = vec![];
     perform(model, &mut tasks, action);
+    searching::follow(model, &mut tasks);
     files::wanted(model, &mut tasks);
     want_audit(model, &mut tasks);
     want_sweeps(model);
@@ -34,6 +36,7 @@ fn perform(model: &mut Model, tasks: &mut Vec<Task>, action: Action) {
         Action::Edit(edit) => edits::edit(model, edit),
         Action::View(change) => views::change(model, tasks, change),
         Action::File(change) => files::change(model, tasks, change),
+        Action::Search(change) => searching::change(model, tasks, change),
         Action::Dialog(answer) => dialogs::answer(model, tasks, answer),
         Action::Note(note) => noted(model, note),
         Action::Computed(computed) => computed_is(model, tasks, computed),
@@ -106,6 +109,10 @@ fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
         }
         Computed::Audit(specimen, Ok(found)) => session.audit.take(&specimen, found),
         Computed::StoneLight(number, light) => fitting::take_light(model, number, light),
+        Computed::Goal(path, Ok(goal)) => searching::take_goal(model, &path, *goal),
+        Computed::GoalSaved(path, Ok(())) => session.notes.say(&format!("{} saved", path.display())),
+        Computed::Goal(_, Err(why)) | Computed::GoalSaved(_, Err(why)) => session.notes.trouble(why),
+        Computed::Search(number, event) => searching::take(model, number, event),
         Computed::Audit(_, Err(why)) => session.notes.trouble(why),
         Computed::Copied(made) => {
             let name = session.awaited.copying.take().unwrap_or("The picture");
@@ -133,7 +140,11 @@ fn end_frame(model: &mut Model, tasks: &mut Vec<Task>, end: FrameEnd) {
     model.workspace.eye.settle();
     model.workspace.panes.iter_mut().filter_map(|p| p.own.as_mut()).for_each(super::eye::Eye::settle);
     model.session.views.note(&model.workspace, end.now);
-    model.document.settle();
+    match model.session.search.running() {
+        // All that a search finds becomes one step once it ends.
+        Some(running) => model.document.settle_with(running.before()),
+        None => model.document.settle(),
+    };
     if model.session.safe.noted != model.document.work {
         safe::note(model, tasks);
     }

@@ -1,0 +1,280 @@
+//! What a search for a better cut is asked for, as its window shows it: measures with weights and limits, and the numbers of the
+//! design that may change.
+
+use super::measure_map::MapAxis;
+use crate::cut::Cut;
+use crate::measure::{MeasureName, MeasureSettings, PatternSettings, ROCK_DEG};
+use crate::render::SweepKey;
+use crate::scene::DomeLight;
+use crate::search::{Goal, GoalMeasure, SearchOptions, VariedNumber};
+
+/// The proportions that may change at first, where a cut has them.
+const FIRST: [&str; 2] = ["crown_angle", "pavilion_angle"];
+
+/// How much time a search takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SearchEffort {
+    /// Few designs, measured roughly.
+    Quick,
+    /// As `optimise` searches by itself.
+    #[default]
+    Usual,
+    /// Many designs, from more hills.
+    Thorough,
+}
+
+impl SearchEffort {
+    /// All efforts, the quickest first.
+    pub const ALL: [Self; 3] = [Self::Quick, Self::Usual, Self::Thorough];
+
+    /// Returns the name on the screen.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Quick => "quick",
+            Self::Usual => "usual",
+            Self::Thorough => "thorough",
+        }
+    }
+
+    /// Returns what the effort means, in a sentence.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Quick => "Tries few designs, and leaves up to 1 % of the light open.",
+            Self::Usual => {
+                "Tries as many designs as the numbers need, and leaves up to 0.2 % of the light open."
+            }
+            Self::Thorough => "Tries three times as many designs, and goes on from twice as many of them.",
+        }
+    }
+
+    /// Returns the options of a search over so many numbers.
+    pub fn options(self, numbers: usize) -> SearchOptions {
+        let usual = SearchOptions::default();
+        match self {
+            Self::Quick => {
+                let scattered = Some(24 + 8 * numbers);
+                SearchOptions { unresolved: 0.01, scattered, climbs: 1, ..usual }
+            }
+            Self::Usual => usual,
+            Self::Thorough => {
+                SearchOptions { scattered: Some(240 + 75 * numbers), climbs: 2 * usual.climbs, ..usual }
+            }
+        }
+    }
+}
+
+/// A number of the design that a search may change.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NumberChoice {
+    /// The proportion or the tier.
+    pub key: SweepKey,
+    /// Its name on the screen.
+    pub name: String,
+    /// The unit behind its values.
+    pub unit: &'static str,
+    /// Its value in the present design.
+    pub value: f64,
+    /// The least and the greatest value that the search tries.
+    pub ends: [f64; 2],
+    /// The ends as they are before anyone changes them.
+    usual: [f64; 2],
+    /// Whether it may change.
+    pub is_varied: bool,
+}
+
+/// What a search is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GoalForm {
+    /// The measures, and the limits on the geometry that a goal file gave. The numbers that may change are those of `numbers`.
+    pub goal: Goal,
+    /// The numbers of the design, in the order of its table or its tiers.
+    pub numbers: Vec<NumberChoice>,
+    /// How much time the search takes.
+    pub effort: SearchEffort,
+}
+
+/// Why a search cannot begin.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum GoalFormFault {
+    /// No measure is raised or lowered.
+    #[error("Choose at least one measure of which more or less is wanted.")]
+    NoMeasure,
+    /// No number may change.
+    #[error("Tick at least one number that may change.")]
+    NoNumber,
+    /// The ends of a range are the wrong way round, or the design lies outside them.
+    #[error("{name}: the least value must be below the greatest, and the design's {value} between them.")]
+    Range {
+        /// The name of the number.
+        name: String,
+        /// Its value in the design, with its unit.
+        value: String,
+    },
+    /// Another fault of the goal.
+    #[error("{0}")]
+    Goal(#[from] crate::search::GoalFault),
+}
+
+impl Default for GoalForm {
+    fn default() -> Self {
+        let measure = MeasureName::Return(DomeLight::of(2.0));
+        Self { goal: Goal::of([(measure, 1.0)]), numbers: vec![], effort: SearchEffort::default() }
+    }
+}
+
+/// Returns the measures that a goal can weigh: the usual ones and those of the pattern that an eye sees.
+pub fn goal_measures() -> Vec<MeasureName> {
+    let pattern = PatternSettings { rock_deg: Some(ROCK_DEG), ..PatternSettings::usual(1.0) };
+    MeasureName::all(&MeasureSettings { pattern: Some(pattern), ..MeasureSettings::usual([1.0; 2]) })
+}
+
+impl GoalForm {
+    /// Takes the numbers of a cut. What was chosen for a number stays while cuts have it.
+    pub fn follow(&mut self, cut: &Cut) {
+        let axes = MapAxis::all(cut);
+        let all = VariedNumber::usual(cut);
+        let is_first = |key: &SweepKey| FIRST.iter().any(|first| *key == SweepKey::of(first));
+        let has_first = all.iter().any(|number| is_first(&number.key));
+        let number = |number: VariedNumber| {
+            let VariedNumber { key, least, most, start } = number;
+            let axis = axes.iter().find(|axis| axis.key == key);
+            let before = self.numbers.iter().find(|before| before.key == key);
+            let usual = [least, most];
+            NumberChoice {
+                name: axis.map_or_else(|| key.to_string(), |axis| axis.name.clone()),
+                unit: axis.map_or("", |axis| axis.unit),
+                value: start,
+                ends: before.filter(|before| before.ends != before.usual).map_or(usual, |before| before.ends),
+                usual,
+                is_varied: before.map_or(!has_first || is_first(&key), |before| before.is_varied),
+                key,
+            }
+        };
+        self.numbers = all.into_iter().map(number).collect();
+    }
+
+    /// Takes the goal of a file: its measures and limits, and its numbers as far as the design has them. Returns the keys of
+    /// the numbers that the design lacks.
+    pub fn take(&mut self, mut goal: Goal) -> Vec<String> {
+        let mut vary = std::mem::take(&mut goal.vary);
+        if !vary.is_empty() {
+            for number in &mut self.numbers {
+                let ends = vary.remove(&number.key.to_string());
+                number.is_varied = ends.is_some();
+                number.ends = ends.unwrap_or(number.usual);
+            }
+        }
+        self.goal = goal;
+        vary.into_keys().collect()
+    }
+
+    /// Returns the goal with the numbers that may change.
+    ///
+    /// # Errors
+    /// Why no search can begin with it.
+    pub fn wanted(&self) -> Result<Goal, GoalFormFault> {
+        if self.goal.measure.iter().all(|measure| measure.weight == 0.0) {
+            return Err(GoalFormFault::NoMeasure);
+        }
+        let varied = || self.numbers.iter().filter(|number| number.is_varied);
+        if varied().next().is_none() {
+            return Err(GoalFormFault::NoNumber);
+        }
+        if let Some(wrong) = varied().find(|number| !number.is_range()) {
+            let (name, value) = (wrong.name.clone(), wrong.written(wrong.value));
+            return Err(GoalFormFault::Range { name, value });
+        }
+        let mut goal = self.goal.clone();
+        goal.vary = varied().map(|number| (number.key.to_string(), number.ends)).collect();
+        goal.check()?;
+        Ok(goal)
+    }
+
+    /// Adds a measure: the first that is not weighed yet.
+    pub fn add_measure(&mut self) {
+        let all = goal_measures();
+        let is_free = |name: &&MeasureName| self.goal.measure.iter().all(|measure| measure.of != **name);
+        if let Some(of) = all.iter().find(is_free).or(all.first()) {
+            let new = GoalMeasure::new(*of, 1.0);
+            self.goal.measure.push(new);
+        }
+    }
+}
+
+impl NumberChoice {
+    fn is_range(&self) -> bool {
+        let [least, most] = self.ends;
+        least < most && (least..=most).contains(&self.value)
+    }
+
+    /// Writes a value with its unit.
+    pub fn written(&self, value: f64) -> String {
+        format!("{:.2}{}", value, self.unit)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::model::document::Document;
+
+    fn form() -> (GoalForm, Cut) {
+        let cut = Document::first().unwrap().work.design.cut;
+        let mut form = GoalForm::default();
+        form.follow(&cut);
+        (form, cut)
+    }
+
+    fn number<'a>(form: &'a mut GoalForm, name: &str) -> &'a mut NumberChoice {
+        form.numbers.iter_mut().find(|number| number.name == name).unwrap()
+    }
+
+    #[test]
+    fn a_form_varies_the_angles_first_and_keeps_what_was_chosen_while_the_design_changes() {
+        let (mut form, cut) = form();
+        let varied: Vec<_> =
+            form.numbers.iter().filter(|number| number.is_varied).map(|number| &number.name).collect();
+        assert_eq!(varied, ["Crown angle", "Pavilion angle"]);
+        number(&mut form, "Table").is_varied = true;
+        number(&mut form, "Crown angle").ends = [30.0, 38.0];
+        let changed = Document::of_library("modern-ideal").unwrap().work.design.cut;
+        assert_ne!(changed, cut);
+        form.follow(&changed);
+        assert!(number(&mut form, "Table").is_varied);
+        assert_eq!(number(&mut form, "Crown angle").ends, [30.0, 38.0]);
+        assert_eq!(form.wanted().unwrap().vary["crown_angle"], [30.0, 38.0]);
+    }
+
+    #[test]
+    fn a_form_says_what_is_missing() {
+        let (mut form, _) = form();
+        assert!(form.wanted().is_ok());
+        number(&mut form, "Crown angle").ends = [50.0, 38.0];
+        let fault = form.wanted().unwrap_err().to_string();
+        assert!(fault.starts_with("Crown angle: the least value"), "{fault}");
+        form.numbers.iter_mut().for_each(|number| number.is_varied = false);
+        assert_eq!(form.wanted(), Err(GoalFormFault::NoNumber));
+        form.goal.measure[0].weight = 0.0;
+        assert_eq!(form.wanted(), Err(GoalFormFault::NoMeasure));
+    }
+
+    #[test]
+    fn the_numbers_of_a_goal_file_are_ticked_and_those_that_the_design_lacks_are_named() {
+        let (mut form, _) = form();
+        let mut goal = Goal::of([(MeasureName::Fire, 2.0)]);
+        goal.vary = [("table".to_owned(), [52.0, 60.0]), ("tier:P1".to_owned(), [40.0, 42.0])].into();
+        assert_eq!(form.take(goal.clone()), ["tier:P1"]);
+        goal.vary.remove("tier:P1");
+        assert_eq!(form.wanted(), Ok(goal));
+    }
+
+    #[test]
+    fn a_measure_that_is_added_is_another_one() {
+        let mut form = GoalForm::default();
+        (0..3).for_each(|_| form.add_measure());
+        let mut names: Vec<_> = form.goal.measure.iter().map(|measure| measure.of.to_string()).collect();
+        names.sort();
+        names.dedup();
+        assert_eq!(names.len(), 4);
+    }
+}

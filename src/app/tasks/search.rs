@@ -1,0 +1,67 @@
+//! Searches for a better cut, on threads of their own.
+
+use crate::app::model::cut_search::{SearchEvent, SearchReport, SearchRequest};
+use crate::app::urgency;
+use crate::io::Failure;
+use crate::search::{DesignSearch, OtherMeasure, SearchError, SearchProgress};
+use rayon::ThreadPoolBuilder;
+use std::ops::ControlFlow;
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// How often progress without a better design is handed out.
+const EVERY: Duration = Duration::from_millis(60);
+
+/// Carries out a search; `say` hears of its progress.
+///
+/// # Errors
+/// The goal or the design is at fault; [`Failure::Stopped`] where the search was stopped before it began.
+pub fn search(
+    request: &SearchRequest,
+    say: &(dyn Fn(SearchEvent) + Sync),
+    is_stopped: &(dyn Fn() -> bool + Sync),
+) -> Result<Box<SearchReport>, Failure> {
+    // In the pool of the tracers, pictures of the best would wait for the search: these threads come after all of them.
+    let threads = ThreadPoolBuilder::new()
+        .thread_name(|k| format!("search {k}"))
+        .start_handler(|_| urgency::lower_most())
+        .build();
+    let found = match threads {
+        Ok(threads) => threads.install(|| found(request, say, is_stopped)),
+        Err(_) => found(request, say, is_stopped),
+    };
+    found.map_err(|error| match error {
+        SearchError::Stopped => Failure::Stopped,
+        error => Failure::Input(error.to_string()),
+    })
+}
+
+fn found(
+    request: &SearchRequest,
+    say: &(dyn Fn(SearchEvent) + Sync),
+    is_stopped: &(dyn Fn() -> bool + Sync),
+) -> Result<Box<SearchReport>, SearchError> {
+    let watch = |_: f64| match is_stopped() {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    };
+    let search = DesignSearch::new(&request.design, &request.goal, request.options, &watch)?;
+    let said: Mutex<Option<Instant>> = Mutex::default();
+    let outcome = search.run(&watch, &|progress: &SearchProgress| {
+        // Every message draws the window anew.
+        let mut said = said.lock().unwrap_or_else(PoisonError::into_inner);
+        if progress.new_best.is_some() || said.is_none_or(|last| last.elapsed() >= EVERY) {
+            *said = Some(Instant::now());
+            say(SearchEvent::Progress(progress.clone()));
+        }
+    })?;
+    let others = OtherMeasure::all(&search, &outcome, &crate::trace::unwatched)?;
+    let objective = search.objective();
+    Ok(Box::new(SearchReport {
+        start: objective.start().clone(),
+        numbers: objective.numbers().to_vec(),
+        held: objective.held().to_vec(),
+        others,
+        outcome,
+    }))
+}

@@ -1,0 +1,73 @@
+//! What a search changed besides what its goal weighs: a better design by one measure may be a worse one by another.
+
+use super::appraisal::{GoalValue, SearchError};
+use super::outcome::SearchOutcome;
+use super::run::DesignSearch;
+use crate::cut::Design;
+use crate::measure::{Interval, MeasureName, MeasureSettings};
+use crate::optics::line;
+use crate::render::Sweep;
+use crate::scene::Viewpoint;
+use crate::trace::Watch;
+
+/// A measure that the goal does not weigh, face up and in the design's own material.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OtherMeasure {
+    /// The measure.
+    pub name: MeasureName,
+    /// Its value in the design as it was given.
+    pub before: Interval,
+    /// Its value in the design that was found.
+    pub after: Interval,
+}
+
+impl OtherMeasure {
+    /// Takes the usual measures of the design as it was given and of the one that was found, but for those that the goal weighs.
+    ///
+    /// # Errors
+    /// One of the designs cannot be measured, or `watch` stops.
+    pub fn all(
+        search: &DesignSearch,
+        outcome: &SearchOutcome,
+        watch: Watch,
+    ) -> Result<Vec<Self>, SearchError> {
+        let options = search.options();
+        let measured = |design: &Design| {
+            let sweep = Sweep {
+                design: design.clone(),
+                viewpoint: Viewpoint::default(),
+                axes: vec![],
+                settings: MeasureSettings::usual([1.0; 2]),
+                wavelength_nm: line::SODIUM_D,
+                unresolved: options.unresolved,
+                polarised: options.polarised,
+            };
+            sweep.point(0, watch)
+        };
+        let (before, after) = (measured(search.objective().design())?, measured(&outcome.design)?);
+        let is_weighed = |name: &MeasureName| {
+            let is_it =
+                |value: &GoalValue| value.of == *name && value.material.is_none() && value.tilt_deg == 0.0;
+            outcome.best.values.iter().any(is_it)
+        };
+        let names = MeasureName::all(&MeasureSettings::usual([1.0; 2]));
+        let other = |name: MeasureName| {
+            let (before, after) = (name.of(&before.measures)?, name.of(&after.measures)?);
+            Some(Self { name, before, after })
+        };
+        Ok(names.into_iter().filter(|name| !is_weighed(name)).filter_map(other).collect())
+    }
+
+    /// Returns whether people want more of the measure (1), less (-1), or neither (0).
+    pub fn wanted(&self) -> f64 {
+        match self.name {
+            MeasureName::Leakage
+            | MeasureName::Windowing
+            | MeasureName::Obstruction
+            | MeasureName::Extinction
+            | MeasureName::Absorbed => -1.0,
+            MeasureName::Contrast => 0.0,
+            _ => 1.0,
+        }
+    }
+}
