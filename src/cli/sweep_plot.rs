@@ -3,7 +3,7 @@
 use super::plot_file::PlotFile;
 use crate::cut::Cut;
 use crate::io::Failure;
-use crate::io::plot::{PlotAxis, PlotCurve, PlotError, curves, heat_map};
+use crate::io::plot::{PLOT_SIZE, PlotAxis, PlotCurve, PlotError, curves, heat_map};
 use crate::measure::{Interval, MeasureName};
 use crate::render::{SweepAxis, SweepKey, SweepValue, SweptStone};
 use std::path::Path;
@@ -79,7 +79,7 @@ impl<'a> SweepPlot<'a> {
                     bands: self.points.iter().map(|point| point[k].map(percent)).collect(),
                 };
                 let all: Vec<PlotCurve> = measures.iter().enumerate().map(curve).collect();
-                curves(title, &axes[0], "% of face", &all)
+                curves((title, PLOT_SIZE), &axes[0], "% of face", &all)
             }
         }
     }

@@ -6,8 +6,8 @@ use plotters::prelude::*;
 use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
 use std::ops::Range;
 
-/// The size of a plot, in units of its drawing.
-const SIZE: (u32, u32) = (1000, 680);
+/// The usual size of a plot, in units of its drawing.
+pub const PLOT_SIZE: (u32, u32) = (1000, 680);
 
 /// The width of a map's scale of colours.
 const SCALE_WIDTH: i32 = 150;
@@ -110,16 +110,21 @@ impl PlotAxis {
     }
 }
 
-/// Draws curves over one axis. `unit` stands beside their values.
+/// Draws curves over one axis, on a plot of this size in units of its drawing. `unit` stands beside their values.
 ///
 /// # Errors
 /// A [`PlotError`]: an axis that does not rise or fall, or no number.
-pub fn curves(title: &str, axis: &PlotAxis, unit: &str, curves: &[PlotCurve]) -> Result<String, PlotError> {
+pub fn curves(
+    (title, size): (&str, (u32, u32)),
+    axis: &PlotAxis,
+    unit: &str,
+    curves: &[PlotCurve],
+) -> Result<String, PlotError> {
     let across = axis.ends()?;
     let all = || curves.iter().flat_map(|curve| curve.bands.iter().flatten().flatten().copied());
     let up = room(all()).ok_or(PlotError::Nothing)?;
-    drawn(|root| {
-        let (left, right) = root.split_horizontally(SIZE.0 as i32 - KEY_WIDTH);
+    drawn(size, |root| {
+        let (left, right) = root.split_horizontally(size.0 as i32 - KEY_WIDTH);
         draw_key(&right, curves)?;
         let mut chart = ChartBuilder::on(&left)
             .margin(24)
@@ -201,8 +206,8 @@ pub fn heat_map(
         values.iter().flatten().fold((range.end, range.start), |(l, h), v| (l.min(*v), h.max(*v)));
     let range = if high > low { low..high } else { range };
     let levels = levels(&range);
-    drawn(|root| {
-        let (left, right) = root.split_horizontally(SIZE.0 as i32 - SCALE_WIDTH);
+    drawn(PLOT_SIZE, |root| {
+        let (left, right) = root.split_horizontally(PLOT_SIZE.0 as i32 - SCALE_WIDTH);
         draw_map((&left, title), (x, y), values, (&range, &levels))?;
         draw_scale(&right, unit, &range, &levels)
     })
@@ -288,10 +293,13 @@ fn draw_scale(area: &Area, unit: &str, range: &Range<f64>, levels: &[f64]) -> Re
     Ok(())
 }
 
-fn drawn(draw: impl FnOnce(&Area) -> Result<(), PlotError>) -> Result<String, PlotError> {
+fn drawn(
+    size: (u32, u32),
+    draw: impl FnOnce(&Area) -> Result<(), PlotError>,
+) -> Result<String, PlotError> {
     let mut text = String::new();
     {
-        let root = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+        let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
         root.fill(&WHITE).map_err(failed)?;
         draw(&root)?;
         root.present().map_err(failed)?;
@@ -430,11 +438,11 @@ mod tests {
         let x = axis("x", &[1.0, 2.0, 3.0, 4.0, 5.0]);
         let of = |gap: Option<usize>| {
             let bands = (0..5).map(|k| (Some(k) != gap).then_some([k as f64, k as f64 + 0.5])).collect();
-            curves("t", &x, "%", &[PlotCurve { name: "fire".into(), bands }]).unwrap()
+            curves(("t", PLOT_SIZE), &x, "%", &[PlotCurve { name: "fire".into(), bands }]).unwrap()
         };
         let parts = |text: &str| text.matches("<polygon").count();
         assert_eq!(parts(&of(Some(2))), parts(&of(None)) + 1);
         assert!(of(None).contains("fire"));
-        assert_eq!(curves("t", &x, "%", &[]), Err(PlotError::Nothing));
+        assert_eq!(curves(("t", PLOT_SIZE), &x, "%", &[]), Err(PlotError::Nothing));
     }
 }

@@ -2,7 +2,7 @@
 //! design, which a click or a drag moves.
 
 use super::map_lines::{MapLinesOf, map_lines};
-use super::measure_words;
+use crate::measure::measure_words;
 use crate::app::arrows;
 use crate::app::model::action::{Actions, Edit};
 use crate::app::model::growing_sweep::FoundSweep;

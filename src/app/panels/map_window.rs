@@ -1,7 +1,7 @@
 //! The window with the map of a measure: what is mapped over what, the map, and what is under the pointer.
 
 use super::map_plot::{MapPlot, MapReading};
-use super::measure_words;
+use crate::measure::measure_words;
 use super::rows::{ANY, NUMBER, Number, choice_row, named};
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};

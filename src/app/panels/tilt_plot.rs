@@ -1,6 +1,6 @@
 //! The plot against tilt of one measure, toward several azimuths, each with the band in which it certainly lies.
 
-use super::measure_words;
+use crate::measure::measure_words;
 use super::rows::choice_row;
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
