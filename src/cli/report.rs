@@ -5,7 +5,7 @@ use super::mesh_options::MeshArguments;
 use super::options::{LightOptions, SideName, ViewOptions};
 use super::progress::WorkProgress;
 use crate::cut::Size;
-use crate::io::report::{ReportFormat, ReportOrigin, check_count, report, write};
+use crate::io::report::{PICTURE_SIDE, ReportFormat, ReportOrigin, check_count, report, write};
 use crate::io::{Failure, is_standard};
 use crate::picture::PaperSize;
 use crate::render::{Card, Renderer, Wanted};
@@ -26,6 +26,9 @@ pub struct ReportArguments {
     /// A date to print, in any words; without one the same report is the same every day
     #[arg(long, value_name = "TEXT")]
     date: Option<String>,
+    /// Pixels along each side of a picture, 16 to 2000
+    #[arg(long, value_name = "N", default_value_t = PICTURE_SIDE, value_parser = clap::value_parser!(u32).range(16..=2000))]
+    pixels: u32,
     /// A material's name, or an index, instead of the files'
     #[arg(long, value_name = "MATERIAL")]
     material: Option<String>,
@@ -40,7 +43,10 @@ impl ReportArguments {
     pub fn run(&self) -> Result<(), Failure> {
         let format = ReportFormat::of_name(&self.out).filter(|_| !is_standard(&self.out));
         let format = format.ok_or_else(|| {
-            Failure::Usage(format!("--out {}: give a file whose name ends in .pdf or .html", self.out.display()))
+            Failure::Usage(format!(
+                "--out {}: give a file whose name ends in .pdf or .html",
+                self.out.display()
+            ))
         })?;
         check_count(self.files.len())?;
         let light = self.light();
@@ -54,7 +60,8 @@ impl ReportArguments {
         for specimen in &specimens {
             viewings.push(light.viewing(specimen, &FACE_UP, &renderer)?);
         }
-        let origin = ReportOrigin { command: self.command(), date: self.date.clone() };
+        let (command, date) = (self.command(), self.date.clone());
+        let origin = ReportOrigin { command, picture_side: self.pixels, date };
         let report = {
             let progress = WorkProgress::new("report");
             report(&viewings, &origin, &mut renderer, &progress.watch(), &|event| progress.report(event))?
@@ -84,7 +91,12 @@ impl ReportArguments {
         let mut words = vec!["brillianteer".to_owned(), "report".to_owned()];
         words.extend(self.files.iter().map(|file| file.display().to_string()));
         words.extend(self.material.iter().flat_map(|material| ["--material".to_owned(), material.clone()]));
-        words.extend(self.stone.iter().flat_map(|size| ["--stone".to_owned(), size.to_string().replace(' ', "")]));
+        words.extend(
+            self.stone.iter().flat_map(|size| ["--stone".to_owned(), size.to_string().replace(' ', "")]),
+        );
+        if self.pixels != PICTURE_SIDE {
+            words.extend(["--pixels".to_owned(), self.pixels.to_string()]);
+        }
         words.extend(self.mesh.words());
         let quoted = |word: String| if word.contains(' ') { format!("'{word}'") } else { word };
         words.into_iter().map(quoted).collect::<Vec<_>>().join(" ")
@@ -114,10 +126,15 @@ mod tests {
 
     #[test]
     fn a_report_says_what_makes_it_again() {
-        let said = command("a.toml b.stl -o x.pdf --date today --paper letter --stone 1.5ct --up -y --as faceted");
-        let again = "brillianteer report a.toml b.stl --stone 1.5ct --up 0,-1,0 --as faceted";
+        let said = command(
+            "a.toml b.stl -o x.pdf --date today --paper letter --stone 1.5ct --pixels 99 --up -y --as faceted",
+        );
+        let again = "brillianteer report a.toml b.stl --stone 1.5ct --pixels 99 --up 0,-1,0 --as faceted";
         assert_eq!(said, again);
-        assert_eq!(command(&again["brillianteer report ".len()..].replace("b.stl", "b.stl -o y.html")), again);
+        assert_eq!(
+            command(&again["brillianteer report ".len()..].replace("b.stl", "b.stl -o y.html")),
+            again
+        );
         assert_eq!(command("oval -o x.html --material ruby"), "brillianteer report oval --material ruby");
     }
 
@@ -126,7 +143,10 @@ mod tests {
         for out in ["report", "report.svg", "-"] {
             let line = ["brillianteer", "report", "tolkowsky", "-o", out];
             let error = run_line(line.map(Into::into).to_vec()).unwrap_err();
-            assert!(error.to_string().contains(".pdf or .html") && matches!(error, Failure::Usage(_)), "{error}");
+            assert!(
+                error.to_string().contains(".pdf or .html") && matches!(error, Failure::Usage(_)),
+                "{error}"
+            );
         }
     }
 }

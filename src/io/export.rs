@@ -11,12 +11,12 @@ mod viewing;
 #[cfg(test)]
 mod tests;
 
+pub(in crate::io) use event::WorkShares;
 pub use event::{Event, Reporter};
 pub use figures::{FigureReport, measure};
 pub use hearts::{HeartsReport, hearts};
 pub use measures::{MeasureReport, light_measures};
 pub use viewing::Viewing;
-pub(in crate::io) use event::WorkShares;
 pub(in crate::io) use viewing::note;
 
 use super::{Failure, WriteError, is_standard, write};

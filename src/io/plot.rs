@@ -293,10 +293,7 @@ fn draw_scale(area: &Area, unit: &str, range: &Range<f64>, levels: &[f64]) -> Re
     Ok(())
 }
 
-fn drawn(
-    size: (u32, u32),
-    draw: impl FnOnce(&Area) -> Result<(), PlotError>,
-) -> Result<String, PlotError> {
+fn drawn(size: (u32, u32), draw: impl FnOnce(&Area) -> Result<(), PlotError>) -> Result<String, PlotError> {
     let mut text = String::new();
     {
         let root = SVGBackend::with_string(&mut text, size).into_drawing_area();

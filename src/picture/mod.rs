@@ -58,8 +58,8 @@ pub use profile::profile;
 pub use raster::Rows;
 pub use refraction::{Backdrop, Carried, MapBand, RefractionMap, SourcePlace, Survey, refract};
 pub use report::{
-    EmbeddedDrawing, FigureRow, Report, ReportCell, ReportColumn, ReportFigure, ReportPart, ReportTable, TextFlow,
-    report_pages,
+    EmbeddedDrawing, FigureRow, Report, ReportCell, ReportColumn, ReportFigure, ReportPart, ReportTable,
+    TextFlow, report_pages,
 };
 pub use sheet::{BlockKind, CuttingSheet, PaperSize, SheetBlock, SheetRow, sheet_pages};
 pub use temporal::{MotionVector, TemporalHistory};

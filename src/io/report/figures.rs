@@ -31,7 +31,9 @@ pub(super) fn bounded(found: Interval) -> [String; 2] {
 pub(super) fn designed(stone: &ReportedStone) -> Vec<[String; 2]> {
     let cut = &stone.viewing.specimen.design.cut;
     let rows = cut.proportions().iter().map(|row| (row, (row.get)(cut)));
-    rows.filter(|(_, value)| value.is_finite()).map(|(row, value)| [row.name.to_owned(), row.written(value)]).collect()
+    rows.filter(|(_, value)| value.is_finite())
+        .map(|(row, value)| [row.name.to_owned(), row.written(value)])
+        .collect()
 }
 
 /// Returns the proportions that are measured on a convex stone; none of another solid.
@@ -210,7 +212,9 @@ fn add_pattern(table: &mut ReportTable, name: &str, pattern: &EightfoldPattern) 
             format!("{} ({}) {:+.3}", worst.octant, pattern.mains[worst.octant - 1], worst.by)
         });
         let label = format!("{name}: {}, {unit}", figure.name);
-        table.rows.push([label, number(figure.median), number(figure.spread), worst].map(Into::into).to_vec());
+        table
+            .rows
+            .push([label, number(figure.median), number(figure.spread), worst].map(Into::into).to_vec());
     }
     let label = format!("{name}: departure from eightfold, % of its area");
     let worst = pattern.worst();

@@ -38,7 +38,11 @@ pub fn report_html(report: &Report) -> String {
             ReportPart::Table(table) => writeln!(page, "{}", rows(table)),
         };
     }
-    let _ = writeln!(page, "<footer>\n{}</footer>\n</main>\n</body>\n</html>", pairs("provenance", &report.provenance));
+    let _ = writeln!(
+        page,
+        "<footer>\n{}</footer>\n</main>\n</body>\n</html>",
+        pairs("provenance", &report.provenance)
+    );
     page
 }
 
@@ -77,7 +81,8 @@ fn rows(table: &ReportTable) -> String {
     };
     if table.has_heads() {
         let head = table.columns.iter();
-        let head = head.map(|column| format!("<th class=\"{}\">{}</th>", of(column.flow), escaped(&column.head)));
+        let head =
+            head.map(|column| format!("<th class=\"{}\">{}</th>", of(column.flow), escaped(&column.head)));
         let _ = writeln!(text, "<thead><tr>{}</tr></thead>", head.collect::<String>());
     }
     text += "<tbody>\n";

@@ -49,11 +49,16 @@ impl ReportFormat {
     }
 }
 
-/// How a report comes about, as it says itself.
-#[derive(Debug, Clone, PartialEq, Default)]
+/// The usual number of pixels along each side of a picture: 300 an inch where five stand side by side.
+pub const PICTURE_SIDE: u32 = 420;
+
+/// How a report comes about.
+#[derive(Debug, Clone, PartialEq)]
 pub struct ReportOrigin {
     /// The command that makes the same report again.
     pub command: String,
+    /// The number of pixels along each side of a picture, above 0.
+    pub picture_side: u32,
     /// The date, in whatever words; a report without one is the same every day.
     pub date: Option<String>,
 }
@@ -86,7 +91,9 @@ pub fn report(
     let mut shares = WorkShares::new(watch, count as f64);
     let mut stones = vec![];
     for viewing in viewings {
-        stones.push(shares.step(1.0, |watch| ReportedStone::examine(viewing, renderer, watch, tell))?);
+        stones.push(shares.step(1.0, |watch| {
+            ReportedStone::examine((viewing, origin.picture_side), renderer, watch, tell)
+        })?);
     }
     match stones.as_slice() {
         [stone] => single::report(stone, origin),

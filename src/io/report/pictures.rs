@@ -7,21 +7,18 @@ use crate::io::png_bytes::png;
 use crate::measure::facet_deviations;
 use crate::optics::linear_from_encoded;
 use crate::picture::{
-    Background, Develop, DiagramStyle, EmbeddedDrawing, Linear, Palette, Picture, Scoped, develop, diagram, named,
-    profile,
+    Background, Develop, DiagramStyle, EmbeddedDrawing, Linear, Palette, Picture, Scoped, develop, diagram,
+    named, profile,
 };
 use crate::render::{
     Job, LightProduct, Partial, Product, Quality, Reading, Renderer, ScopeProduct, Steps, Surroundings,
 };
 use crate::scene::Scene;
 use crate::trace::Watch;
+use ::png::{BitDepth, ColorType};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use ::png::{BitDepth, ColorType};
 use std::sync::Arc;
-
-/// The pixels along each side of a picture: 300 an inch where five stand side by side.
-const SIDE: u32 = 420;
 
 /// The bands of wavelengths of the picture under light.
 const WAVELENGTHS: u32 = 8;
@@ -45,7 +42,7 @@ pub(super) struct NamedDrawing {
     pub drawing: EmbeddedDrawing,
 }
 
-/// Returns the number of pictures that [`pictures`] takes of a stone.
+/// Returns the scopes that are for the cut of a stone, each with what it is called.
 fn scopes(viewing: &Viewing) -> Vec<(&'static str, Scoped)> {
     let is_round = viewing.specimen.stone().is_ok_and(|stone| facet_deviations(stone).is_ok());
     let more = if is_round { SCOPES_OF_ROUNDS.as_slice() } else { &[] };
@@ -56,9 +53,9 @@ fn scopes(viewing: &Viewing) -> Vec<(&'static str, Scoped)> {
     SCOPES.iter().chain(more).filter_map(scoped).collect()
 }
 
-/// Takes the pictures of a stone: under light, and in every scope that is for its cut.
+/// Takes the pictures of a stone, `side` pixels along each side: under light, and in every scope that is for its cut.
 pub(super) fn pictures(
-    viewing: &Viewing,
+    (viewing, side): (&Viewing, u32),
     renderer: &mut Renderer,
     watch: Watch,
     tell: Reporter,
@@ -66,16 +63,16 @@ pub(super) fn pictures(
     let scopes = scopes(viewing);
     let count = scopes.len() as f64 + 1.0;
     let part = |k: usize| move |done: f64| watch((k as f64 + done) / count);
-    let mut all = vec![under_light(viewing, renderer, &part(0), tell)?];
+    let mut all = vec![under_light((viewing, side), renderer, &part(0), tell)?];
     for (k, (name, scoped)) in scopes.iter().enumerate() {
-        let drawing = in_scope(viewing, scoped, renderer, &part(k + 1), tell)?;
+        let drawing = in_scope((viewing, side), scoped, renderer, &part(k + 1), tell)?;
         all.push(NamedDrawing { name, drawing });
     }
     Ok(all)
 }
 
 fn in_scope(
-    viewing: &Viewing,
+    (viewing, side): (&Viewing, u32),
     scoped: &Scoped,
     renderer: &mut Renderer,
     watch: Watch,
@@ -87,7 +84,7 @@ fn in_scope(
     let palette = Palette::of(&scope);
     let (medium, glare) = (viewing.medium, viewing.glare.unwrap_or_default());
     let product = Product::Scope(ScopeProduct { scope, medium, glare, readings: vec![Reading::Energy] });
-    let job = viewing.job(viewing.film(SIDE), product, UNRESOLVED);
+    let job = viewing.job(viewing.film(side), product, UNRESOLVED);
     let mut rgb: Vec<u8> = vec![];
     renderer.run(&job, watch, &mut |part| match part {
         Partial::Begun { .. } => {
@@ -102,11 +99,11 @@ fn in_scope(
         }
         other => note(&other, tell),
     })?;
-    drawn(&rgb)
+    drawn(side, &rgb)
 }
 
 fn under_light(
-    viewing: &Viewing,
+    (viewing, side): (&Viewing, u32),
     renderer: &mut Renderer,
     watch: Watch,
     tell: Reporter,
@@ -121,11 +118,11 @@ fn under_light(
     });
     let scene = Arc::new(Scene::alone(viewing.specimen));
     let quality = Quality { tracer: viewing.tracer, ..Quality::of_pictures(viewing.polarised) };
-    let job = Job { scene, view: viewing.view(), film: viewing.film(SIDE), product, quality };
-    let mut light = Linear { width: SIDE, height: SIDE, pixels: vec![] };
+    let job = Job { scene, view: viewing.view(), film: viewing.film(side), product, quality };
+    let mut light = Linear { width: side, height: side, pixels: vec![] };
     renderer.run(&job, watch, &mut |part| match part {
         Partial::LightRow { y, pixels } => {
-            light.pixels.truncate(y as usize * SIDE as usize);
+            light.pixels.truncate(y as usize * side as usize);
             light.pixels.extend_from_slice(pixels);
             Ok(())
         }
@@ -133,17 +130,16 @@ fn under_light(
     })?;
     let paper = [linear_from_encoded(f64::from(BEHIND) / 255.0) as f32; 3];
     let manner = Develop { bloom: None, background: Background::Plain(paper), ..Develop::default() };
-    let rgb: Vec<u8> =
-        develop(&light, &manner).chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
-    Ok(NamedDrawing { name: "Studio light", drawing: drawn(&rgb)? })
+    let rgb: Vec<u8> = develop(&light, &manner).chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+    Ok(NamedDrawing { name: "Studio light", drawing: drawn(side, &rgb)? })
 }
 
 /// Makes a drawing of the pixels of a picture, which stands in it whole.
-fn drawn(rgb: &[u8]) -> Result<EmbeddedDrawing, Failure> {
-    let bytes = png([SIDE; 2], (ColorType::Rgb, BitDepth::Eight), rgb, &[]);
+fn drawn(side: u32, rgb: &[u8]) -> Result<EmbeddedDrawing, Failure> {
+    let bytes = png([side; 2], (ColorType::Rgb, BitDepth::Eight), rgb, &[]);
     let bytes = bytes.map_err(|e| Failure::Output(format!("a picture of the report: {e}")))?;
     let href = format!("data:image/png;base64,{}", STANDARD.encode(bytes));
-    Ok(EmbeddedDrawing::of_picture([SIDE; 2], &href))
+    Ok(EmbeddedDrawing::of_picture([side; 2], &href))
 }
 
 /// Draws the profile and the facet diagram of a stone; none of a solid that is no convex stone.

@@ -46,9 +46,9 @@ pub(super) enum StoneLight<'a> {
 }
 
 impl<'a> ReportedStone<'a> {
-    /// Takes the pictures and the measures of a stone.
+    /// Takes the pictures and the measures of a stone; `side` is that of the pictures in pixels.
     pub fn examine(
-        viewing: &Viewing<'a>,
+        (viewing, side): (&Viewing<'a>, u32),
         renderer: &mut Renderer,
         watch: Watch,
         tell: Reporter,
@@ -62,7 +62,7 @@ impl<'a> ReportedStone<'a> {
         let mut shares = WorkShares::new(watch, SHARES.iter().sum());
         let step = |what: &str| tell(Event::Begun(&format!("{}: {what}", viewing.file)));
         step("pictures")?;
-        let pictures = shares.step(SHARES[0], |watch| pictures(&viewing, renderer, watch, tell))?;
+        let pictures = shares.step(SHARES[0], |watch| pictures((&viewing, side), renderer, watch, tell))?;
         step("measures")?;
         let light = shares.step(SHARES[1], |watch| {
             if !by_beams {
@@ -78,9 +78,8 @@ impl<'a> ReportedStone<'a> {
         let tilts = shares.step(SHARES[2], |watch| {
             by_beams.then(|| TiltCurves::of(&viewing, parts >= ALIKE_PARTS, watch)).transpose()
         })?;
-        let hearts = shares.step(SHARES[3], |watch| {
-            (by_beams && is_round).then(|| hearts(&viewing, watch)).transpose()
-        })?;
+        let hearts = shares
+            .step(SHARES[3], |watch| (by_beams && is_round).then(|| hearts(&viewing, watch)).transpose())?;
         let (fingerprint, drawings) = (fingerprint(&specimen.body), drawings(&viewing));
         Ok(Self { viewing, fingerprint, pictures, drawings, light, tilts, hearts })
     }
@@ -121,7 +120,10 @@ impl<'a> ReportedStone<'a> {
             fact("Index", format!("{:.4}{nm}", self.viewing.medium.index)),
             fact("Size", self.size()),
             fact("Weight", weight),
-            fact("Shape", self.viewing.specimen.design.cut.family().map_or("by its facets", |f| f.name).to_owned()),
+            fact(
+                "Shape",
+                self.viewing.specimen.design.cut.family().map_or("by its facets", |f| f.name).to_owned(),
+            ),
             fact("Facets", facets),
             fact("Symmetry", self.symmetry_in_words()),
             fact("Geometry", self.fingerprint[..16].to_owned()),
@@ -153,7 +155,9 @@ impl<'a> ReportedStone<'a> {
         };
         let exact = symmetry(&self.viewing);
         match (&self.viewing.specimen.design.cut, exact) {
-            (Cut::Tiers(tiers), Some(exact)) if exact.order() == 1 && (tiers.symmetry > 1 || tiers.mirror) => {
+            (Cut::Tiers(tiers), Some(exact))
+                if exact.order() == 1 && (tiers.symmetry > 1 || tiers.mirror) =>
+            {
                 format!("{} by its file", words(tiers.symmetry, tiers.mirror))
             }
             (_, Some(exact)) => words(exact.turns, exact.mirror.is_some()),

@@ -1,4 +1,5 @@
 use super::*;
+use crate::io::drawing_png::legible::assert_legible;
 use crate::io::{cut_file, library};
 use crate::measure::STANDARD_ERROR;
 use crate::render::{Card, Wanted};
@@ -27,9 +28,12 @@ fn viewing<'a>(specimen: &'a Specimen, file: &'a str) -> Viewing<'a> {
     }
 }
 
+fn origin() -> ReportOrigin {
+    ReportOrigin { command: "brillianteer report <it>".to_owned(), picture_side: 24, date: None }
+}
+
 fn reported(viewings: &[Viewing]) -> Report {
-    let origin = ReportOrigin { command: "brillianteer report <it>".to_owned(), date: None };
-    report(viewings, &origin, &mut Renderer::new(Card::None), &unwatched, &|_| Ok(())).unwrap()
+    report(viewings, &origin(), &mut Renderer::new(Card::None), &unwatched, &|_| Ok(())).unwrap()
 }
 
 fn headings(report: &Report) -> Vec<&str> {
@@ -66,6 +70,35 @@ fn a_page_holds_all_that_it_shows_and_a_report_is_the_same_every_time() {
 }
 
 #[test]
+fn no_text_of_a_report_leaves_its_page_or_overlaps_another_whatever_is_said() {
+    let cube = specimen(include_str!("../../../tests/fixtures/cube.toml"));
+    let mut found = reported(&[viewing(&cube, "cube.toml")]);
+    let long = "a name that goes on and on without an end in sight ".repeat(6);
+    for title in [String::new(), long] {
+        found.title.clone_from(&title);
+        found.subtitle.clone_from(&title);
+        found.mark.clone_from(&title);
+        found.facts.iter_mut().for_each(|[_, value]| value.push_str(&title));
+        found.provenance.iter_mut().for_each(|[_, value]| value.push_str(&title));
+        let tables = found.parts.iter_mut().filter_map(|part| match part {
+            crate::picture::ReportPart::Table(table) => Some(table),
+            _ => None,
+        });
+        for table in tables {
+            // Many rows, of which one has long cells.
+            let first = table.rows[0].clone();
+            table.rows[0].iter_mut().for_each(|cell| cell.text.push_str(&title));
+            table.rows.extend(std::iter::repeat_n(first, 90));
+        }
+        for paper in [PaperSize::A4, PaperSize::Letter] {
+            let pages = report_pages(&found, paper);
+            assert!(pages.len() > 3, "{} pages", pages.len());
+            pages.iter().for_each(|page| assert_legible(&page.to_string()));
+        }
+    }
+}
+
+#[test]
 fn stones_are_compared_in_columns_and_a_solid_without_facets_has_its_sampled_light() {
     let cube = specimen(include_str!("../../../tests/fixtures/cube.toml"));
     let slanted = specimen(include_str!("../../../tests/fixtures/slanted.toml"));
@@ -80,7 +113,7 @@ fn stones_are_compared_in_columns_and_a_solid_without_facets_has_its_sampled_lig
     }
     assert!(headings(&compared).contains(&"Profiles and facet diagrams"));
     assert_eq!(compared.provenance[1][1], fingerprint(&slanted.body));
-    let none = report(&[], &ReportOrigin::default(), &mut Renderer::new(Card::None), &unwatched, &|_| Ok(()));
+    let none = report(&[], &origin(), &mut Renderer::new(Card::None), &unwatched, &|_| Ok(()));
     assert!(none.unwrap_err().to_string().contains("1 to 7"));
     let pill = specimen(library::cut("pill").unwrap());
     let alone = reported(&[viewing(&pill, "pill.toml")]);

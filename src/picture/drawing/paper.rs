@@ -4,8 +4,8 @@ use super::lettering::{Align, Frame, Type, printable, text_frame};
 use super::{Ink, Sheet};
 use glam::DVec2;
 use svg::node::Blob;
-use svg::{Document, Node};
 use svg::node::element::{Group, Rectangle, Title};
+use svg::{Document, Node};
 
 /// Width of the line round the letters that makes them heavier, in type sizes.
 const HEAVIER: f64 = 0.035;

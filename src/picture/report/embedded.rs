@@ -72,9 +72,17 @@ mod tests {
         ] {
             let drawing = EmbeddedDrawing::of(svg).unwrap();
             assert_eq!((drawing.aspect(), drawing.content.trim()), (1.5, "<g/>"));
-            assert!(drawing.element("a").starts_with("<svg viewBox=\"1 2 30 20\" role=\"img\" aria-label=\"a\">"));
+            assert!(
+                drawing.element("a").starts_with("<svg viewBox=\"1 2 30 20\" role=\"img\" aria-label=\"a\">")
+            );
         }
-        for bad in ["", "<svg/>", "<svg><g/></svg>", "<svg viewBox=\"0 0 1\"></svg>", "<svg viewBox=\"0 0 0 1\"></svg>"] {
+        for bad in [
+            "",
+            "<svg/>",
+            "<svg><g/></svg>",
+            "<svg viewBox=\"0 0 1\"></svg>",
+            "<svg viewBox=\"0 0 0 1\"></svg>",
+        ] {
             assert_eq!(EmbeddedDrawing::of(bad), None, "{bad}");
         }
     }

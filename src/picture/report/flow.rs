@@ -226,8 +226,7 @@ impl ReportFlow {
 /// Writes the small line at the foot of a page.
 fn foot(sheet: &mut Sheet, frame: Frame, (page, pages): (usize, usize), report: &Report) {
     let y = frame.high.y + FOOT - 6.0;
-    let program =
-        format!("page {page} of {pages} · Brillianteer {}", env!("CARGO_PKG_VERSION"));
+    let program = format!("page {page} of {pages} · Brillianteer {}", env!("CARGO_PKG_VERSION"));
     sheet.plain_text(SMALL, Align::End, DVec2::new(frame.high.x, y), &program);
     let said = match report.mark.is_empty() {
         true => report.title.clone(),

@@ -37,14 +37,15 @@ fn letters(pdf: &[u8]) -> BTreeSet<char> {
 #[test]
 fn a_report_is_written_as_pdf_whose_text_can_be_searched_and_is_the_same_again() {
     let desk = Desk::new();
-    let line = "report cube.toml --date 2026-11-24 --paper letter -o";
+    let line = "report cube.toml --pixels 24 --date 2026-11-24 --paper letter -o";
     assert_eq!(desk.done(&format!("{line} a.pdf")), "a.pdf\n");
     let pdf = std::fs::read(desk.at("a.pdf")).unwrap();
     let text = String::from_utf8_lossy(&pdf);
     assert!(text.starts_with("%PDF-1.7") && text.contains("/MediaBox [0 0 612 792]"));
     // Every letter of what the report says leads back to its character, and the pictures are in the file.
     let found = letters(&pdf);
-    for letter in "brillianteer report cube.toml 2026-11-24 Ideal-Scope °±×".chars().filter(|c| *c != ' ') {
+    for letter in "brillianteer report cube.toml 2026-11-24 Ideal-Scope °±×".chars().filter(|c| *c != ' ')
+    {
         assert!(found.contains(&letter), "{letter}: {found:?}");
     }
     assert_eq!(text.matches("/Subtype /Image").count(), 3);
@@ -55,9 +56,13 @@ fn a_report_is_written_as_pdf_whose_text_can_be_searched_and_is_the_same_again()
 #[test]
 fn stones_are_compared_on_a_page_that_says_how_it_was_made() {
     let desk = Desk::new();
-    desk.done("report cube.toml slanted.toml --material 1.5 -o both.html");
+    desk.done("report cube.toml slanted.toml --material 1.5 --pixels 24 -o both.html");
     let page = desk.read("both.html");
-    for said in ["2 cuts compared", "brillianteer report cube.toml slanted.toml --material 1.5", "geometry of"] {
+    for said in [
+        "2 cuts compared",
+        "brillianteer report cube.toml slanted.toml --material 1.5 --pixels 24",
+        "geometry of",
+    ] {
         assert!(page.contains(said), "{said}");
     }
     assert!(!page.contains("http") && !page.contains("src="));
