@@ -110,7 +110,8 @@ impl PlotAxis {
     }
 }
 
-/// Draws curves over one axis, on a plot of this size in units of its drawing. `unit` stands beside their values.
+/// Draws curves over one axis, on a plot of this size in units of its drawing. `unit` stands beside their
+/// values; an empty title takes no room.
 ///
 /// # Errors
 /// A [`PlotError`]: an axis that does not rise or fall, or no number.
@@ -125,11 +126,14 @@ pub fn curves(
     let up = room(all()).ok_or(PlotError::Nothing)?;
     drawn(size, |root| {
         let (left, right) = root.split_horizontally(size.0 as i32 - KEY_WIDTH);
-        draw_key(&right, curves)?;
-        let mut chart = ChartBuilder::on(&left)
+        draw_key(&right, if title.is_empty() { 40 } else { 90 }, curves)?;
+        let mut builder = ChartBuilder::on(&left);
+        if !title.is_empty() {
+            builder.caption(title, ("sans-serif", 24));
+        }
+        let mut chart = builder
             .margin(24)
             .margin_right(0)
-            .caption(title, ("sans-serif", 24))
             .x_label_area_size(52)
             .y_label_area_size(72)
             .build_cartesian_2d(across.clone(), up.clone())
@@ -178,10 +182,10 @@ impl PlotCurve {
     }
 }
 
-/// Draws which colour is which curve.
-fn draw_key(area: &Area, curves: &[PlotCurve]) -> Result<(), PlotError> {
+/// Draws which colour is which curve, from this height down.
+fn draw_key(area: &Area, top: i32, curves: &[PlotCurve]) -> Result<(), PlotError> {
     for (row, (curve, colour)) in (0..).zip(curves.iter().zip(COLOURS.iter().cycle())) {
-        let y = 90 + 28 * row;
+        let y = top + 28 * row;
         area.draw(&PathElement::new([(16, y), (44, y)], colour.stroke_width(3))).map_err(failed)?;
         area.draw(&Text::new(curve.name.clone(), (52, y - 7), ("sans-serif", 16))).map_err(failed)?;
     }

@@ -13,7 +13,7 @@ use std::cmp::Ordering;
 /// The greatest height of pictures in scopes, as a part of the width of the text.
 const PICTURES: f64 = 0.2;
 /// The greatest height of drawings and plots.
-const DRAWINGS: f64 = 0.4;
+const DRAWINGS: f64 = 0.5;
 
 /// Puts the comparison of stones together.
 pub(super) fn report(stones: &[ReportedStone], origin: &ReportOrigin) -> Result<Report, Failure> {

@@ -45,17 +45,18 @@ pub(super) fn measured(stone: &ReportedStone) -> Vec<[String; 2]> {
     let percent = |value: f64| format!("{} %", fixed(value, 2));
     let [width, length] = report.table;
     let pairs = [
-        ("length to width", Some(fixed(report.length_to_width, 4))),
-        ("table, width", Some(percent(width))),
-        ("table, length", Some(percent(length))),
-        ("crown height", Some(percent(report.crown_height))),
-        ("girdle thickness", Some(percent(report.girdle_thickness))),
-        ("pavilion depth", Some(percent(report.pavilion_depth))),
-        ("total depth", Some(percent(report.total_depth))),
-        ("area from above", Some(format!("{} mm²", fixed(size.face_mm2, 2)))),
-        ("area to weight", size.mm2_per_carat.map(|area| format!("{} mm²/ct", fixed(area, 2)))),
-        ("spread", Some(format!("{:+.2} %", size.spread_percent + 0.0))),
-        ("weight ratio", size.weight_ratio.map(|ratio| fixed(ratio, 3))),
+        ("Length to width", Some(fixed(report.length_to_width, 4))),
+        ("Table, corner to corner", Some(percent(report.table_corners))),
+        ("Table, width", Some(percent(width))),
+        ("Table, length", Some(percent(length))),
+        ("Crown height", Some(percent(report.crown_height))),
+        ("Girdle thickness", Some(percent(report.girdle_thickness))),
+        ("Pavilion depth", Some(percent(report.pavilion_depth))),
+        ("Total depth", Some(percent(report.total_depth))),
+        ("Area from above", Some(format!("{} mm²", fixed(size.face_mm2, 2)))),
+        ("Area to weight", size.mm2_per_carat.map(|area| format!("{} mm²/ct", fixed(area, 2)))),
+        ("Spread", Some(format!("{:+.2} %", size.spread_percent + 0.0))),
+        ("Weight ratio", size.weight_ratio.map(|ratio| fixed(ratio, 3))),
     ];
     pairs.into_iter().filter_map(|(name, value)| Some([name.to_owned(), value?])).collect()
 }
@@ -82,7 +83,7 @@ pub(super) fn tiers(stone: &ReportedStone) -> Option<ReportTable> {
     for tier in &report.tiers {
         let (slope, distance) = (tier.slope_deg, tier.distance);
         let cells = [
-            tier.name.clone(),
+            tier.name.replace('_', " "),
             tier.zone.to_owned(),
             tier.facets.to_string(),
             fixed(slope.mean, 2),
@@ -107,9 +108,14 @@ pub(super) fn light(stone: &ReportedStone) -> (ReportTable, String) {
         ("at most", TextFlow::Numbers),
         ("what it counts", TextFlow::Sentences),
     ]);
+    let mut last = "";
     for (name, found) in report.by_name().filter(|(name, _)| is_listed(*name)) {
         let [value, error] = bounded(found);
-        let cells = [measure_words::name(name), value, error, measure_words::meaning(name).to_owned()];
+        // The returns of several domes count the same.
+        let meaning = measure_words::meaning(name);
+        let said = if meaning == last { "" } else { meaning };
+        last = meaning;
+        let cells = [measure_words::name(name), value, error, said.to_owned()];
         table.rows.push(cells.map(Into::into).to_vec());
     }
     let settings = &report.settings;
@@ -119,7 +125,9 @@ pub(super) fn light(stone: &ReportedStone) -> (ReportTable, String) {
         fixed(100.0 * report.measures.unresolved, 2),
         settings.head_deg,
     );
-    if let Some(spread) = report.measures.spread_deg {
+    if settings.indices[0] == settings.indices[1] {
+        how += " The material is known by its index alone, so it has no fire.";
+    } else if let Some(spread) = report.measures.spread_deg {
         how += &format!(" Colours spread by {}° on average.", fixed(spread, 2));
     }
     if let Some(pattern) = settings.pattern {

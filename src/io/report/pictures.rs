@@ -7,8 +7,8 @@ use crate::io::png_bytes::png;
 use crate::measure::facet_deviations;
 use crate::optics::linear_from_encoded;
 use crate::picture::{
-    Background, Develop, DiagramStyle, EmbeddedDrawing, Linear, Palette, Picture, Scoped, develop, diagram,
-    named, profile,
+    Background, Develop, DiagramStyle, EmbeddedDrawing, Inks, Linear, Palette, Picture, Scoped, develop,
+    diagram, named, profile,
 };
 use crate::render::{
     Job, LightProduct, Partial, Product, Quality, Reading, Renderer, ScopeProduct, Steps, Surroundings,
@@ -23,11 +23,19 @@ use std::sync::Arc;
 /// The bands of wavelengths of the picture under light.
 const WAVELENGTHS: u32 = 8;
 
+/// Rays along each side of a pixel in a scope, and passes of the picture under light, of solids that only rays trace. It is
+/// less than pictures of their own have, so that a report takes seconds.
+const RAYS_PER_SIDE: u32 = 2;
+const PASSES_OF_RAYS: u32 = 16;
+
 /// The share of the light that pictures leave unresolved.
 const UNRESOLVED: f64 = 2e-3;
 
 /// The background of the picture under light, as an sRGB code of each channel.
 const BEHIND: u8 = 0xf2;
+
+/// The width and the height at which the facet diagram is shown on paper, points; its names are readable there.
+const DIAGRAM: [f64; 2] = [140.0, 262.0];
 
 /// The scopes of every stone: names of pictures, and what they are called on paper.
 const SCOPES: [(&str, &str); 2] = [("aset", "ASET"), ("ideal-scope", "Ideal-Scope")];
@@ -79,12 +87,13 @@ fn in_scope(
     tell: Reporter,
 ) -> Result<EmbeddedDrawing, Failure> {
     let viewing = viewing.facing(scoped.side);
-    viewing.check(renderer)?;
+    let by_beams = viewing.check(renderer)?;
     let scope = scoped.with_head(viewing.head_deg);
     let palette = Palette::of(&scope);
     let (medium, glare) = (viewing.medium, viewing.glare.unwrap_or_default());
     let product = Product::Scope(ScopeProduct { scope, medium, glare, readings: vec![Reading::Energy] });
-    let job = viewing.job(viewing.film(side), product, UNRESOLVED);
+    let mut job = viewing.job(viewing.film(side), product, UNRESOLVED);
+    job.quality.samples = (!by_beams).then_some(RAYS_PER_SIDE);
     let mut rgb: Vec<u8> = vec![];
     renderer.run(&job, watch, &mut |part| match part {
         Partial::Begun { .. } => {
@@ -117,7 +126,9 @@ fn under_light(
         steps: Steps::Strips,
     });
     let scene = Arc::new(Scene::alone(viewing.specimen));
-    let quality = Quality { tracer: viewing.tracer, ..Quality::of_pictures(viewing.polarised) };
+    // Beams take few passes by themselves.
+    let samples = (!viewing.check(renderer)?).then_some(PASSES_OF_RAYS);
+    let quality = Quality { samples, tracer: viewing.tracer, ..Quality::of_pictures(viewing.polarised) };
     let job = Job { scene, view: viewing.view(), film: viewing.film(side), product, quality };
     let mut light = Linear { width: side, height: side, pixels: vec![] };
     renderer.run(&job, watch, &mut |part| match part {
@@ -146,9 +157,10 @@ fn drawn(side: u32, rgb: &[u8]) -> Result<EmbeddedDrawing, Failure> {
 pub(super) fn drawings(viewing: &Viewing) -> Vec<NamedDrawing> {
     let Ok(stone) = viewing.specimen.stone() else { return vec![] };
     let design = &viewing.specimen.design;
+    let style = DiagramStyle::fitting(stone, Inks::PAPER, DIAGRAM);
     let drawn = [
         ("Profile", profile(stone, &design.name, design.cut.brilliant())),
-        ("Facet diagram", diagram(stone, &design.name, &DiagramStyle::SHEET)),
+        ("Facet diagram", diagram(stone, &design.name, &style)),
     ];
     let named = |(name, document): (&'static str, svg::Document)| {
         Some(NamedDrawing { name, drawing: EmbeddedDrawing::of(&document.to_string())? })

@@ -11,7 +11,7 @@ use crate::scene::DomeLight;
 /// The greatest height of the pictures in scopes, as a part of the width of the text.
 const PICTURES: f64 = 0.24;
 /// The greatest height of profile, facet diagram and plots.
-const DRAWINGS: f64 = 0.42;
+const DRAWINGS: f64 = 0.5;
 
 /// Puts the report on a stone together.
 pub(super) fn report(stone: &ReportedStone, origin: &ReportOrigin) -> Result<Report, Failure> {

@@ -185,6 +185,9 @@ impl ReportFlow {
             let room = self.frame.high.y - self.y - placed.head_height();
             // A row that is higher than a page stands on it all the same.
             let count = placed.fitting(from, room).max(1);
+            // No row or two stand alone on the next page.
+            let (rest, few) = (placed.count() - from - count, LEAST_ROWS * table.across.max(1));
+            let count = if rest > 0 && rest < few { count.saturating_sub(few - rest).max(1) } else { count };
             placed.draw(&mut self.sheet, (from, count), self.y);
             self.y += placed.head_height() + placed.height(from, count);
             from += count;
