@@ -4,17 +4,16 @@
 //! Source: ISO 32000-1, PDF 1.7; sections are named where they are used.
 
 mod content;
+mod deflate;
 mod fonts;
 mod images;
 
 use super::drawing_png::{DrawingError, parse};
 use content::PageContent;
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
+use deflate::deflated;
 use fonts::PdfFonts;
 use images::PdfImages;
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
-use std::io::Write;
 
 /// Points per pixel of SVG, which has 96 pixels an inch.
 const POINTS: f32 = 0.75;
@@ -66,14 +65,6 @@ pub fn pdf(pages: &[String], title: &str) -> Result<Vec<u8>, DrawingError> {
         pdf.stream(content_id, &bytes).filter(Filter::FlateDecode);
     }
     Ok(pdf.finish())
-}
-
-/// Compresses bytes as `FlateDecode` reads them (7.4.4).
-fn deflated(bytes: &[u8]) -> Vec<u8> {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
-    // Writing to memory cannot fail.
-    let _ = encoder.write_all(bytes);
-    encoder.finish().unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The pictures of a PDF (8.9).
 
-use super::deflated;
+use super::deflate::deflated;
 use crate::io::DrawingError;
 use pdf_writer::{Filter, Finish, Pdf, Ref};
 use png::{BitDepth, ColorType, Decoder};

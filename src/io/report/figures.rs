@@ -1,6 +1,6 @@
 //! The tables of a report.
 
-use super::stone::{ReportedStone, StoneLight};
+use super::stone::{ReportedLight, ReportedStone};
 use crate::cut::{ProportionReport, Spread};
 use crate::io::export::FigureReport;
 use crate::measure::{
@@ -99,8 +99,8 @@ pub(super) fn tiers(stone: &ReportedStone) -> Option<ReportTable> {
 /// Returns the light of a stone as a table, and a line about how it was measured.
 pub(super) fn light(stone: &ReportedStone) -> (ReportTable, String) {
     let report = match &stone.light {
-        StoneLight::Figures(report) => return sampled(report),
-        StoneLight::Measures(report) => report,
+        ReportedLight::Figures(report) => return sampled(report),
+        ReportedLight::Measures(report) => report,
     };
     let mut table = ReportTable::new(&[
         ("measure", TextFlow::Words),

