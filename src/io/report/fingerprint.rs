@@ -9,7 +9,8 @@ use std::fmt::Write;
 /// Slopes and azimuths are rounded to this, degrees. A crown angle that is 0.01° off is another stone.
 const ANGLE_STEP_DEG: f64 = 0.005;
 
-/// Distances of planes from the origin are rounded to this, girdle radii: more than what files of six digits lose.
+/// Distances of planes from the stone's lowest height on the axis are rounded to this, girdle radii: more than what files of
+/// six digits lose.
 const DISTANCE_STEP: f64 = 2e-4;
 
 /// Frosting, which is from 0 to 1, is rounded to this.
@@ -41,12 +42,14 @@ fn steps(value: f64, step: f64) -> i64 {
 }
 
 fn planes(polytope: &Polytope) -> String {
-    let mut lines: Vec<String> = polytope.facets().iter().map(plane).collect();
+    // Formats place the origin at different heights: by the girdle's edge, or by its valleys.
+    let lowest = polytope.bounds().0.z;
+    let mut lines: Vec<String> = polytope.facets().iter().map(|facet| plane(facet, lowest)).collect();
     lines.sort();
     format!("planes 1\n{}\n", lines.join("\n"))
 }
 
-fn plane(facet: &Facet) -> String {
+fn plane(facet: &Facet, lowest: f64) -> String {
     let normal = facet.plane.normal;
     let full_turn = steps(360.0, ANGLE_STEP_DEG);
     // The arc tangent is exact to rounding for level facets as well, where the arc cosine is not.
@@ -57,7 +60,7 @@ fn plane(facet: &Facet) -> String {
         _ if slope == full_turn / 2 => 0,
         _ => steps(normal.truncate().to_angle().to_degrees(), ANGLE_STEP_DEG).rem_euclid(full_turn),
     };
-    let distance = steps(facet.plane.offset, DISTANCE_STEP);
+    let distance = steps(facet.plane.offset - lowest * normal.z, DISTANCE_STEP);
     let frosting = steps(facet.frosting, FROSTING_STEP);
     format!("{slope} {azimuth} {distance} {frosting}")
 }
