@@ -12,8 +12,9 @@ use std::cmp::Ordering;
 
 /// The greatest height of pictures in scopes, as a part of the width of the text.
 const PICTURES: f64 = 0.2;
-/// The greatest height of drawings and plots.
+/// The greatest height of drawings, and of plots.
 const DRAWINGS: f64 = 0.5;
+const PLOTS: f64 = 0.36;
 
 /// Puts the comparison of stones together.
 pub(super) fn report(stones: &[ReportedStone], origin: &ReportOrigin) -> Result<Report, Failure> {
@@ -174,7 +175,7 @@ fn plots(stones: &[ReportedStone]) -> Result<Vec<ReportPart>, Failure> {
                 parts.push(ReportPart::Heading(text.to_owned()));
             }
             let figures = vec![ReportFigure { caption: title.to_owned(), drawing }];
-            parts.push(ReportPart::Figures(FigureRow { figures, most_height: DRAWINGS }));
+            parts.push(ReportPart::Figures(FigureRow { figures, most_height: PLOTS }));
         }
     }
     Ok(parts)

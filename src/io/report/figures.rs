@@ -23,7 +23,8 @@ pub(super) fn bounded(found: Interval) -> [String; 2] {
         return [format!("at least {}", fixed(100.0 * found.least, 2)), String::new()];
     }
     // Rounded up, so that the interval that is printed holds the number.
-    let error = (1e4 * found.error() - 1e-6).ceil().max(0.0) / 100.0;
+    // Adding 0 leaves no minus before nought.
+    let error = (1e4 * found.error() - 1e-6).ceil().max(0.0) / 100.0 + 0.0;
     [fixed(100.0 * found.middle(), 2), format!("± {error:.2}")]
 }
 
@@ -231,4 +232,20 @@ fn add_pattern(table: &mut ReportTable, name: &str, pattern: &EightfoldPattern) 
         false => "–".to_owned(),
     };
     table.rows.push([label, fixed(pattern.departure, 3), String::new(), worst].map(Into::into).to_vec());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_interval_that_is_printed_holds_the_number_and_nought_has_no_sign() {
+        let of = |least: f64, most: f64| bounded(Interval { least, most }).join(" ");
+        assert_eq!(of(0.5, 0.5), "50.00 ± 0.00");
+        assert_eq!(of(0.0, 0.0), "0.00 ± 0.00");
+        assert_eq!(of(-1e-9, 1e-12), "0.00 ± 0.00");
+        assert_eq!(of(0.731, 0.731_21), "73.11 ± 0.02");
+        assert_eq!(of(0.25, f64::INFINITY), "at least 25.00 ");
+        assert_eq!([fixed(-0.001, 2), fixed(-1.006, 2)], ["0.00", "-1.01"]);
+    }
 }

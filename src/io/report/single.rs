@@ -10,8 +10,9 @@ use crate::scene::DomeLight;
 
 /// The greatest height of the pictures in scopes, as a part of the width of the text.
 const PICTURES: f64 = 0.24;
-/// The greatest height of profile, facet diagram and plots.
+/// The greatest height of profile and facet diagram, and of plots.
 const DRAWINGS: f64 = 0.5;
+const PLOTS: f64 = 0.36;
 
 /// Puts the report on a stone together.
 pub(super) fn report(stone: &ReportedStone, origin: &ReportOrigin) -> Result<Report, Failure> {
@@ -84,7 +85,7 @@ fn plots(tilts: &TiltCurves) -> Result<Vec<ReportPart>, Failure> {
     for (title, wanted) in [("Brightness", brightness), ("Obstruction and fire", play)] {
         if let Some(drawing) = tilt_plot("", &wanted)? {
             let figures = vec![ReportFigure { caption: title.to_owned(), drawing }];
-            parts.push(ReportPart::Figures(FigureRow { figures, most_height: DRAWINGS }));
+            parts.push(ReportPart::Figures(FigureRow { figures, most_height: PLOTS }));
         }
     }
     Ok(parts)
