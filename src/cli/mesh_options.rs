@@ -2,7 +2,7 @@
 
 use crate::cut::from_mesh::Up;
 use crate::io::mesh_options::{MeshForm, MeshOptions};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use glam::DVec3;
 
 /// How meshes are read. Other designs say both themselves.
@@ -21,6 +21,17 @@ impl MeshArguments {
     /// Returns the mesh options, with defaults for those that are not given.
     pub fn options(self) -> MeshOptions {
         MeshOptions { up: self.up.unwrap_or_default(), form: self.form.unwrap_or_default() }
+    }
+
+    /// Returns the options as they are typed, but for the form of numbers.
+    pub fn words(self) -> Vec<String> {
+        let up = self.up.and_then(|up| match up {
+            Up::Given(direction) => Some(direction.to_array().map(|part| (part + 0.0).to_string()).join(",")),
+            _ => None,
+        });
+        let form = self.form.and_then(|form| form.to_possible_value()).map(|form| form.get_name().to_owned());
+        let words = |option: &str, value: Option<String>| value.map(|value| [option.to_owned(), value]);
+        words("--up", up).into_iter().chain(words("--as", form)).flatten().collect()
     }
 }
 

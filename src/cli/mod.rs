@@ -32,6 +32,7 @@ mod progress;
 mod refraction_import;
 mod refraction_map;
 mod render;
+mod report;
 mod retarget;
 mod rough_yield;
 mod sheet;
@@ -123,6 +124,8 @@ enum Command {
     Optimise(optimise::OptimiseArguments),
     /// Show a stone's geometry, proportions and weight, or the stones of a scene
     Info(info::Info),
+    /// Write a report on a design, or a comparison of several, as PDF or as a web page: pictures, drawings, measures with bounds
+    Report(report::ReportArguments),
     /// Write the sheet that a gem cutter works from: plans, profiles, and every tier in cutting order
     Sheet(sheet::SheetArguments),
     /// Fit a design to another material by a stated rule, and measure the light of both
@@ -237,6 +240,7 @@ impl Command {
             Self::Gradient(gradient) => gradient.run(),
             Self::Optimise(optimise) => optimise.run(),
             Self::Info(info) => info.run(),
+            Self::Report(report) => report.run(),
             Self::Sheet(sheet) => sheet.run(),
             Self::Retarget(retarget) => retarget.run(),
             Self::Yield(rough) => rough.run(),

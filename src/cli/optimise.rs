@@ -8,7 +8,7 @@ use super::progress::{WorkProgress, finish_on_signals, is_asked_to_finish};
 use super::specimen::LoadedSpecimen;
 use crate::cut::{Design, Size};
 use crate::io::design_file::{self, DesignFormat};
-use crate::io::plot::{PlotAxis, PlotCurve, curves};
+use crate::io::plot::{PLOT_SIZE, PlotAxis, PlotCurve, curves};
 use crate::io::{Failure, goal_file};
 use crate::measure::{MeasureName, NoMeasure};
 use crate::scene::Specimen;
@@ -262,5 +262,5 @@ fn progress_svg(title: &str, outcome: &SearchOutcome) -> Result<String, crate::i
         }
     }
     let axis = PlotAxis { label: "designs appraised".to_owned(), values: places };
-    curves(title, &axis, "goal", &[PlotCurve { name: "best so far".to_owned(), bands }])
+    curves((title, PLOT_SIZE), &axis, "goal", &[PlotCurve { name: "best so far".to_owned(), bands }])
 }

@@ -4,7 +4,7 @@ use super::plot_file::PlotFile;
 use crate::cut::Cut;
 use crate::io::Failure;
 use crate::io::plot::{
-    COLOURS_OF_CURVES, PlotAxis, PlotCurve, PlotError, PlotPanel, curves, heat_map, panels,
+    COLOURS_OF_CURVES, PLOT_SIZE, PlotAxis, PlotCurve, PlotError, PlotPanel, curves, heat_map, panels,
 };
 use crate::measure::{Interval, MeasureName};
 use crate::render::{SweepAxis, SweepKey, SweepValue, SweptStone};
@@ -136,7 +136,7 @@ impl<'a> SweepPlot<'a> {
                 let bands = |k: usize| (0..axis.values.len()).map(|point| band(point, k)).collect();
                 let all: Vec<PlotCurve> =
                     named().map(|(k, name)| PlotCurve { name, bands: bands(k) }).collect();
-                curves(title, axis, UNIT, &all)
+                curves((title, PLOT_SIZE), axis, UNIT, &all)
             }
             PlotShape::Family { axis, key, members, is_first } => {
                 let along = axis.values.len();

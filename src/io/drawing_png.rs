@@ -2,7 +2,7 @@
 
 use super::MOST_PIXELS;
 use resvg::tiny_skia::{Color, Pixmap, Transform};
-use resvg::usvg::{self, ImageHrefResolver, Options, Tree, fontdb};
+use resvg::usvg::{self, ImageHrefResolver, ImageKind, Options, Tree, fontdb};
 use std::sync::Arc;
 
 #[cfg(test)]
@@ -38,7 +38,7 @@ pub enum DrawingError {
 /// Rasterises an SVG at a width in pixels, on white. Returns the width, the height, and RGB with a byte each, rows from the
 /// top.
 ///
-/// Only the program's own fonts are used, and nothing outside the text is read.
+/// Only the program's own fonts are used, and nothing outside the text is read. Pictures in the drawing are left out.
 ///
 /// # Errors
 /// When the text is no SVG, or the picture would have a side of no pixels or more than 16,384.
@@ -93,12 +93,14 @@ pub(super) fn parse(svg: &str) -> Result<Tree, DrawingError> {
         fonts.load_font_data(font.to_vec());
     }
     fonts.set_sans_serif_family(FAMILY);
-    let nowhere =
-        ImageHrefResolver { resolve_data: Box::new(|_, _, _| None), resolve_string: Box::new(|_, _| None) };
+    let within = ImageHrefResolver {
+        resolve_data: Box::new(|mime, data, _| (mime == "image/png").then_some(ImageKind::PNG(data))),
+        resolve_string: Box::new(|_, _| None),
+    };
     let options = Options {
         font_family: FAMILY.to_owned(),
         fontdb: Arc::new(fonts),
-        image_href_resolver: nowhere,
+        image_href_resolver: within,
         ..Options::default()
     };
     usvg::Tree::from_str(svg, &options).map_err(|e| DrawingError::NotSvg { reason: e.to_string() })

@@ -11,17 +11,18 @@ mod viewing;
 #[cfg(test)]
 mod tests;
 
+pub(in crate::io) use event::WorkShares;
 pub use event::{Event, Reporter};
 pub use figures::{FigureReport, measure};
 pub use hearts::{HeartsReport, hearts};
 pub use measures::{MeasureReport, light_measures};
 pub use viewing::Viewing;
+pub(in crate::io) use viewing::note;
 
 use super::{Failure, WriteError, is_standard, write};
 use crate::picture::{Picture, Scoped};
 use crate::render::Renderer;
 use crate::trace::Watch;
-use event::WorkShares;
 use pictures::Pictures;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};

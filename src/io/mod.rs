@@ -40,6 +40,8 @@ mod png;
 mod png_bytes;
 #[cfg(feature = "exr")]
 pub mod refraction;
+#[cfg(all(feature = "exr", feature = "interchange"))]
+pub mod report;
 pub mod scene_file;
 pub mod scope_file;
 mod standard;

@@ -4,15 +4,16 @@
 //! Source: ISO 32000-1, PDF 1.7; sections are named where they are used.
 
 mod content;
+mod deflate;
 mod fonts;
+mod images;
 
 use super::drawing_png::{DrawingError, parse};
 use content::PageContent;
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
+use deflate::deflated;
 use fonts::PdfFonts;
+use images::PdfImages;
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
-use std::io::Write;
 
 /// Points per pixel of SVG, which has 96 pixels an inch.
 const POINTS: f32 = 0.75;
@@ -20,14 +21,14 @@ const POINTS: f32 = 0.75;
 /// Writes drawings as the pages of a PDF, each as large as its SVG says. The same drawings give the same bytes.
 ///
 /// # Errors
-/// A text that is no SVG, or a drawing with gradients, patterns, pictures or transparency, which the program's technical
-/// drawings do not have.
+/// A text that is no SVG, or a drawing with gradients, patterns, transparency or pictures other than opaque PNG, which the
+/// program's technical drawings do not have.
 pub fn pdf(pages: &[String], title: &str) -> Result<Vec<u8>, DrawingError> {
     let trees: Vec<_> = pages.iter().map(|svg| parse(svg)).collect::<Result<_, _>>()?;
-    let mut fonts = PdfFonts::default();
+    let (mut fonts, mut images) = (PdfFonts::default(), PdfImages::default());
     let mut contents = vec![];
     for tree in &trees {
-        contents.push((tree.size(), PageContent::of(tree, &mut fonts)?));
+        contents.push((tree.size(), PageContent::of(tree, &mut fonts, &mut images)?));
     }
     let mut ids = (1..).map(Ref::new);
     let mut next = || ids.next().unwrap_or(Ref::new(i32::MAX));
@@ -40,6 +41,7 @@ pub fn pdf(pages: &[String], title: &str) -> Result<Vec<u8>, DrawingError> {
     let kids: Vec<(Ref, Ref)> = contents.iter().map(|_| (next(), next())).collect();
     pdf.pages(page_tree).kids(kids.iter().map(|(page, _)| *page)).count(kids.len() as i32);
     let named = fonts.write(&mut pdf, &mut next);
+    let pictures = images.write(&mut pdf, &mut next);
     for ((size, content), (page_id, content_id)) in contents.into_iter().zip(kids) {
         let mut page = pdf.page(page_id);
         page.media_box(Rect::new(0.0, 0.0, POINTS * size.width(), POINTS * size.height()));
@@ -50,20 +52,19 @@ pub fn pdf(pages: &[String], title: &str) -> Result<Vec<u8>, DrawingError> {
             dictionary.pair(Name(name.as_bytes()), *font);
         }
         dictionary.finish();
+        if !pictures.is_empty() {
+            let mut dictionary = resources.x_objects();
+            for (name, picture) in &pictures {
+                dictionary.pair(Name(name.as_bytes()), *picture);
+            }
+            dictionary.finish();
+        }
         resources.finish();
         page.finish();
         let bytes = deflated(&content.finish());
         pdf.stream(content_id, &bytes).filter(Filter::FlateDecode);
     }
     Ok(pdf.finish())
-}
-
-/// Compresses bytes as `FlateDecode` reads them (7.4.4).
-fn deflated(bytes: &[u8]) -> Vec<u8> {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
-    // Writing to memory cannot fail.
-    let _ = encoder.write_all(bytes);
-    encoder.finish().unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -12,8 +12,8 @@ use plotters::prelude::*;
 use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
 use std::ops::Range;
 
-/// The size of a plot, in units of its drawing.
-const SIZE: (u32, u32) = (1000, 680);
+/// The usual size of a plot, in units of its drawing.
+pub const PLOT_SIZE: (u32, u32) = (1000, 680);
 
 /// The width of a map's scale of colours.
 const SCALE_WIDTH: i32 = 150;
@@ -111,8 +111,8 @@ pub fn heat_map(
         values.iter().flatten().fold((range.end, range.start), |(l, h), v| (l.min(*v), h.max(*v)));
     let range = if high > low { low..high } else { range };
     let levels = levels(&range);
-    drawn(SIZE, |root| {
-        let (left, right) = root.split_horizontally(SIZE.0 as i32 - SCALE_WIDTH);
+    drawn(PLOT_SIZE, |root| {
+        let (left, right) = root.split_horizontally(PLOT_SIZE.0 as i32 - SCALE_WIDTH);
         draw_map((&left, title), (x, y), values, (&range, &levels))?;
         draw_scale(&right, unit, &range, &levels)
     })

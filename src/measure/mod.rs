@@ -17,6 +17,7 @@ mod hemisphere;
 mod interval;
 mod light_measures;
 mod measure_name;
+pub mod measure_words;
 mod measured;
 mod octant_pattern;
 mod sampled;

@@ -101,6 +101,8 @@ impl DrawnAspect {
 /// A drawing to which elements are added; it keeps the box that they fill.
 #[derive(Debug, Clone)]
 pub(super) struct Sheet {
+    /// Drawings that stand on this one, under everything else.
+    embedded: Group,
     stone: Group,
     extensions: Group,
     dimensions: Group,
@@ -118,6 +120,7 @@ impl Sheet {
             Group::new().set("class", class).set("stroke", inks.of(colour)).set("stroke-width", width)
         };
         Self {
+            embedded: Group::new(),
             stone: Group::new().set("class", "stone").set("stroke-linecap", "round").set("fill", "none"),
             extensions: lines("extensions", Ink::Extension, 0.8),
             dimensions: lines("dimensions", Ink::Accent, 1.0).set("fill", "none"),

@@ -26,6 +26,7 @@ mod patterns;
 pub(crate) mod profile;
 mod raster;
 mod refraction;
+mod report;
 mod sheet;
 pub mod spectral;
 mod strips;
@@ -56,6 +57,10 @@ pub use patterns::{PATTERN_SIDE, PATTERN_SPAN, Pattern};
 pub use profile::profile;
 pub use raster::Rows;
 pub use refraction::{Backdrop, Carried, MapBand, RefractionMap, SourcePlace, Survey, refract};
+pub use report::{
+    EmbeddedDrawing, FigureRow, Report, ReportCell, ReportColumn, ReportFigure, ReportPart, ReportTable,
+    TextFlow, report_pages,
+};
 pub use sheet::{BlockKind, CuttingSheet, PaperSize, SheetBlock, SheetRow, sheet_pages};
 pub use temporal::{MotionVector, TemporalHistory};
 pub use tone::{Tone, reachable};

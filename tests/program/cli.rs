@@ -12,6 +12,7 @@ mod panes;
 mod pictures;
 mod recorder;
 mod renders;
+mod reports;
 mod searching;
 mod streams;
 mod sweeps;

@@ -1,8 +1,8 @@
 //! The rows in which a person says what a better cut is: measures with weights and limits, and the numbers that may change.
 
-use super::measure_words;
 use super::rows::{ANY, NOT_KNOWN, Number, UNKNOWN, spoken};
 use crate::app::model::goal_form::{GoalForm, NumberChoice, SearchEffort, goal_measures};
+use crate::measure::measure_words;
 use crate::search::GoalMeasure;
 use egui::{ComboBox, DragValue, Grid, Id, Label, RichText, Ui, vec2};
 

@@ -2,7 +2,6 @@
 //! design, which a click or a drag moves.
 
 use super::map_lines::{MapLinesOf, map_lines};
-use super::measure_words;
 use crate::app::arrows;
 use crate::app::model::action::{Actions, Edit};
 use crate::app::model::growing_sweep::FoundSweep;
@@ -10,6 +9,7 @@ use crate::app::model::measure_map::{MapAxis, MapOptions, MeasureMap, STEPS, STR
 use crate::app::theme;
 use crate::cut::Design;
 use crate::io::plot::{levels, map_colour};
+use crate::measure::measure_words;
 use crate::render::{SweepError, SweptStone};
 use egui::epaint::Mesh;
 use egui::{

@@ -1,12 +1,12 @@
 //! The window with the map of a measure: what is mapped over what, the map, and what is under the pointer.
 
 use super::map_plot::{MapPlot, MapReading};
-use super::measure_words;
 use super::rows::{ANY, NUMBER, Number, choice_row, named};
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::measure_map::{MapAxis, MapOptions, MeasureMap, no_stone};
 use crate::cut::{Cut, Design};
+use crate::measure::measure_words;
 use egui::{Context, Pos2, RichText, Ui, Vec2, Window, pos2, vec2};
 
 /// The size of the window at first, and at least, points.

@@ -13,7 +13,6 @@ mod map_lines;
 pub mod map_plot;
 pub mod map_window;
 pub mod material_rows;
-pub mod measure_words;
 pub mod mesh_rows;
 pub mod pane_rows;
 pub mod rows;

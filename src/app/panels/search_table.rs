@@ -1,11 +1,11 @@
 //! What a search has won and what it gave up for it: each measure before and after, and the numbers that did it.
 
-use super::measure_words;
 use crate::app::model::Model;
 use crate::app::model::cut_search::SearchReport;
 use crate::app::model::goal_form::NumberChoice;
 use crate::app::theme;
 use crate::measure::Interval;
+use crate::measure::measure_words;
 use crate::search::GoalValue;
 use egui::{Color32, Grid, Response, RichText, Ui, vec2};
 

@@ -1,7 +1,6 @@
 //! The window that finds a better cut: what is asked for, how far the search is, and what it has won and given up.
 
 use super::goal_rows;
-use super::measure_words;
 use super::rows::explain;
 use super::search_plot;
 use super::search_table;
@@ -12,6 +11,7 @@ use crate::app::model::command::Command;
 use crate::app::model::cut_search::{EndedSearch, RunningSearch, SearchEnd, SearchState};
 use crate::app::model::goal_form::GoalForm;
 use crate::app::theme;
+use crate::measure::measure_words;
 use egui::{
     Button, Context, Pos2, ProgressBar, RichText, ScrollArea, TextStyle, Ui, Vec2, Window, pos2, vec2,
 };

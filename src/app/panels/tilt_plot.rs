@@ -1,10 +1,10 @@
 //! The plot against tilt of one measure, toward several azimuths, each with the band in which it certainly lies.
 
-use super::measure_words;
 use super::rows::choice_row;
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::measure_tilt::{AZIMUTHS, MOST_TILT, TiltCurve, TiltOptions};
+use crate::measure::measure_words;
 use egui::{Color32, RichText, Ui};
 use egui_plot::{GridInput, GridMark, HoverPosition, Line, Plot, PlotPoints, Polygon};
 

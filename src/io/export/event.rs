@@ -21,7 +21,7 @@ pub enum Event<'a> {
 pub type Reporter<'a> = &'a dyn Fn(Event) -> Result<(), Failure>;
 
 /// The progress of one piece of work, divided among its steps: each step has a watch that runs from 0 to 1.
-pub(super) struct WorkShares<'a> {
+pub(in crate::io) struct WorkShares<'a> {
     watch: Watch<'a>,
     parts: f64,
     done: f64,

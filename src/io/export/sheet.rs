@@ -5,8 +5,7 @@ use super::{OutputFormat, Outputs};
 use crate::io::{Failure, PngFile, rasterize};
 use crate::picture::{Caption, Palette, Rows};
 use crate::render::{Backend, Job, Product, Reading, ScopeProduct};
-use crate::scene::{Film, Glare, Scope};
-use crate::trace::ray::Camera;
+use crate::scene::{Glare, Scope};
 use std::path::PathBuf;
 
 /// The share of the light that pictures leave unresolved where no bound is given: less than eight bits can show.
@@ -66,11 +65,9 @@ pub(super) fn in_percent(reading: Reading, part: f64) -> String {
 impl ScopeSheet<'_> {
     /// Returns the job of this picture, with these readings, on a square of `size` pixels.
     pub fn job(&self, size: u32, readings: Vec<Reading>) -> Job {
-        let solid = self.viewing.specimen.solid();
-        let reach = Camera::new(&self.viewing.view(), solid).reach(solid).unwrap_or(1.0);
         let (scope, medium, glare) = (self.scope.clone(), self.viewing.medium, self.glare);
         let product = Product::Scope(ScopeProduct { scope, medium, glare, readings });
-        self.viewing.job(Film::reaching(reach, size), product, UNRESOLVED)
+        self.viewing.job(self.viewing.film(size), product, UNRESOLVED)
     }
 
     /// Returns the picture's title, for texts in files.

@@ -5,6 +5,7 @@ use crate::io::Failure;
 use crate::picture::Scoped;
 use crate::render::{FiguresProduct, Job, Partial, Product, Quality, Renderer, Unfit, Wanted};
 use crate::scene::{Film, Glare, Medium, Scene, Side, Specimen, Stone, View, Viewpoint};
+use crate::trace::ray::Camera;
 use crate::trace::{beam, ray};
 use glam::DQuat;
 use std::sync::Arc;
@@ -50,7 +51,7 @@ impl Viewing<'_> {
     }
 
     /// Returns the view of the stone as it is turned.
-    pub(super) fn view(&self) -> View {
+    pub(in crate::io) fn view(&self) -> View {
         self.viewpoint.view().of_turned(DQuat::from_rotation_z(self.turned_deg.to_radians()))
     }
 
@@ -70,8 +71,14 @@ impl Viewing<'_> {
         Viewpoint { azimuth_deg: if is_upright { 0.0 } else { azimuth_deg }, ..self.viewpoint }
     }
 
+    /// Returns a square film of `size` pixels along each side that holds the stone as it is viewed, with some air around it.
+    pub(in crate::io) fn film(&self, size: u32) -> Film {
+        let solid = self.specimen.solid();
+        Film::reaching(Camera::new(&self.view(), solid).reach(solid).unwrap_or(1.0), size)
+    }
+
     /// Returns a job of this stone as it is viewed, with `usual` as the bound where none was requested.
-    pub(super) fn job(&self, film: Film, product: Product, usual: f64) -> Job {
+    pub(in crate::io) fn job(&self, film: Film, product: Product, usual: f64) -> Job {
         let (tracer, beams, rays) = (self.tracer, self.beams(usual), self.rays(usual));
         let quality = Quality { tracer, beams, standard_error: None, rays, samples: None };
         let view = self.view();
@@ -101,7 +108,7 @@ impl Viewing<'_> {
     ///
     /// # Errors
     /// [`Failure::Usage`] where the body is not a convex stone.
-    pub(super) fn stone(&self) -> Result<&Stone, Failure> {
+    pub(in crate::io) fn stone(&self) -> Result<&Stone, Failure> {
         self.specimen.stone().map_err(|e| Failure::Usage(format!("{}: {e}", self.file)))
     }
 
@@ -139,7 +146,7 @@ impl Viewing<'_> {
 }
 
 /// Reports the notes of a renderer.
-pub(super) fn note(part: &Partial, tell: Reporter) -> Result<(), Failure> {
+pub(in crate::io) fn note(part: &Partial, tell: Reporter) -> Result<(), Failure> {
     match part {
         Partial::Note(text) => tell(Event::Note(text)),
         _ => Ok(()),

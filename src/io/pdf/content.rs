@@ -2,13 +2,14 @@
 
 use super::POINTS;
 use super::fonts::{PdfFonts, name};
+use super::images::{PdfImages, picture_name};
 use crate::io::DrawingError;
 use pdf_writer::types::{LineCapStyle, LineJoinStyle, TextRenderingMode};
 use pdf_writer::{Content, Name, Str};
 use resvg::tiny_skia::{PathSegment, Point, Transform};
 use resvg::usvg::layout::{PositionedGlyph, Span};
 use resvg::usvg::{
-    Color, Fill, FillRule, Group, LineCap, LineJoin, Node, Paint, PaintOrder, Path, Stroke, Text, Tree,
+    Color, Fill, FillRule, Group, Image, LineCap, LineJoin, Node, Paint, PaintOrder, Path, Stroke, Text, Tree,
 };
 
 /// Glyphs whose places differ by less than this from where the one before leads are not moved, type sizes.
@@ -18,6 +19,7 @@ const IN_PLACE: f32 = 1e-3;
 pub(super) struct PageContent<'a> {
     content: Content,
     fonts: &'a mut PdfFonts,
+    images: &'a mut PdfImages,
     tree: &'a Tree,
     /// The transform from the drawing's pixels, y down, to points, y up.
     base: Transform,
@@ -25,9 +27,13 @@ pub(super) struct PageContent<'a> {
 
 impl<'a> PageContent<'a> {
     /// Writes all of a drawing.
-    pub fn of(tree: &'a Tree, fonts: &'a mut PdfFonts) -> Result<Content, DrawingError> {
+    pub fn of(
+        tree: &'a Tree,
+        fonts: &'a mut PdfFonts,
+        images: &'a mut PdfImages,
+    ) -> Result<Content, DrawingError> {
         let base = Transform::from_row(POINTS, 0.0, 0.0, -POINTS, 0.0, POINTS * tree.size().height());
-        let mut page = Self { content: Content::new(), fonts, tree, base };
+        let mut page = Self { content: Content::new(), fonts, images, tree, base };
         page.group(tree.root())?;
         Ok(page.content)
     }
@@ -45,9 +51,22 @@ impl<'a> PageContent<'a> {
                 Node::Group(group) => self.group(group)?,
                 Node::Path(path) => self.path(path)?,
                 Node::Text(text) => self.text(text)?,
-                Node::Image(_) => return refused("pictures"),
+                Node::Image(image) => self.image(image)?,
             }
         }
+        Ok(())
+    }
+
+    /// Shows a picture: PDF paints it into the unit square, its first row on top (8.9.5).
+    fn image(&mut self, image: &Image) -> Result<(), DrawingError> {
+        let place = self.images.place(image.kind())?;
+        let (width, height) = (image.size().width(), image.size().height());
+        let unit = Transform::from_row(width, 0.0, 0.0, -height, 0.0, height);
+        let at = self.base.pre_concat(image.abs_transform()).pre_concat(unit);
+        self.content.save_state();
+        self.content.transform([at.sx, at.ky, at.kx, at.sy, at.tx, at.ty]);
+        self.content.x_object(Name(picture_name(place).as_bytes()));
+        self.content.restore_state();
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! The fonts of a PDF: of each font of the drawings, the glyphs that are used, with their widths and characters.
 
-use super::deflated;
+use super::deflate::deflated;
 use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, Str};
 use resvg::usvg::fontdb::{Database, ID};

@@ -1,6 +1,6 @@
 //! Curves over one axis, each with the band in which its values lie.
 
-use super::{Area, PlotAxis, PlotError, SIZE, drawn, failed, number, room};
+use super::{Area, PlotAxis, PlotError, drawn, failed, number, room};
 use plotters::prelude::*;
 
 /// The width of the key of curves.
@@ -29,16 +29,22 @@ pub struct PlotCurve {
     pub bands: Vec<Option<[f64; 2]>>,
 }
 
-/// Draws curves over one axis. `unit` stands beside their values.
+/// Draws curves over one axis, on a plot of this size in units of its drawing. `unit` stands beside their values; an empty title
+/// takes no room.
 ///
 /// # Errors
 /// A [`PlotError`]: an axis that does not rise or fall, or no number.
-pub fn curves(title: &str, axis: &PlotAxis, unit: &str, curves: &[PlotCurve]) -> Result<String, PlotError> {
+pub fn curves(
+    (title, size): (&str, (u32, u32)),
+    axis: &PlotAxis,
+    unit: &str,
+    curves: &[PlotCurve],
+) -> Result<String, PlotError> {
     axis.check()?;
     room(numbers(curves)).ok_or(PlotError::Nothing)?;
-    drawn(SIZE, |root| {
-        let (left, right) = root.split_horizontally(SIZE.0 as i32 - KEY_WIDTH);
-        draw_key(&right, 90, curves)?;
+    drawn(size, |root| {
+        let (left, right) = root.split_horizontally(size.0 as i32 - KEY_WIDTH);
+        draw_key(&right, if title.is_empty() { 40 } else { 90 }, curves)?;
         draw_curves(&left, (title, 24), axis, unit, curves)
     })
 }
@@ -57,10 +63,13 @@ pub(super) fn draw_curves(
     curves: &[PlotCurve],
 ) -> Result<(), PlotError> {
     let (across, up) = (axis.ends()?, room(numbers(curves)).ok_or(PlotError::Nothing)?);
-    let mut chart = ChartBuilder::on(area)
+    let mut builder = ChartBuilder::on(area);
+    if !title.is_empty() {
+        builder.caption(title, ("sans-serif", size));
+    }
+    let mut chart = builder
         .margin(24)
         .margin_right(0)
-        .caption(title, ("sans-serif", size))
         .x_label_area_size(52)
         .y_label_area_size(72)
         .build_cartesian_2d(across, up)
@@ -143,11 +152,12 @@ mod tests {
         let x = PlotAxis { label: "x".into(), values: vec![1.0, 2.0, 3.0, 4.0, 5.0] };
         let of = |gap: Option<usize>| {
             let bands = (0..5).map(|k| (Some(k) != gap).then_some([k as f64, k as f64 + 0.5])).collect();
-            curves("t", &x, "%", &[PlotCurve { name: "fire".into(), bands }]).unwrap()
+            curves(("t", super::super::PLOT_SIZE), &x, "%", &[PlotCurve { name: "fire".into(), bands }])
+                .unwrap()
         };
         let parts = |text: &str| text.matches("<polygon").count();
         assert_eq!(parts(&of(Some(2))), parts(&of(None)) + 1);
         assert!(of(None).contains("fire"));
-        assert_eq!(curves("t", &x, "%", &[]), Err(PlotError::Nothing));
+        assert_eq!(curves(("t", super::super::PLOT_SIZE), &x, "%", &[]), Err(PlotError::Nothing));
     }
 }

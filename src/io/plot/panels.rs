@@ -1,7 +1,7 @@
 //! Families of curves: one panel for each measure, and in each one curve for each member of the family.
 
 use super::curves::{draw_curves, draw_key, numbers};
-use super::{PlotAxis, PlotCurve, PlotError, SIZE, drawn, failed, room};
+use super::{PLOT_SIZE, PlotAxis, PlotCurve, PlotError, drawn, failed, room};
 use plotters::prelude::*;
 
 /// One panel of a plot.
@@ -42,7 +42,7 @@ pub fn panels(
     };
     let rows = panels.len().div_ceil(columns);
     let size = match panels.len() {
-        1 => SIZE,
+        1 => PLOT_SIZE,
         _ => (columns as u32 * PANEL.0 + MARGIN.0, rows as u32 * PANEL.1 + MARGIN.1),
     };
     for panel in panels {

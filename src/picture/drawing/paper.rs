@@ -3,8 +3,9 @@
 use super::lettering::{Align, Frame, Type, printable, text_frame};
 use super::{Ink, Sheet};
 use glam::DVec2;
-use svg::Document;
+use svg::node::Blob;
 use svg::node::element::{Group, Rectangle, Title};
+use svg::{Document, Node};
 
 /// Width of the line round the letters that makes them heavier, in type sizes.
 const HEAVIER: f64 = 0.035;
@@ -19,10 +20,16 @@ impl Sheet {
         })
     }
 
+    /// Puts the element of another drawing under this one, where it fills a box.
+    pub fn embed(&mut self, element: &str, frame: Frame) {
+        [frame.low, frame.high].into_iter().for_each(|p| self.frame.include(p));
+        self.embedded.append(Blob::new(element));
+    }
+
     /// Returns the drawing as a page of `size` units, which is `size_mm` in print. Everything stays where it was drawn.
     pub fn page(self, title: &str, size: DVec2, size_mm: DVec2) -> Document {
         let paper = self.inks.of(Ink::Paper);
-        let all = [self.stone, self.extensions, self.dimensions, self.texts];
+        let all = [self.embedded, self.stone, self.extensions, self.dimensions, self.texts];
         Document::new()
             .set("viewBox", (0, 0, size.x, size.y))
             .set("width", format!("{}mm", size_mm.x))

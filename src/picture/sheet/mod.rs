@@ -15,3 +15,4 @@ mod wrapping;
 pub use blocks::{BlockKind, SheetBlock, SheetRow};
 pub use cutting_sheet::CuttingSheet;
 pub use page::{PaperSize, sheet_pages};
+pub(super) use wrapping::words;

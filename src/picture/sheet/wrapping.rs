@@ -3,7 +3,7 @@
 use super::super::drawing::text_width;
 
 /// Breaks a text of words into lines no wider than `room`; a word that is wider alone is broken anywhere.
-pub(super) fn words(text: &str, size: f64, room: f64) -> Vec<String> {
+pub(in crate::picture) fn words(text: &str, size: f64, room: f64) -> Vec<String> {
     packed(text.split_whitespace().map(str::to_owned), " ", size, room)
 }
 

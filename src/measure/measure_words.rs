@@ -1,6 +1,6 @@
-//! Measures in words: their names on the screen, what they mean, and their values.
+//! Measures in words: their names on screen and paper, what they mean, and their values.
 
-use crate::measure::{Interval, MeasureName, MeasureSettings};
+use super::{Interval, MeasureName, MeasureSettings};
 use crate::scene::DomeLight;
 
 /// Returns the measures that can be chosen.

@@ -1,0 +1,152 @@
+//! `report`: writes a report on a design, or on how several compare, as a laboratory would hand it out.
+
+use super::console::written;
+use super::mesh_options::MeshArguments;
+use super::options::{LightOptions, SideName, ViewOptions};
+use super::progress::WorkProgress;
+use crate::cut::Size;
+use crate::io::report::{PICTURE_SIDE, ReportFormat, ReportOrigin, check_count, report, write};
+use crate::io::{Failure, is_standard};
+use crate::picture::PaperSize;
+use crate::render::{Card, Renderer, Wanted};
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub struct ReportArguments {
+    /// Designs and meshes, or names of cuts that come with the program: one alone, or several that are compared
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// The file to write; it ends in .pdf, or in .html for a web page of one file
+    #[arg(short = 'o', long, value_name = "FILE")]
+    out: PathBuf,
+    /// The size of a PDF's paper
+    #[arg(long, value_enum, default_value_t)]
+    paper: PaperSize,
+    /// A date to print, in any words; without one the same report is the same every day
+    #[arg(long, value_name = "TEXT")]
+    date: Option<String>,
+    /// Pixels along each side of a picture, 16 to 2000
+    #[arg(long, value_name = "N", default_value_t = PICTURE_SIDE, value_parser = clap::value_parser!(u32).range(16..=2000))]
+    pixels: u32,
+    /// A material's name, or an index, instead of the files'
+    #[arg(long, value_name = "MATERIAL")]
+    material: Option<String>,
+    /// The stones' size, such as 6.5mm or 1.2ct, instead of the files'
+    #[arg(long, value_name = "SIZE")]
+    stone: Option<Size>,
+    #[command(flatten)]
+    mesh: MeshArguments,
+}
+
+impl ReportArguments {
+    pub fn run(&self) -> Result<(), Failure> {
+        let format = ReportFormat::of_name(&self.out).filter(|_| !is_standard(&self.out));
+        let format = format.ok_or_else(|| {
+            Failure::Usage(format!(
+                "--out {}: give a file whose name ends in .pdf or .html",
+                self.out.display()
+            ))
+        })?;
+        check_count(self.files.len())?;
+        let light = self.light();
+        // A card would leave other last digits than the processor.
+        let mut renderer = Renderer::new(Card::None);
+        let mut specimens = vec![];
+        for file in &self.files {
+            specimens.push(light.specimen(file, self.mesh.options())?);
+        }
+        let mut viewings = vec![];
+        for specimen in &specimens {
+            viewings.push(light.viewing(specimen, &FACE_UP, &renderer)?);
+        }
+        let (command, date) = (self.command(), self.date.clone());
+        let origin = ReportOrigin { command, picture_side: self.pixels, date };
+        let report = {
+            let progress = WorkProgress::new("report");
+            report(&viewings, &origin, &mut renderer, &progress.watch(), &|event| progress.report(event))?
+        };
+        write(&self.out, format, &report, self.paper)?;
+        written(&self.out)
+    }
+
+    /// Returns the light of every report: the same, so that reports can be compared.
+    fn light(&self) -> LightOptions {
+        LightOptions {
+            material: self.material.clone(),
+            stone: self.stone,
+            no_glare: false,
+            index: None,
+            wavelength: None,
+            head: 0.0,
+            unresolved: None,
+            exact: false,
+            unpolarised: false,
+            tracer: Wanted::Quickest,
+        }
+    }
+
+    /// Returns the command that makes the same report again, but for what does not change its content.
+    fn command(&self) -> String {
+        let mut words = vec!["brillianteer".to_owned(), "report".to_owned()];
+        words.extend(self.files.iter().map(|file| file.display().to_string()));
+        words.extend(self.material.iter().flat_map(|material| ["--material".to_owned(), material.clone()]));
+        words.extend(
+            self.stone.iter().flat_map(|size| ["--stone".to_owned(), size.to_string().replace(' ', "")]),
+        );
+        if self.pixels != PICTURE_SIDE {
+            words.extend(["--pixels".to_owned(), self.pixels.to_string()]);
+        }
+        words.extend(self.mesh.words());
+        let quoted = |word: String| if word.contains(' ') { format!("'{word}'") } else { word };
+        words.into_iter().map(quoted).collect::<Vec<_>>().join(" ")
+    }
+}
+
+/// The view of every report.
+const FACE_UP: ViewOptions =
+    ViewOptions { side: SideName::Table, tilt: 0.0, eye_tilt: 0.0, azimuth: 0.0, perspective: None };
+
+#[cfg(test)]
+mod tests {
+    use super::super::run_line;
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Debug, Parser)]
+    struct Line {
+        #[command(flatten)]
+        report: ReportArguments,
+    }
+
+    fn command(options: &str) -> String {
+        let words = ["b"].into_iter().chain(options.split(' '));
+        Line::try_parse_from(words).unwrap().report.command()
+    }
+
+    #[test]
+    fn a_report_says_what_makes_it_again() {
+        let said = command(
+            "a.toml b.stl -o x.pdf --date today --paper letter --stone 1.5ct --pixels 99 --up -y --as faceted",
+        );
+        let again = "brillianteer report a.toml b.stl --stone 1.5ct --pixels 99 --up 0,-1,0 --as faceted";
+        assert_eq!(said, again);
+        assert_eq!(
+            command(&again["brillianteer report ".len()..].replace("b.stl", "b.stl -o y.html")),
+            again
+        );
+        assert_eq!(command("oval -o x.html --material ruby"), "brillianteer report oval --material ruby");
+    }
+
+    #[test]
+    fn a_name_without_a_known_ending_is_refused_before_any_work() {
+        for out in ["report", "report.svg", "-"] {
+            let line = ["brillianteer", "report", "tolkowsky", "-o", out];
+            let error = run_line(line.map(Into::into).to_vec()).unwrap_err();
+            assert!(
+                error.to_string().contains(".pdf or .html") && matches!(error, Failure::Usage(_)),
+                "{error}"
+            );
+        }
+    }
+}

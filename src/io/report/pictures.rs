@@ -1,0 +1,169 @@
+//! The pictures of a report: a stone in every scope and under light, its profile and its facet diagram.
+
+use crate::io::Failure;
+use crate::io::export::{Reporter, Viewing, note};
+use crate::io::lighting::Lighting;
+use crate::io::png_bytes::png;
+use crate::measure::facet_deviations;
+use crate::optics::linear_from_encoded;
+use crate::picture::{
+    Background, Develop, DiagramStyle, EmbeddedDrawing, Inks, Linear, Palette, Picture, Scoped, develop,
+    diagram, named, profile,
+};
+use crate::render::{
+    Job, LightProduct, Partial, Product, Quality, Reading, Renderer, ScopeProduct, Steps, Surroundings,
+};
+use crate::scene::Scene;
+use crate::trace::Watch;
+use ::png::{BitDepth, ColorType};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use std::sync::Arc;
+
+/// The bands of wavelengths of the picture under light.
+const WAVELENGTHS: u32 = 8;
+
+/// Rays along each side of a pixel in a scope, and passes of the picture under light, of solids that only rays trace. It is
+/// less than pictures of their own have, so that a report takes seconds.
+const RAYS_PER_SIDE: u32 = 2;
+const PASSES_OF_RAYS: u32 = 16;
+
+/// The share of the light that pictures leave unresolved.
+const UNRESOLVED: f64 = 2e-3;
+
+/// The background of the picture under light, as an sRGB code of each channel.
+const BEHIND: u8 = 0xf2;
+
+/// The width and the height at which the facet diagram is shown on paper, points; its names are readable there.
+const DIAGRAM: [f64; 2] = [140.0, 262.0];
+
+/// The scopes of every stone: names of pictures, and what they are called on paper.
+const SCOPES: [(&str, &str); 2] = [("aset", "ASET"), ("ideal-scope", "Ideal-Scope")];
+
+/// The scopes of round brilliants alone.
+const SCOPES_OF_ROUNDS: [(&str, &str); 2] = [("hearts", "Hearts"), ("arrows", "Arrows")];
+
+/// A picture, and what it is called.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct NamedDrawing {
+    pub name: &'static str,
+    pub drawing: EmbeddedDrawing,
+}
+
+/// Returns the scopes that are for the cut of a stone, each with what it is called.
+fn scopes(viewing: &Viewing) -> Vec<(&'static str, Scoped)> {
+    let is_round = viewing.specimen.stone().is_ok_and(|stone| facet_deviations(stone).is_ok());
+    let more = if is_round { SCOPES_OF_ROUNDS.as_slice() } else { &[] };
+    let scoped = |&(name, called): &(&str, &'static str)| match named(name) {
+        Some(Picture::Scoped(scoped)) => Some((called, scoped)),
+        _ => None,
+    };
+    SCOPES.iter().chain(more).filter_map(scoped).collect()
+}
+
+/// Takes the pictures of a stone, `side` pixels along each side: under light, and in every scope that is for its cut.
+pub(super) fn pictures(
+    (viewing, side): (&Viewing, u32),
+    renderer: &mut Renderer,
+    watch: Watch,
+    tell: Reporter,
+) -> Result<Vec<NamedDrawing>, Failure> {
+    let scopes = scopes(viewing);
+    let count = scopes.len() as f64 + 1.0;
+    let part = |k: usize| move |done: f64| watch((k as f64 + done) / count);
+    let mut all = vec![under_light((viewing, side), renderer, &part(0), tell)?];
+    for (k, (name, scoped)) in scopes.iter().enumerate() {
+        let drawing = in_scope((viewing, side), scoped, renderer, &part(k + 1), tell)?;
+        all.push(NamedDrawing { name, drawing });
+    }
+    Ok(all)
+}
+
+fn in_scope(
+    (viewing, side): (&Viewing, u32),
+    scoped: &Scoped,
+    renderer: &mut Renderer,
+    watch: Watch,
+    tell: Reporter,
+) -> Result<EmbeddedDrawing, Failure> {
+    let viewing = viewing.facing(scoped.side);
+    let by_beams = viewing.check(renderer)?;
+    let scope = scoped.with_head(viewing.head_deg);
+    let palette = Palette::of(&scope);
+    let (medium, glare) = (viewing.medium, viewing.glare.unwrap_or_default());
+    let product = Product::Scope(ScopeProduct { scope, medium, glare, readings: vec![Reading::Energy] });
+    let mut job = viewing.job(viewing.film(side), product, UNRESOLVED);
+    job.quality.samples = (!by_beams).then_some(RAYS_PER_SIDE);
+    let mut rgb: Vec<u8> = vec![];
+    renderer.run(&job, watch, &mut |part| match part {
+        Partial::Begun { .. } => {
+            rgb.clear();
+            Ok(())
+        }
+        Partial::Rows { rows, first_channel, .. } => {
+            for y in rows.first..rows.first + rows.count {
+                palette.encode(rows, first_channel, y, &mut rgb);
+            }
+            Ok(())
+        }
+        other => note(&other, tell),
+    })?;
+    drawn(side, &rgb)
+}
+
+fn under_light(
+    (viewing, side): (&Viewing, u32),
+    renderer: &mut Renderer,
+    watch: Watch,
+    tell: Reporter,
+) -> Result<NamedDrawing, Failure> {
+    let product = Product::Light(LightProduct {
+        surroundings: Surroundings::of(Arc::new(Lighting::load("studio")?)),
+        wavelengths: WAVELENGTHS,
+        adapted: true,
+        strength: 1.0,
+        jitter: true,
+        steps: Steps::Strips,
+    });
+    let scene = Arc::new(Scene::alone(viewing.specimen));
+    // Beams take few passes by themselves.
+    let samples = (!viewing.check(renderer)?).then_some(PASSES_OF_RAYS);
+    let quality = Quality { samples, tracer: viewing.tracer, ..Quality::of_pictures(viewing.polarised) };
+    let job = Job { scene, view: viewing.view(), film: viewing.film(side), product, quality };
+    let mut light = Linear { width: side, height: side, pixels: vec![] };
+    renderer.run(&job, watch, &mut |part| match part {
+        Partial::LightRow { y, pixels } => {
+            light.pixels.truncate(y as usize * side as usize);
+            light.pixels.extend_from_slice(pixels);
+            Ok(())
+        }
+        other => note(&other, tell),
+    })?;
+    let paper = [linear_from_encoded(f64::from(BEHIND) / 255.0) as f32; 3];
+    let manner = Develop { bloom: None, background: Background::Plain(paper), ..Develop::default() };
+    let rgb: Vec<u8> = develop(&light, &manner).chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+    Ok(NamedDrawing { name: "Studio light", drawing: drawn(side, &rgb)? })
+}
+
+/// Makes a drawing of the pixels of a picture, which stands in it whole.
+fn drawn(side: u32, rgb: &[u8]) -> Result<EmbeddedDrawing, Failure> {
+    let bytes = png([side; 2], (ColorType::Rgb, BitDepth::Eight), rgb, &[]);
+    let bytes = bytes.map_err(|e| Failure::Output(format!("a picture of the report: {e}")))?;
+    let href = format!("data:image/png;base64,{}", STANDARD.encode(bytes));
+    Ok(EmbeddedDrawing::of_picture([side; 2], &href))
+}
+
+/// Draws the profile and the facet diagram of a stone; none of a solid that is no convex stone.
+pub(super) fn drawings(viewing: &Viewing) -> Vec<NamedDrawing> {
+    let Ok(stone) = viewing.specimen.stone() else { return vec![] };
+    let design = &viewing.specimen.design;
+    let style = DiagramStyle::fitting(stone, Inks::PAPER, DIAGRAM);
+    let drawn = [
+        ("Profile", profile(stone, &design.name, design.cut.brilliant())),
+        ("Facet diagram", diagram(stone, &design.name, &style)),
+    ];
+    let named = |(name, document): (&'static str, svg::Document)| {
+        Some(NamedDrawing { name, drawing: EmbeddedDrawing::of(&document.to_string())? })
+    };
+    drawn.into_iter().filter_map(named).collect()
+}
