@@ -16,6 +16,8 @@ use std::path::Path;
 mod outward;
 #[cfg(test)]
 pub(super) mod sample;
+#[cfg(test)]
+mod slopes_of_tiers;
 
 pub use outward::as_tiers;
 pub(super) use outward::{FacetOutline, outlines, refractive_index, tiers_of, untold};

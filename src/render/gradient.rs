@@ -33,9 +33,6 @@ pub struct PlaneChanges {
     of_keys: Vec<Option<Vec<(DVec3, f64)>>>,
 }
 
-#[cfg(test)]
-mod tests;
-
 /// A stone's measures, with how some of them change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GradedStone {
@@ -47,6 +44,14 @@ pub struct GradedStone {
 
 /// The planes of a stone by the names of its facets.
 type NamedPlanes = HashMap<String, (DVec3, f64)>;
+
+impl PlaneChanges {
+    /// Returns how the normal and the offset of each facet change per unit of a number, which is named by its place among the keys;
+    /// `None` for the index, which changes no plane.
+    pub fn of_key(&self, place: usize) -> Option<&[(DVec3, f64)]> {
+        self.of_keys.get(place)?.as_deref()
+    }
+}
 
 impl Sweep {
     /// Returns how measures of the design, which stands at no point of the axes, change with numbers of it.

@@ -76,6 +76,9 @@ fn listed() -> Vec<[String; 4]> {
     cells.map(|row| row.collect::<Vec<_>>().try_into().unwrap()).collect()
 }
 
+/// Crates that state their licence only by a file with its text, which a person has read.
+const BY_FILE: [(&str, &str); 1] = [("cobyla", "MIT")];
+
 /// Writes the list from cargo's metadata of each crate.
 fn write(needed: &BTreeSet<(String, String)>) {
     let cargo = std::env::var_os("CARGO").unwrap();
@@ -90,8 +93,12 @@ fn write(needed: &BTreeSet<(String, String)>) {
     for package in metadata["packages"].as_array().unwrap() {
         let text = |key: &str| package[key].as_str().unwrap_or_default().to_owned();
         let key = (text("name"), text("version"));
+        let mut licence = text("license");
+        if let Some((_, known)) = BY_FILE.iter().find(|(name, _)| *name == key.0 && licence.is_empty()) {
+            (*known).clone_into(&mut licence);
+        }
         let link = ["repository", "homepage"].map(text).into_iter().find(|link| !link.is_empty());
-        rows.insert(key, (text("license"), link.unwrap_or_default()));
+        rows.insert(key, (licence, link.unwrap_or_default()));
     }
     let mut list = format!(
         "# Licences of what Brillianteer is built of\n\nThe program itself is licensed under [MIT](../LICENSE-MIT) or \

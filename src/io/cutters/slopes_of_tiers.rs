@@ -1,10 +1,11 @@
-#![cfg(feature = "interchange")]
+//! The exact slopes of measures by the angles and distances of cutters' tiers.
 
-use super::*;
-use crate::cut::Design;
-use crate::io::{as_tiers, cut_file, library};
-use crate::measure::MeasureSettings;
-use crate::scene::{Medium, Stone, View, Viewpoint};
+use super::as_tiers;
+use crate::cut::{Cut, Design};
+use crate::io::{cut_file, library};
+use crate::measure::{EnergyDerivatives, MeasureName, MeasureSettings};
+use crate::render::{Sweep, SweepKey, with_numbers};
+use crate::scene::{Medium, Specimen, Stone, View, Viewpoint};
 use crate::trace::beam::{BeamOptions, Beams, trace_bounces};
 
 /// All stones of a comparison are followed for as many reflections, so that neighbours have the same beams.
@@ -88,8 +89,8 @@ fn derivatives_by_angles_and_distances_of_tiers_are_those_of_differences() {
                 (SweepKey::Tier(tier.name.clone()), tier.angle.abs(), 2e-5),
                 (SweepKey::Distance(tier.name.clone()), tier.distance, 2e-7 * tier.distance),
             ] {
-                let changes = sweep.plane_changes(&[key.clone()]).unwrap();
-                let changes = changes.of_keys[0].clone().unwrap();
+                let changes = sweep.plane_changes(std::slice::from_ref(&key)).unwrap();
+                let changes = changes.of_key(0).unwrap().to_vec();
                 assert_eq!(changes.len(), facets);
                 let differences = |step: f64| -> Vec<f64> {
                     let of = |by: f64| {
