@@ -17,6 +17,7 @@ pub use figures::{FigureReport, measure};
 pub use hearts::{HeartsReport, hearts};
 pub use measures::{MeasureReport, light_measures};
 pub use viewing::Viewing;
+#[cfg(feature = "interchange")]
 pub(in crate::io) use viewing::note;
 
 use super::{Failure, WriteError, is_standard, write};
