@@ -176,7 +176,7 @@ fn what_may_not_be_lost_is_kept() {
     let design = brilliant(34.0, 41.0);
     let (search, free) = searched(&design, &goal);
     let start = search.objective().start().values[1].value;
-    assert!(start.least - free.best.values[1].value.least > 0.1, "{:?}", free.best.values);
+    assert!(start.least - free.best.values[1].value.least > 0.04, "{:?}", free.best.values);
     goal.measure[1].may_lose = Some(0.02);
     let (_, held) = searched(&design, &goal);
     // Beside what may be lost, both figures leave 2 % open.
