@@ -148,20 +148,33 @@ impl OptimiseArguments {
                 "warning: {path}: no design was found that keeps all limits; the design stays as it is"
             ));
         }
+        // What was found is kept first, whatever fails behind it.
+        self.write(format, outcome.design.clone())?;
         let others = OtherMeasure::all(&search, &outcome, &unwatched).map_err(refused)?;
         match self.json {
             true => print(&super::console::json(&json_value(&path, &search, &outcome, &others)))?,
             false => print(&text(&goal, &search, &outcome, &others))?,
         }
-        if let Some(plot) = plot {
-            let title = format!("{}: the best of the designs so far", specimen.design.name);
-            let svg = progress_svg(&title, &outcome).map_err(|error| plot.failed(&error))?;
-            match self.json {
-                true => plot.write_silently(&svg, &title)?,
-                false => plot.write(&svg, &title)?,
-            }
+        self.draw(plot.as_ref(), &specimen.design.name, &outcome)?;
+        match &self.out {
+            Some(out) if !self.json => written(out),
+            _ => Ok(()),
         }
-        self.write(format, outcome.design)
+    }
+
+    /// Draws how the best grew.
+    fn draw(&self, plot: Option<&PlotFile>, name: &str, outcome: &SearchOutcome) -> Result<(), Failure> {
+        let Some(plot) = plot else { return Ok(()) };
+        if outcome.curve.is_empty() || outcome.appraised == 0 {
+            say("note: no plot is drawn, because no design was found that keeps all limits");
+            return Ok(());
+        }
+        let title = format!("{name}: the best of the designs so far");
+        let svg = progress_svg(&title, outcome).map_err(|error| plot.failed(&error))?;
+        match self.json {
+            true => plot.write_silently(&svg, &title),
+            false => plot.write(&svg, &title),
+        }
     }
 
     /// Returns the goal of the file and of the options.
@@ -229,7 +242,7 @@ impl OptimiseArguments {
         let made = Specimen::new(design).map_err(|error| Failure::Output(error.to_string()))?;
         let lost = design_file::write(&made, format, out)?;
         lost.iter().for_each(|what| say(&format!("note: {}: {what}", out.display())));
-        if self.json { Ok(()) } else { written(out) }
+        Ok(())
     }
 }
 

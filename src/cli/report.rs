@@ -98,8 +98,16 @@ impl ReportArguments {
             words.extend(["--pixels".to_owned(), self.pixels.to_string()]);
         }
         words.extend(self.mesh.words());
-        let quoted = |word: String| if word.contains(' ') { format!("'{word}'") } else { word };
-        words.into_iter().map(quoted).collect::<Vec<_>>().join(" ")
+        words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
+    }
+}
+
+/// Returns a word as a shell reads it.
+fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "-_./+=:,@%".contains(c);
+    match !word.is_empty() && word.chars().all(is_plain) {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', r"'\''")),
     }
 }
 

@@ -145,11 +145,12 @@ impl SweepArguments {
             let from = kept.saturating_sub(number * points);
             self.sweep_file(file, sweep, from..points, &mut outputs)?;
         }
-        if let Some(plot) = &outputs.plot {
-            plot.write(&stem(&files[0]))?;
-        }
+        // A plot that cannot be drawn loses no row.
         if let Some(table) = outputs.table {
             table.finish()?;
+        }
+        if let Some(plot) = &outputs.plot {
+            plot.write(&stem(&files[0]))?;
         }
         match (outputs.failed, files.len() * points) {
             (0, _) => Ok(()),

@@ -5,6 +5,7 @@ use super::interval::Interval;
 use super::light_measures::{LightMeasures, MeasureSettings};
 use crate::scene::DomeLight;
 use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
 use std::fmt;
 use std::str::FromStr;
 
@@ -84,6 +85,29 @@ const RETURN: &str = "return-";
 const WITH_GLARE: &str = "+glare";
 
 impl MeasureName {
+    /// Returns which of two values of this measure is the better one: `Greater` where more is better. Where it is a matter of taste,
+    /// as with contrast and the size of patches, none is.
+    pub fn better(self) -> Option<Ordering> {
+        match self {
+            Self::Return(_) | Self::ReturnWithGlare(_) | Self::Fire | Self::FireSeen => {
+                Some(Ordering::Greater)
+            }
+            Self::Leakage
+            | Self::Windowing
+            | Self::Obstruction
+            | Self::Extinction
+            | Self::BowTie
+            | Self::FishEye => Some(Ordering::Less),
+            Self::Contrast
+            | Self::Absorbed
+            | Self::EyeContrast
+            | Self::PatchSize
+            | Self::CrushedIce
+            | Self::Scintillation
+            | Self::ScintillationSize => None,
+        }
+    }
+
     /// The measures that are no returns of domes, by their names.
     const OTHERS: [(&'static str, Self); 15] = [
         ("leakage", Self::Leakage),

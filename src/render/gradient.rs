@@ -125,6 +125,12 @@ impl Sweep {
         key: &SweepKey,
         facets: &[String],
     ) -> Result<Option<Vec<(DVec3, f64)>>, SweepError> {
+        if let SweepKey::Tier(name) = key
+            && start.design.cut.settings().iter().any(|own| own.name == *name && own.angle.abs() < 2.0 * STEP)
+        {
+            let why = format!("{key} has no derivatives: the tier lies level, and its angle has no side");
+            return Err(SweepError::NoDerivative(why));
+        }
         let (value, step) = match key {
             SweepKey::Index => return Ok(None),
             SweepKey::Proportion(name) => proportion(&start.design.cut, name),

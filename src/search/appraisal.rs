@@ -33,6 +33,9 @@ pub enum SearchError {
         /// The greatest value of the range.
         most: f64,
     },
+    /// A measure that the design does not have, as a fish eye without a table.
+    #[error("measure: the design has no {0}; leave it out of the goal")]
+    NotMeasured(String),
     /// A limit of something that the design does not have.
     #[error("limit: {name}: there is no such figure; the design has {known}")]
     NoLimit {

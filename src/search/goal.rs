@@ -173,9 +173,11 @@ impl Goal {
         }
         for (key, limit) in &self.limit {
             let (low, high) = limit.ends();
-            if limit.at_least.or(limit.at_most).is_none() || low.is_nan() || high.is_nan() || low > high {
-                let problem =
-                    format!("{key}: give at_least, at_most or both, the first not above the second");
+            let are_finite = limit.at_least.iter().chain(&limit.at_most).all(|end| end.is_finite());
+            if limit.at_least.or(limit.at_most).is_none() || !are_finite || low > high {
+                let problem = format!(
+                    "{key}: give at_least, at_most or both as finite numbers, the first not above the second"
+                );
                 return fault(format!("limit/{key}"), &problem);
             }
         }

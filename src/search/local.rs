@@ -64,7 +64,7 @@ impl Memory<'_> {
 }
 
 fn memory<'a>(trials: &'a Trials<'a>) -> Memory<'a> {
-    Memory { trials, last: RefCell::new(None), worst: RefCell::new(trials.best_total().unwrap_or(0.0)) }
+    Memory { trials, last: RefCell::new(None), worst: RefCell::new(trials.start_total()) }
 }
 
 /// Climbs by slopes from a place, and returns the place where it ends.

@@ -37,6 +37,9 @@ pub struct Objective {
 impl Objective {
     /// Takes a goal for a design, and appraises the design as it is until no more than `unresolved` of the light is open.
     ///
+    /// What may be lost counts from the design as it is measured until no more than `searched` is open, as designs are in a search, so
+    /// that one that loses nothing is never refused.
+    ///
     /// The meets that a design of tiers states, and those that its geometry shows, are followed from here on, but for stated ones
     /// that contradict the design. Numbers that break a meet when they alone change are held.
     ///
@@ -46,7 +49,7 @@ impl Objective {
         design: &Design,
         goal: &Goal,
         polarised: bool,
-        unresolved: f64,
+        (searched, unresolved): (f64, f64),
         watch: Watch,
     ) -> Result<Self, SearchError> {
         goal.check()?;
@@ -74,7 +77,7 @@ impl Objective {
         if new.numbers.is_empty() {
             return Err(SearchError::NoNumbers);
         }
-        new.start = new.appraise(&new.start_places(), unresolved, false, watch)?;
+        new.start = new.appraise(&new.start_places(), searched, false, watch)?;
         new.limit_losses(goal);
         new.start = new.appraise(&new.start_places(), unresolved, false, watch)?;
         Ok(new)
@@ -154,7 +157,8 @@ impl Objective {
         let changes = match (with_slopes, sweeps.first()) {
             (true, Some(sweep)) => {
                 let keys: Vec<_> = self.numbers.iter().map(|number| number.key.clone()).collect();
-                Some(sweep.plane_changes(&keys)?)
+                // Where a facet comes or goes beside the design there are no slopes, but there is a stone.
+                sweep.plane_changes(&keys).ok()
             }
             _ => None,
         };
@@ -163,7 +167,7 @@ impl Objective {
             .zip(&self.views)
             .map(|(sweep, view)| taken(sweep, view, changes.as_ref(), watch))
             .collect::<Result<_, _>>()?;
-        let mut appraisal = self.summed(&measured, figures);
+        let mut appraisal = self.summed(&measured, figures)?;
         if changes.is_some() {
             appraisal.slopes = Some(self.slopes(places, &measured));
         }
@@ -215,12 +219,17 @@ impl Objective {
     }
 
     /// Adds up what was measured in each view.
-    fn summed(&self, measured: &[(SweptStone, Vec<Vec<f64>>)], figures: Vec<(String, f64)>) -> Appraisal {
+    fn summed(
+        &self,
+        measured: &[(SweptStone, Vec<Vec<f64>>)],
+        figures: Vec<(String, f64)>,
+    ) -> Result<Appraisal, SearchError> {
         let (mut least, mut most) = (0.0, 0.0);
         let (mut values, mut slacks) = (vec![], vec![]);
         for term in &self.terms {
             let view = &self.views[term.view];
-            let value = term.name.of(&measured[term.view].0.measures).unwrap_or(Interval::from(0.0, 1.0));
+            let value = term.name.of(&measured[term.view].0.measures);
+            let value = value.ok_or_else(|| SearchError::NotMeasured(term.name.to_string()))?;
             let (worse, better) =
                 if term.weight < 0.0 { (value.most, value.least) } else { (value.least, value.most) };
             // A weight of 0 times an infinite end would be no number.
@@ -241,7 +250,7 @@ impl Objective {
         for (limit, (_, figure)) in self.limits.iter().zip(&figures) {
             push_slacks(&mut slacks, limit.ends, (*figure, *figure));
         }
-        Appraisal { total: Interval { least, most }, values, figures, slacks, slopes: None }
+        Ok(Appraisal { total: Interval { least, most }, values, figures, slacks, slopes: None })
     }
 
     /// Returns how total and slacks change, of which the light's part was measured.

@@ -9,6 +9,7 @@ use crate::optics::line;
 use crate::render::Sweep;
 use crate::scene::Viewpoint;
 use crate::trace::Watch;
+use std::cmp::Ordering;
 
 /// A measure that the goal does not weigh, face up and in the design's own material.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,14 +61,10 @@ impl OtherMeasure {
 
     /// Returns whether people want more of the measure (1), less (-1), or neither (0).
     pub fn wanted(&self) -> f64 {
-        match self.name {
-            MeasureName::Leakage
-            | MeasureName::Windowing
-            | MeasureName::Obstruction
-            | MeasureName::Extinction
-            | MeasureName::Absorbed => -1.0,
-            MeasureName::Contrast => 0.0,
-            _ => 1.0,
+        match self.name.better() {
+            Some(Ordering::Greater) => 1.0,
+            Some(_) => -1.0,
+            None => 0.0,
         }
     }
 }

@@ -134,7 +134,8 @@ impl DesignSearch {
         watch: Watch,
     ) -> Result<Self, SearchError> {
         let finest = options.unresolved / FINER;
-        let objective = Objective::new(design, goal, options.polarised, finest, watch)?;
+        let fineness = (options.unresolved, finest);
+        let objective = Objective::new(design, goal, options.polarised, fineness, watch)?;
         Ok(Self { objective, options })
     }
 
@@ -280,8 +281,13 @@ impl Trials<'_> {
         self.search.objective.start().slacks.len()
     }
 
+    /// Returns the total of the design as it was given. It is the same in every run, unlike the best so far.
+    pub fn start_total(&self) -> f64 {
+        self.search.objective.start().total.middle()
+    }
+
     /// Returns the total of the best so far.
-    pub fn best_total(&self) -> Option<f64> {
+    fn best_total(&self) -> Option<f64> {
         self.best().map(|(_, total)| total)
     }
 
@@ -317,8 +323,9 @@ impl Trials<'_> {
     /// Takes note of a design if it is the best so far that keeps all limits.
     fn note(&self, places: &[f64], found: &Appraisal) {
         let total = found.total.middle();
-        let appraised = self.appraised.load(Ordering::Relaxed);
         let mut record = self.record();
+        // Read while the record is held, so that the curve never goes back.
+        let appraised = self.appraised.load(Ordering::Relaxed);
         let is_best = keeps(found) && record.best.as_ref().is_none_or(|(_, best)| total > *best);
         if is_best {
             record.best = Some((places.to_vec(), total));

@@ -95,7 +95,7 @@ fn slopes_of_an_appraisal_are_the_weighed_gradients_of_its_measures() {
     goal.limit.insert("height_to_width".to_owned(), limit(Some(0.4), Some(0.7)));
     goal.limit.insert("above_critical".to_owned(), limit(Some(1.0), None));
     let design = brilliant(33.0, 40.9);
-    let objective = Objective::new(&design, &goal, true, 0.01, &unwatched).unwrap();
+    let objective = Objective::new(&design, &goal, true, (0.01, 0.01), &unwatched).unwrap();
     let places = objective.start_places();
     let slopes = objective.appraise(&places, 0.01, true, &unwatched).unwrap().slopes.unwrap();
     let ranges = [16.0, 5.0];
@@ -196,7 +196,8 @@ fn a_search_by_slopes_is_better_than_its_start_and_about_as_good_as_one_without(
         assert!(search.objective().has_slopes());
         search.run(&unwatched, &|_| {}).unwrap()
     });
-    let start = Objective::new(&design, &goal, false, 0.005, &unwatched).unwrap().start().total.middle();
+    let start =
+        Objective::new(&design, &goal, false, (0.005, 0.005), &unwatched).unwrap().start().total.middle();
     let [with, without] = [with, without].map(|outcome| outcome.best.total.middle());
     assert!(with > start + 0.02 && without > start + 0.02, "{start} {with} {without}");
     assert!((with - without).abs() < 0.02, "{with} {without}");
@@ -219,7 +220,7 @@ fn a_compromise_weighs_every_material_and_tilt() {
     goal.measure[0].material = Some(OneOrMore::More(materials));
     goal.measure[0].tilt = Some(OneOrMore::More(vec![0.0, 10.0]));
     goal.measure[0].may_lose = Some(0.0);
-    let objective = Objective::new(&brilliant(34.0, 41.0), &goal, false, 0.02, &unwatched).unwrap();
+    let objective = Objective::new(&brilliant(34.0, 41.0), &goal, false, (0.02, 0.02), &unwatched).unwrap();
     let start = objective.start();
     assert_eq!(start.values.len(), 6);
     let mean: f64 = start.values.iter().map(|value| value.value.middle() / 6.0).sum();
@@ -260,7 +261,7 @@ fn what_cannot_be_sought_is_refused() {
         let mut goal = goal(&[("return-cos2", 1.0)]);
         change(&mut goal);
         let design = brilliant(34.0, 41.0);
-        Objective::new(&design, &goal, true, 0.05, &unwatched).err().expect("a refusal").to_string()
+        Objective::new(&design, &goal, true, (0.05, 0.05), &unwatched).err().expect("a refusal").to_string()
     };
     let range = |goal: &mut Goal, key: &str| goal.vary.insert(key.to_owned(), [1.0, 2.0]);
     for (told, words) in [
@@ -281,10 +282,10 @@ fn what_cannot_be_sought_is_refused() {
     }
     let mut culet = goal(&[("return-cos2", 1.0)]);
     range(&mut culet, "culet");
-    assert!(Objective::new(&brilliant(34.0, 41.0), &culet, true, 0.05, &unwatched).is_err());
+    assert!(Objective::new(&brilliant(34.0, 41.0), &culet, true, (0.05, 0.05), &unwatched).is_err());
     let mut planes = brilliant(34.0, 41.0);
     planes.cut = Cut::Planes(planes.facets().unwrap());
     let free = Goal::of([("return-cos2".parse().unwrap(), 1.0)]);
-    let found = Objective::new(&planes, &free, true, 0.05, &unwatched);
+    let found = Objective::new(&planes, &free, true, (0.05, 0.05), &unwatched);
     assert!(!matches!(found, Err(SearchError::Stopped)));
 }

@@ -35,7 +35,7 @@ fn counts(design: &Design) -> (usize, usize) {
 fn tiers_are_better_after_a_search_and_keep_every_meet() {
     let mut designs: Vec<(String, Design)> =
         ["tolkowsky", "single-cut", "hexagon"].map(|name| (name.to_owned(), tiers(name))).into();
-    // Of the real designs every twentieth, among those that are open enough to be moved.
+    // Of the real designs every twenty-fifth.
     let real =
         files(&["asc"]).into_iter().filter(|file| file.starts_with(Path::new(LIBRARY))).step_by(25).take(10);
     designs.extend(real.map(|file| (file.display().to_string(), design_file::read(&file).unwrap().design)));

@@ -106,7 +106,7 @@ fn light(stones: &[ReportedStone]) -> ReportTable {
     let names = stones.iter().map(ReportedStone::measures).max_by_key(Vec::len).unwrap_or_default();
     for name in names.into_iter().filter(|name| is_listed(*name)) {
         let found: Vec<Option<Interval>> = stones.iter().map(|stone| stone.interval(name)).collect();
-        let best = better(name).and_then(|better| best(&found, better));
+        let best = name.better().and_then(|better| best(&found, better));
         let cell = |(k, found): (usize, &Option<Interval>)| {
             let text = found.map_or("–".to_owned(), |found| bounded(found).join(" ").trim_end().to_owned());
             ReportCell { text, is_marked: best == Some(k) }
@@ -115,30 +115,6 @@ fn light(stones: &[ReportedStone]) -> ReportTable {
         table.rows.push(std::iter::once(measure_words::name(name).into()).chain(values).collect());
     }
     table
-}
-
-/// Returns which of two values of a measure is the better one: `Greater` where more is better. Where it is a matter of taste, as
-/// with contrast and the size of patches, none is.
-fn better(measure: MeasureName) -> Option<Ordering> {
-    match measure {
-        MeasureName::Return(_)
-        | MeasureName::ReturnWithGlare(_)
-        | MeasureName::Fire
-        | MeasureName::FireSeen => Some(Ordering::Greater),
-        MeasureName::Leakage
-        | MeasureName::Windowing
-        | MeasureName::Obstruction
-        | MeasureName::Extinction
-        | MeasureName::BowTie
-        | MeasureName::FishEye => Some(Ordering::Less),
-        MeasureName::Contrast
-        | MeasureName::Absorbed
-        | MeasureName::EyeContrast
-        | MeasureName::PatchSize
-        | MeasureName::CrushedIce
-        | MeasureName::Scintillation
-        | MeasureName::ScintillationSize => None,
-    }
 }
 
 /// Returns the place of the best interval where it overlaps no other, and looks no different from none at two decimals.
