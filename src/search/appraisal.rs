@@ -96,6 +96,16 @@ pub struct Appraisal {
     pub(super) slopes: Option<Slopes>,
 }
 
+/// A limit is kept where no more than this is missing.
+const KEPT: f64 = 1e-9;
+
+impl Appraisal {
+    /// Returns whether the design keeps all limits of the goal.
+    pub fn keeps_limits(&self) -> bool {
+        self.slacks.iter().all(|slack| *slack >= -KEPT)
+    }
+}
+
 /// How an appraisal changes over the whole range of each number.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Slopes {

@@ -11,9 +11,6 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// A limit is kept where no more than this is missing.
-const KEPT: f64 = 1e-9;
-
 /// How much a limit that is missed by 1 counts against the total, while designs are compared that keep none.
 const MISSED: f64 = 10.0;
 
@@ -251,7 +248,7 @@ impl DesignSearch {
             // What has been found is measured to its end even where the search was stopped.
             let finely = self.objective.appraise(places, finest, false, &unwatched)?;
             // Rough figures may have promised what fine ones do not keep.
-            if finely.total.middle() > best.total.middle() || !keeps(&best) {
+            if finely.total.middle() > best.total.middle() || !best.keeps_limits() {
                 best = finely;
             } else {
                 found = &start;
@@ -326,7 +323,7 @@ impl Trials<'_> {
         let mut record = self.record();
         // Read while the record is held, so that the curve never goes back.
         let appraised = self.appraised.load(Ordering::Relaxed);
-        let is_best = keeps(found) && record.best.as_ref().is_none_or(|(_, best)| total > *best);
+        let is_best = found.keeps_limits() && record.best.as_ref().is_none_or(|(_, best)| total > *best);
         if is_best {
             record.best = Some((places.to_vec(), total));
             record.curve.push(ProgressPoint { appraised, total });
@@ -346,10 +343,6 @@ impl Trials<'_> {
     fn record(&self) -> std::sync::MutexGuard<'_, Record> {
         self.record.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-fn keeps(found: &Appraisal) -> bool {
-    found.slacks.iter().all(|slack| *slack >= -KEPT)
 }
 
 /// Returns a total that counts missed limits against a design.

@@ -7,6 +7,7 @@ use crate::measure::{MeasureName, MeasureSettings, PatternSettings, ROCK_DEG};
 use crate::render::SweepKey;
 use crate::scene::DomeLight;
 use crate::search::{Goal, GoalMeasure, SearchOptions, VariedNumber};
+use std::collections::BTreeMap;
 
 /// The proportions that may change at first, where a cut has them.
 const FIRST: [&str; 2] = ["crown_angle", "pavilion_angle"];
@@ -151,21 +152,26 @@ impl GoalForm {
             }
         };
         self.numbers = all.into_iter().map(number).collect();
+        self.goal.vary.retain(|key, _| has(cut, key));
     }
 
-    /// Takes the goal of a file: its measures and limits, and its numbers as far as the design has them. Returns the keys of
-    /// the numbers that the design lacks.
-    pub fn take(&mut self, mut goal: Goal) -> Vec<String> {
+    /// Takes the goal of a file: its measures and limits, and its numbers as far as the cut has them; all usual ones where it names
+    /// none. Returns the keys of the numbers that the cut lacks.
+    ///
+    /// Numbers that are not listed, such as distances of tiers, stay in the goal, so that they are searched and saved.
+    pub fn take(&mut self, mut goal: Goal, cut: &Cut) -> Vec<String> {
         let mut vary = std::mem::take(&mut goal.vary);
-        if !vary.is_empty() {
-            for number in &mut self.numbers {
-                let ends = vary.remove(&number.key.to_string());
-                number.is_varied = ends.is_some();
-                number.ends = ends.unwrap_or(number.usual);
-            }
+        let is_named = !vary.is_empty();
+        for number in &mut self.numbers {
+            let ends = vary.remove(&number.key.to_string());
+            number.is_varied = ends.is_some() || !is_named;
+            number.ends = ends.unwrap_or(number.usual);
         }
+        let (kept, missing): (BTreeMap<_, _>, BTreeMap<_, _>) =
+            vary.into_iter().partition(|(key, _)| has(cut, key));
+        goal.vary = kept;
         self.goal = goal;
-        vary.into_keys().collect()
+        missing.into_keys().collect()
     }
 
     /// Returns the goal with the numbers that may change.
@@ -177,7 +183,7 @@ impl GoalForm {
             return Err(GoalFormFault::NoMeasure);
         }
         let varied = || self.numbers.iter().filter(|number| number.is_varied);
-        if varied().next().is_none() {
+        if varied().next().is_none() && self.goal.vary.is_empty() {
             return Err(GoalFormFault::NoNumber);
         }
         if let Some(wrong) = varied().find(|number| !number.is_range()) {
@@ -185,7 +191,7 @@ impl GoalForm {
             return Err(GoalFormFault::Range { name, value });
         }
         let mut goal = self.goal.clone();
-        goal.vary = varied().map(|number| (number.key.to_string(), number.ends)).collect();
+        goal.vary.extend(varied().map(|number| (number.key.to_string(), number.ends)));
         goal.check()?;
         Ok(goal)
     }
@@ -198,6 +204,17 @@ impl GoalForm {
             let new = GoalMeasure::new(*of, 1.0);
             self.goal.measure.push(new);
         }
+    }
+}
+
+/// Returns whether a cut has a number that a search can change.
+fn has(cut: &Cut, key: &str) -> bool {
+    match SweepKey::of(key) {
+        SweepKey::Proportion(key) => cut.proportion(&key).is_some_and(|row| row.give.is_some()),
+        SweepKey::Tier(name) | SweepKey::Distance(name) => {
+            cut.settings().iter().any(|setting| setting.name == name)
+        }
+        SweepKey::Index | SweepKey::Material | SweepKey::Tilt | SweepKey::Azimuth => false,
     }
 }
 
@@ -260,12 +277,28 @@ mod tests {
 
     #[test]
     fn the_numbers_of_a_goal_file_are_ticked_and_those_that_the_design_lacks_are_named() {
-        let (mut form, _) = form();
+        let (mut form, cut) = form();
         let mut goal = Goal::of([(MeasureName::Fire, 2.0)]);
         goal.vary = [("table".to_owned(), [52.0, 60.0]), ("tier:P1".to_owned(), [40.0, 42.0])].into();
-        assert_eq!(form.take(goal.clone()), ["tier:P1"]);
+        assert_eq!(form.take(goal.clone(), &cut), ["tier:P1"]);
         goal.vary.remove("tier:P1");
+        assert_eq!(form.wanted(), Ok(goal.clone()));
+        // A goal that names no number is one of all.
+        goal.vary.clear();
+        assert!(form.take(goal, &cut).is_empty() && form.numbers.iter().all(|number| number.is_varied));
+    }
+
+    #[test]
+    fn numbers_that_are_not_listed_stay_in_the_goal_of_a_file_while_the_cut_has_them() {
+        let planes = Cut::Planes(crate::cut::TOLKOWSKY.facets().unwrap());
+        let mut form = GoalForm::default();
+        form.follow(&planes);
+        let mut goal = Goal::of([(MeasureName::Fire, 1.0)]);
+        goal.vary = [("distance:bezel".to_owned(), [0.5, 0.7])].into();
+        assert!(form.take(goal.clone(), &planes).is_empty());
         assert_eq!(form.wanted(), Ok(goal));
+        form.follow(&Document::first().unwrap().work.design.cut);
+        assert!(!form.wanted().unwrap().vary.contains_key("distance:bezel"));
     }
 
     #[test]

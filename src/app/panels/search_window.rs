@@ -202,6 +202,11 @@ fn summary(ended: &EndedSearch) -> String {
         SearchEnd::Found(report) => {
             let stopped = if report.outcome.was_stopped { ", stopped by hand" } else { "" };
             match (ended.has_changed(), report.outcome.keeps_limits) {
+                (true, _) if !report.start.keeps_limits() => format!(
+                    "A cut that keeps all limits: the goal went from {:.4} to {:.4} ({tried} designs tried{stopped}).",
+                    report.start.total.middle(),
+                    report.outcome.best.total.middle()
+                ),
                 (true, _) => format!(
                     "A better cut: the goal has grown from {:.4} to {:.4} ({tried} designs tried{stopped}).",
                     report.start.total.middle(),

@@ -59,6 +59,7 @@ enum Key {
     StoneLight,
     Search,
     Goal,
+    GoalSaved,
     LookUp(Slot),
 }
 
@@ -269,10 +270,13 @@ impl Outside {
 
     fn write_goal(&mut self, path: PathBuf, goal: Goal) {
         let why = fault(&format!("{}: writing the goal failed", path.display()));
-        self.run(Key::Goal, Computed::GoalSaved(path.clone(), Err(why)), move |_| {
+        let failed = Computed::GoalSaved(path.clone(), Err(why)).into();
+        let job = move |handle: &JobHandle<TaskAnswer>| {
             let written = goal_file::write(&goal, &path);
-            Computed::GoalSaved(path, written)
-        });
+            handle.send(Computed::GoalSaved(path, written).into());
+        };
+        // As all that writes, it waits for the one before it, and the program waits for it.
+        self.runner.start(Key::GoalSaved, Turn::After, Some(failed), job);
     }
 
     /// Runs a job with one answer; `failed` is its answer where it panics.

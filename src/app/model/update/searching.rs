@@ -49,7 +49,7 @@ pub fn take(model: &mut Model, number: u64, event: SearchEvent) {
 
 /// Takes the goal of a file into the form.
 pub fn take_goal(model: &mut Model, path: &Path, goal: Goal) {
-    let missing = model.session.search.form.take(goal);
+    let missing = model.session.search.form.take(goal, &model.document.work.design.cut);
     if !missing.is_empty() {
         let (file, missing) = (path.display(), missing.join(", "));
         model.session.notes.say(&format!("{file}: the design has no {missing}; the rest is taken"));
