@@ -1,9 +1,10 @@
 //! Gradients: how the measures of a design change with its proportions, the angles of its tiers and its index.
 
 use super::sweep::{Sweep, SweepError, SweepKey, SweptStone, VariedDesign, with_numbers};
-use crate::cut::{Cut, Unit};
+use crate::cut::{Cut, Design, Unit};
+use crate::math::Plane;
 use crate::measure::{EnergyDerivatives, MeasureName};
-use crate::scene::Specimen;
+use crate::scene::{Specimen, SpecimenError};
 use crate::trace::Watch;
 use glam::DVec3;
 use std::collections::HashMap;
@@ -142,14 +143,7 @@ impl Sweep {
                 return Err(SweepError::NoDerivative(why));
             }
         };
-        let at = |by: f64| -> Result<NamedPlanes, SweepError> {
-            let specimen = Specimen::new(with_numbers(&self.design, [(key, value + by)])?)?;
-            let stone = specimen.stone().map_err(|why| SweepError::NoDerivative(why.to_string()))?;
-            let planes = (0..).zip(stone.polytope.facets());
-            Ok(planes
-                .map(|(k, facet)| (stone.name(k).into_owned(), (facet.plane.normal, facet.plane.offset)))
-                .collect())
-        };
+        let at = |by: f64| named_planes(with_numbers(&self.design, [(key, value + by)])?);
         let [far_below, below, above, far_above] = [at(-2.0 * step)?, at(-step)?, at(step)?, at(2.0 * step)?];
         let change = |name: &String| {
             let of = |planes: &NamedPlanes| planes.get(name).copied();
@@ -162,6 +156,20 @@ impl Sweep {
         };
         facets.iter().map(change).collect::<Result<Vec<_>, _>>().map(Some)
     }
+}
+
+/// Returns the planes of a design's facets by their names.
+fn named_planes(design: Design) -> Result<NamedPlanes, SweepError> {
+    let of = |plane: &Plane| (plane.normal, plane.offset);
+    // Where the planes are known without the solid that they bound, it is not built: that would take longer than all else.
+    if let Cut::RoundBrilliant(_) | Cut::Planes(_) = &design.cut {
+        let planes = design.facets().map_err(SpecimenError::from)?;
+        return Ok(planes.iter().map(|(name, plane)| (name.clone(), of(plane))).collect());
+    }
+    let specimen = Specimen::new(design)?;
+    let stone = specimen.stone().map_err(|why| SweepError::NoDerivative(why.to_string()))?;
+    let planes = (0..).zip(stone.polytope.facets());
+    Ok(planes.map(|(k, facet)| (stone.name(k).into_owned(), of(&facet.plane))).collect())
 }
 
 /// Returns the value of a proportion, and a step that is small beside it. One that is not there is found by the step.
