@@ -96,7 +96,7 @@ fn table(sweep: &Sweep, keys: &[SweepKey], found: &[MeasureGradient]) -> String 
     let mut text = format!("{}: percent of the face per unit\n\n", sweep.design.name);
     let widths: Vec<usize> = found.iter().map(|each| each.name.to_string().len().max(9) + 2).collect();
     let mut row = |name: String, cells: Vec<String>| {
-        let _ = write!(text, "{name:<24}");
+        let _ = write!(text, "{name:<38}");
         for (cell, width) in cells.iter().zip(&widths) {
             let _ = write!(text, "{cell:>width$}");
         }
@@ -113,5 +113,6 @@ fn table(sweep: &Sweep, keys: &[SweepKey], found: &[MeasureGradient]) -> String 
         let name = if unit.is_empty() { key.to_string() } else { format!("{key}, {unit}") };
         row(name, found.iter().map(|each| format!("{:+.4}", 100.0 * each.per[k])).collect());
     }
-    text + "\nOf the light that was followed, between borders: where an exit crosses a border, a measure jumps."
+    text + "\nSlopes of the light that was followed, at this very design. They can change within hundredths of a degree, and a measure jumps\n\
+            where light crosses a border: look at the values beside the design with `sweep` before you follow a slope."
 }

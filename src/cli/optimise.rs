@@ -149,7 +149,7 @@ impl OptimiseArguments {
             ));
         }
         // What was found is kept first, whatever fails behind it.
-        self.write(format, outcome.design.clone())?;
+        self.write(format, renamed(&outcome, search.objective().design()))?;
         let others = OtherMeasure::all(&search, &outcome, &unwatched).map_err(refused)?;
         match self.json {
             true => print(&super::console::json(&json_value(&path, &search, &outcome, &others)))?,
@@ -244,6 +244,16 @@ impl OptimiseArguments {
         lost.iter().for_each(|what| say(&format!("note: {}: {what}", out.display())));
         Ok(())
     }
+}
+
+/// Returns the design that was found under a name of its own: what source and notes say of the given design is not true of it.
+fn renamed(outcome: &SearchOutcome, given: &Design) -> Design {
+    let mut design = outcome.design.clone();
+    if design != *given {
+        design.rename(format!("{}, improved", given.name));
+        (design.source, design.notes) = (None, None);
+    }
+    design
 }
 
 /// Draws the total of the best against the number of designs that were appraised.

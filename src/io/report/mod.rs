@@ -122,7 +122,7 @@ fn provenance(fingerprints: Vec<[String; 2]>, origin: &ReportOrigin) -> Vec<[Str
     let line = |label: &str, value: &str| [label.to_owned(), value.to_owned()];
     let mut lines = fingerprints;
     lines.push(line("program", concat!("Brillianteer ", env!("CARGO_PKG_VERSION"))));
-    lines.push(line("made again by", &origin.command));
+    lines.push(line("made again by", &format!("{} -o FILE", origin.command)));
     lines.extend(origin.date.iter().map(|date| line("date", date)));
     lines
 }

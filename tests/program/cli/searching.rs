@@ -24,6 +24,9 @@ fn a_better_brilliant_is_found_written_and_measured_as_it_was_promised() {
         found["curve"].as_array().unwrap().iter().map(|point| point[1].as_f64().unwrap()).collect();
     assert!(curve.len() > 1 && curve.windows(2).all(|pair| pair[0] < pair[1]), "{curve:?}");
     assert!(desk.read("grew.svg").contains("designs appraised"));
+    // What the given design's notes say is not true of the one that was found, which has a name of its own.
+    let written = desk.read("better.toml");
+    assert!(written.contains(", improved\"") && !written.contains("notes"), "{written}");
     // The design that was written has the promised measures.
     let measured = desk.json("measure better.toml --measures --json --unpolarised --unresolved 0.002");
     for value in found["measures"].as_array().unwrap() {
