@@ -13,8 +13,8 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 /// The measures that are listed where none are chosen.
-const USUAL: [&str; 6] =
-    ["return-even", "return-cos2", "return-even@15", "leakage", "windowing", "obstruction"];
+const USUAL: [&str; 7] =
+    ["return-even", "return-cos2", "return-even@15", "leakage", "windowing", "obstruction", "fire"];
 
 #[derive(Debug, Args)]
 pub struct GradientArguments {
@@ -24,8 +24,8 @@ pub struct GradientArguments {
     /// design gives, and the index]
     #[arg(long, value_name = "KEY")]
     by: Vec<String>,
-    /// A measure: leakage, windowing, obstruction, or the return of a dome as in return-even, return-cos2@15 or return-even+glare; may
-    /// be repeated [default: six of them]
+    /// A measure: leakage, windowing, obstruction, fire, absorbed, extinction, contrast, or the return of a dome as in return-even,
+    /// return-cos2@15 or return-even+glare; may be repeated [default: seven of them]
     #[arg(long = "of", value_name = "MEASURE")]
     measures: Vec<MeasureName>,
     /// Print JSON
@@ -93,7 +93,7 @@ fn value(file: &str, keys: &[SweepKey], found: &[MeasureGradient]) -> Value {
 
 /// Formats a gradient as a table: a row for each number, a column for each measure.
 fn table(sweep: &Sweep, keys: &[SweepKey], found: &[MeasureGradient]) -> String {
-    let mut text = format!("{}: percent of the face per unit\n\n", sweep.design.name);
+    let mut text = format!("{}: percent per unit\n\n", sweep.design.name);
     let widths: Vec<usize> = found.iter().map(|each| each.name.to_string().len().max(9) + 2).collect();
     let mut row = |name: String, cells: Vec<String>| {
         let _ = write!(text, "{name:<38}");

@@ -39,7 +39,7 @@ pub use ball::Ball;
 pub use basis::Basis;
 pub use bvh::{Bvh, BvhNode, Hit};
 pub use calipers::{Calipers, hull};
-pub use decay::integral_of_decay;
+pub use decay::{Moments, integral_of_decay, moments_along_edge, moments_of_decay};
 pub(crate) use draft::{Draft, DraftCut};
 pub use edge::Edge;
 pub(crate) use eigen::{eigen, outer};

@@ -28,12 +28,14 @@ pub(super) fn brightness(beams: &Beams, head_deg: f64) -> Vec<f64> {
     let mut bright: Vec<f64> = Vec::with_capacity(beams.len());
     for beam in beams.iter() {
         let before = beam.parent.map_or(0.0, |parent| bright[parent as usize]);
-        let shines = !beam.is_surface()
-            && beam.weight > 0.0
-            && ExitSight::of(&beam, beams, head_deg) == ExitSight::Dome;
-        bright.push(before + if shines { beam.weight } else { 0.0 });
+        bright.push(before + if shines(&beam, beams, head_deg) { beam.weight } else { 0.0 });
     }
     bright
+}
+
+/// Whether a beam's exit counts for the brightness: it has been inside and comes from the dome beside the head.
+pub(super) fn shines(beam: &Beam, beams: &Beams, head_deg: f64) -> bool {
+    !beam.is_surface() && beam.weight > 0.0 && ExitSight::of(beam, beams, head_deg) == ExitSight::Dome
 }
 
 /// Returns the part of a fan's colours that an eye sees apart, 0 to 1; `fan` is in radians.

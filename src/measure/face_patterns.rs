@@ -7,6 +7,7 @@ use super::bow_tie::bow_tie;
 use super::exit_sight::{ExitSight, brightness, seen_apart};
 use super::eye_grid::{EyeGrid, rms_contrast};
 use super::interval::Interval;
+use super::light_measures::MeasureSettings;
 use super::virtual_facets::VirtualFacets;
 use crate::cut::{is_girdle, is_table};
 use crate::math::Polytope;
@@ -67,13 +68,14 @@ pub struct PatternMeasures {
 }
 
 impl PatternMeasures {
-    /// Takes the measures of exact beams; `fans` are those of [`Beams::fans`]. Angles are degrees.
+    /// Takes the measures of exact beams; `fans` are those of [`Beams::fans`].
     pub(super) fn of(
         beams: &Beams,
         polytope: &Polytope,
         fans: &[f64],
-        (head_deg, blur_deg, pattern): (f64, f64, &PatternSettings),
+        (settings, pattern): (&MeasureSettings, &PatternSettings),
     ) -> Self {
+        let head_deg = settings.head_deg;
         let resolves = pattern.resolves();
         let grid = EyeGrid::of(beams, &brightness(beams, head_deg), resolves);
         let facets = VirtualFacets::of(beams, polytope);
@@ -81,7 +83,7 @@ impl PatternMeasures {
             eye_contrast: rms_contrast(grid.cells.iter().copied()),
             patch_size: grid.patch_size(),
             crushed_ice: facets.smaller_than(SHAPE_IS_SEEN * resolves),
-            fire_seen: fire_seen(&facets.areas(), beams, fans, (head_deg, blur_deg, resolves)),
+            fire_seen: fire_seen(&facets.areas(), beams, fans, (settings, resolves)),
             bow_tie: bow_tie(beams, polytope, head_deg),
             fish_eye: fish_eye(beams, polytope),
         }
@@ -93,19 +95,21 @@ fn fire_seen(
     areas: &[Interval],
     beams: &Beams,
     fans: &[f64],
-    (head_deg, blur_deg, resolves): (f64, f64, f64),
+    (settings, resolves): (&MeasureSettings, f64),
 ) -> Interval {
     let limit = std::f64::consts::FRAC_PI_4 * resolves * resolves;
     let share = f64::from(beams.symmetry.order()) / beams.silhouette_area;
-    let mut fire = Interval { least: 0.0, most: beams.unresolved() };
+    // Light that was not followed has no fire either where nothing is dispersed.
+    let most = if settings.has_dispersion() { beams.unresolved() } else { 0.0 };
+    let mut fire = Interval { least: 0.0, most };
     for (beam, area) in beams.iter().zip(areas) {
         let is_seen = !beam.is_surface()
             && beam.weight > 0.0
-            && ExitSight::of(&beam, beams, head_deg) != ExitSight::Below;
+            && ExitSight::of(&beam, beams, settings.head_deg) != ExitSight::Below;
         if !is_seen {
             continue;
         }
-        let energy = beam.weight * beam.area * share * seen_apart(fans[beam.id as usize], blur_deg);
+        let energy = beam.weight * beam.area * share * seen_apart(fans[beam.id as usize], settings.blur_deg);
         fire.least += if area.least >= limit { energy } else { 0.0 };
         fire.most += if area.most >= limit { energy } else { 0.0 };
     }

@@ -42,6 +42,11 @@ pub struct MeasureSettings {
 }
 
 impl MeasureSettings {
+    /// Whether the indices differ, so that light has colours to spread.
+    pub fn has_dispersion(&self) -> bool {
+        self.indices[0] != self.indices[1]
+    }
+
     /// Returns the usual settings for a material with these indices at the red and the violet end.
     pub fn usual(indices: [f64; 2]) -> Self {
         let with_head = DomeLight { power: 0.0, head_deg: MEASURES_HEAD_DEG };
@@ -142,9 +147,7 @@ impl LightMeasures {
         let absorbed = if beams.medium.is_clear() { 0.0 } else { unresolved };
         let absorbed = Interval::from(sums.absorbed, absorbed);
         let pattern = settings.pattern.as_ref();
-        let pattern = pattern.map(|pattern| {
-            PatternMeasures::of(beams, polytope, &fans, (settings.head_deg, settings.blur_deg, pattern))
-        });
+        let pattern = pattern.map(|pattern| PatternMeasures::of(beams, polytope, &fans, (settings, pattern)));
         LightMeasures { pattern, ..sums.finish(settings, unresolved, [extinction, contrast, absorbed]) }
     }
 }
@@ -220,7 +223,8 @@ impl ExitSums {
             obstruction: open(self.head),
             extinction,
             contrast,
-            fire: open(self.fire),
+            // Light that was not followed has no fire either where nothing is dispersed.
+            fire: if settings.has_dispersion() { open(self.fire) } else { Interval::from(0.0, 0.0) },
             spread_deg: (weights > 0.0).then(|| (angles / weights).to_degrees()),
             absorbed,
             pattern: None,

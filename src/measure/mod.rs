@@ -4,7 +4,7 @@
 
 mod bow_tie;
 mod brilliant_proportions;
-mod energy_derivatives;
+mod derivatives;
 mod estimated;
 mod exit_sight;
 mod eye_grid;
@@ -25,7 +25,7 @@ mod scintillation;
 mod virtual_facets;
 
 pub use brilliant_proportions::brilliant_proportions;
-pub use energy_derivatives::EnergyDerivatives;
+pub use derivatives::MeasureDerivatives;
 pub use estimated::{Estimate, by_beams_and_rays};
 pub use face_patterns::{EYE_RESOLVES_MM, PatternMeasures, PatternSettings, ROCK_DEG, SHAPE_IS_SEEN};
 pub use face_up_size::FaceUpSize;

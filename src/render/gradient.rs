@@ -3,7 +3,7 @@
 use super::sweep::{Sweep, SweepError, SweepKey, SweptStone, VariedDesign, with_numbers};
 use crate::cut::{Cut, Design, Unit};
 use crate::math::Plane;
-use crate::measure::{EnergyDerivatives, MeasureName};
+use crate::measure::{MeasureDerivatives, MeasureName};
 use crate::scene::{Specimen, SpecimenError};
 use crate::trace::Watch;
 use glam::DVec3;
@@ -21,7 +21,7 @@ const RATIO_STEP: f64 = 1e-4;
 pub struct MeasureGradient {
     /// The measure.
     pub name: MeasureName,
-    /// Its least value, which counts the light that was followed.
+    /// Its value of the light that was followed: the least one, but for contrast, whose bounds are about it.
     pub value: f64,
     /// The change per unit of each number, in the order of the keys.
     pub per: Vec<f64>,
@@ -82,17 +82,13 @@ impl Sweep {
         names: &[MeasureName],
         watch: Watch,
     ) -> Result<GradedStone, SweepError> {
-        if let Some(other) = names.iter().find(|name| !name.is_energy()) {
-            return Err(SweepError::NoDerivative(format!(
-                "{other} has no derivatives; give a return, leakage, windowing or obstruction"
-            )));
-        }
         let (taken, carats) = self.taken(self.start(), names.to_vec(), watch)?;
-        let of_name = |(name, found): (&MeasureName, Option<EnergyDerivatives>)| {
+        let of_name = |(name, found): (&MeasureName, Option<MeasureDerivatives>)| {
             let found = found.ok_or_else(|| {
-                let why =
-                    "the material absorbs light, and derivatives are known only where nothing is absorbed";
-                SweepError::NoDerivative(why.to_owned())
+                SweepError::NoDerivative(format!(
+                    "{name} has no derivatives; give a return, leakage, windowing, obstruction, fire, absorbed, \
+                     extinction or contrast"
+                ))
             })?;
             let by_key = |changes: &Option<Vec<(DVec3, f64)>>| match changes {
                 Some(changes) => found.derivatives.along(changes.iter().copied()),

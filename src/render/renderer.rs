@@ -4,7 +4,7 @@ use super::beam_cache::BeamCache;
 use super::card::{Backend, Card};
 use super::job::{Job, Product, Reading, Steps};
 use super::plan::{Demands, Plan, Unfit, plan};
-use crate::measure::{EnergyDerivatives, LATTICE, LightMeasures, Measured};
+use crate::measure::{LATTICE, LightMeasures, MeasureDerivatives, Measured};
 use crate::picture::liquid_glass::{Cost, PaneError};
 use crate::picture::spectral::Remainder;
 use crate::picture::{Carried, Linear, RefractionMap, Rows};
@@ -90,7 +90,7 @@ pub struct TakenMeasures {
     /// The measures.
     pub measures: LightMeasures,
     /// The derivatives, in the order in which they were wanted; `None` of a measure that has none.
-    pub derivatives: Vec<Option<EnergyDerivatives>>,
+    pub derivatives: Vec<Option<MeasureDerivatives>>,
 }
 
 /// What a job has made, and how.

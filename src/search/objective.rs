@@ -10,7 +10,7 @@ use crate::cut::{Cut, Design, TierOutcome, Tiers};
 use crate::measure::{Interval, MeasureSettings, PatternSettings, ROCK_DEG};
 use crate::optics::line;
 use crate::render::{PlaneChanges, RenderError, Sweep, SweepError, SweptStone, with_numbers};
-use crate::scene::{Medium, Specimen};
+use crate::scene::Specimen;
 use crate::trace::Watch;
 use rayon::prelude::*;
 
@@ -121,13 +121,9 @@ impl Objective {
         self.numbers.iter().map(VariedNumber::start_place).collect()
     }
 
-    /// Returns whether derivatives of all that counts are known: nothing absorbs, and no fire, contrast or extinction counts.
+    /// Returns whether derivatives of all that counts help: extinction and contrast have them, but jump too often.
     pub(super) fn has_slopes(&self) -> bool {
-        let is_clear = |view: &GoalView| {
-            let material = self.of_material(view, self.design.clone()).material.material();
-            material.is_ok_and(|of| Medium::absorption_of(&of, line::SODIUM_D, 1.0) == [0.0; 2])
-        };
-        self.terms.iter().all(|term| term.name.is_energy()) && self.views.iter().all(is_clear)
+        self.terms.iter().all(|term| term.name.is_energy())
     }
 
     /// Returns the design at a place of the ranges, with its meets followed.

@@ -177,7 +177,7 @@ fn fire_is_nothing_without_dispersion_and_grows_with_it() {
         measures(&stone.polytope, medium, &View::default(), 5e-3, &MeasureSettings::usual(indices))
     };
     let none = with([2.4175; 2]);
-    assert_eq!((none.fire.least, none.spread_deg), (0.0, Some(0.0)));
+    assert_eq!((none.fire, none.spread_deg), (Interval { least: 0.0, most: 0.0 }, Some(0.0)));
     let spreads = [0.005, 0.01, 0.02, 0.044, 0.1, 0.2];
     let found = spreads.map(|spread| with([2.4175 - spread / 2.0, 2.4175 + spread / 2.0]));
     for pair in found.windows(2) {

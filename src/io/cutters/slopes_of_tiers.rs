@@ -3,7 +3,7 @@
 use super::as_tiers;
 use crate::cut::{Cut, Design};
 use crate::io::{cut_file, library};
-use crate::measure::{EnergyDerivatives, MeasureName, MeasureSettings};
+use crate::measure::{MeasureDerivatives, MeasureName, MeasureSettings};
 use crate::render::{Sweep, SweepKey, with_numbers};
 use crate::scene::{Medium, Specimen, Stone, View, Viewpoint};
 use crate::trace::beam::{BeamOptions, Beams, trace_bounces};
@@ -11,7 +11,16 @@ use crate::trace::beam::{BeamOptions, Beams, trace_bounces};
 /// All stones of a comparison are followed for as many reflections, so that neighbours have the same beams.
 const BOUNCES: u32 = 4;
 
-const NAMES: [&str; 5] = ["return-cos2", "return-cos3+glare", "leakage", "windowing", "obstruction"];
+const NAMES: [&str; 8] = [
+    "return-cos2",
+    "return-cos3+glare",
+    "leakage",
+    "windowing",
+    "obstruction",
+    "fire",
+    "extinction",
+    "contrast",
+];
 
 /// Returns a cut of the program as tiers without meets, each moved and turned a little: where four facets meet in one corner,
 /// a facet that moves alone opens an edge on one side only, and differences are those of a kink.
@@ -47,7 +56,7 @@ fn traced(design: &Design) -> Traced {
     Traced { stone, beams }
 }
 
-fn sums(of: &Traced, settings: &MeasureSettings) -> Vec<EnergyDerivatives> {
+fn sums(of: &Traced, settings: &MeasureSettings) -> Vec<MeasureDerivatives> {
     let name = |name: &&str| {
         let name: MeasureName = name.parse().unwrap();
         name.derivatives(&of.beams, &of.stone.polytope, settings).unwrap()
@@ -57,7 +66,7 @@ fn sums(of: &Traced, settings: &MeasureSettings) -> Vec<EnergyDerivatives> {
 
 #[test]
 fn derivatives_by_angles_and_distances_of_tiers_are_those_of_differences() {
-    let mut settings = MeasureSettings::usual([1.9; 2]);
+    let mut settings = MeasureSettings::usual([1.88, 1.92]);
     settings.domes = vec!["cos2".parse().unwrap(), "cos3".parse().unwrap()];
     let mut state = 0.3;
     let mut some = |by: f64| {

@@ -7,7 +7,6 @@
 //! the share of the light from its exit direction that reaches the eye.
 
 mod adjoint;
-mod adjoint_step;
 mod blocks;
 mod cells;
 mod coherency;

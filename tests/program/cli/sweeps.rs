@@ -280,13 +280,16 @@ fn a_gradient_is_the_slope_of_the_measures_beside_the_design() {
     let tiers = desk.run("convert oval oval.asc");
     assert_eq!(tiers.0, 0);
     assert!(desk.done("gradient oval.asc --of leakage").contains("tier:main, degrees"));
+    let ruby = desk.json("gradient emerald --material ruby --by table --of absorbed --of fire --json");
+    for name in ["absorbed", "fire"] {
+        assert!(at(&ruby["measures"][name]["per"], "table").abs() > 1e-5, "{ruby}");
+    }
     for (line, why) in [
-        ("tolkowsky --of fire", "give a return"),
+        ("tolkowsky --of bow-tie", "give a return"),
         ("tolkowsky --by tilt", "give a proportion"),
         ("tolkowsky --by crown_angel", "no such proportion"),
         ("tolkowsky --by culet", "culet"),
         ("tolkowsky --by tier:P1", "no tiers"),
-        ("oval --material ruby", "absorbs"),
         ("heart", "convex"),
     ] {
         let (code, printed, stderr) = desk.run(&format!("gradient {line}"));

@@ -1,11 +1,11 @@
 //! One landing of a beam, and how changes of what follows go back to what came before.
 
-use super::coherency::Coherency;
-use super::follow::s_axis;
-use super::grow::entry_points;
-use super::split::Ray;
-use super::tree::Beams;
-use crate::math::{Affine, Plane};
+use super::super::coherency::Coherency;
+use super::super::follow::{SQUARE_ON, s_axis};
+use super::super::grow::entry_points;
+use super::super::split::Ray;
+use super::super::tree::Beams;
+use crate::math::{Affine, Moments, Plane};
 use crate::optics::{Fresnel, fresnel, reflect, refract};
 use glam::{DVec2, DVec3};
 
@@ -27,14 +27,32 @@ pub(super) struct StateAdjoint {
     /// Per `ss`, `pp`, `re` and `im` of the light.
     pub light: [f64; 4],
     pub s: DVec3,
+    /// Per length of the path so far: its constant and the two parts of its gradient.
+    pub path: [f64; 3],
 }
 
 impl StateAdjoint {
+    /// Adds the change per weight of the light.
+    pub fn add_weight(&mut self, by: f64) {
+        self.light[0] += by;
+        self.light[1] += by;
+    }
+
+    /// Adds changes per length of the path at each point of the image.
+    pub fn add_path(&mut self, by: Moments) {
+        self.path[0] += by.sum;
+        self.path[1] += by.first.x;
+        self.path[2] += by.first.y;
+    }
+
     pub fn add(&mut self, other: &Self) {
         for (own, by) in self.origin.iter_mut().zip(other.origin) {
             *own += by;
         }
         for (own, by) in self.light.iter_mut().zip(other.light) {
+            *own += by;
+        }
+        for (own, by) in self.path.iter_mut().zip(other.path) {
             *own += by;
         }
         self.direction += other.direction;
@@ -103,7 +121,7 @@ fn pull_back_s_axis(
     (per_direction, per_normal): (&mut DVec3, &mut DVec3),
 ) -> bool {
     let length = direction.cross(normal).length();
-    if length <= super::follow::SQUARE_ON {
+    if length <= SQUARE_ON {
         return false;
     }
     let per_cross = (per_s - s * s.dot(per_s)) / length;
@@ -193,7 +211,7 @@ pub(super) struct LandingAdjoint {
 }
 
 impl<'a> LandingStep<'a> {
-    /// Lands on a plane; the same as in [`super::follow`].
+    /// Lands on a plane; the same as in [`super::super::follow`].
     pub fn new(before: &'a BeamState, plane: &'a Plane, beams: &'a Beams) -> Self {
         let (d, n) = (before.direction, plane.normal);
         let cos_i = d.dot(n);
@@ -271,7 +289,8 @@ impl<'a> LandingStep<'a> {
         for (k, distance) in distances.into_iter().enumerate() {
             let (start, per) = (self.before.origin[k], after.origin[k]);
             back.before.direction += per * distance;
-            let per_distance = d.dot(per) / self.cos_i;
+            back.before.path[k] += after.path[k];
+            let per_distance = (d.dot(per) + after.path[k]) / self.cos_i;
             if k == 0 {
                 back.offset += per_distance;
             }

@@ -1,100 +1,82 @@
-//! How measures that are sums of light change with the planes of the stone and with its index.
+//! How measures of light change with the planes of the stone and with its index.
+
+mod exits;
+mod face;
 
 use super::{MeasureName, MeasureSettings};
 use crate::math::Polytope;
-use crate::scene::{DomeLight, elevation_deg};
 use crate::trace::beam::{Beam, BeamPartials, Beams, PlaneDerivatives};
-use glam::DVec3;
+use exits::CountedExits;
 
-/// A measure that is a sum of light, with its derivatives.
+/// A measure with its derivatives.
 #[derive(Debug, Clone, PartialEq)]
-pub struct EnergyDerivatives {
-    /// The light that was followed to where the measure counts it: the least value of the measure.
+pub struct MeasureDerivatives {
+    /// The measure of the light that was followed: its least value, but for contrast, whose bounds are about it.
     pub value: f64,
-    /// How `value` changes with each plane and with the index, while the stone keeps the symmetry of the picture.
+    /// How `value` changes with each plane and with the index, while the stone keeps the symmetry of the picture. Absorption
+    /// per length and dispersion are held.
     pub derivatives: PlaneDerivatives,
 }
 
+/// A number that beams make up, and how it changes with each of them.
+struct BeamSum {
+    value: f64,
+    partials: BeamPartials,
+    /// The change per radian of each beam's fan; empty where fans do not count.
+    per_fan: Vec<f64>,
+}
+
 impl MeasureName {
-    /// Whether this measure is a sum of light, which has derivatives.
+    /// Whether this measure is a sum of light: a return, leakage, windowing, obstruction, fire, or what is absorbed. Such a
+    /// measure jumps only where a whole exit crosses a border of the light.
     pub fn is_energy(&self) -> bool {
-        Counted::of(self, 0.0).is_some()
+        matches!(self, Self::Absorbed) || CountedExits::of(self, 0.0, 0.0).is_some()
+    }
+
+    /// Whether this measure has derivatives: a sum of light, extinction or contrast.
+    pub fn has_derivatives(&self) -> bool {
+        self.is_energy() || matches!(self, Self::Extinction | Self::Contrast)
     }
 
     /// Returns how this measure changes with the planes of `polytope`, which must be the one that was traced, and with the
-    /// index; `None` for measures that are no sums of light (extinction, contrast, fire, absorbed), and where the stone
-    /// absorbs light.
+    /// index; `None` for measures without derivatives ([`has_derivatives`](Self::has_derivatives)).
     ///
     /// They are the derivatives of the light that was followed, between the borders of domes, heads and horizon: light that
-    /// crosses a border makes a measure jump, and a facet through which light ceases to leave makes a kink. Neither is in
-    /// the derivative. Their formulas are in docs/optics.md, "Derivatives".
+    /// crosses a border makes a measure jump, and a facet through which light ceases to leave makes a kink. Extinction jumps
+    /// also where another exit becomes the strongest of a cell. Neither is in the derivative. Where symmetry was traced, they
+    /// hold for changes that keep it. Their formulas are in docs/optics.md, "Derivatives".
     pub fn derivatives(
         &self,
         beams: &Beams,
         polytope: &Polytope,
         settings: &MeasureSettings,
-    ) -> Option<EnergyDerivatives> {
-        let counted = Counted::of(self, settings.head_deg)?;
-        let share = f64::from(beams.symmetry.order()) / beams.silhouette_area;
-        let mut partials = BeamPartials::none(beams.len());
-        let mut value = 0.0;
-        for beam in beams.iter().filter(|beam| beam.weight > 0.0) {
-            let Some((radiance, slope)) = counted.radiance(&beam, beams) else { continue };
-            let k = beam.id as usize;
-            value += beam.weight * beam.area * radiance * share;
-            partials.weight[k] = beam.area * radiance * share;
-            partials.area[k] = beam.weight * radiance * share;
-            partials.exit[k] = slope * (beam.weight * beam.area * share);
+    ) -> Option<MeasureDerivatives> {
+        let BeamSum { value, partials, per_fan } = match self {
+            Self::Absorbed => exits::absorbed(beams),
+            Self::Extinction => face::extinction(beams, settings.head_deg),
+            Self::Contrast => face::contrast(beams, settings.head_deg),
+            other => {
+                CountedExits::of(other, settings.head_deg, settings.blur_deg)?.sum(beams, polytope, settings)
+            }
+        };
+        let mut derivatives = beams.derivatives(polytope, &partials);
+        if !per_fan.is_empty() {
+            derivatives.add(&beams.fan_derivatives(polytope, settings.indices, &per_fan));
         }
-        // The silhouette, of which the measure is a part, is made up of the beams that enter.
-        for beam in beams.iter().filter(Beam::is_surface) {
-            partials.area[beam.id as usize] -= value * share;
-        }
-        let derivatives = beams.derivatives(polytope, &partials)?;
-        Some(EnergyDerivatives { value, derivatives })
+        Some(MeasureDerivatives { value, derivatives })
     }
 }
 
-/// Which light a measure counts.
-enum Counted {
-    Dome { dome: DomeLight, with_glare: bool },
-    Below { only_straight: bool },
-    Head { head_deg: f64 },
+/// Returns the part of the whole silhouette's area that one unit of a beam's area is, with the copies of the symmetry.
+fn share(beams: &Beams) -> f64 {
+    f64::from(beams.symmetry.order()) / beams.silhouette_area
 }
 
-impl Counted {
-    fn of(name: &MeasureName, head_deg: f64) -> Option<Self> {
-        Some(match *name {
-            MeasureName::Return(dome) => Self::Dome { dome, with_glare: false },
-            MeasureName::ReturnWithGlare(dome) => Self::Dome { dome, with_glare: true },
-            MeasureName::Leakage => Self::Below { only_straight: false },
-            MeasureName::Windowing => Self::Below { only_straight: true },
-            MeasureName::Obstruction => Self::Head { head_deg },
-            _ => return None,
-        })
-    }
-
-    /// Returns the radiance that an exit is weighed by and its change with the direction; `None` where the light is not counted.
-    fn radiance(&self, beam: &Beam, beams: &Beams) -> Option<(f64, DVec3)> {
-        let elevation = elevation_deg(beam.exit, beams.zenith);
-        match *self {
-            Self::Dome { dome, with_glare } => {
-                let is_counted = with_glare || !beam.is_surface();
-                let of_dome =
-                    || (dome.radiance(beam.exit, beams.zenith), dome.slope(beam.exit, beams.zenith));
-                is_counted.then(of_dome)
-            }
-            Self::Below { only_straight } => {
-                let parent = beams.get(beam.parent?);
-                let is_counted = elevation < 0.0 && (!only_straight || parent.is_surface());
-                is_counted.then_some((1.0, DVec3::ZERO))
-            }
-            Self::Head { head_deg } => {
-                let is_counted =
-                    !beam.is_surface() && head_deg > 0.0 && elevation >= (90.0 - head_deg).max(0.0);
-                is_counted.then_some((1.0, DVec3::ZERO))
-            }
-        }
+/// Adds that a sum is a part of the silhouette, which the beams that enter make up. `parts` is the sum of all parts, each times
+/// its change.
+fn divide_by_silhouette(partials: &mut BeamPartials, beams: &Beams, parts: f64) {
+    for beam in beams.iter().filter(Beam::is_surface) {
+        partials.area[beam.id as usize] -= parts * share(beams);
     }
 }
 
@@ -106,6 +88,7 @@ mod tests {
     use crate::measure::LightMeasures;
     use crate::scene::{Medium, View};
     use crate::trace::beam::{BeamOptions, trace_bounces};
+    use glam::DVec3;
 
     const BOUNCES: u32 = 4;
 
@@ -125,10 +108,10 @@ mod tests {
         }
     }
 
-    fn traced(cut: &RoundBrilliant, index: f64, tilt: f64) -> (Polytope, Beams) {
+    fn traced(cut: &RoundBrilliant, medium: Medium, tilt: f64) -> (Polytope, Beams) {
         let stone = Polytope::from_planes(&planes(cut)).unwrap();
         let view = View { tilt, ..View::default() };
-        let beams = trace_bounces(&stone, Medium::clear(index), &view, &BeamOptions::default(), BOUNCES);
+        let beams = trace_bounces(&stone, medium, &view, &BeamOptions::default(), BOUNCES);
         (stone, beams)
     }
 
@@ -138,19 +121,31 @@ mod tests {
         std::array::from_fn(|k| (8.0 * (above[k] - below[k]) - (far_above[k] - far_below[k])) / (12.0 * step))
     }
 
-    fn names() -> [MeasureName; 5] {
-        ["return-cos2", "return-cos3+glare", "leakage", "windowing", "obstruction"]
-            .map(|name| name.parse().unwrap())
+    const COUNT: usize = 9;
+
+    fn names() -> [MeasureName; COUNT] {
+        [
+            "return-cos2",
+            "return-cos3+glare",
+            "leakage",
+            "windowing",
+            "obstruction",
+            "fire",
+            "absorbed",
+            "extinction",
+            "contrast",
+        ]
+        .map(|name| name.parse().unwrap())
     }
 
-    fn values(beams: &Beams, stone: &Polytope, settings: &MeasureSettings) -> [f64; 5] {
+    fn values(beams: &Beams, stone: &Polytope, settings: &MeasureSettings) -> [f64; COUNT] {
         names().map(|name| name.derivatives(beams, stone, settings).unwrap().value)
     }
 
     #[test]
     fn derivatives_by_proportions_and_index_are_those_of_differences_on_random_brilliants() {
-        let mut settings = MeasureSettings::usual([2.4, 2.45]);
-        settings.domes = vec!["cos2".parse().unwrap(), "cos3".parse().unwrap()];
+        let mut usual = MeasureSettings::usual([2.4, 2.45]);
+        usual.domes = vec!["cos2".parse().unwrap(), "cos3".parse().unwrap()];
         let mut state = 0.5;
         let mut some = |by: f64| {
             state = f64::fract(state + 0.618_033_988_749_895);
@@ -161,12 +156,25 @@ mod tests {
             let at: [f64; 4] = [some(3.0), some(4.0), some(1.5), some(5.0)];
             let tilt = if number % 3 == 0 { 0.2 } else { 0.0 };
             let index = 2.2 + some(0.4);
-            let (stone, beams) = traced(&brilliant(at), index, tilt);
+            // Clear stones, grey ones, and some that absorb each polarisation differently.
+            let absorption = [[0.0; 2], [0.25; 2], [0.0; 2], [0.6, 0.1]][number % 4];
+            let medium = |index: f64| Medium { absorption, ..Medium::clear(index) };
+            let at_index =
+                |index: f64| MeasureSettings { indices: [index - 0.02, index + 0.03], ..usual.clone() };
+            let settings = at_index(index);
+            let (stone, beams) = traced(&brilliant(at), medium(index), tilt);
             let own = names().map(|name| name.derivatives(&beams, &stone, &settings).unwrap());
             let measures = LightMeasures::of(&beams, &stone, &settings);
             assert_eq!(own[2].value.to_bits(), measures.leakage.least.to_bits());
             assert!((own[0].value - measures.domes[0].inside.least).abs() < 1e-14);
             assert!((own[1].value - measures.domes[1].with_glare().least).abs() < 1e-14);
+            for (own, interval) in
+                own[5..8].iter().zip([measures.fire, measures.absorbed, measures.extinction])
+            {
+                assert!((own.value - interval.least).abs() < 1e-14);
+            }
+            let contrast = measures.contrast;
+            assert!(contrast.least <= own[8].value && own[8].value <= contrast.most);
             for by in 0..5 {
                 let moved = |h: f64| {
                     let mut at = at;
@@ -197,13 +205,13 @@ mod tests {
                 let differences = |step: f64| {
                     difference(step, |h| {
                         let (cut, index) = moved(h);
-                        let (stone, beams) = traced(&cut, index, tilt);
-                        values(&beams, &stone, &settings)
+                        let (stone, beams) = traced(&cut, medium(index), tilt);
+                        values(&beams, &stone, &at_index(index))
                     })
                 };
                 let unit = if by == 4 { 0.1 } else { 1.0 };
                 let (coarse, fine) = (differences(2e-5 * unit), differences(1e-5 * unit));
-                for k in 0..5 {
+                for k in 0..COUNT {
                     // Where two steps disagree, a border lies between them.
                     if (coarse[k] - fine[k]).abs() > 1e-7 * fine[k].abs().max(0.01) {
                         at_borders += 1;
