@@ -36,9 +36,12 @@ pub struct OptimiseArguments {
     #[arg(long, value_name = "MEASURE[=WEIGHT]")]
     lower: Vec<WeightedMeasure>,
     /// A number that may change, and its range, as in crown_angle=30:38 or tier:P1=40:44; may be repeated [default: the goal file's, or
-    /// else all that the design gives]
+    /// else all that the design gives but for its outline and girdle]
     #[arg(long, value_name = "KEY=FROM:TO")]
     vary: Vec<VariedRange>,
+    /// Let angles end on multiples of this, as a machine's scale has them, such as 0.1 [default: any angle]
+    #[arg(long, value_name = "DEGREES", value_parser = number)]
+    angle_step: Option<f64>,
     /// A material's name, or an index, instead of the file's
     #[arg(long, value_name = "MATERIAL")]
     material: Option<String>,
@@ -188,7 +191,14 @@ impl OptimiseArguments {
         goal.measure.extend(raised.chain(lowered));
         goal.vary.extend(self.vary.iter().map(|VariedRange(key, range)| (key.clone(), *range)));
         if goal.measure.is_empty() {
-            return Err(Failure::Usage("give a goal: --goal FILE, or --raise MEASURE".to_owned()));
+            let Goal { name, measure, .. } = Goal::usual();
+            goal = Goal { name, measure, ..goal };
+            say(
+                "note: no goal is given, so return-cos2=0.5, return-cos2@10=0.5 and fire=1 are raised; --raise names another",
+            );
+        }
+        if self.angle_step.is_some_and(|step| !(1e-3..=10.0).contains(&step)) {
+            return Err(Failure::Usage("--angle-step: give 0.001 to 10 degrees".to_owned()));
         }
         if !(self.unresolved > 0.0 && self.unresolved < 1.0) {
             return Err(Failure::Usage(format!(
@@ -217,6 +227,7 @@ impl OptimiseArguments {
             climbs: self.climbs as usize,
             seed: self.seed.into(),
             polarised: !self.unpolarised,
+            angle_step_deg: self.angle_step,
             ..SearchOptions::default()
         }
     }

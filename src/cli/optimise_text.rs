@@ -3,46 +3,11 @@
 use super::sweep_plot::label;
 use crate::cut::Cut;
 use crate::measure::Interval;
-use crate::search::{DesignSearch, Goal, GoalValue, OtherMeasure, SearchOutcome, VariedNumber};
+use crate::search::{
+    DesignSearch, Goal, GoalValue, MeasureChange, OtherMeasure, SearchOutcome, VariedNumber,
+};
 use serde_json::{Value, json};
 use std::fmt::Write;
-
-/// Changes of a measure below this part of the face are none.
-const SAME: f64 = 5e-5;
-
-/// One line about a measure.
-struct Change {
-    name: String,
-    before: Interval,
-    after: Interval,
-    /// Whether more of it is better, worse, or neither.
-    wanted: f64,
-}
-
-impl Change {
-    fn by(&self) -> f64 {
-        self.after.middle() - self.before.middle()
-    }
-
-    /// Returns whether the change is better, or worse, than none.
-    fn gain(&self) -> f64 {
-        if self.by().abs() < SAME { 0.0 } else { self.wanted * self.by() }
-    }
-
-    fn line(&self) -> String {
-        let part = |value: Interval| match value.most.is_finite() {
-            true => format!("{:7.2} ± {:.2} %", 100.0 * value.middle(), 100.0 * value.error()),
-            false => format!("at least {:.2} %", 100.0 * value.least),
-        };
-        format!(
-            "  {:<38}{:>18}{:>18}{:>+9.2}\n",
-            self.name,
-            part(self.before),
-            part(self.after),
-            100.0 * self.by()
-        )
-    }
-}
 
 /// Formats the outcome of a search.
 pub fn text(goal: &Goal, search: &DesignSearch, outcome: &SearchOutcome, others: &[OtherMeasure]) -> String {
@@ -59,29 +24,14 @@ pub fn text(goal: &Goal, search: &DesignSearch, outcome: &SearchOutcome, others:
     );
     let _ = writeln!(text, "{} designs appraised\n", outcome.appraised);
     let _ = writeln!(text, "  {:<38}{:>18}{:>18}{:>9}", "", "before", "after", "change");
-    let weighed = start.values.iter().zip(&outcome.best.values).map(|(before, after)| Change {
-        name: name_of(before),
-        before: before.value,
-        after: after.value,
-        wanted: before.weight,
-    });
-    let other = others.iter().map(|other| Change {
-        name: other.name.to_string(),
-        before: other.before,
-        after: other.after,
-        wanted: other.wanted(),
-    });
-    let (weighed, other): (Vec<Change>, Vec<Change>) = (weighed.collect(), other.collect());
-    section(&mut text, "Won", weighed.iter().filter(|change| change.gain() > 0.0));
-    section(&mut text, "Given up for it", weighed.iter().filter(|change| change.gain() < 0.0));
-    section(&mut text, "As it was", weighed.iter().filter(|change| change.gain() == 0.0));
-    section(&mut text, "Not weighed, better", other.iter().filter(|change| change.gain() > 0.0));
-    section(&mut text, "Not weighed, worse", other.iter().filter(|change| change.gain() < 0.0));
-    section(&mut text, "Not weighed, a matter of taste", other.iter().filter(|change| change.wanted == 0.0));
+    for (group, changes) in MeasureChange::grouped(start, outcome, others) {
+        let _ = writeln!(text, "{}", group.title());
+        changes.iter().for_each(|change| text.push_str(&line(change)));
+    }
     let _ = writeln!(text, "Numbers");
     for (number, value) in search.objective().numbers().iter().zip(&outcome.values) {
         let VariedNumber { key, least, most, start } = number;
-        let range = format!("from {least} to {most}");
+        let range = format!("from {least} to {most}{}", number.end_of_range(*value));
         let label = label(key, &search.objective().design().cut);
         let _ = writeln!(text, "  {label:<38}{start:>12.4}{value:>18.4}{:>+15.4}   {range}", value - start);
     }
@@ -111,21 +61,19 @@ pub fn text(goal: &Goal, search: &DesignSearch, outcome: &SearchOutcome, others:
     text
 }
 
-fn section<'a>(text: &mut String, title: &str, changes: impl Iterator<Item = &'a Change>) {
-    let lines: String = changes.map(Change::line).collect();
-    if !lines.is_empty() {
-        let _ = write!(text, "{title}\n{lines}");
-    }
-}
-
-fn name_of(value: &GoalValue) -> String {
-    let material = value.material.as_ref().map_or(String::new(), |name| format!(", {name}"));
-    let tilt = match (value.tilt_deg, value.azimuth_deg) {
-        (0.0, _) => String::new(),
-        (tilt, 0.0) => format!(", tilt {tilt}"),
-        (tilt, azimuth) => format!(", tilt {tilt} toward {azimuth}"),
+/// Formats one change as a row of the table.
+fn line(change: &MeasureChange) -> String {
+    let part = |value: Interval| match value.most.is_finite() {
+        true => format!("{:7.2} ± {:.2} %", 100.0 * value.middle(), 100.0 * value.error()),
+        false => format!("at least {:.2} %", 100.0 * value.least),
     };
-    format!("{}{material}{tilt}", value.of)
+    format!(
+        "  {:<38}{:>18}{:>18}{:>+9.2}\n",
+        format!("{}{}", change.of, change.conditions()),
+        part(change.before),
+        part(change.after),
+        100.0 * change.by()
+    )
 }
 
 /// Returns the outcome of a search as docs/formats.md describes it.

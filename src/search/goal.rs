@@ -2,6 +2,7 @@
 
 use crate::cut::MaterialRef;
 use crate::measure::MeasureName;
+use crate::scene::DomeLight;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -19,7 +20,7 @@ pub struct Goal {
     /// The measures that are weighed, at least one.
     pub measure: Vec<GoalMeasure>,
     /// The numbers that may change, with the least and the greatest value of each: keys of proportions, `tier:` and the name
-    /// of a tier. Where none is given, all that the design gives may change within usual ranges.
+    /// of a tier. Where none is given, all that the design gives may change within usual ranges, but for its outline and girdle.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub vary: BTreeMap<String, [f64; 2]>,
     /// Limits on the geometry: keys of the cut's proportions, or [`LIMIT_NAMES`](super::LIMIT_NAMES).
@@ -137,6 +138,21 @@ impl Goal {
     pub fn of(measures: impl IntoIterator<Item = (MeasureName, f64)>) -> Self {
         let measure = measures.into_iter().map(|(of, weight)| GoalMeasure::new(of, weight)).collect();
         Self { name: None, measure, vary: BTreeMap::new(), limit: BTreeMap::new() }
+    }
+
+    /// Makes the goal where none is given: bright and fiery. Half of the brightness is that of a viewer whose head hides 10° about
+    /// the axis, half that of one who is far away.
+    ///
+    /// Its weights are ours. Among round brilliants of table 57 % in diamond it is greatest around a crown of 34° over a pavilion of
+    /// 41° and of 37° over 40.4°, within GIA's range for the best; a return without fire is greatest at crowns of 30° and less,
+    /// and a dome whose head is hidden to 15° wants pavilions of 42.5°.
+    pub fn usual() -> Self {
+        let weighed = [
+            (MeasureName::Return(DomeLight::of(2.0)), 0.5),
+            (MeasureName::Return(DomeLight { head_deg: 10.0, ..DomeLight::of(2.0) }), 0.5),
+            (MeasureName::Fire, 1.0),
+        ];
+        Self { name: Some("bright and fiery".to_owned()), ..Self::of(weighed) }
     }
 
     /// Checks that the goal has a measure to raise or lower, and that its numbers are in their ranges.

@@ -3,6 +3,7 @@
 //! [`DesignSearch`] looks for the best, from everywhere and then from near.
 
 mod appraisal;
+mod changes;
 mod goal;
 mod kept_corners;
 mod limits;
@@ -18,6 +19,7 @@ mod terms;
 mod tests;
 
 pub use appraisal::{Appraisal, GoalValue, SearchError};
+pub use changes::{ChangeGroup, MeasureChange};
 pub use goal::{AtLeastAtMost, Goal, GoalFault, GoalMaterial, GoalMeasure, OneOrMore};
 pub use limits::LIMIT_NAMES;
 pub use numbers::VariedNumber;

@@ -3,6 +3,7 @@
 use super::appraisal::SearchError;
 use super::goal::Goal;
 use crate::cut::{Cut, Design, MachineSetting, Unit};
+use crate::math::Plane;
 use crate::render::{SweepKey, with_numbers};
 
 /// By how many degrees the angle of a tier may usually change, either way.
@@ -10,6 +11,15 @@ const TIER_RANGE_DEG: f64 = 5.0;
 
 /// The angles that a tier keeps to: a table stays a table, and a girdle a girdle.
 const TIER_ANGLES_DEG: [f64; 2] = [1.0, 89.0];
+
+/// The key of the girdle's thickness in all families.
+const GIRDLE_KEY: &str = "girdle_thickness";
+
+/// Facets whose normals rise by less than this are upright.
+const UPRIGHT: f64 = 1e-6;
+
+/// A value this near to a multiple of a step, in steps, is one.
+const ROUNDING: f64 = 1e-9;
 
 /// A number of a design that a search may change.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,19 +35,53 @@ pub struct VariedNumber {
 }
 
 impl VariedNumber {
-    /// Returns the numbers that a cut gives, with their usual ranges, widened to the cut's own values: what a search changes
-    /// where its goal names no number.
-    pub fn usual(cut: &Cut) -> Vec<Self> {
-        usual(cut)
+    /// Returns the numbers that a cut gives, with their usual ranges, widened to the cut's own values.
+    pub fn given_by(cut: &Cut) -> Vec<Self> {
+        given_by(cut)
     }
 
-    /// Returns the numbers that the goal names, or all that the design gives.
+    /// Returns the numbers that a search changes where its goal names none: all that the cut gives, but for those of its outline
+    /// and girdle, which change what is sold rather than how it shines.
+    pub fn usual(cut: &Cut) -> Vec<Self> {
+        let keeps_girdle = |number: &Self| !changes_girdle(cut, number);
+        given_by(cut).into_iter().filter(keeps_girdle).collect()
+    }
+
+    /// Returns a remark for a value at an end of the range, where a wider range may hold a better one; empty elsewhere.
+    pub fn end_of_range(&self, value: f64) -> &'static str {
+        let near = 1e-6 * (self.most - self.least);
+        match value {
+            low if low - self.least <= near => ", ended at the least",
+            high if self.most - high <= near => ", ended at the greatest",
+            _ => "",
+        }
+    }
+
+    /// Whether the number is an angle, degrees.
+    pub fn is_angle(&self, cut: &Cut) -> bool {
+        match &self.key {
+            SweepKey::Tier(_) => true,
+            SweepKey::Proportion(key) => cut.proportion(key).is_some_and(|row| row.unit == Unit::Degrees),
+            _ => false,
+        }
+    }
+
+    /// Returns the place of the multiple of `step` that is nearest to a place and in the range; `None` where the range holds none.
+    pub(super) fn snapped(&self, place: f64, step: f64) -> Option<f64> {
+        let [first, last] = [(self.least / step - ROUNDING).ceil(), (self.most / step + ROUNDING).floor()];
+        (first <= last).then(|| {
+            let value = (self.at(place) / step).round().clamp(first, last) * step;
+            ((value - self.least) / (self.most - self.least)).clamp(0.0, 1.0)
+        })
+    }
+
+    /// Returns the numbers that the goal names, or the usual ones.
     ///
     /// # Errors
     /// The design does not have a number, there is none, or the design as it is given lies outside a range.
     pub(super) fn all(goal: &Goal, design: &Design) -> Result<Vec<Self>, SearchError> {
         let numbers = match goal.vary.is_empty() {
-            true => usual(&design.cut),
+            true => Self::usual(&design.cut),
             false => {
                 let named = goal.vary.iter().map(|(name, range)| Self::named(&design.cut, name, *range));
                 named.collect::<Result<_, _>>()?
@@ -85,8 +129,34 @@ fn of_tier(cut: &Cut, name: &str, number: impl Fn(&MachineSetting) -> f64) -> f6
     cut.settings().iter().find(|setting| setting.name == name).map_or(f64::NAN, number)
 }
 
+/// Whether a change of a number moves facets of the girdle, or makes it thicker.
+fn changes_girdle(cut: &Cut, number: &VariedNumber) -> bool {
+    let SweepKey::Proportion(key) = &number.key else { return false };
+    let Some(row) = cut.proportion(key) else { return false };
+    let (Some(give), Some(before)) = (row.give, girdle(cut)) else { return false };
+    let mut moved = cut.clone();
+    let by = 1e-3 * (number.most - number.least);
+    give(&mut moved, if number.start + by <= number.most { number.start + by } else { number.start - by });
+    let is_same = |(before, after): (&(String, Plane), &(String, Plane))| {
+        before.1.normal.distance(after.1.normal) < 1e-9 && (before.1.offset - after.1.offset).abs() < 1e-9
+    };
+    row.key == GIRDLE_KEY
+        || girdle(&moved)
+            .is_some_and(|after| after.len() != before.len() || !before.iter().zip(&after).all(is_same))
+}
+
+/// Returns the upright facets of a cut that is shaped by proportions.
+fn girdle(cut: &Cut) -> Option<Vec<(String, Plane)>> {
+    let facets = match cut {
+        Cut::RoundBrilliant(cut) => cut.facets().ok()?,
+        Cut::Family(cut) => cut.facets().ok()?,
+        _ => return None,
+    };
+    Some(facets.into_iter().filter(|(_, plane)| plane.normal.z.abs() < UPRIGHT).collect())
+}
+
 /// Returns the numbers that a design gives, with their usual ranges, widened to the design's own values.
-fn usual(cut: &Cut) -> Vec<VariedNumber> {
+fn given_by(cut: &Cut) -> Vec<VariedNumber> {
     let rows = cut.family().into_iter().flat_map(|family| family.editable());
     let given = rows.filter(|row| (row.is_given)(cut) && row.unit != Unit::Count);
     // A culet of 0 is a point, which stays.

@@ -3,6 +3,7 @@
 use super::appraisal::{Appraisal, SearchError};
 use super::goal::Goal;
 use super::local::{climb, feel};
+use super::numbers::VariedNumber;
 use super::objective::Objective;
 use super::outcome::{ProgressPoint, SearchOutcome, SearchProgress};
 use crate::cut::Design;
@@ -10,6 +11,9 @@ use crate::trace::{Watch, unwatched};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
+
+/// The number of designs for each number that are tried to bring angles to multiples of their step.
+const SNAPPED_FOR_EACH: usize = 12;
 
 /// How much a limit that is missed by 1 counts against the total, while designs are compared that keep none.
 const MISSED: f64 = 10.0;
@@ -80,11 +84,22 @@ pub struct SearchOptions {
     pub by_slopes: bool,
     /// Whether polarisation is followed.
     pub polarised: bool,
+    /// The step of angles in degrees, above 0, such as that of a faceting machine's scale: those that change end on multiples of it
+    /// where their ranges hold one. `None` where any angle will do.
+    pub angle_step_deg: Option<f64>,
 }
 
 impl Default for SearchOptions {
     fn default() -> Self {
-        Self { unresolved: 2e-3, scattered: None, climbs: 3, seed: 0, by_slopes: true, polarised: true }
+        Self {
+            unresolved: 2e-3,
+            scattered: None,
+            climbs: 3,
+            seed: 0,
+            by_slopes: true,
+            polarised: true,
+            angle_step_deg: None,
+        }
     }
 }
 
@@ -169,7 +184,7 @@ impl DesignSearch {
             search: self,
             watch,
             report,
-            most: scattered + zoomed + climbs * climbing + FELT_TOPS * feeling,
+            most: scattered + zoomed + climbs * climbing + FELT_TOPS * feeling + self.snapping(),
             appraised: AtomicUsize::new(0),
             stopped: AtomicBool::new(false),
             record: Mutex::default(),
@@ -190,7 +205,15 @@ impl DesignSearch {
         distinct(&tops, SAME_TOP).par_iter().take(FELT_TOPS).for_each(|top| {
             feel(&trials, top, FELT_STEP, feeling);
         });
+        if let Some(step) = self.options.angle_step_deg {
+            trials.snap(step, self.snapping());
+        }
         self.outcome(&trials)
+    }
+
+    /// Returns the number of appraisals that bring angles to multiples of their step.
+    fn snapping(&self) -> usize {
+        self.options.angle_step_deg.map_or(0, |_| SNAPPED_FOR_EACH * self.objective.numbers().len())
     }
 
     /// Scatters designs over all ranges, and then nearer and nearer around the most promising. Returns all with their merit.
@@ -293,6 +316,42 @@ impl Trials<'_> {
         self.record().best.clone()
     }
 
+    /// Replaces the best so far by the best design near it whose angles are multiples of a step: its angles are rounded, and then
+    /// each is moved by a step either way for as long as that is better, but no more than `most` designs are appraised.
+    fn snap(&self, step: f64, most: usize) {
+        let objective = &self.search.objective;
+        let Some((best, _)) = self.best() else { return };
+        let cut = &objective.design().cut;
+        let on_scale = |number: &VariedNumber, place: f64| match number.is_angle(cut) {
+            true => number.snapped(place, step).unwrap_or(place),
+            false => place,
+        };
+        let snapped = |places: &[f64]| -> Vec<f64> {
+            objective.numbers().iter().zip(places).map(|(number, &place)| on_scale(number, place)).collect()
+        };
+        let mut found: Option<(Vec<f64>, Appraisal)> = None;
+        let mut next = vec![snapped(&best)];
+        let mut left = most;
+        while !next.is_empty() && left > 0 {
+            next.truncate(left);
+            left -= next.len();
+            let tried =
+                next.par_iter().filter_map(|places| Some((places.clone(), self.near(places, false)?)));
+            let tried: Vec<(Vec<f64>, Appraisal)> = tried.collect();
+            let top = tried.into_iter().max_by(|a, b| merit(&a.1).total_cmp(&merit(&b.1)));
+            let Some(top) = top else { break };
+            if found.as_ref().is_some_and(|found| merit(&top.1) <= merit(&found.1)) {
+                break;
+            }
+            next = neighbours(objective.numbers(), &top.0, step, &on_scale);
+            found = Some(top);
+        }
+        let mut record = self.record();
+        record.best = found
+            .filter(|(_, appraisal)| appraisal.keeps_limits())
+            .map(|(places, appraisal)| (places, appraisal.total.middle()));
+    }
+
     fn appraise(&self, places: &[f64], unresolved: f64, with_slopes: bool) -> Option<Appraisal> {
         if self.stopped.load(Ordering::Relaxed) {
             return None;
@@ -343,6 +402,25 @@ impl Trials<'_> {
     fn record(&self) -> std::sync::MutexGuard<'_, Record> {
         self.record.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// Returns the places that are one step of an angle away, in each angle and either way.
+fn neighbours(
+    numbers: &[VariedNumber],
+    places: &[f64],
+    step: f64,
+    on_scale: &dyn Fn(&VariedNumber, f64) -> f64,
+) -> Vec<Vec<f64>> {
+    let beside = |(k, number): (usize, &VariedNumber)| {
+        let by = step / (number.most - number.least);
+        [-by, by].map(|by| {
+            let mut places = places.to_vec();
+            places[k] = on_scale(number, (places[k] + by).clamp(0.0, 1.0));
+            places
+        })
+    };
+    let all = numbers.iter().enumerate().flat_map(beside);
+    all.filter(|other| other.as_slice() != places).collect()
 }
 
 /// Returns a total that counts missed limits against a design.

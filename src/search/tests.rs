@@ -2,7 +2,7 @@
 
 use super::{
     AtLeastAtMost, DesignSearch, Goal, GoalMaterial, Objective, OneOrMore, SearchError, SearchOptions,
-    SearchProgress,
+    SearchProgress, VariedNumber,
 };
 use crate::cut::{Crown, Cut, Design, MaterialRef, Pavilion, RoundBrilliant, TOLKOWSKY};
 use crate::measure::MeasureSettings;
@@ -22,6 +22,7 @@ const ROUGH: SearchOptions = SearchOptions {
     seed: 0,
     by_slopes: true,
     polarised: false,
+    angle_step_deg: None,
 };
 
 fn brilliant(crown: f64, pavilion: f64) -> Design {
@@ -153,6 +154,49 @@ fn a_search_finds_the_hill_from_wherever_it_starts() {
         let pavilion = outcome.values[1];
         assert!(matches!(cut.pavilion, Pavilion::Angle(angle) if (angle - pavilion).abs() < 1e-12));
     }
+}
+
+#[test]
+fn angles_end_on_the_scale_of_a_machine_and_lose_little() {
+    let goal = goal(&[("return-cos2", 1.0)]);
+    let design = brilliant(34.53, 40.77);
+    let of = |angle_step_deg: Option<f64>| {
+        let options = SearchOptions { angle_step_deg, ..ROUGH };
+        let search = DesignSearch::new(&design, &goal, options, &unwatched).unwrap();
+        let start = search.objective().start().total.middle();
+        (search.run(&unwatched, &|_| {}).unwrap(), start)
+    };
+    let (free, start) = of(None);
+    for step in [0.1, 0.25] {
+        let (snapped, _) = of(Some(step));
+        for value in &snapped.values {
+            let steps = value / step;
+            assert!((steps - steps.round()).abs() < 1e-6, "{value} is no multiple of {step}");
+        }
+        let [free, snapped] = [&free, &snapped].map(|outcome| outcome.best.total.middle() - start);
+        assert!(snapped > 0.8 * free && free > 0.01, "{snapped} instead of {free}");
+    }
+    assert!(free.values.iter().any(|value| (value * 10.0 - (value * 10.0).round()).abs() > 1e-3));
+}
+
+#[test]
+fn a_search_that_names_no_number_leaves_outline_and_girdle_as_they_are() {
+    let usual = |name: &str| {
+        let cut = &crate::cut::FAMILIES.iter().find(|family| family.key == name).unwrap().first;
+        let keys =
+            |all: Vec<VariedNumber>| -> Vec<String> { all.iter().map(|n| n.key.to_string()).collect() };
+        (keys(VariedNumber::usual(cut)), keys(VariedNumber::given_by(cut)))
+    };
+    let (usual_ones, given) = usual("emerald");
+    for held in ["length_to_width", "corner", "girdle_thickness"] {
+        assert!(!usual_ones.contains(&held.to_owned()) && given.contains(&held.to_owned()), "{held}");
+    }
+    for free in ["table", "crown_angle", "crown_step", "pavilion_angle", "pavilion_step", "keel"] {
+        assert!(usual_ones.contains(&free.to_owned()), "{free}: {usual_ones:?}");
+    }
+    assert!(
+        usual("oval").0.contains(&"table".to_owned()) && !usual("oval").0.contains(&"fullness".to_owned())
+    );
 }
 
 #[test]

@@ -204,7 +204,8 @@ impl CutSearch {
             curve: vec![],
             is_stopping: false,
         }));
-        let options = self.form.effort.options(goal.vary.len());
+        let angle_step_deg = self.form.angle_step_deg;
+        let options = SearchOptions { angle_step_deg, ..self.form.effort.options(goal.vary.len()) };
         Ok(SearchRequest { number, design: design.clone(), goal, options })
     }
 

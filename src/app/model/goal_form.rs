@@ -5,7 +5,6 @@ use super::measure_map::MapAxis;
 use crate::cut::Cut;
 use crate::measure::{MeasureName, MeasureSettings, PatternSettings, ROCK_DEG};
 use crate::render::SweepKey;
-use crate::scene::DomeLight;
 use crate::search::{Goal, GoalMeasure, SearchOptions, VariedNumber};
 use std::collections::BTreeMap;
 
@@ -79,6 +78,8 @@ pub struct NumberChoice {
     pub ends: [f64; 2],
     /// The ends as they are before anyone changes them.
     usual: [f64; 2],
+    /// Whether it changes in searches that name no number: it belongs neither to the outline nor to the girdle.
+    is_usual: bool,
     /// Whether it may change.
     pub is_varied: bool,
 }
@@ -92,6 +93,8 @@ pub struct GoalForm {
     pub numbers: Vec<NumberChoice>,
     /// How much time the search takes.
     pub effort: SearchEffort,
+    /// The step of angles, degrees; see [`SearchOptions::angle_step_deg`].
+    pub angle_step_deg: Option<f64>,
 }
 
 /// Why a search cannot begin.
@@ -118,8 +121,8 @@ pub enum GoalFormFault {
 
 impl Default for GoalForm {
     fn default() -> Self {
-        let measure = MeasureName::Return(DomeLight::of(2.0));
-        Self { goal: Goal::of([(measure, 1.0)]), numbers: vec![], effort: SearchEffort::default() }
+        let goal = Goal::usual();
+        Self { goal, numbers: vec![], effort: SearchEffort::default(), angle_step_deg: None }
     }
 }
 
@@ -133,7 +136,9 @@ impl GoalForm {
     /// Takes the numbers of a cut. What was chosen for a number stays while cuts have it.
     pub fn follow(&mut self, cut: &Cut) {
         let axes = MapAxis::all(cut);
-        let all = VariedNumber::usual(cut);
+        let all = VariedNumber::given_by(cut);
+        let usual = VariedNumber::usual(cut);
+        let is_usual = |key: &SweepKey| usual.iter().any(|number| number.key == *key);
         let is_first = |key: &SweepKey| FIRST.iter().any(|first| *key == SweepKey::of(first));
         let has_first = all.iter().any(|number| is_first(&number.key));
         let number = |number: VariedNumber| {
@@ -147,7 +152,11 @@ impl GoalForm {
                 value: start,
                 ends: before.filter(|before| before.ends != before.usual).map_or(usual, |before| before.ends),
                 usual,
-                is_varied: before.map_or(!has_first || is_first(&key), |before| before.is_varied),
+                is_usual: is_usual(&key),
+                is_varied: before.map_or_else(
+                    || if has_first { is_first(&key) } else { is_usual(&key) },
+                    |before| before.is_varied,
+                ),
                 key,
             }
         };
@@ -164,7 +173,7 @@ impl GoalForm {
         let is_named = !vary.is_empty();
         for number in &mut self.numbers {
             let ends = vary.remove(&number.key.to_string());
-            number.is_varied = ends.is_some() || !is_named;
+            number.is_varied = ends.is_some() || (!is_named && number.is_usual);
             number.ends = ends.unwrap_or(number.usual);
         }
         let (kept, missing): (BTreeMap<_, _>, BTreeMap<_, _>) =
@@ -271,7 +280,7 @@ mod tests {
         assert!(fault.starts_with("Crown angle: the least value"), "{fault}");
         form.numbers.iter_mut().for_each(|number| number.is_varied = false);
         assert_eq!(form.wanted(), Err(GoalFormFault::NoNumber));
-        form.goal.measure[0].weight = 0.0;
+        form.goal.measure.iter_mut().for_each(|measure| measure.weight = 0.0);
         assert_eq!(form.wanted(), Err(GoalFormFault::NoMeasure));
     }
 
@@ -283,9 +292,12 @@ mod tests {
         assert_eq!(form.take(goal.clone(), &cut), ["tier:P1"]);
         goal.vary.remove("tier:P1");
         assert_eq!(form.wanted(), Ok(goal.clone()));
-        // A goal that names no number is one of all.
+        // A goal that names no number is one of all but the girdle.
         goal.vary.clear();
-        assert!(form.take(goal, &cut).is_empty() && form.numbers.iter().all(|number| number.is_varied));
+        assert!(form.take(goal, &cut).is_empty());
+        let held: Vec<_> =
+            form.numbers.iter().filter(|number| !number.is_varied).map(|number| &number.name).collect();
+        assert_eq!(held, ["Girdle thickness"]);
     }
 
     #[test]
@@ -304,10 +316,11 @@ mod tests {
     #[test]
     fn a_measure_that_is_added_is_another_one() {
         let mut form = GoalForm::default();
+        let before = form.goal.measure.len();
         (0..3).for_each(|_| form.add_measure());
         let mut names: Vec<_> = form.goal.measure.iter().map(|measure| measure.of.to_string()).collect();
         names.sort();
         names.dedup();
-        assert_eq!(names.len(), 4);
+        assert_eq!(names.len(), before + 3);
     }
 }

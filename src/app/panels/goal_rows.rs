@@ -40,6 +40,24 @@ pub fn show(form: &mut GoalForm, ui: &mut Ui) {
     numbers(&mut form.numbers, ui);
 }
 
+/// The steps of angles that are offered, degrees.
+const ANGLE_STEPS: [Option<f64>; 5] = [None, Some(0.05), Some(0.1), Some(0.25), Some(0.5)];
+
+/// Draws the choice of the step of angles.
+pub fn angle_step(form: &mut GoalForm, ui: &mut Ui) {
+    let name = |step: Option<f64>| step.map_or("any".to_owned(), |step| format!("{step}°"));
+    let meaning = "Angles that change end on multiples of this, as the scale of a machine has them.";
+    let label = ui.label("Angle step").on_hover_text(meaning);
+    let combo =
+        ComboBox::from_id_salt("angle step").width(END - 24.0).selected_text(name(form.angle_step_deg));
+    let shown = combo.show_ui(ui, |ui| {
+        for offered in ANGLE_STEPS {
+            ui.selectable_value(&mut form.angle_step_deg, offered, name(offered));
+        }
+    });
+    shown.response.labelled_by(label.id);
+}
+
 /// Draws the choice of the effort.
 pub fn effort(form: &mut GoalForm, ui: &mut Ui) {
     let label = ui.label("Effort").on_hover_text("How many designs are tried, and how finely.");

@@ -6,64 +6,28 @@ use crate::app::model::goal_form::NumberChoice;
 use crate::app::theme;
 use crate::measure::Interval;
 use crate::measure::measure_words;
-use crate::search::GoalValue;
+use crate::search::MeasureChange;
 use egui::{Color32, Grid, Response, RichText, Ui, vec2};
-
-/// Changes of a measure below this part of the face are none.
-const SAME: f64 = 5e-5;
+use std::cmp::Ordering;
 
 /// The width of a column of numbers, points.
-const COLUMN: f32 = 76.0;
-
-/// A measure before and after.
-struct Change {
-    name: String,
-    before: Interval,
-    after: Interval,
-    /// Above 0 where more of it is better, below 0 where less is, and 0 where neither is.
-    wanted: f64,
-}
-
-impl Change {
-    fn by(&self) -> f64 {
-        self.after.middle() - self.before.middle()
-    }
-
-    /// Returns 1 for a change for the better, -1 for one for the worse, and 0 for none or one that is neither.
-    fn gain(&self) -> i8 {
-        let gain = if self.by().abs() < SAME { 0.0 } else { self.wanted * self.by() };
-        i8::from(gain > 0.0) - i8::from(gain < 0.0)
-    }
-}
+const COLUMN: f32 = 104.0;
 
 /// Draws the measures in groups, and the numbers.
 pub fn show(model: &Model, report: &SearchReport, ui: &mut Ui) {
-    let weighed = report.start.values.iter().zip(&report.outcome.best.values).map(|(before, after)| Change {
-        name: name_of(before),
-        before: before.value,
-        after: after.value,
-        wanted: before.weight,
-    });
-    let other = report.others.iter().map(|other| Change {
-        name: measure_words::name(other.name),
-        before: other.before,
-        after: other.after,
-        wanted: other.wanted(),
-    });
-    let (weighed, other): (Vec<Change>, Vec<Change>) = (weighed.collect(), other.collect());
     let [good, bad] = [theme::good(ui.visuals()), theme::bad(ui.visuals())];
     let plain = ui.visuals().text_color();
-    let is = |gain: i8| move |change: &&Change| change.gain() == gain;
-    let taste = |change: &&Change| change.wanted == 0.0 && change.by().abs() >= SAME;
+    let groups = MeasureChange::grouped(&report.start, &report.outcome, &report.others);
     Grid::new("outcome of the search").num_columns(4).striped(true).spacing([14.0, 3.0]).show(ui, |ui| {
         heads(ui);
-        group(ui, ("Won", good), weighed.iter().filter(is(1)));
-        group(ui, ("Given up", bad), weighed.iter().filter(is(-1)));
-        group(ui, ("As it was", plain), weighed.iter().filter(is(0)));
-        // What was lost is read first.
-        group(ui, ("Not asked for, worse", bad), other.iter().filter(is(-1)));
-        group(ui, ("Not asked for, better", good), other.iter().filter(is(1)));
-        group(ui, ("Not asked for, a matter of taste", plain), other.iter().filter(taste));
+        for (found, changes) in &groups {
+            let colour = match found.gain() {
+                Ordering::Greater => good,
+                Ordering::Less => bad,
+                Ordering::Equal => plain,
+            };
+            group(ui, (found.title(), colour), changes);
+        }
         numbers(model, report, ui);
     });
     if !report.held.is_empty() {
@@ -81,16 +45,12 @@ fn heads(ui: &mut Ui) {
     ui.end_row();
 }
 
-/// Draws the measures of a group under its name; nothing where there are none.
-fn group<'a>(ui: &mut Ui, (name, colour): (&str, Color32), changes: impl Iterator<Item = &'a Change>) {
-    let mut changes = changes.peekable();
-    if changes.peek().is_none() {
-        return;
-    }
+/// Draws the measures of a group under its name.
+fn group(ui: &mut Ui, (name, colour): (&str, Color32), changes: &[MeasureChange]) {
     ui.label(RichText::new(name).strong().color(colour));
     ui.end_row();
     for change in changes {
-        ui.label(&change.name);
+        ui.label(format!("{}{}", measure_words::name(change.of), change.conditions()));
         for value in [change.before, change.after] {
             right(ui, part(value).into()).on_hover_text(measure_words::value(value));
         }
@@ -99,10 +59,10 @@ fn group<'a>(ui: &mut Ui, (name, colour): (&str, Color32), changes: impl Iterato
     }
 }
 
-/// Writes a value without its interval.
+/// Writes a value with its error.
 fn part(value: Interval) -> String {
     match value.most.is_finite() {
-        true => format!("{:.2} %", 100.0 * value.middle()),
+        true => format!("{:.2} ± {:.2} %", 100.0 * value.middle(), 100.0 * value.error()),
         false => format!("at least {:.2} %", 100.0 * value.least),
     }
 }
@@ -117,6 +77,7 @@ fn numbers(model: &Model, report: &SearchReport, ui: &mut Ui) {
             known.map_or_else(|| format!("{value:.2}"), |known: &NumberChoice| known.written(value))
         };
         let name = known.map_or_else(|| number.key.to_string(), |known| known.name.clone());
+        let name = format!("{name}{}", number.end_of_range(after));
         line(ui, &name, [written(number.start), written(after), format!("{:+.2}", after - number.start)]);
     }
     for ((name, before), (_, after)) in report.start.figures.iter().zip(&report.outcome.best.figures) {
@@ -142,31 +103,4 @@ fn right(ui: &mut Ui, text: RichText) -> Response {
         ui.label(text)
     })
     .inner
-}
-
-/// Returns the name of a measure with the material and the view in which it is taken.
-pub fn name_of(value: &GoalValue) -> String {
-    let material = value.material.as_ref().map_or(String::new(), |name| format!(", {name}"));
-    let tilt = match (value.tilt_deg, value.azimuth_deg) {
-        (0.0, _) => String::new(),
-        (tilt, 0.0) => format!(", tilt {tilt}°"),
-        (tilt, azimuth) => format!(", tilt {tilt}° toward {azimuth}°"),
-    };
-    format!("{}{material}{tilt}", measure_words::name(value.of))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_change_is_a_gain_by_what_is_wanted_and_none_within_rounding() {
-        let change = |by: f64, wanted: f64| {
-            let before = Interval::from(0.5, 0.5);
-            let after = Interval::from(0.5 + by, 0.5 + by);
-            Change { name: String::new(), before, after, wanted }.gain()
-        };
-        assert_eq!([change(0.1, 1.0), change(0.1, -1.0), change(-0.1, -2.0)], [1, -1, 1]);
-        assert_eq!([change(1e-5, 1.0), change(0.1, 0.0)], [0, 0]);
-    }
 }

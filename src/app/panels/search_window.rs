@@ -101,6 +101,7 @@ fn choosing(model: &Model, actions: &mut Actions, ui: &mut Ui) {
         let meaning = "Writes what is asked for here as a goal file.";
         actions.push_if(explain(ui, save, meaning).clicked(), FileAction::Choose(Purpose::SaveGoal));
         ui.separator();
+        goal_rows::angle_step(&mut now, ui);
         goal_rows::effort(&mut now, ui);
         let start = ui.add_enabled(fault.is_none(), Button::new("Start"));
         let meaning =

@@ -42,6 +42,27 @@ fn a_better_brilliant_is_found_written_and_measured_as_it_was_promised() {
 }
 
 #[test]
+fn without_a_goal_a_search_says_what_it_raises_and_angles_end_on_the_scale_that_was_given() {
+    let desk = Desk::new();
+    let line =
+        format!("optimise tolkowsky {QUICK} --vary crown_angle=34:38 --vary table=53:60 --angle-step 0.5");
+    let (code, printed, stderr) = desk.run(&line);
+    assert!(code == 0 && stderr.contains("return-cos2=0.5") && stderr.contains("fire=1"), "{stderr}");
+    assert!(printed.starts_with("bright and fiery: "), "{printed}");
+    let found = desk.json(&format!("{line} --json"));
+    let after = |key: &str| {
+        let numbers = found["numbers"].as_array().unwrap();
+        at(numbers.iter().find(|number| number["key"] == key).unwrap(), "after")
+    };
+    let steps = after("crown_angle") / 0.5;
+    assert!((steps - steps.round()).abs() < 1e-6, "{found}");
+    // A number at an end of its range may want a wider one.
+    let line = "optimise tolkowsky --raise leakage --vary pavilion_angle=40:40.9";
+    let ended = desk.done(&format!("{line} {QUICK}"));
+    assert!(ended.contains(", ended at the "), "{ended}");
+}
+
+#[test]
 fn a_goal_file_holds_limits_and_a_goal_that_cannot_be_kept_leaves_the_design() {
     let desk = Desk::new();
     let goal = |limit: &str| {
@@ -79,7 +100,7 @@ fn what_is_wrong_with_a_goal_is_said() {
     let desk = Desk::new();
     desk.write("typo.toml", "[[measure]]\nof = \"brightness\"\n");
     for (line, told) in [
-        ("tolkowsky", "give a goal"),
+        ("tolkowsky --angle-step 0", "0.001 to 10"),
         ("tolkowsky --raise brightness", "is no measure"),
         ("tolkowsky --raise fire=-1", "weight above 0"),
         ("tolkowsky --raise fire --vary crown_angle=40:30", "a number and its range"),
