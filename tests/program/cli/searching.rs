@@ -49,7 +49,7 @@ fn without_a_goal_a_search_says_what_it_raises_and_angles_end_on_the_scale_that_
     let (code, printed, stderr) = desk.run(&line);
     assert!(code == 0 && stderr.contains("return-cos2=0.5") && stderr.contains("fire=1"), "{stderr}");
     assert!(printed.starts_with("bright and fiery: "), "{printed}");
-    let found = desk.json(&format!("{line} --json"));
+    let found: serde_json::Value = serde_json::from_str(&desk.run(&format!("{line} --json")).1).unwrap();
     let after = |key: &str| {
         let numbers = found["numbers"].as_array().unwrap();
         at(numbers.iter().find(|number| number["key"] == key).unwrap(), "after")
