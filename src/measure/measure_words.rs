@@ -1,11 +1,12 @@
 //! Measures in words: their names on screen and paper, what they mean, and their values.
 
-use super::{Interval, MeasureName, MeasureSettings};
+use super::{Interval, MeasureName, MeasureSettings, PatternSettings, ROCK_DEG};
 use crate::scene::DomeLight;
 
-/// Returns the measures that can be chosen.
+/// Returns the measures that can be chosen: the usual ones and those of the pattern that an eye sees, also as the stone rocks.
 pub fn all() -> Vec<MeasureName> {
-    MeasureName::all(&MeasureSettings::usual([1.0; 2]))
+    let pattern = PatternSettings { rock_deg: Some(ROCK_DEG), ..PatternSettings::usual(1.0) };
+    MeasureName::all(&MeasureSettings { pattern: Some(pattern), ..MeasureSettings::usual([1.0; 2]) })
 }
 
 /// Returns the name of a measure.

@@ -3,7 +3,7 @@
 
 use super::measure_map::MapAxis;
 use crate::cut::Cut;
-use crate::measure::{MeasureName, MeasureSettings, PatternSettings, ROCK_DEG};
+use crate::measure::measure_words;
 use crate::render::SweepKey;
 use crate::search::{Goal, GoalMeasure, SearchOptions, VariedNumber};
 use std::collections::BTreeMap;
@@ -126,12 +126,6 @@ impl Default for GoalForm {
     }
 }
 
-/// Returns the measures that a goal can weigh: the usual ones and those of the pattern that an eye sees.
-pub fn goal_measures() -> Vec<MeasureName> {
-    let pattern = PatternSettings { rock_deg: Some(ROCK_DEG), ..PatternSettings::usual(1.0) };
-    MeasureName::all(&MeasureSettings { pattern: Some(pattern), ..MeasureSettings::usual([1.0; 2]) })
-}
-
 impl GoalForm {
     /// Takes the numbers of a cut. What was chosen for a number stays while cuts have it.
     pub fn follow(&mut self, cut: &Cut) {
@@ -207,8 +201,10 @@ impl GoalForm {
 
     /// Adds a measure: the first that is not weighed yet.
     pub fn add_measure(&mut self) {
-        let all = goal_measures();
-        let is_free = |name: &&MeasureName| self.goal.measure.iter().all(|measure| measure.of != **name);
+        let all = measure_words::all();
+        let is_free = |name: &&crate::measure::MeasureName| {
+            self.goal.measure.iter().all(|measure| measure.of != **name)
+        };
         if let Some(of) = all.iter().find(is_free).or(all.first()) {
             let new = GoalMeasure::new(*of, 1.0);
             self.goal.measure.push(new);
@@ -243,6 +239,7 @@ impl NumberChoice {
 mod tests {
     use super::*;
     use crate::app::model::document::Document;
+    use crate::measure::MeasureName;
 
     fn form() -> (GoalForm, Cut) {
         let cut = Document::first().unwrap().work.design.cut;

@@ -2,7 +2,7 @@
 
 use crate::app::studio::{SweepOrder, SweptPoint};
 use crate::cut::Design;
-use crate::measure::MeasureSettings;
+use crate::measure::{MeasureName, MeasureSettings, PatternSettings, ROCK_DEG};
 use crate::optics::line;
 use crate::render::{Sweep, SweepAxis, SweepError, SweptStone};
 use crate::scene::Viewpoint;
@@ -84,14 +84,23 @@ impl GrowingSweep {
     }
 }
 
-/// Returns the sweep of a design face up, at the sodium line, with the light, the head and the eye that `measures` takes.
-pub fn sweep_of(design: &Design, axes: Vec<SweepAxis>, unresolved: f64) -> Sweep {
+/// Returns whether a sweep takes all that a measure needs.
+pub fn takes(sweep: &Sweep, measure: MeasureName) -> bool {
+    let needed = PatternSettings::needed_by([&measure], 0.5 * sweep.design.diameter_mm, ROCK_DEG);
+    let rocks = |pattern: PatternSettings| pattern.rock_deg.is_some();
+    needed.is_none_or(|needed| sweep.settings.pattern.is_some_and(|has| rocks(has) || !rocks(needed)))
+}
+
+/// Returns the sweep of a design face up, at the sodium line, with the light, the head and the eye that `measures` takes, and with what
+/// a measure needs besides.
+pub fn sweep_of(design: &Design, axes: Vec<SweepAxis>, measure: MeasureName, unresolved: f64) -> Sweep {
+    let pattern = PatternSettings::needed_by([&measure], 0.5 * design.diameter_mm, ROCK_DEG);
     Sweep {
         design: design.clone(),
         viewpoint: Viewpoint::default(),
         axes,
         // The indices of colours are those of each point's material.
-        settings: MeasureSettings::usual([1.0; 2]),
+        settings: MeasureSettings { pattern, ..MeasureSettings::usual([1.0; 2]) },
         wavelength_nm: line::SODIUM_D,
         unresolved,
         polarised: true,
@@ -109,7 +118,7 @@ mod tests {
             key: crate::render::SweepKey::Tilt,
             values: [0.0, 1.0, 2.0].map(crate::render::SweepValue::Number).into(),
         }];
-        let sweep = Arc::new(sweep_of(&design, axes, 0.05));
+        let sweep = Arc::new(sweep_of(&design, axes, MeasureName::Fire, 0.05));
         SweepOrder { number, sweep, points: Arc::new([2, 0, 1]), coarse: 1 }
     }
 

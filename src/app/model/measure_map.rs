@@ -3,7 +3,7 @@
 //! The map belongs to all designs that differ from one another along its axes alone: it stays while the design moves on it, and
 //! begins anew when anything else of the stone changes.
 
-use super::growing_sweep::{GrowingSweep, sweep_of};
+use super::growing_sweep::{GrowingSweep, sweep_of, takes};
 use super::impossible::by_name;
 use crate::app::studio::SweepOrder;
 use crate::cut::{Cut, Design, MaterialRef, Proportion, Unit};
@@ -182,7 +182,8 @@ impl MeasureMap {
         if across.is_paired(up, &design.cut) || !is_range(across) || !is_range(up) {
             return;
         }
-        if self.options.as_ref().is_some_and(|before| before.axes != options.axes) {
+        let lacks = self.sweep.wanted().is_some_and(|order| !takes(&order.sweep, options.measure));
+        if lacks || self.options.as_ref().is_some_and(|before| before.axes != options.axes) {
             self.looked = None;
             self.sweep.want(None);
         }
@@ -204,12 +205,15 @@ impl MeasureMap {
         }
         self.looked = Some(design.clone());
         let Some(options) = &self.options else { return };
-        let wanted = self.sweep.wanted().map(|order| &order.sweep.design);
-        if wanted.is_some_and(|base| is_along(&options.axes, base, design)) {
+        let wanted = self.sweep.wanted().map(|order| &order.sweep);
+        let is_known = |sweep: &Arc<Sweep>| {
+            takes(sweep, options.measure) && is_along(&options.axes, &sweep.design, design)
+        };
+        if wanted.is_some_and(is_known) {
             return;
         }
         *numbers += 1;
-        self.sweep.want(Some(order(&options.axes, design, *numbers)));
+        self.sweep.want(Some(order(options, design, *numbers)));
     }
 
     /// Returns the cut of a design that is moved to these values across and up. Of two numbers of which one follows from the
@@ -260,7 +264,7 @@ fn first_measure() -> MeasureName {
 /// Returns the design at these values of two axes.
 fn at(axes: &[MapAxis; 2], design: &Design, to: [f64; 2]) -> Result<Design, SweepError> {
     let axes = axes.iter().zip(to).map(|(axis, value)| axis.sweep_axis(vec![value])).collect();
-    sweep_of(design, axes, UNRESOLVED).design_at(0)
+    sweep_of(design, axes, MeasureName::Fire, UNRESOLVED).design_at(0)
 }
 
 /// Whether two designs differ along two axes alone.
@@ -290,9 +294,10 @@ fn is_same_cut(a: &Cut, b: &Cut) -> bool {
 }
 
 /// Returns the order of a map: its whole grid, coarse places first.
-fn order(axes: &[MapAxis; 2], design: &Design, number: u64) -> SweepOrder {
+fn order(options: &MapOptions, design: &Design, number: u64) -> SweepOrder {
     let places = |axis: &MapAxis| axis.sweep_axis((0..=STEPS).map(|place| axis.at(place)).collect());
-    let sweep: Sweep = sweep_of(design, axes.iter().map(places).collect(), UNRESOLVED);
+    let axes = options.axes.iter().map(places).collect();
+    let sweep: Sweep = sweep_of(design, axes, options.measure, UNRESOLVED);
     let mut points = Vec::with_capacity(sweep.count());
     for (level, stride) in STRIDES.into_iter().enumerate() {
         let is_even = |place: usize| place.is_multiple_of(2 * stride);

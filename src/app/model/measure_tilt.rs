@@ -1,6 +1,6 @@
 //! A measure against the tilt of the stone, toward several azimuths.
 
-use super::growing_sweep::{GrowingSweep, sweep_of};
+use super::growing_sweep::{GrowingSweep, sweep_of, takes};
 use crate::app::studio::SweepOrder;
 use crate::measure::{Interval, MeasureName};
 use crate::render::{SweepAxis, SweepKey, SweepValue};
@@ -67,18 +67,20 @@ impl MeasureTilt {
     /// Follows the stone and what is chosen: wants another sweep where one of them has changed. `numbers` counts sweeps.
     pub fn follow(&mut self, specimen: &Arc<Specimen>, numbers: &mut u64) {
         let azimuths = self.options.chosen();
-        if self.options.measure.is_none() || azimuths.is_empty() || specimen.stone().is_err() {
+        let Some(measure) = self.options.measure.filter(|_| !azimuths.is_empty() && specimen.stone().is_ok())
+        else {
             self.looked = None;
             self.sweep.want(None);
             return;
-        }
+        };
+        let has_all = self.sweep.wanted().is_some_and(|order| takes(&order.sweep, measure));
         let is_same =
             |(stone, before): &(Arc<Specimen>, Vec<f64>)| Arc::ptr_eq(stone, specimen) && *before == azimuths;
-        if self.looked.as_ref().is_some_and(is_same) {
+        if has_all && self.looked.as_ref().is_some_and(is_same) {
             return;
         }
         *numbers += 1;
-        self.sweep.want(Some(order(specimen, &azimuths, *numbers)));
+        self.sweep.want(Some(order(specimen, &azimuths, measure, *numbers)));
         self.looked = Some((Arc::clone(specimen), azimuths));
     }
 
@@ -104,7 +106,7 @@ impl MeasureTilt {
 }
 
 /// Returns the order of all tilts toward all azimuths, coarse steps first.
-fn order(specimen: &Specimen, azimuths: &[f64], number: u64) -> SweepOrder {
+fn order(specimen: &Specimen, azimuths: &[f64], measure: MeasureName, number: u64) -> SweepOrder {
     let axis = |key, values: &mut dyn Iterator<Item = f64>| SweepAxis {
         key,
         values: values.map(SweepValue::Number).collect(),
@@ -114,7 +116,7 @@ fn order(specimen: &Specimen, azimuths: &[f64], number: u64) -> SweepOrder {
         axis(SweepKey::Azimuth, &mut azimuths.iter().copied()),
         axis(SweepKey::Tilt, &mut (0..=STEPS).map(tilt)),
     ];
-    let sweep = sweep_of(&specimen.design, axes, UNRESOLVED);
+    let sweep = sweep_of(&specimen.design, axes, measure, UNRESOLVED);
     let mut points = Vec::with_capacity(sweep.count());
     for (level, stride) in STRIDES.into_iter().enumerate() {
         let places =
@@ -135,7 +137,7 @@ mod tests {
     #[test]
     fn every_tilt_is_measured_once_and_coarse_ones_first() {
         let document = Document::first().unwrap();
-        let order = order(document.specimen(), &[0.0, 45.0], 1);
+        let order = order(document.specimen(), &[0.0, 45.0], MeasureName::Fire, 1);
         let mut points = order.points.to_vec();
         points.sort_unstable();
         assert_eq!(points, (0..2 * (STEPS + 1)).collect::<Vec<_>>());

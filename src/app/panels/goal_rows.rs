@@ -1,7 +1,7 @@
 //! The rows in which a person says what a better cut is: measures with weights and limits, and the numbers that may change.
 
 use super::rows::{ANY, NOT_KNOWN, Number, UNKNOWN, spoken};
-use crate::app::model::goal_form::{GoalForm, NumberChoice, SearchEffort, goal_measures};
+use crate::app::model::goal_form::{GoalForm, NumberChoice, SearchEffort};
 use crate::measure::measure_words;
 use crate::search::GoalMeasure;
 use egui::{ComboBox, DragValue, Grid, Id, Label, RichText, Ui, vec2};
@@ -148,7 +148,7 @@ fn limits(form: &mut GoalForm, ui: &mut Ui) {
 fn of(measure: &mut GoalMeasure, row: usize, ui: &mut Ui) {
     let combo = ComboBox::from_id_salt(("measure", row)).width(WIDTHS[0]).truncate();
     let shown = combo.selected_text(measure_words::name(measure.of)).show_ui(ui, |ui| {
-        for offered in goal_measures() {
+        for offered in measure_words::all() {
             let entry = ui.selectable_value(&mut measure.of, offered, measure_words::name(offered));
             entry.on_hover_text(measure_words::meaning(offered));
         }

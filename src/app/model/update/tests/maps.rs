@@ -1,6 +1,7 @@
 //! Tests of the map of a measure and of the plot against tilt: what is ordered, and how the map moves the design.
 
 use super::*;
+use crate::app::model::measure_map::MapOptions;
 use crate::app::model::motion::WaveCache;
 use crate::app::model::ordering::Orders;
 use crate::app::studio::SweptPoint;
@@ -103,10 +104,7 @@ fn another_document_has_a_map_of_its_own_of_the_same_measure() {
     let mut bench = Bench::new();
     bench.act(Command::Map);
     let options = bench.model.session.map.options().unwrap().clone();
-    bench.act(ViewAction::Map(crate::app::model::measure_map::MapOptions {
-        measure: MeasureName::Fire,
-        ..options
-    }));
+    bench.act(ViewAction::Map(MapOptions { measure: MeasureName::Fire, ..options }));
     let before = ordered(&bench);
     bench.act(FileAction::Ask(Then::Library("emerald".to_owned())));
     let options = bench.model.session.map.options().unwrap();
@@ -117,6 +115,23 @@ fn another_document_has_a_map_of_its_own_of_the_same_measure() {
     // What is no convex stone is not mapped.
     bench.act(FileAction::Ask(Then::Library("pill".to_owned())));
     assert!(ordered(&bench).is_empty());
+}
+
+#[test]
+fn a_measure_of_what_an_eye_resolves_is_swept_anew_and_others_are_known_from_it() {
+    let mut bench = Bench::new();
+    bench.act(Command::Map);
+    let options = bench.model.session.map.options().unwrap().clone();
+    let choose = |bench: &mut Bench, measure: MeasureName| {
+        bench.act(ViewAction::Map(MapOptions { measure, ..options.clone() }));
+        ordered(bench)
+    };
+    let first = choose(&mut bench, MeasureName::Leakage);
+    let eye = choose(&mut bench, MeasureName::PatchSize);
+    let rocked = choose(&mut bench, MeasureName::Scintillation);
+    assert!(first != eye && eye != rocked, "{first:?} {eye:?} {rocked:?}");
+    assert_eq!(choose(&mut bench, MeasureName::PatchSize), rocked);
+    assert_eq!(choose(&mut bench, MeasureName::Fire), rocked);
 }
 
 #[test]
