@@ -174,7 +174,17 @@ impl StoneTracer {
         &self,
         ray: &MeetingRay,
         is_taken: impl Fn(&Exit, f64) -> bool,
-        leave: impl FnMut(Exit),
+        mut leave: impl FnMut(Exit),
+    ) -> Option<Loss> {
+        // One chain is compiled for all callers, not one for each closure: an exit costs far less than the bounce before it.
+        self.follow_into(ray, &is_taken, &mut leave)
+    }
+
+    fn follow_into(
+        &self,
+        ray: &MeetingRay,
+        is_taken: &dyn Fn(&Exit, f64) -> bool,
+        leave: &mut dyn FnMut(Exit),
     ) -> Option<Loss> {
         let start = self.start(ray);
         match &self.shape {
@@ -207,7 +217,7 @@ impl StoneTracer {
     }
 
     /// Follows light through a solid that never takes back what has left it.
-    fn chain<F: FacetSearch>(&self, facets: &F, start: Inbound, mut leave: impl FnMut(Exit)) -> Option<Loss> {
+    fn chain<F: FacetSearch>(&self, facets: &F, start: Inbound, leave: &mut dyn FnMut(Exit)) -> Option<Loss> {
         self.passage(facets, start, self.options.least_weight, |meeting| {
             if let Some(exit) = meeting.exit() {
                 leave(exit);

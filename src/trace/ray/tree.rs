@@ -48,8 +48,8 @@ impl StoneTracer {
         facets: &F,
         start: Inbound,
         mut roulette: Option<Roulette>,
-        is_taken: impl Fn(&Exit, f64) -> bool,
-        mut leave: impl FnMut(Exit),
+        is_taken: &dyn Fn(&Exit, f64) -> bool,
+        leave: &mut dyn FnMut(Exit),
     ) -> Option<Loss> {
         let mut rest = Loss::default();
         let mut waiting: Vec<Inbound> = vec![];
