@@ -52,16 +52,16 @@ fn sky_at(direction: vec3f, angle: f32) -> vec4f {
     return mix(whole, sky_level(at, fine + 1), level - f32(fine));
 }
 
-// Returns the share of a sweep of directions, from half of it before the ray's direction to half after it, that lies inside
+// Returns the share of a fan of directions, from half of it before the ray's direction to half after it, that lies inside
 // a lamp's disc.
-fn share_inside(from_middle: vec3f, sweep: vec3f, chord_squared: f32) -> f32 {
-    let a = dot(sweep, sweep);
+fn share_inside(from_middle: vec3f, fan: vec3f, chord_squared: f32) -> f32 {
+    let a = dot(fan, fan);
     if a < STILL {
         return select(0.0, 1.0, dot(from_middle, from_middle) < chord_squared);
     }
-    // Computed from the nearest point: b² - ac has no digits in f32 where curved surfaces make sweeps of many radians.
-    let nearest = -dot(from_middle, sweep) / a;
-    let apart = from_middle + sweep * nearest;
+    // Computed from the nearest point: b² - ac has no digits in f32 where curved surfaces make fans of many radians.
+    let nearest = -dot(from_middle, fan) / a;
+    let apart = from_middle + fan * nearest;
     let inside = chord_squared - dot(apart, apart);
     if inside <= 0.0 {
         return 0.0;
@@ -85,28 +85,28 @@ fn photo_level(at: vec2f, level: i32) -> vec3f {
     return mix(above, below, part.y).xyz;
 }
 
-// How fast a ray runs toward the backplate's plane, at a part of its sweep from its middle.
+// How fast a ray runs toward the backplate's plane, at a part of its fan from its middle.
 fn photo_speed(ray: Ray, part: f32) -> f32 {
-    return -dot(ray.direction + ray.sweep * part, frame.toward.xyz);
+    return -dot(ray.direction + ray.fan * part, frame.toward.xyz);
 }
 
-// Returns the place in the backplate's pixels, from the middle of the first, that a ray meets at a part of its sweep. Its
+// Returns the place in the backplate's pixels, from the middle of the first, that a ray meets at a part of its fan. Its
 // height above the plane is given.
 fn photo_place(ray: Ray, height: f32, part: f32) -> vec2f {
-    let p = ray.origin + (ray.direction + ray.sweep * part) * (height / max(photo_speed(ray, part), ALONG));
+    let p = ray.origin + (ray.direction + ray.fan * part) * (height / max(photo_speed(ray, part), ALONG));
     let size = vec2f(textureDimensions(photo));
     let on = vec2f(dot(p, frame.right.xyz), -dot(p, frame.up.xyz)) / environment.photo.y + 0.5;
     // `on` is measured in the picture's width along both axes.
     return vec2f(on.x, (on.y - 0.5) * size.x / size.y + 0.5) * size - 0.5;
 }
 
-// Returns the part, 0 to 1, of a sweep that has passed where its straight track has run through a part of its length.
+// Returns the part, 0 to 1, of a fan that has passed where its straight track has run through a part of its length.
 fn photo_passed(along: f32, speeds: vec2f) -> f32 {
     let near = along * speeds.x;
     return near / (near + (1.0 - along) * speeds.y);
 }
 
-// Returns the light of the backplate behind the stones that a ray sees; a is the part of the ray's sweep that meets it. The
+// Returns the light of the backplate behind the stones that a ray sees; a is the part of the ray's fan that meets it. The
 // twin of `Backplate::at` and of `Mipmap::along`.
 fn photo_at(ray: Ray) -> vec4f {
     let height = dot(ray.origin, frame.toward.xyz) + environment.photo.x;
@@ -138,7 +138,7 @@ fn photo_at(ray: Ray) -> vec4f {
         return vec4f(0.0);
     }
     let speeds = vec2f(photo_speed(ray, first), photo_speed(ray, last));
-    // The ends are taken as they are, because rounding must not make a whole sweep less.
+    // The ends are taken as they are, because rounding must not make a whole fan less.
     let begin = select(mix(first, last, photo_passed(enters, speeds)), first, enters <= 0.0);
     let finish = select(mix(first, last, photo_passed(leaves, speeds)), last, leaves >= 1.0);
     let length = length(way) * (leaves - enters);
@@ -166,27 +166,27 @@ fn radiance(ray: Ray) -> vec4f {
 
 // Returns the light that arrives along a ray from the light alone.
 fn beyond(ray: Ray) -> vec4f {
-    let swept = length(ray.sweep);
+    let fanned = length(ray.fan);
     let d = vec3f(
         dot(environment.right.xyz, ray.direction),
         dot(environment.up.xyz, ray.direction),
         dot(environment.zenith.xyz, ray.direction),
     );
-    let sweep = vec3f(
-        dot(environment.right.xyz, ray.sweep),
-        dot(environment.up.xyz, ray.sweep),
-        dot(environment.zenith.xyz, ray.sweep),
+    let fan = vec3f(
+        dot(environment.right.xyz, ray.fan),
+        dot(environment.up.xyz, ray.fan),
+        dot(environment.zenith.xyz, ray.fan),
     );
-    var sum = sky_at(d, swept);
+    var sum = sky_at(d, fanned);
     for (var k = 0u; k < u32(environment.up.w); k++) {
         let lamp = lamps[k];
-        sum += lamp.radiance * share_inside(d - lamp.toward.xyz, sweep, lamp.toward.w);
+        sum += lamp.radiance * share_inside(d - lamp.toward.xyz, fan, lamp.toward.w);
     }
-    // The observer's head, where there is one, hides the light behind it, with an edge as wide as the sweep.
+    // The observer's head, where there is one, hides the light behind it, with an edge as wide as the fan.
     if environment.photo.z > 1.0 {
         return sum;
     }
-    let width = max(swept, environment.photo.w);
+    let width = max(fanned, environment.photo.w);
     let clear = (environment.photo.z - dot(ray.direction, frame.toward.xyz)) / width + 0.5;
     return sum * clamp(clear, 0.0, 1.0);
 }

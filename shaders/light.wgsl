@@ -28,7 +28,7 @@ fn mixed(ray: Ray) -> Ray {
     let beside = straight.origin + straight.direction * dot(ray.origin - straight.origin, straight.direction);
     let between = mix(straight.direction, ray.direction, strength);
     let length = length(between);
-    return Ray(mix(beside, ray.origin, strength), between / length, ray.sweep * (strength / length));
+    return Ray(mix(beside, ray.origin, strength), between / length, ray.fan * (strength / length));
 }
 
 // Adds the light of the environment that arrives along a ray.

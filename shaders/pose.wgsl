@@ -44,11 +44,11 @@ fn arriving(ray: Ray, met: Meeting, weight: f32) -> Inbound {
     let direction = own_vector(ray.direction);
     let distance = met.distance / unit();
     let point = polished(unplace(ray.origin) + direction * distance);
-    let sweep = own_vector(ray.sweep);
-    return inbound_of(Ray(point, direction, sweep), sweep * distance, Meeting(met.facet, 0.0), weight);
+    let fan = own_vector(ray.fan);
+    return inbound_of(Ray(point, direction, fan), fan * distance, Meeting(met.facet, 0.0), weight);
 }
 
 // Carries a ray that leaves the body into the world.
 fn outward(ray: Ray) -> Ray {
-    return Ray(place(ray.origin), world_vector(ray.direction), world_vector(ray.sweep));
+    return Ray(place(ray.origin), world_vector(ray.direction), world_vector(ray.fan));
 }

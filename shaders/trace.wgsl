@@ -4,9 +4,9 @@
 
 const LEAST_GAP: f32 = 1e-30;
 const FAR: f32 = 1e30;
-// The greatest component of a sweep or a shift. Larger ones mean a sweep beyond the whole sphere or a shift beyond the
+// The greatest component of a fan or a shift. Larger ones mean a fan beyond the whole sphere or a shift beyond the
 // solid, and each bounce may multiply them.
-const MOST_SWEPT: f32 = 1e4;
+const WIDEST_FAN: f32 = 1e4;
 
 // The stone that is being traced, and its medium at the present wavelength.
 var<private> body: Body;
@@ -20,11 +20,11 @@ struct Meeting {
     distance: f32,
 }
 
-// A ray; `sweep` is the change of its direction over the wavelengths that it stands for.
+// A ray; `fan` is the change of its direction over the wavelengths that it stands for.
 struct Ray {
     origin: vec3f,
     direction: vec3f,
-    sweep: vec3f,
+    fan: vec3f,
 }
 
 // The part of a ray's light that did not leave the stone, and the number of its bounces.
@@ -45,7 +45,7 @@ fn is_spent() -> bool {
 }
 
 // Light outside the body, on its way into it or away from it. `shift` is the displacement of the ray's origin as its
-// direction sweeps; `light` is the light without absorption, along `s` and direction × s, and `left` the share that
+// direction fans; `light` is the light without absorption, along `s` and direction × s, and `left` the share that
 // absorption has left; `path` and `bounce` are the length of its way and the number of bounces inside so far.
 struct Inbound {
     met: Meeting,
@@ -65,13 +65,13 @@ fn inbound_of(ray: Ray, shift: vec3f, met: Meeting, weight: f32) -> Inbound {
     return Inbound(met, ray, shift, vec4f(vec2f(0.5 * weight), 0.0, 0.0), s, 1.0, 0.0, 0u);
 }
 
-// Returns a vector, on curved bodies scaled down until no component exceeds MOST_SWEPT.
+// Returns a vector, on curved bodies scaled down until no component exceeds WIDEST_FAN.
 fn tamed(v: vec3f) -> vec3f {
     if !IS_CURVED {
         return v;
     }
     let size = abs(v);
-    return v * min(MOST_SWEPT / max(max(size.x, size.y), max(size.z, LEAST_GAP)), 1.0);
+    return v * min(WIDEST_FAN / max(max(size.x, size.y), max(size.z, LEAST_GAP)), 1.0);
 }
 
 // Returns the displacement along the surface of the point where a ray meets it, when the ray there moves by `by`.
@@ -95,7 +95,7 @@ fn passage(inbound: Inbound) -> Rest {
     var shift = vec3f(0.0);
     var of_normal = vec3f(0.0);
     if IS_CURVED {
-        shift = along_surface(inbound.shift + ray.sweep * inbound.met.distance, ray.direction, normal);
+        shift = along_surface(inbound.shift + ray.fan * inbound.met.distance, ray.direction, normal);
         of_normal = turned_normal(point, shift);
     }
     let outside = -dot(ray.direction, normal);
@@ -114,14 +114,14 @@ fn passage(inbound: Inbound) -> Rest {
         glare = unpolarised(glare);
         light = unpolarised(light);
     }
-    let turned_back = tamed(reflected_change(ray.direction, normal, ray.sweep, of_normal));
+    let turned_back = tamed(reflected_change(ray.direction, normal, ray.fan, of_normal));
     let back = Ray(point, reflect_ray(ray.direction, normal, outside), turned_back);
     depart(Inbound(Meeting(NONE, 0.0), back, shift, glare, s, left, path, rest.bounces));
     let of_eta = -medium.spread / (medium.index * medium.index);
     var direction = refract_ray(ray.direction, normal, 1.0 / medium.index, outside, surface.cos_t);
     let eta = 1.0 / medium.index;
-    var sweep =
-        tamed(refracted_change(ray.direction, normal, eta, outside, surface.cos_t, ray.sweep, of_normal, of_eta));
+    var fan =
+        tamed(refracted_change(ray.direction, normal, eta, outside, surface.cos_t, ray.fan, of_normal, of_eta));
     while (light.x + light.y) * left > frame.limits.x && rest.bounces < frame.counts.z {
         let next = next_facet(point, direction);
         // Rounding has let the ray slip out.
@@ -133,7 +133,7 @@ fn passage(inbound: Inbound) -> Rest {
         normal = facet_normal(next.facet, point);
         let cos_i = dot(direction, normal);
         if IS_CURVED {
-            shift = along_surface(shift + sweep * next.distance, direction, normal);
+            shift = along_surface(shift + fan * next.distance, direction, normal);
             of_normal = turned_normal(point, shift);
         }
         let after = transmittance(path);
@@ -148,20 +148,20 @@ fn passage(inbound: Inbound) -> Rest {
         rest.bounces += 1u;
         if f.cos_t > 0.0 {
             let onward = refract_ray(direction, -normal, medium.index, cos_i, f.cos_t);
-            let swept =
-                refracted_change(direction, -normal, medium.index, cos_i, f.cos_t, sweep, -of_normal, medium.spread);
+            let fanned =
+                refracted_change(direction, -normal, medium.index, cos_i, f.cos_t, fan, -of_normal, medium.spread);
             var gone = transmitted(light, f);
             if !is_polarised {
                 gone = unpolarised(gone);
             }
-            let out = Ray(point, onward, tamed(swept));
+            let out = Ray(point, onward, tamed(fanned));
             depart(Inbound(Meeting(NONE, 0.0), out, shift, gone, s, left, path, rest.bounces));
         }
         light = reflected(light, f);
         if !is_polarised {
             light = unpolarised(light);
         }
-        sweep = tamed(reflected_change(direction, normal, sweep, of_normal));
+        fan = tamed(reflected_change(direction, normal, fan, of_normal));
         direction = reflect_ray(direction, -normal, cos_i);
     }
     rest.unresolved = (light.x + light.y) * left;

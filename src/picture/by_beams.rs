@@ -123,12 +123,12 @@ impl<'a> ByBeams<'a> {
         let bands: Vec<Band> = strata.iter().map(band).collect();
         let whole = [0, 1, 2, 3].map(|channel| strata.iter().map(|s| s.response[channel]).sum());
         self.see_beside(&whole);
-        let found = self.patches_of(&beams, true, |beam, sweep, copy| {
+        let found = self.patches_of(&beams, true, |beam, fan, copy| {
             let path = beam.path.at(centroid(beam.outline));
             bands
                 .iter()
                 .map(|band| {
-                    let toward = (beam.exit + sweep * band.off, sweep * band.part);
+                    let toward = (beam.exit + fan * band.off, fan * band.part);
                     let light = self.arriving(&beams, beam, toward, copy) * band.left(path);
                     colour(&band.response, light)
                 })
@@ -158,8 +158,8 @@ impl<'a> ByBeams<'a> {
     /// Returns the polygons of one band's beams in their colours, in all copies of the symmetry.
     fn patches(&self, beams: &Beams, look: &SamplePass, band: usize) -> Vec<Patches> {
         let response = &look.responses[band];
-        self.patches_of(beams, band == 0, |beam, sweep, copy| {
-            colour(response, self.arriving(beams, beam, (beam.exit, sweep), copy))
+        self.patches_of(beams, band == 0, |beam, fan, copy| {
+            colour(response, self.arriving(beams, beam, (beam.exit, fan), copy))
         })
     }
 
@@ -171,7 +171,7 @@ impl<'a> ByBeams<'a> {
         is_first: bool,
         coloured: impl Fn(&Beam, DVec3, DMat2) -> DVec3 + Sync,
     ) -> Vec<Patches> {
-        let sweeps = beams.sweeps(self.stone);
+        let fans = beams.exit_changes(self.stone);
         let pose = &self.instance.pose;
         let pixels = self.lit_scene.film.pixels_from_image(DMat2::IDENTITY);
         let middle = pixels.transform_point2(self.eye.project(pose.at));
@@ -185,7 +185,7 @@ impl<'a> ByBeams<'a> {
             {
                 let cover = f64::from(u8::from(is_first && beam.is_surface()));
                 for (copy, pixels) in &copies {
-                    let colour = coloured(&beam, sweeps[beam.id as usize], *copy);
+                    let colour = coloured(&beam, fans[beam.id as usize], *copy);
                     out.add(&beam, &beams.medium, pixels, colour.extend(cover));
                 }
             }
@@ -195,12 +195,12 @@ impl<'a> ByBeams<'a> {
     }
 
     /// Returns the light that comes through a copy of a beam, by channel, as if nothing were absorbed.
-    fn arriving(&self, beams: &Beams, beam: &Beam, (exit, sweep): (DVec3, DVec3), copy: DMat2) -> DVec4 {
+    fn arriving(&self, beams: &Beams, beam: &Beam, (exit, fan): (DVec3, DVec3), copy: DMat2) -> DVec4 {
         // From the frame of the body into the image, and from there into the world.
         let (own, eye) = (&beams.view, &self.eye);
         let turned = |v: DVec3| eye.lift(copy * own.project(v)) + eye.toward * own.toward.dot(v);
         let weight = beam.weight / beam.transmittance;
-        self.lit_scene.environment.radiance(DVec3::ZERO, turned(exit), turned(sweep)) * weight
+        self.lit_scene.environment.radiance(DVec3::ZERO, turned(exit), turned(fan)) * weight
     }
 
     fn paint(&mut self, found: &[Patches]) {

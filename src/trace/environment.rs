@@ -1,7 +1,7 @@
 //! The environment of a picture, ready to be looked up: broad light as an octahedral map with coarser levels, lamps as
 //! discs, the observer's head, and a backplate.
 //!
-//! A ray stands for a band of wavelengths, over which its direction sweeps. Look-ups are averaged over that sweep, so that a
+//! A ray stands for a band of wavelengths, over which its direction fans. Look-ups are averaged over that fan, so that a
 //! small lamp shows as the piece of rainbow that it is and not as a chance hit: exactly for lamps, by the map's levels (L.
 //! Williams, *Pyramidal parametrics*, 1983) for the rest. The map's projection: Z. H. Cigolle et al., *A Survey of Efficient
 //! Representations for Independent Unit Vectors*, JCGT 3(2), 2014. The twin is shaders/environment.wgsl.
@@ -154,7 +154,7 @@ pub struct Environment<'a> {
     pub backdrop: bool,
 }
 
-/// The square of a sweep below which a ray counts as one direction.
+/// The square of a fan below which a ray counts as one direction.
 pub(super) const STILL: f64 = 1e-14;
 
 /// Least width of the edge of the head's shadow, in cosine.
@@ -254,52 +254,52 @@ impl Environment<'_> {
         &self,
         from: DVec3,
         direction: DVec3,
-        sweep: DVec3,
+        fan: DVec3,
     ) -> Option<Photographed> {
-        self.backplate?.at(&self.eye, from, (direction, sweep))
+        self.backplate?.at(&self.eye, from, (direction, fan))
     }
 
-    /// Returns the radiance, by channel, that arrives along a ray from outside the stones. The ray begins at `from`; `sweep`
+    /// Returns the radiance, by channel, that arrives along a ray from outside the stones. The ray begins at `from`; `fan`
     /// is the change of its direction over the wavelengths that it stands for.
-    pub fn radiance(&self, from: DVec3, direction: DVec3, sweep: DVec3) -> DVec4 {
-        self.radiance_around(from, direction, (sweep, 0.0))
+    pub fn radiance(&self, from: DVec3, direction: DVec3, fan: DVec3) -> DVec4 {
+        self.radiance_around(from, direction, (fan, 0.0))
     }
 
     /// Returns the radiance as [`radiance`](Self::radiance) does, of a ray that stands for a square of directions: `spread` is
-    /// its side, in radians. The light is averaged over the sweep or the square, whichever is wider; a photograph is looked
-    /// up along the sweep alone.
-    pub fn radiance_around(&self, from: DVec3, direction: DVec3, (sweep, spread): (DVec3, f64)) -> DVec4 {
-        match self.photograph(from, direction, sweep) {
+    /// its side, in radians. The light is averaged over the fan or the square, whichever is wider; a photograph is looked
+    /// up along the fan alone.
+    pub fn radiance_around(&self, from: DVec3, direction: DVec3, (fan, spread): (DVec3, f64)) -> DVec4 {
+        match self.photograph(from, direction, fan) {
             Some(seen) if seen.share >= 1.0 => seen.light,
-            Some(seen) => seen.light + self.beyond(direction, sweep, spread) * (1.0 - seen.share),
-            None => self.beyond(direction, sweep, spread),
+            Some(seen) => seen.light + self.beyond(direction, fan, spread) * (1.0 - seen.share),
+            None => self.beyond(direction, fan, spread),
         }
     }
 
     /// Returns the radiance, by channel, of the light alone.
-    fn beyond(&self, direction: DVec3, sweep: DVec3, spread: f64) -> DVec4 {
+    fn beyond(&self, direction: DVec3, fan: DVec3, spread: f64) -> DVec4 {
         let own =
             |v: DVec3| DVec3::new(self.basis.right.dot(v), self.basis.up.dot(v), self.basis.toward.dot(v));
-        let (d, s, swept) = (own(direction), own(sweep), sweep.length());
+        let (d, s, fanned) = (own(direction), own(fan), fan.length());
         let lamps = self.map.lamps.iter();
-        let share = |l: &Disc| match spread > swept {
+        let share = |l: &Disc| match spread > fanned {
             true => share_of_disc(d - l.toward, spread, l.chord_squared),
             false => share_inside(d - l.toward, s, l.chord_squared),
         };
         let lit = lamps.map(|l| l.radiance * share(l)).sum::<DVec4>();
-        let sum = self.map.at(d, swept.max(spread)) + lit;
+        let sum = self.map.at(d, fanned.max(spread)) + lit;
         if self.head <= 0.0 {
             return sum;
         }
-        let beside = (self.head.cos() - direction.dot(self.eye.toward)) / swept.max(HEAD_EDGE) + 0.5;
+        let beside = (self.head.cos() - direction.dot(self.eye.toward)) / fanned.max(HEAD_EDGE) + 0.5;
         sum * beside.clamp(0.0, 1.0)
     }
 }
 
-/// Returns the share of a sweep of directions, from half of it before the ray's direction to half after it, that lies inside
+/// Returns the share of a fan of directions, from half of it before the ray's direction to half after it, that lies inside
 /// a disc.
-pub(super) fn share_inside(from_middle: DVec3, sweep: DVec3, chord_squared: f64) -> f64 {
-    let (a, b) = (sweep.length_squared(), from_middle.dot(sweep));
+pub(super) fn share_inside(from_middle: DVec3, fan: DVec3, chord_squared: f64) -> f64 {
+    let (a, b) = (fan.length_squared(), from_middle.dot(fan));
     let c = from_middle.length_squared() - chord_squared;
     if a < STILL {
         return if c < 0.0 { 1.0 } else { 0.0 };
@@ -406,11 +406,11 @@ mod tests {
     }
 
     #[test]
-    fn a_sweep_across_a_lamp_gathers_what_lies_inside_it() {
+    fn a_fan_across_a_lamp_gathers_what_lies_inside_it() {
         let (lamp, radius) = (DVec3::Z, 0.02_f64);
         let chord = (2.0 * (radius / 2.0).sin()).powi(2);
-        for (offset, sweep) in [(0.0, 0.1), (0.01, 0.03), (0.03, 0.1), (0.015, 0.0), (0.05, 0.01)] {
-            let (from, way) = (DVec3::new(offset, 0.004, 1.0), DVec3::new(sweep, 0.3 * sweep, 0.0));
+        for (offset, fan) in [(0.0, 0.1), (0.01, 0.03), (0.03, 0.1), (0.015, 0.0), (0.05, 0.01)] {
+            let (from, way) = (DVec3::new(offset, 0.004, 1.0), DVec3::new(fan, 0.3 * fan, 0.0));
             let inside = |k: i32| {
                 let p = from + way * ((f64::from(k) + 0.5) / 100_000.0 - 0.5) - lamp;
                 f64::from(u8::from(p.length_squared() < chord))

@@ -76,7 +76,7 @@ pub struct Exit {
     /// Unit direction in which it leaves.
     pub direction: DVec3,
     /// The change of that direction over the medium's spread of indices.
-    pub sweep: DVec3,
+    pub fan: DVec3,
     /// The share of the light from that direction that reaches the eye.
     pub weight: f64,
     /// The number of the bounce inside at which it leaves, from 1; 0 for the glare of the outer surface.
@@ -97,7 +97,7 @@ pub struct MeetingRay {
     /// The direction in which it travels, of length 1.
     pub direction: DVec3,
     /// The change of that direction over the medium's spread of indices.
-    pub sweep: DVec3,
+    pub fan: DVec3,
     /// The share of the light from that direction that reaches the eye.
     pub weight: f64,
     /// By what chance weak light goes on in a solid that is not convex; without it, all of it does.
@@ -109,7 +109,7 @@ pub struct MeetingRay {
 impl MeetingRay {
     /// Returns a ray from the eye.
     pub fn from_eye(met: (usize, f64), origin: DVec3, direction: DVec3) -> Self {
-        Self { met, origin, direction, sweep: DVec3::ZERO, weight: 1.0, roulette: None, luck: None }
+        Self { met, origin, direction, fan: DVec3::ZERO, weight: 1.0, roulette: None, luck: None }
     }
 }
 
@@ -205,7 +205,7 @@ impl StoneTracer {
         least_weight: f64,
         meets: impl FnMut(SurfaceEvent),
     ) -> Loss {
-        let ray = DispersedRay { origin, direction, sweep: DVec3::ZERO, shift: DVec3::ZERO };
+        let ray = DispersedRay { origin, direction, fan: DVec3::ZERO, shift: DVec3::ZERO };
         let left = self.medium.transmittance(path);
         let inside = Inbound { met: (0, 0.0), ray, light, left, path, bounce: 0, luck: None };
         match &self.shape {
@@ -227,9 +227,9 @@ impl StoneTracer {
 
     /// Returns the light of a ray that is about to enter; it is not polarised.
     fn start(&self, meeting: &MeetingRay) -> Inbound {
-        let &MeetingRay { met, origin, direction, sweep, weight, luck, .. } = meeting;
+        let &MeetingRay { met, origin, direction, fan, weight, luck, .. } = meeting;
         let light = PathLight::of_eye(direction, weight, self.options.polarised);
-        let ray = DispersedRay { origin, direction, sweep, shift: DVec3::ZERO };
+        let ray = DispersedRay { origin, direction, fan, shift: DVec3::ZERO };
         Inbound { met, ray, light, left: 1.0, path: 0.0, bounce: 0, luck }
     }
 
@@ -243,7 +243,7 @@ impl StoneTracer {
         mut meets: impl FnMut(SurfaceEvent),
     ) -> Option<Loss> {
         let Inbound { met: (facet, distance), ray, left, path, bounce, .. } = inbound;
-        let DispersedRay { direction, sweep, .. } = ray;
+        let DispersedRay { direction, fan, .. } = ray;
         let Arrival { point, normal, shift, of_normal } = ray.arrival(facets, facet, distance);
         let eta = 1.0 / self.medium.index;
         if let Some(frosted) = &self.frosted
@@ -262,7 +262,7 @@ impl StoneTracer {
         let inward = refract(direction, normal, eta, (cos_i, cos_t));
         let SplitLight { reflected: glare, passed: light } = inbound.light.split(direction, normal, eta);
         let of_eta = -self.medium.spread * eta * eta;
-        let swept = refracted_change(direction, normal, eta, (cos_i, cos_t), (sweep, of_normal, of_eta));
+        let fanned = refracted_change(direction, normal, eta, (cos_i, cos_t), (fan, of_normal, of_eta));
         let back = reflect(direction, normal, cos_i);
         meets(SurfaceEvent {
             facet: facet as u32,
@@ -275,14 +275,14 @@ impl StoneTracer {
             light: &inbound.light,
             leaving: Some(ExitLight {
                 direction: back,
-                sweep: reflected_change(direction, normal, (sweep, of_normal)),
+                fan: reflected_change(direction, normal, (fan, of_normal)),
                 shift,
                 weight: glare.weight() * left,
                 spread: 0.0,
             }),
             onward: light.weight() * left,
         });
-        let ray = DispersedRay { origin: point, direction: inward, sweep: swept, shift };
+        let ray = DispersedRay { origin: point, direction: inward, fan: fanned, shift };
         Some(self.bounce(facets, Inbound { ray, light, ..inbound }, least_weight, meets))
     }
 
@@ -298,9 +298,9 @@ impl StoneTracer {
         let mut rest = Loss { bounces: inside.bounce, ..Loss::default() };
         let mut remaining = light.weight() * left;
         // Without any change of direction there will be none at the next facet either.
-        let is_swept = self.medium.spread != 0.0 || ray.is_swept();
+        let is_fanned = self.medium.spread != 0.0 || ray.is_fanned();
         while remaining > least_weight && rest.bounces < self.options.most_bounces {
-            let DispersedRay { origin, direction, sweep, .. } = ray;
+            let DispersedRay { origin, direction, fan, .. } = ray;
             let Some((facet, distance)) = facets.next(origin, direction) else { break };
             let Arrival { point, normal, shift, of_normal } = ray.arrival(facets, facet, distance);
             let cos_i = normal.dot(direction);
@@ -334,10 +334,10 @@ impl StoneTracer {
             let leaving = cos_t.map(|cos_t| {
                 let cosines = (cos_i, cos_t);
                 let change =
-                    || refracted_change(direction, -normal, index, cosines, (sweep, -of_normal, spread));
+                    || refracted_change(direction, -normal, index, cosines, (fan, -of_normal, spread));
                 ExitLight {
                     direction: refract(direction, -normal, index, cosines),
-                    sweep: if is_swept { change() } else { DVec3::ZERO },
+                    fan: if is_fanned { change() } else { DVec3::ZERO },
                     shift,
                     weight: passed.weight() * left,
                     spread: 0.0,
@@ -357,11 +357,11 @@ impl StoneTracer {
                 leaving,
                 onward: remaining,
             });
-            let sweep = match is_swept {
-                true => reflected_change(direction, normal, (sweep, of_normal)),
+            let fan = match is_fanned {
+                true => reflected_change(direction, normal, (fan, of_normal)),
                 false => DVec3::ZERO,
             };
-            ray = DispersedRay { origin: point, direction: reflected, sweep, shift };
+            ray = DispersedRay { origin: point, direction: reflected, fan, shift };
             light = onward;
         }
         rest.unresolved = remaining;

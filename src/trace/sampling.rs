@@ -146,7 +146,7 @@ impl SamplePass {
         (self.by_chance > 0.0).then(|| Roulette::new(self.by_chance, pixel, number))
     }
 
-    /// Returns the ray on which light is looked up: its point, unit direction and sweep.
+    /// Returns the ray on which light is looked up: its point, unit direction and fan.
     ///
     /// The light leaves the stones along its own ray; without any stone it would follow `straight`, a point and a unit
     /// direction. The result is its own ray at full strength, and where that goes back to the eye's side; else a mixture of
@@ -154,15 +154,15 @@ impl SamplePass {
     pub fn mixed(
         &self,
         straight: (DVec3, DVec3),
-        (from, direction, sweep): (DVec3, DVec3, DVec3),
+        (from, direction, fan): (DVec3, DVec3, DVec3),
     ) -> (DVec3, DVec3, DVec3) {
         if self.strength >= 1.0 || direction.dot(straight.1) <= 0.0 {
-            return (from, direction, sweep);
+            return (from, direction, fan);
         }
         let beside = straight.0 + straight.1 * (from - straight.0).dot(straight.1);
         // Both go to the same side, so that a vector between them is never short.
         let between = straight.1.lerp(direction, self.strength);
         let length = between.length();
-        (beside.lerp(from, self.strength), between / length, sweep * (self.strength / length))
+        (beside.lerp(from, self.strength), between / length, fan * (self.strength / length))
     }
 }

@@ -220,7 +220,7 @@ fn a_prism_is_the_same_between_planes_and_as_a_distance() {
 }
 
 #[test]
-fn a_sweep_over_wavelengths_is_what_two_of_them_differ_by() {
+fn a_fan_over_wavelengths_is_what_two_of_them_differ_by() {
     let spread = 1e-6;
     for (name, solid) in every_shape() {
         let options = RayOptions { most_bounces: 5, least_weight: 1e-4, polarised: true };
@@ -239,7 +239,7 @@ fn a_sweep_over_wavelengths_is_what_two_of_them_differ_by() {
                 let (Some(from), Some(to)) = (a.iter().find(same), c.iter().find(same)) else { continue };
                 all += 1;
                 let expected = (to.direction - from.direction) / spread;
-                let error = (exit.sweep / spread - expected).length();
+                let error = (exit.fan / spread - expected).length();
                 off += u32::from(error > 1e-3 * expected.length().max(1.0));
             }
         }

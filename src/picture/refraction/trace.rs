@@ -201,7 +201,7 @@ impl MapScene<'_> {
                 if self.plane.place(&self.environment.eye, ray.origin, ray.direction).is_some() {
                     light.behind += response[1..].iter().sum::<DVec3>() * ray.weight;
                 } else {
-                    let arriving = self.environment.radiance(ray.origin, ray.direction, ray.sweep);
+                    let arriving = self.environment.radiance(ray.origin, ray.direction, ray.fan);
                     light.elsewhere += colour(response, arriving * ray.weight);
                 }
             });

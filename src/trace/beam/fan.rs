@@ -68,7 +68,7 @@ mod tests {
     use glam::DVec3;
 
     #[test]
-    fn the_fan_of_near_indices_is_the_sweep_to_first_order_and_that_of_one_index_is_nothing() {
+    fn the_fan_of_near_indices_is_the_exit_change_to_first_order_and_that_of_one_index_is_nothing() {
         let planes: Vec<Plane> = TOLKOWSKY.facets().unwrap().into_iter().map(|(_, plane)| plane).collect();
         let stone = Polytope::from_planes(&planes).unwrap();
         let spread = 1e-6;
@@ -77,10 +77,12 @@ mod tests {
         let options = BeamOptions { unresolved: 0.05, ..BeamOptions::default() };
         let beams = trace(&stone, medium, &view, &options, &unwatched).unwrap();
         let indices = [medium.index - spread / 2.0, medium.index + spread / 2.0];
-        let (fans, sweeps) = (beams.fans(&stone, indices), beams.sweeps(&stone));
+        let (fans, exit_changes) = (beams.fans(&stone, indices), beams.exit_changes(&stone));
         let mut compared = 0;
-        for (fan, sweep) in fans.iter().zip(&sweeps).filter(|(fan, _)| **fan > 1e-8 && **fan < 1e-4) {
-            assert!((fan / sweep.length() - 1.0).abs() < 1e-3, "{fan} is not {}", sweep.length());
+        for (fan, exit_change) in
+            fans.iter().zip(&exit_changes).filter(|(fan, _)| **fan > 1e-8 && **fan < 1e-4)
+        {
+            assert!((fan / exit_change.length() - 1.0).abs() < 1e-3, "{fan} is not {}", exit_change.length());
             compared += 1;
         }
         assert!(compared > 300, "{compared}");

@@ -11,12 +11,12 @@ mod blocks;
 mod cells;
 mod coherency;
 mod effort;
+mod exit_change;
 mod fan;
 mod follow;
 mod grow;
 mod split;
 mod sums;
-mod sweep;
 mod tree;
 mod whole;
 

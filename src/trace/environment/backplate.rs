@@ -38,17 +38,17 @@ impl<'a> Backplate<'a> {
     }
 
     /// Returns what a ray sees of the picture; `None` where it does not meet it. The ray is given by its direction and how
-    /// that sweeps.
+    /// that fans.
     pub(super) fn at(
         &self,
         eye: &Basis,
         from: DVec3,
-        (direction, sweep): (DVec3, DVec3),
+        (direction, fan): (DVec3, DVec3),
     ) -> Option<Photographed> {
         let height = from.dot(eye.toward) + self.distance;
-        let (speed, faster) = (-direction.dot(eye.toward), -sweep.dot(eye.toward));
+        let (speed, faster) = (-direction.dot(eye.toward), -fan.dot(eye.toward));
         let speed = |part: f64| speed + faster * part;
-        // The part of the sweep that runs toward the plane, from half of it before the ray's direction to half after it.
+        // The part of the fan that runs toward the plane, from half of it before the ray's direction to half after it.
         let (low, high) = (speed(-0.5), speed(0.5));
         if height <= 0.0 || low.max(high) <= ALONG {
             return None;
@@ -59,16 +59,16 @@ impl<'a> Backplate<'a> {
         let size = DVec2::new(f64::from(picture.width), f64::from(picture.height));
         // In pixels from the middle of the first: rows count down, and both axes have the same scale.
         let pixels = |v: DVec3| eye.project(v) * DVec2::new(1.0, -1.0) * (size.x / self.width);
-        let (start, way, turn) = (pixels(from) + 0.5 * size - 0.5, pixels(direction), pixels(sweep));
+        let (start, way, turn) = (pixels(from) + 0.5 * size - 0.5, pixels(direction), pixels(fan));
         let place = |part: f64| start + (way + turn * part) * (height / speed(part).max(ALONG));
-        let (from, to) = (place(first), if sweep == DVec3::ZERO { place(first) } else { place(last) });
+        let (from, to) = (place(first), if fan == DVec3::ZERO { place(first) } else { place(last) });
         let (enters, leaves) = inside(from, to, size)?;
-        // Along the line, places are projected: parts of its length become parts of the sweep.
-        let of_sweep = |q: f64| {
+        // Along the line, places are projected: parts of its length become parts of the fan.
+        let of_fan = |q: f64| {
             let (near, far) = (q * speed(first), (1.0 - q) * speed(last));
             first + (last - first) * (near / (near + far))
         };
-        let (first, last) = (of_sweep(enters), of_sweep(leaves));
+        let (first, last) = (of_fan(enters), of_fan(leaves));
         let length = (to - from).length() * (leaves - enters);
         let light = self.picture.along(length, |part| place(first + (last - first) * part));
         let share = if from == to { 1.0 } else { last - first };

@@ -44,13 +44,13 @@ struct Projection<S: Simd> {
 }
 
 impl<S: Simd> Projection<S> {
-    /// Returns how quickly the rays approach the plane at a part of their sweep, which runs from -0.5 to 0.5.
+    /// Returns how quickly the rays approach the plane at a part of their fan, which runs from -0.5 to 0.5.
     #[inline(always)]
     fn speed_at(&self, part: Lanes<S>) -> Lanes<S> {
         self.speed + self.faster * part
     }
 
-    /// Returns where the rays meet the picture at a part of their sweep, in pixels from the middle of the first.
+    /// Returns where the rays meet the picture at a part of their fan, in pixels from the middle of the first.
     #[inline(always)]
     fn place(&self, part: Lanes<S>) -> [Lanes<S>; 2] {
         let far = self.height / self.speed_at(part).max(part.all(ALONG as f32));
@@ -77,29 +77,29 @@ impl<'a> PacketBackplate<'a> {
         })
     }
 
-    /// Returns what rays of the world see of the picture: the mean over the sweep of each.
+    /// Returns what rays of the world see of the picture: the mean over the fan of each.
     #[inline(always)]
     pub fn seen<S: Simd>(
         &self,
         simd: S,
         from: Vectors<S>,
         direction: Vectors<S>,
-        sweep: Vectors<S>,
+        fan: Vectors<S>,
     ) -> SeenStretch<S> {
         let (zero, one, half) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 1.0), Lanes::splat(simd, 0.5));
         let along = one.all(ALONG as f32);
-        let rays = self.projected(simd, from, direction, sweep);
-        // The part of the sweep that runs toward the plane.
+        let rays = self.projected(simd, from, direction, fan);
+        // The part of the fan that runs toward the plane.
         let (low, high) = (rays.speed_at(-half), rays.speed_at(half));
         let comes = zero.less(rays.height) & along.less(low.max(high));
         let (first, last) = (meets(along, low, high) - half, half - meets(along, high, low));
         let (start, end) = (rays.place(first), rays.place(last));
         let [enters, leaves] = self.inside(&start, &end);
-        // Along the line, places are projected: parts of its length become parts of the sweep.
-        // Where a sweep is wide, rounding may leave nothing of a low speed.
+        // Along the line, places are projected: parts of its length become parts of the fan.
+        // Where a fan is wide, rounding may leave nothing of a low speed.
         let speeds = [rays.speed_at(first).max(along), rays.speed_at(last).max(along)];
-        let begin = first + (last - first) * of_sweep(enters, speeds);
-        let finish = first + (last - first) * of_sweep(leaves, speeds);
+        let begin = first + (last - first) * of_fan(enters, speeds);
+        let finish = first + (last - first) * of_fan(leaves, speeds);
         let (dx, dy) = (end[0] - start[0], end[1] - start[1]);
         let straight = (dx * dx + dy * dy).sqrt();
         let stays = straight.at_most(zero);
@@ -115,7 +115,7 @@ impl<'a> PacketBackplate<'a> {
         simd: S,
         from: Vectors<S>,
         direction: Vectors<S>,
-        sweep: Vectors<S>,
+        fan: Vectors<S>,
     ) -> Projection<S> {
         let (across, down) = (Vectors::splat(simd, self.across), Vectors::splat(simd, self.down));
         let toward = Vectors::splat(simd, self.toward);
@@ -123,10 +123,10 @@ impl<'a> PacketBackplate<'a> {
         Projection {
             start: [across.dot(from) + middle.x, down.dot(from) + middle.y],
             way: [across.dot(direction), down.dot(direction)],
-            turn: [across.dot(sweep), down.dot(sweep)],
+            turn: [across.dot(fan), down.dot(fan)],
             height: toward.dot(from) + self.distance,
             speed: -toward.dot(direction),
-            faster: -toward.dot(sweep),
+            faster: -toward.dot(fan),
         }
     }
 
@@ -182,16 +182,16 @@ impl<'a> PacketBackplate<'a> {
     }
 }
 
-/// Returns the part of a sweep, from its end of speed `of` toward that of speed `other`, at which rays begin to run toward the
+/// Returns the part of a fan, from its end of speed `of` toward that of speed `other`, at which rays begin to run toward the
 /// plane; 0 where they do all along.
 #[inline(always)]
 fn meets<S: Simd>(along: Lanes<S>, of: Lanes<S>, other: Lanes<S>) -> Lanes<S> {
     along.less(of).select(of.all(0.0), (along - of) / (other - of))
 }
 
-/// Returns which part of a sweep a part of its line across the picture is, by the speeds at both ends.
+/// Returns which part of a fan a part of its line across the picture is, by the speeds at both ends.
 #[inline(always)]
-fn of_sweep<S: Simd>(line: Lanes<S>, [slow, fast]: [Lanes<S>; 2]) -> Lanes<S> {
+fn of_fan<S: Simd>(line: Lanes<S>, [slow, fast]: [Lanes<S>; 2]) -> Lanes<S> {
     let (near, far) = (line * slow, (line.all(1.0) - line) * fast);
     near / (near + far)
 }

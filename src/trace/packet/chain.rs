@@ -8,9 +8,9 @@ use super::{PacketHit, PacketSurface};
 use crate::trace::ray::RayOptions;
 use pulp::{Simd, WithSimd};
 
-/// The greatest component of a sweep or a shift. Larger ones mean a sweep beyond the whole sphere or a shift beyond the body,
+/// The greatest component of a fan or a shift. Larger ones mean a fan beyond the whole sphere or a shift beyond the body,
 /// and each bounce may multiply them.
-const MOST_SWEPT: f32 = 1e4;
+const WIDEST_FAN: f32 = 1e4;
 
 /// The least luck of a ray: with less, it would be followed until nothing is left.
 const LEAST_LUCK: f32 = 1e-9;
@@ -109,7 +109,7 @@ impl<P: PacketSurface> Passage<'_, P> {
         let cos_i = rays.direction.dot(normal);
         let mut of_normal = None;
         if P::IS_CURVED {
-            rays.shift = along_surface(rays.shift + rays.sweep * distance, rays.direction, normal);
+            rays.shift = along_surface(rays.shift + rays.fan * distance, rays.direction, normal);
             of_normal = Some(-self.surface.turned(simd, point, rays.shift));
         }
         if absorbs {
@@ -126,14 +126,14 @@ impl<P: PacketSurface> Passage<'_, P> {
             direction: rays.direction,
             normal: -normal,
             cos_i,
-            of_direction: rays.sweep,
+            of_direction: rays.fan,
             of_normal,
         };
         let passed = rays.light.transmitted(&surface);
         let weight = passed.weight() * rays.left;
         let outward = incidence.refracted(rays.index, surface.cos_t);
-        let swept = incidence.refracted_change(rays.index, rays.spread, surface.cos_t);
-        let swept = if P::IS_CURVED { tamed(swept) } else { swept };
+        let fanned = incidence.refracted_change(rays.index, rays.spread, surface.cos_t);
+        let fanned = if P::IS_CURVED { tamed(fanned) } else { fanned };
         for (lane, occupant) in occupants[..S::F32_LANES].iter().enumerate() {
             if let Some((tag, bounces)) = *occupant
                 && weight.lane(lane) > 0.0
@@ -144,7 +144,7 @@ impl<P: PacketSurface> Passage<'_, P> {
                 self.leaving.push(SingleRay {
                     origin: point.lane(lane),
                     direction: outward.lane(lane),
-                    sweep: swept.lane(lane),
+                    fan: fanned.lane(lane),
                     shift: rays.shift.lane(lane),
                     s: rays.s.lane(lane),
                     light: passed.lane(lane).times(counts),
@@ -157,8 +157,8 @@ impl<P: PacketSurface> Passage<'_, P> {
         if !self.options.polarised {
             rays.light = PacketLight::<Lanes<S>>::unpolarised(rays.light.weight());
         }
-        let reflected_sweep = incidence.reflected_change();
-        rays.sweep = if P::IS_CURVED { tamed(reflected_sweep) } else { reflected_sweep };
+        let reflected_fan = incidence.reflected_change();
+        rays.fan = if P::IS_CURVED { tamed(reflected_fan) } else { reflected_fan };
         rays.direction = incidence.reflected();
         rays.origin = point;
     }
@@ -223,11 +223,11 @@ pub(super) fn along_surface<S: Simd>(
     tamed(by - direction * (normal.dot(by) / divisor))
 }
 
-/// Returns vectors, scaled down until no component exceeds `MOST_SWEPT`.
+/// Returns vectors, scaled down until no component exceeds `WIDEST_FAN`.
 #[inline(always)]
 fn tamed<S: Simd>(v: Vectors<S>) -> Vectors<S> {
     let most = v[0].abs().max(v[1].abs()).max(v[2].abs()).max(v[0].all(1e-30));
-    v * (most.all(MOST_SWEPT) / most).min(most.all(1.0))
+    v * (most.all(WIDEST_FAN) / most).min(most.all(1.0))
 }
 
 #[cfg(test)]

@@ -19,16 +19,16 @@ pub(super) fn enter<S: Simd, P: PacketSurface>(
 ) -> Vec<InnerRay> {
     let mut inner = Vec::with_capacity(rays.len());
     for chunk in rays.chunks(S::F32_LANES) {
-        let Split { point, shift, s, back, swept_back, glare, inward, swept, inside } =
+        let Split { point, shift, s, back, fanned_back, glare, inward, fanned, inside } =
             Arrivals::of(simd, chunk).split(simd, surface, is_polarised);
         for (lane, EnteringRay { ray, medium, .. }) in chunk.iter().enumerate() {
             let (point, shift, s) = (point.lane(lane), shift.lane(lane), s.lane(lane));
             let light = glare.lane(lane);
-            let (direction, sweep) = (back.lane(lane), swept_back.lane(lane));
-            leaving.push(SingleRay { origin: point, direction, sweep, shift, s, light, ..*ray });
+            let (direction, fan) = (back.lane(lane), fanned_back.lane(lane));
+            leaving.push(SingleRay { origin: point, direction, fan, shift, s, light, ..*ray });
             let light = inside.lane(lane);
-            let (direction, sweep) = (inward.lane(lane), swept.lane(lane));
-            let ray = SingleRay { origin: point, direction, sweep, shift, s, light, ..*ray };
+            let (direction, fan) = (inward.lane(lane), fanned.lane(lane));
+            let ray = SingleRay { origin: point, direction, fan, shift, s, light, ..*ray };
             inner.push(InnerRay { ray, medium: *medium, ..InnerRay::DARK });
         }
     }
@@ -39,7 +39,7 @@ pub(super) fn enter<S: Simd, P: PacketSurface>(
 struct Arrivals<S: Simd> {
     origin: Vectors<S>,
     direction: Vectors<S>,
-    sweep: Vectors<S>,
+    fan: Vectors<S>,
     shift: Vectors<S>,
     s: Vectors<S>,
     light: PacketLight<Lanes<S>>,
@@ -55,10 +55,10 @@ struct Split<S: Simd> {
     shift: Vectors<S>,
     s: Vectors<S>,
     back: Vectors<S>,
-    swept_back: Vectors<S>,
+    fanned_back: Vectors<S>,
     glare: PacketLight<Lanes<S>>,
     inward: Vectors<S>,
-    swept: Vectors<S>,
+    fanned: Vectors<S>,
     inside: PacketLight<Lanes<S>>,
 }
 
@@ -71,7 +71,7 @@ impl<S: Simd> Arrivals<S> {
         let mut all = Self {
             origin: none,
             direction: -up,
-            sweep: none,
+            fan: none,
             shift: none,
             s: Vectors::splat(simd, Vec3::X),
             light: PacketLight::dark(simd),
@@ -83,7 +83,7 @@ impl<S: Simd> Arrivals<S> {
         for (lane, EnteringRay { ray, met, medium, .. }) in rays.iter().enumerate() {
             all.origin.set_lane(lane, ray.origin);
             all.direction.set_lane(lane, ray.direction);
-            all.sweep.set_lane(lane, ray.sweep);
+            all.fan.set_lane(lane, ray.fan);
             all.shift.set_lane(lane, ray.shift);
             all.s.set_lane(lane, ray.s);
             all.light.set_lane(lane, &ray.light);
@@ -97,12 +97,12 @@ impl<S: Simd> Arrivals<S> {
 
     #[inline(always)]
     fn split<P: PacketSurface>(self, simd: S, surface: &P, is_polarised: bool) -> Split<S> {
-        let Self { direction, normal, sweep, .. } = self;
+        let Self { direction, normal, fan, .. } = self;
         let point = self.origin + direction * self.distance;
         let cos_i = -direction.dot(normal);
         let (mut shift, mut of_normal) = (self.shift, None);
         if P::IS_CURVED {
-            shift = along_surface(self.shift + sweep * self.distance, direction, normal);
+            shift = along_surface(self.shift + fan * self.distance, direction, normal);
             of_normal = Some(surface.turned(simd, point, shift));
         }
         let eta = Lanes::splat(simd, 1.0) / self.index;
@@ -117,16 +117,16 @@ impl<S: Simd> Arrivals<S> {
             glare = PacketLight::<Lanes<S>>::unpolarised(glare.weight());
             inside = PacketLight::<Lanes<S>>::unpolarised(inside.weight());
         }
-        let incidence = Incidence { direction, normal, cos_i, of_direction: sweep, of_normal };
+        let incidence = Incidence { direction, normal, cos_i, of_direction: fan, of_normal };
         Split {
             point,
             shift,
             s,
             back: incidence.reflected(),
-            swept_back: incidence.reflected_change(),
+            fanned_back: incidence.reflected_change(),
             glare,
             inward: incidence.refracted(eta, reflection.cos_t),
-            swept: incidence.refracted_change(eta, -(self.spread * eta * eta), reflection.cos_t),
+            fanned: incidence.refracted_change(eta, -(self.spread * eta * eta), reflection.cos_t),
             inside,
         }
     }

@@ -16,7 +16,7 @@ pub(super) struct LookUpRay {
     /// The direction in the middle of the wavelengths that the ray stands for.
     pub direction: Vec3,
     /// The change of that direction over these wavelengths.
-    pub sweep: Vec3,
+    pub fan: Vec3,
     pub weight: f32,
     pub tag: u32,
 }
@@ -24,7 +24,7 @@ pub(super) struct LookUpRay {
 impl LookUpRay {
     /// Returns the look-up of light that has left all bodies on a ray of the world.
     pub fn of(ray: &SingleRay, weight: f32, tag: u32) -> Self {
-        Self { origin: ray.origin, direction: ray.direction, sweep: ray.sweep, weight, tag }
+        Self { origin: ray.origin, direction: ray.direction, fan: ray.fan, weight, tag }
     }
 }
 
@@ -134,12 +134,12 @@ impl WithSimd for LookUp<'_> {
             let mut ray = LookUpLanes {
                 origin: Vectors::splat(simd, Vec3::ZERO),
                 direction: Vectors::splat(simd, Vec3::Z),
-                sweep: Vectors::splat(simd, Vec3::ZERO),
+                fan: Vectors::splat(simd, Vec3::ZERO),
             };
             for (lane, one) in chunk.iter().enumerate() {
                 ray.origin.set_lane(lane, one.origin);
                 ray.direction.set_lane(lane, one.direction);
-                ray.sweep.set_lane(lane, one.sweep);
+                ray.fan.set_lane(lane, one.fan);
             }
             if self.strength < 1.0 {
                 ray = self.mixed(simd, chunk, ray);
@@ -154,7 +154,7 @@ impl WithSimd for LookUp<'_> {
 struct LookUpLanes<S: Simd> {
     origin: Vectors<S>,
     direction: Vectors<S>,
-    sweep: Vectors<S>,
+    fan: Vectors<S>,
 }
 
 impl LookUp<'_> {
@@ -175,7 +175,7 @@ impl LookUp<'_> {
         LookUpLanes {
             origin: goes_on.select_vectors(beside + (own.origin - beside) * strength, own.origin),
             direction: goes_on.select_vectors(between * per, own.direction),
-            sweep: goes_on.select_vectors(own.sweep * (strength * per), own.sweep),
+            fan: goes_on.select_vectors(own.fan * (strength * per), own.fan),
         }
     }
 
@@ -184,7 +184,7 @@ impl LookUp<'_> {
     fn look_up<S: Simd>(&mut self, simd: S, chunk: &[LookUpRay], ray: LookUpLanes<S>) {
         let mut beside = Lanes::splat(simd, 1.0);
         if let Some(backplate) = &self.environment.backplate {
-            let seen = backplate.seen(simd, ray.origin, ray.direction, ray.sweep);
+            let seen = backplate.seen(simd, ray.origin, ray.direction, ray.fan);
             beside = beside - seen.share;
             for (lane, one) in chunk.iter().enumerate() {
                 let light = by_channel(seen.light[lane]) * (seen.share.lane(lane) * one.weight);
@@ -195,16 +195,16 @@ impl LookUp<'_> {
             }
         }
         let environment = self.environment;
-        let own = Swept {
+        let own = FannedLight {
             direction: environment.own(simd, ray.direction),
-            sweep: environment.own(simd, ray.sweep),
+            fan: environment.own(simd, ray.fan),
         };
-        let swept = own.sweep.length_squared().sqrt();
+        let fanned = own.fan.length_squared().sqrt();
         let lamps = own.lamps(simd, &environment.lamps);
         let (x, y) = octahedral(own.direction);
         let texels =
-            swept * Lanes::splat(simd, (f64::from(environment.map.side as u32) / TEXEL_ANGLE) as f32);
-        let clear = environment.beside_the_head(simd, ray.direction, swept) * beside;
+            fanned * Lanes::splat(simd, (f64::from(environment.map.side as u32) / TEXEL_ANGLE) as f32);
+        let clear = environment.beside_the_head(simd, ray.direction, fanned) * beside;
         for (lane, one) in chunk.iter().enumerate() {
             if clear.lane(lane) <= 0.0 {
                 continue;
@@ -219,47 +219,47 @@ impl LookUp<'_> {
 }
 
 impl PacketEnvironment<'_> {
-    /// Returns the share of the light that passes the observer's head, whose edge is as wide as the sweep.
+    /// Returns the share of the light that passes the observer's head, whose edge is as wide as the fan.
     #[inline(always)]
-    fn beside_the_head<S: Simd>(&self, simd: S, direction: Vectors<S>, swept: Lanes<S>) -> Lanes<S> {
+    fn beside_the_head<S: Simd>(&self, simd: S, direction: Vectors<S>, fanned: Lanes<S>) -> Lanes<S> {
         let (zero, one) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 1.0));
         let Some(head) = self.head else { return one };
         let cosine = direction.dot(Vectors::splat(simd, self.eye));
-        let edge = swept.max(Lanes::splat(simd, HEAD_EDGE as f32));
+        let edge = fanned.max(Lanes::splat(simd, HEAD_EDGE as f32));
         let beside = (Lanes::splat(simd, head) - cosine) / edge + Lanes::splat(simd, 0.5);
         beside.max(zero).min(one)
     }
 }
 
-/// Directions in the light's frame, and how they sweep.
-struct Swept<S: Simd> {
+/// Directions in the light's frame, and how they fan.
+struct FannedLight<S: Simd> {
     direction: Vectors<S>,
-    sweep: Vectors<S>,
+    fan: Vectors<S>,
 }
 
-impl<S: Simd> Swept<S> {
-    /// Returns the light of the lamps, channel by channel: of each lamp, by the share of the sweep that lies inside its disc.
+impl<S: Simd> FannedLight<S> {
+    /// Returns the light of the lamps, channel by channel: of each lamp, by the share of the fan that lies inside its disc.
     #[inline(always)]
     fn lamps(&self, simd: S, lamps: &[Lamp]) -> [Lanes<S>; 4] {
         let (zero, one, half) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 1.0), Lanes::splat(simd, 0.5));
         let still = Lanes::splat(simd, STILL as f32);
-        let square = self.sweep.length_squared();
-        let is_swept = still.less(square);
+        let square = self.fan.length_squared();
+        let is_fanned = still.less(square);
         let per_square = one / square.max(still);
         let mut light = [zero; 4];
         for lamp in lamps {
             let from_middle = self.direction - Vectors::splat(simd, lamp.toward);
             let chord_squared = Lanes::splat(simd, lamp.chord_squared);
             // Computed from the nearest point, as the difference of large squares has no digits in single precision.
-            let nearest = is_swept.select(-from_middle.dot(self.sweep) * per_square, zero);
-            let inside = chord_squared - (from_middle + self.sweep * nearest).length_squared();
+            let nearest = is_fanned.select(-from_middle.dot(self.fan) * per_square, zero);
+            let inside = chord_squared - (from_middle + self.fan * nearest).length_squared();
             let is_inside = inside.is_positive();
             if !is_inside.any() {
                 continue;
             }
             let chord = (inside.max(zero) * per_square).sqrt();
             let along = ((nearest + chord).min(half) - (nearest - chord).max(-half)).max(zero);
-            let share = is_inside.select(is_swept.select(along, one), zero);
+            let share = is_inside.select(is_fanned.select(along, one), zero);
             for (light, radiance) in light.iter_mut().zip(lamp.radiance.to_array()) {
                 *light = *light + share * Lanes::splat(simd, radiance);
             }

@@ -178,11 +178,11 @@ impl<S: Simd> Incidence<S> {
         let (one, least) = (eta.all(1.0), eta.all(LEAST_COS));
         let square = one - cos_i * cos_i;
         let of_cos_t = eta * (eta * cos_i * of_cos_i - square * of_eta) / cos_t.max(least);
-        let swept =
+        let fanned =
             direction * of_eta + of_direction * eta + normal * (of_eta * cos_i + eta * of_cos_i - of_cos_t);
         match of_normal {
-            None => swept,
-            Some(of_normal) => swept + of_normal * (eta * cos_i - cos_t),
+            None => fanned,
+            Some(of_normal) => fanned + of_normal * (eta * cos_i - cos_t),
         }
     }
 }

@@ -136,7 +136,7 @@ impl PacketInstance {
         SingleRay {
             origin: back * (ray.origin - at) / scale,
             direction: back * ray.direction,
-            sweep: back * ray.sweep,
+            fan: back * ray.fan,
             shift: back * ray.shift / scale,
             s: back * ray.s,
             ..*ray
@@ -149,7 +149,7 @@ impl PacketInstance {
         SingleRay {
             origin: turn * ray.origin * scale + at,
             direction: turn * ray.direction,
-            sweep: turn * ray.sweep,
+            fan: turn * ray.fan,
             shift: turn * ray.shift * scale,
             s: turn * ray.s,
             ..*ray

@@ -33,7 +33,7 @@ pub(super) struct SingleRay {
     /// The unit direction in which the light travels.
     pub direction: Vec3,
     /// The change of that direction over the spread of wavelengths.
-    pub sweep: Vec3,
+    pub fan: Vec3,
     /// The displacement of the origin over the spread of wavelengths.
     pub shift: Vec3,
     /// The axis s of the light's polarisation.
@@ -90,7 +90,7 @@ pub(super) struct PacketLoss {
 pub(super) struct InnerRays<S: Simd> {
     pub origin: Vectors<S>,
     pub direction: Vectors<S>,
-    pub sweep: Vectors<S>,
+    pub fan: Vectors<S>,
     pub shift: Vectors<S>,
     pub s: Vectors<S>,
     /// The light without absorption.
@@ -177,7 +177,7 @@ impl InnerRay {
         ray: SingleRay {
             origin: Vec3::ZERO,
             direction: Vec3::Z,
-            sweep: Vec3::ZERO,
+            fan: Vec3::ZERO,
             shift: Vec3::ZERO,
             s: Vec3::X,
             light: PacketLight { ss: 0.0, pp: 0.0, re: 0.0, im: 0.0 },
@@ -199,7 +199,7 @@ impl<S: Simd> InnerRays<S> {
         let mut lanes = Self {
             origin: none,
             direction: none,
-            sweep: none,
+            fan: none,
             shift: none,
             s: none,
             light: PacketLight::dark(simd),
@@ -224,7 +224,7 @@ impl<S: Simd> InnerRays<S> {
         let Travelled { left, path, .. } = ray.travelled;
         self.origin.set_lane(lane, ray.origin);
         self.direction.set_lane(lane, ray.direction);
-        self.sweep.set_lane(lane, ray.sweep);
+        self.fan.set_lane(lane, ray.fan);
         self.shift.set_lane(lane, ray.shift);
         self.s.set_lane(lane, ray.s);
         // Light of which absorption has left next to nothing is not followed unless the least weight is 0.

@@ -309,7 +309,7 @@ fn eye_ray(&EyeRay { origin, direction, .. }: &EyeRay, tag: u32) -> SingleRay {
     SingleRay {
         origin: origin.as_vec3(),
         direction,
-        sweep: Vec3::ZERO,
+        fan: Vec3::ZERO,
         shift: Vec3::ZERO,
         s: direction.any_orthonormal_vector(),
         light: PacketLight::<f32>::unpolarised(1.0),

@@ -10,7 +10,7 @@ pub(super) struct DispersedRay {
     /// The direction in which the ray travels, of length 1.
     pub direction: DVec3,
     /// The change of its direction.
-    pub sweep: DVec3,
+    pub fan: DVec3,
     /// The displacement of its origin.
     pub shift: DVec3,
 }
@@ -29,7 +29,7 @@ pub(super) struct Arrival {
 impl DispersedRay {
     /// Returns a ray that is the same at all wavelengths.
     pub fn new(origin: DVec3, direction: DVec3) -> Self {
-        Self { origin, direction, sweep: DVec3::ZERO, shift: DVec3::ZERO }
+        Self { origin, direction, fan: DVec3::ZERO, shift: DVec3::ZERO }
     }
 
     /// Returns the point where the ray meets a facet that is this far away.
@@ -37,16 +37,16 @@ impl DispersedRay {
     pub fn arrival<F: FacetSearch>(&self, facets: &F, facet: usize, distance: f64) -> Arrival {
         let point = self.origin + self.direction * distance;
         let normal = facets.normal(facet, point);
-        if !self.is_swept() {
+        if !self.is_fanned() {
             return Arrival { point, normal, shift: DVec3::ZERO, of_normal: DVec3::ZERO };
         }
-        let shift = along_surface(self.shift + self.sweep * distance, self.direction, normal);
+        let shift = along_surface(self.shift + self.fan * distance, self.direction, normal);
         Arrival { point, normal, shift, of_normal: facets.turned(point, shift) }
     }
 
     /// Whether the ray changes at all over the spread of wavelengths.
-    pub fn is_swept(&self) -> bool {
-        self.sweep != DVec3::ZERO || self.shift != DVec3::ZERO
+    pub fn is_fanned(&self) -> bool {
+        self.fan != DVec3::ZERO || self.shift != DVec3::ZERO
     }
 }
 

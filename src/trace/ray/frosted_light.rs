@@ -91,5 +91,5 @@ impl StoneTracer {
 
 /// Returns scattered light that leaves. Its change over a band of wavelengths is small beside the lobe, and left out.
 fn exit_light(direction: DVec3, weight: f64, surface: FrostedSurface) -> ExitLight {
-    ExitLight { direction, sweep: DVec3::ZERO, shift: DVec3::ZERO, weight, spread: surface.spread() }
+    ExitLight { direction, fan: DVec3::ZERO, shift: DVec3::ZERO, weight, spread: surface.spread() }
 }

@@ -79,8 +79,8 @@ impl InstanceTracer {
     ) -> Option<Loss> {
         let (facet, distance) = ray.met;
         let (origin, direction) = self.arriving((ray.origin, ray.direction));
-        let sweep = self.pose.map_or(ray.sweep, |pose| pose.turn.inverse() * ray.sweep);
-        let ray = MeetingRay { met: (facet, distance / self.unit()), origin, direction, sweep, ..*ray };
+        let fan = self.pose.map_or(ray.fan, |pose| pose.turn.inverse() * ray.fan);
+        let ray = MeetingRay { met: (facet, distance / self.unit()), origin, direction, fan, ..*ray };
         let is_taken = |exit: &Exit, distance: f64| is_taken(&self.outward(*exit), distance * self.unit());
         self.tracer.follow_from(&ray, is_taken, |exit| leave(self.outward(exit)))
     }
@@ -104,7 +104,7 @@ impl InstanceTracer {
             point: pose.place(exit.point),
             path: exit.path * pose.scale,
             direction: pose.turn * exit.direction,
-            sweep: pose.turn * exit.sweep,
+            fan: pose.turn * exit.fan,
             ..exit
         }
     }

@@ -43,7 +43,7 @@ pub(super) struct MetalHit {
 pub(super) struct MetalReflection {
     pub point: DVec3,
     pub direction: DVec3,
-    pub sweep: DVec3,
+    pub fan: DVec3,
     /// The factor by which the light from there counts.
     pub weight: f64,
     /// The side, in radians, of the square of directions for which this one stands; 0 for one direction.
@@ -89,7 +89,7 @@ impl MetalTracer {
     /// has no index yet.
     pub fn reflect(
         &self,
-        (origin, direction, sweep): (DVec3, DVec3, DVec3),
+        (origin, direction, fan): (DVec3, DVec3, DVec3),
         hit: &MetalHit,
         luck: [f64; 3],
     ) -> Option<MetalReflection> {
@@ -109,7 +109,7 @@ impl MetalTracer {
         Some(MetalReflection {
             point,
             direction: toward,
-            sweep: sweep - middle * (2.0 * sweep.dot(middle)),
+            fan: fan - middle * (2.0 * fan.dot(middle)),
             weight: found.weight,
             spread: spread.sqrt(),
         })

@@ -76,7 +76,7 @@ pub(in crate::trace) struct SurfaceEvent<'a> {
 /// The light that leaves at a surface event, as in [`Exit`].
 pub(in crate::trace) struct ExitLight {
     pub direction: DVec3,
-    pub sweep: DVec3,
+    pub fan: DVec3,
     /// The displacement of the point over the spread of wavelengths.
     pub shift: DVec3,
     pub weight: f64,
@@ -96,8 +96,8 @@ impl SurfaceEvent<'_> {
     #[inline]
     pub fn exit(&self) -> Option<Exit> {
         let &Self { facet, point, path, bounce, .. } = self;
-        let &ExitLight { direction, sweep, weight, spread, .. } = self.leaving.as_ref()?;
-        Some(Exit { facet, point, path, direction, sweep, weight, bounce, surface: bounce == 0, spread })
+        let &ExitLight { direction, fan, weight, spread, .. } = self.leaving.as_ref()?;
+        Some(Exit { facet, point, path, direction, fan, weight, bounce, surface: bounce == 0, spread })
     }
 }
 

@@ -35,7 +35,7 @@ pub struct WaitingRay {
     /// The direction in which the light travels, of length 1.
     pub direction: DVec3,
     /// The change of that direction over the medium's spread of indices.
-    pub sweep: DVec3,
+    pub fan: DVec3,
     /// The share of the light from that direction that reaches the eye.
     pub weight: f64,
     /// By what chance weak light goes on in solids that are not convex and to other bodies; without it, all of it does.
@@ -77,7 +77,7 @@ impl WaitingRay {
         Self {
             origin,
             direction,
-            sweep: DVec3::ZERO,
+            fan: DVec3::ZERO,
             weight: 1.0,
             roulette: None,
             spread: 0.0,
@@ -177,12 +177,12 @@ impl SceneTracer {
         let mut sieve = ray.roulette.map(|roulette| roulette.sieve());
         let is_frosted = self.tracers[stone].is_frosted();
         let exits = |exit: Exit| {
-            let Exit { point: origin, direction, sweep, weight, spread, .. } = exit;
+            let Exit { point: origin, direction, fan, weight, spread, .. } = exit;
             number += 1;
             let ray = WaitingRay {
                 origin,
                 direction,
-                sweep,
+                fan,
                 weight,
                 roulette: ray.roulette.map(|roulette| roulette.beyond(number)),
                 spread,
@@ -196,8 +196,8 @@ impl SceneTracer {
                 None => leave(&ray),
             }
         };
-        let &WaitingRay { origin, direction, sweep, weight, roulette, luck, .. } = ray;
-        let meeting = MeetingRay { met, origin, direction, sweep, weight, roulette, luck: Some(luck) };
+        let &WaitingRay { origin, direction, fan, weight, roulette, luck, .. } = ray;
+        let meeting = MeetingRay { met, origin, direction, fan, weight, roulette, luck: Some(luck) };
         let is_taken = |exit: &Exit, distance: f64| self.meets_before(exit, stone, distance);
         let rest = self.tracers[stone].follow_from(&meeting, is_taken, exits).unwrap_or_default();
         Loss { unresolved: rest.unresolved + unseen, bounces: before + rest.bounces, ..rest }
@@ -216,14 +216,14 @@ impl SceneTracer {
             return lost(0.0, ray.weight);
         }
         let (luck, later) = ray.luck.draw();
-        let way = (ray.origin, ray.direction, ray.sweep);
+        let way = (ray.origin, ray.direction, ray.fan);
         let Some(found) = self.metals[hit.metal].reflect(way, hit, luck) else {
             return lost(ray.weight, 0.0);
         };
         let next = WaitingRay {
             origin: found.point,
             direction: found.direction,
-            sweep: found.sweep,
+            fan: found.fan,
             weight: ray.weight * found.weight,
             roulette: ray.roulette.map(|roulette| roulette.beyond(1)),
             spread: found.spread,
@@ -368,10 +368,10 @@ impl<'a> ByRays<'a> {
     /// Returns the environment's light along a ray that has left all stones; `straight` is the ray from the eye that it goes
     /// back to.
     fn arriving(&self, ray: &WaitingRay, straight: (DVec3, DVec3), pass: &SamplePass) -> DVec4 {
-        let own = (ray.origin, ray.direction, ray.sweep);
+        let own = (ray.origin, ray.direction, ray.fan);
         // Only refraction is mixed with the straight way.
-        let (from, direction, sweep) = if ray.is_reflected() { own } else { pass.mixed(straight, own) };
-        self.lit_scene.environment.radiance_around(from, direction, (sweep, ray.spread)) * ray.weight
+        let (from, direction, fan) = if ray.is_reflected() { own } else { pass.mixed(straight, own) };
+        self.lit_scene.environment.radiance_around(from, direction, (fan, ray.spread)) * ray.weight
     }
 
     /// Returns the ray of a pixel, given by column and row.

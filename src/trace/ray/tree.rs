@@ -96,10 +96,10 @@ impl StoneTracer {
         met: (usize, f64),
         factor: f64,
     ) -> Option<Inbound> {
-        let &Exit { point: origin, direction, sweep, path, bounce, .. } = exit;
+        let &Exit { point: origin, direction, fan, path, bounce, .. } = exit;
         let (light, shift) = meeting.onward_outside(self.medium.index)?;
         let light = if factor == 1.0 { light } else { light.scaled(factor) };
-        let ray = DispersedRay { origin, direction, sweep, shift };
+        let ray = DispersedRay { origin, direction, fan, shift };
         Some(Inbound { met, ray, light, left: meeting.left, path, bounce, luck: None })
     }
 }

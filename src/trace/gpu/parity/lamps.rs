@@ -1,17 +1,17 @@
-//! Parity of lamps: the share of a sweep that lies inside one, on the card and in the library.
+//! Parity of lamps: the share of a fan that lies inside one, on the card and in the library.
 
 use super::super::gpu_types;
 use super::{card, run};
 use crate::trace::environment::share_inside;
 use glam::DVec3;
 
-/// A shader that takes x and y of the vector from a lamp's middle and of the sweep, and returns the share; z of both is half
+/// A shader that takes x and y of the vector from a lamp's middle and of the fan, and returns the share; z of both is half
 /// of x.
 const SHARE_WGSL: &str = "
 struct Ray {
     origin: vec3f,
     direction: vec3f,
-    sweep: vec3f,
+    fan: vec3f,
 }
 
 const MOST_LAMPS: u32 = 1u;
@@ -35,9 +35,9 @@ fn shares(@builtin(global_invocation_id) id: vec3u) {
 const CHORD: f64 = 0.02;
 
 #[test]
-fn lamps_are_as_bright_on_the_card_however_far_a_sweep_reaches() {
-    let Some(gpu) = card("lamps_are_as_bright_on_the_card_however_far_a_sweep_reaches") else { return };
-    // Sweeps of 1e-5 to 1e4 radians that pass a lamp's middle at up to 1.2 chords, somewhere on their way.
+fn lamps_are_as_bright_on_the_card_however_far_a_fan_reaches() {
+    let Some(gpu) = card("lamps_are_as_bright_on_the_card_however_far_a_fan_reaches") else { return };
+    // Fans of 1e-5 to 1e4 radians that pass a lamp's middle at up to 1.2 chords, somewhere on their way.
     let given: Vec<[f32; 4]> = (0..20_000)
         .map(|k| {
             let part = |step: f64| (f64::from(k) * step).fract();
@@ -54,21 +54,21 @@ fn lamps_are_as_bright_on_the_card_however_far_a_sweep_reaches() {
     let environment = include_str!("../../../../shaders/environment.wgsl");
     let structs = [gpu_types::FRAME_WGSL, gpu_types::ENVIRONMENT_WGSL, gpu_types::LAMP_WGSL].concat();
     let found: Vec<f32> = run(&gpu, structs + &chord + environment + SHARE_WGSL, &given, None);
-    // The largest difference of short sweeps, and the light of all sweeps by their length.
+    // The largest difference of short fans, and the light of all fans by their length.
     let (mut largest, mut light) = (0.0_f64, [[0.0; 2]; 9]);
     for (given, found) in given.iter().zip(found) {
         let [x, y, u, v] = given.map(f64::from);
-        let (from, sweep) = (DVec3::new(x, y, 0.5 * x), DVec3::new(u, v, 0.5 * u));
-        let (exact, found) = (share_inside(from, sweep, CHORD * CHORD), f64::from(found));
-        // Differences are parts of what a sweep through the middle sees.
-        let most = (2.0 * CHORD / sweep.length()).min(1.0);
-        if sweep.length() < 1.0 {
+        let (from, fan) = (DVec3::new(x, y, 0.5 * x), DVec3::new(u, v, 0.5 * u));
+        let (exact, found) = (share_inside(from, fan, CHORD * CHORD), f64::from(found));
+        // Differences are parts of what a fan through the middle sees.
+        let most = (2.0 * CHORD / fan.length()).min(1.0);
+        if fan.length() < 1.0 {
             largest = largest.max((found - exact).abs() / most);
         }
-        let [all, of_card] = &mut light[(sweep.length().log10() + 5.0).clamp(0.0, 8.0) as usize];
+        let [all, of_card] = &mut light[(fan.length().log10() + 5.0).clamp(0.0, 8.0) as usize];
         (*all, *of_card) = (*all + exact / most, *of_card + found / most);
     }
-    // Where a sweep touches the lamp, the root of a number near 0 has half its digits.
+    // Where a fan touches the lamp, the root of a number near 0 has half its digits.
     assert!(largest < 0.01, "off by {largest:e}");
     for [all, of_card] in light {
         assert!(all > 500.0 && (of_card / all - 1.0).abs() < 0.02, "{of_card} for {all}: {light:?}");

@@ -8,9 +8,9 @@ use glam::DVec3;
 impl Beams {
     /// Returns, for each beam, the change of its exit direction over the medium's spread of indices. It is 0 for the
     /// surface's glare, and where reflection is total. `polytope` must be the one that was traced.
-    pub fn sweeps(&self, polytope: &Polytope) -> Vec<DVec3> {
+    pub fn exit_changes(&self, polytope: &Polytope) -> Vec<DVec3> {
         let (index, spread) = (self.medium.index, self.medium.spread);
-        let mut sweeps = vec![DVec3::ZERO; self.len()];
+        let mut exit_changes = vec![DVec3::ZERO; self.len()];
         // For each beam, the direction of the light that goes on inside, and its change.
         let mut onward: Vec<(DVec3, DVec3)> = Vec::with_capacity(self.len());
         for beam in self.iter() {
@@ -28,13 +28,13 @@ impl Beams {
                     let cos_i = ray.dot(normal);
                     if let Some(cos_t) = cos_transmitted(cos_i, index) {
                         let both = (change, DVec3::ZERO, spread);
-                        sweeps[beam.id as usize] =
+                        exit_changes[beam.id as usize] =
                             refracted_change(ray, -normal, index, (cos_i, cos_t), both);
                     }
                     (reflect(ray, -normal, cos_i), change - normal * (2.0 * change.dot(normal)))
                 }
             });
         }
-        sweeps
+        exit_changes
     }
 }
