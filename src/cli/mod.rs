@@ -29,6 +29,7 @@ mod picture_options;
 mod picturing;
 mod plot_file;
 mod progress;
+mod progress_lines;
 mod refraction_import;
 mod refraction_map;
 mod render;
