@@ -2,7 +2,7 @@
 
 use super::console::say;
 use super::specimen::{LoadedSpecimen, asked_material};
-use crate::cut::{MaterialRef, Size};
+use crate::cut::{Design, MaterialRef, Size};
 use crate::io::background::BackgroundRef;
 use crate::io::mesh::read_shaded;
 use crate::io::mesh_options::MeshOptions;
@@ -30,6 +30,8 @@ pub struct Assembly {
     pub path: String,
     /// The name of the design, or of the scene.
     pub name: String,
+    /// The design of a stone alone, in its own material; none of a scene.
+    pub design: Option<Design>,
     /// The stones in one world. A single stone lies unmoved in its own frame.
     pub setting: Scene,
     /// The size and place of each stone, in the order of the instances of `setting`.
@@ -118,7 +120,8 @@ impl Assembly {
         let stone = Instance::of(&specimen.body, material, &specimen.design.name);
         Ok(Self {
             path: specimen.path,
-            name: specimen.made.design.name,
+            name: specimen.made.design.name.clone(),
+            design: Some(Design { diameter_mm, ..specimen.made.design }),
             setting: Scene { instances: vec![stone], metals: vec![], unit_mm: 0.5 * diameter_mm },
             places: vec![StonePlace { diameter_mm, at_mm: DVec3::ZERO }],
             light: None,
@@ -178,6 +181,7 @@ impl Assembly {
         Ok(Self {
             path,
             name: scene.name,
+            design: None,
             setting,
             places,
             light: scene.light,

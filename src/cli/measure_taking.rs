@@ -12,7 +12,7 @@ use clap::Args;
 use std::path::Path;
 
 /// The part of the light that may usually stay unresolved at each point.
-const UNRESOLVED: f64 = 2e-3;
+pub const UNRESOLVED: f64 = 2e-3;
 
 #[derive(Debug, Args)]
 pub struct MeasureTaking {
@@ -59,22 +59,26 @@ impl MeasureTaking {
     ) -> Result<Sweep, Failure> {
         let specimen = LoadedSpecimen::load(file, self.mesh.options())?;
         let specimen = specimen.made_of(self.material.as_deref(), self.stone)?;
-        let mut domes = vec![];
-        for dome in measures.iter().filter_map(|name| name.dome()) {
-            if !domes.contains(&dome) {
-                domes.push(dome);
-            }
-        }
-        // The indices of colours are those of each point's material.
-        let settings = MeasureSettings { domes, head_deg: self.head, ..MeasureSettings::usual([1.0; 2]) };
         Ok(Sweep {
             design: specimen.design.clone(),
             viewpoint: self.view.viewpoint()?,
             axes,
-            settings,
+            settings: settings_of(measures, self.head),
             wavelength_nm: line::SODIUM_D,
             unresolved: self.unresolved,
             polarised: !self.unpolarised,
         })
     }
+}
+
+/// Returns the settings with which these measures are taken of a design under a head of this half angle, degrees. The indices of
+/// colours are left open, as each point of a sweep has those of its material.
+pub fn settings_of(measures: &[MeasureName], head_deg: f64) -> MeasureSettings {
+    let mut domes = vec![];
+    for dome in measures.iter().filter_map(|name| name.dome()) {
+        if !domes.contains(&dome) {
+            domes.push(dome);
+        }
+    }
+    MeasureSettings { domes, head_deg, ..MeasureSettings::usual([1.0; 2]) }
 }

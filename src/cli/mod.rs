@@ -29,6 +29,7 @@ mod picture_options;
 mod picturing;
 mod plot_file;
 mod progress;
+mod progress_lines;
 mod refraction_import;
 mod refraction_map;
 mod render;
@@ -39,6 +40,9 @@ mod sheet;
 mod shell;
 mod specimen;
 mod spin;
+mod spin_motion;
+mod spin_panel;
+mod spin_pictures;
 mod sweep;
 mod sweep_parquet;
 mod sweep_plot;
@@ -104,7 +108,7 @@ enum Command {
     Export(export::ExportArguments),
     /// Show what stones look like under light: fire, colour, sparkle
     Render(render::Render),
-    /// Show a stone turning, rocking or wobbling under light, as an animated PNG and its frames
+    /// Show a stone turning, rocking or wobbling under light or in a scope, with its measures, as animated PNG, GIF or MP4
     Spin(spin::Spin),
     /// Map where the light behind each pixel comes from, for pages that look up a moving background by the map
     RefractionMap(refraction_map::RefractionMaps),

@@ -1,6 +1,7 @@
 //! Progress bars of long work, and the end of the program by Ctrl-C or SIGTERM.
 
 use super::console::{report, say};
+use super::progress_lines::ProgressLines;
 use crate::io::export::Event;
 use crate::io::{Failure, abandon_writes};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -12,7 +13,7 @@ use signal_hook::{
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError, mpsc};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// The progress bar on the screen, which is cleared when a signal ends the program.
 static SHOWN: Mutex<Option<ProgressBar>> = Mutex::new(None);
@@ -94,8 +95,13 @@ fn end(signal: i32) -> ! {
     std::process::exit(128 + signal)
 }
 
-/// The progress bar of one piece of work. It appears after a moment, and only on a terminal.
-pub struct WorkProgress(ProgressBar);
+/// The progress of one piece of work. On a terminal it is a bar, which appears after a moment; elsewhere it is lines of text now
+/// and then.
+pub struct WorkProgress {
+    bar: ProgressBar,
+    /// The lines, and when the work began; none on a terminal.
+    lines: Option<(Instant, Mutex<ProgressLines>)>,
+}
 
 impl WorkProgress {
     pub fn new(what: &str) -> Self {
@@ -103,15 +109,23 @@ impl WorkProgress {
         if let Ok(style) = ProgressStyle::with_template("{msg:40!} {bar:30} {percent:>3} % {eta:>4}") {
             bar.set_style(style);
         }
+        let lines = bar.is_hidden().then(|| (Instant::now(), Mutex::new(ProgressLines::new(what))));
         bar.enable_steady_tick(Duration::from_millis(200));
         *SHOWN.lock().unwrap_or_else(PoisonError::into_inner) = Some(bar.clone());
-        Self(bar)
+        Self { bar, lines }
     }
 
-    /// Returns a [`crate::trace::Watch`] that moves the bar and never stops the work.
+    /// Returns a [`crate::trace::Watch`] that shows the progress and never stops the work.
     pub fn watch(&self) -> impl Fn(f64) -> ControlFlow<()> + Sync + '_ {
         |done| {
-            self.0.set_position((done * 1000.0) as u64);
+            self.bar.set_position((done * 1000.0) as u64);
+            // A thread that finds another one at the lines has nothing newer to say.
+            if let Some((begun, lines)) = &self.lines
+                && let Ok(mut lines) = lines.try_lock()
+                && let Some(line) = lines.line(done, begun.elapsed())
+            {
+                say(&line);
+            }
             ControlFlow::Continue(())
         }
     }
@@ -119,15 +133,15 @@ impl WorkProgress {
     /// Shows beside the bar what is being made, and prints files, notes and warnings above it.
     pub fn report(&self, event: Event) -> Result<(), Failure> {
         if let Event::Begun(what) = event {
-            self.0.set_message(what.to_string());
+            self.bar.set_message(what.to_string());
         }
-        self.0.suspend(|| report(event))
+        self.bar.suspend(|| report(event))
     }
 }
 
 impl Drop for WorkProgress {
     fn drop(&mut self) {
         *SHOWN.lock().unwrap_or_else(PoisonError::into_inner) = None;
-        self.0.finish_and_clear();
+        self.bar.finish_and_clear();
     }
 }

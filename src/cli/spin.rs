@@ -1,25 +1,44 @@
-//! `spin`: writes an animation of stones that turn, rock or wobble, and its numbered frames.
+//! `spin`: writes an animation of stones that turn, rock or wobble, under light or in a scope, and its numbered frames.
 
 use super::console::{say, written};
 use super::options::{ViewOptions, number};
 use super::picture_options::{FinishOptions, PictureOptions};
-use super::picturing::PictureSetup;
 use super::progress::WorkProgress;
 use super::specimen::stem;
-use crate::io::{Failure, Frames, is_standard, write_apng, write_rgba_png};
-use crate::picture::Background;
-use crate::scene::View;
-use clap::{Args, ValueEnum};
-use glam::DQuat;
-use std::f64::consts::TAU;
+use super::spin_motion::{Motion, SpinMotion, SpinPose};
+use super::spin_panel::{CurveSettings, LEAST_CAPTIONED, LEAST_PLOTTED, SpinCurves, SpinPanel};
+use super::spin_pictures::{LitPictures, ScopeSetup, SpinPictures};
+use crate::io::{AnimationFormat, Failure, Frames, is_standard, write_animation, write_rgba_png};
+use crate::measure::{MEASURES_HEAD_DEG, MeasureName};
+use crate::scene::Viewpoint;
+use clap::Args;
 use std::path::PathBuf;
-use std::sync::Arc;
+
+/// The options that are for pictures under light alone.
+const OF_LIGHT: [&str; 15] = [
+    "light",
+    "turn",
+    "upright",
+    "wavelengths",
+    "samples",
+    "unadapted",
+    "exposure",
+    "tone",
+    "background",
+    "photo_distance",
+    "no_jitter",
+    "strength",
+    "bounces",
+    "bloom",
+    "overlay",
+];
 
 #[derive(Debug, Args)]
 pub struct Spin {
     /// A design, a mesh, a scene file, or the name of a cut or scene that comes with the program
     file: PathBuf,
-    /// Folder to write to: the animation NAME-spin.png, and its frames in NAME-spin/
+    /// File (.png, .gif or .mp4) or folder to write to; into a folder go the animation NAME-spin.png, and its frames in
+    /// NAME-spin/
     #[arg(long, default_value = "out")]
     out: PathBuf,
     /// How the stone moves
@@ -34,6 +53,16 @@ pub struct Spin {
     /// How far the stone rocks or wobbles
     #[arg(long, value_name = "DEGREES", default_value_t = 15.0, value_parser = number)]
     swing: f64,
+    /// Show one stone in a scope instead of under light: a scope's name (see `scopes`) or its file
+    #[arg(long, value_name = "SCOPE", conflicts_with_all = OF_LIGHT)]
+    scope: Option<PathBuf>,
+    /// Draw how a measure changes with the tilt of a rocking stone, or with the azimuth of a wobbling one, under the pictures,
+    /// with a mark at the present one; measures are named as for `sweep`; may be repeated
+    #[arg(long = "of", value_name = "MEASURE")]
+    measures: Vec<MeasureName>,
+    /// Write under the pictures what they show, and how the stone stands
+    #[arg(long)]
+    caption: bool,
     #[command(flatten)]
     view: ViewOptions,
     #[command(flatten)]
@@ -42,61 +71,81 @@ pub struct Spin {
     finish: FinishOptions,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Motion {
-    /// About its own axis, while eye and light stay; --tilt or --eye-tilt shows more of its side
-    Turn,
-    /// To and fro toward --azimuth
-    Rock,
-    /// Its table leans toward one azimuth after the other, all around
-    Wobble,
+/// Where an animation goes.
+struct SpinOutput {
+    path: PathBuf,
+    /// The folder of the frames, where they are wanted.
+    stills: Option<PathBuf>,
 }
 
 impl Spin {
     pub fn run(&self) -> Result<(), Failure> {
-        if self.out.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) && !self.out.is_dir() {
-            return Err(Failure::Usage("--out: give a folder; the frames go there as well".into()));
-        }
-        if is_standard(&self.out) {
-            return Err(Failure::Usage("--out -: several files are written; give a folder".into()));
-        }
-        let viewpoint = self.view.viewpoint()?;
-        let delay_ms = self.delay_ms()?;
+        let asked = self.view.viewpoint()?;
+        // What is wrong with the command line is said before anything is loaded.
+        let format = self.format()?;
+        let delay_ms = self.delay_ms(format)?;
         self.check_swing()?;
-        let studio = PictureSetup::load((&self.picture, &self.finish), &self.file, viewpoint)?
-            .with_what_has_a_distance()?;
-        let first = studio.viewpoint.view();
-        let stones = Arc::new(studio.assembly.setting.clone());
-        let frames: Vec<View> = (0..self.frames).map(|k| self.frame(&first, k)).collect();
-        // One size of pixel for all frames: the stones fit in every frame and keep their size.
-        let mut pixels = frames.iter().map(|view| studio.pixel(&stones, view));
-        let pixel = pixels.try_fold(0.0_f64, |most, pixel| pixel.map(|p| most.max(p)))?;
-        let name = format!("{}{}-spin", stem(&self.file), viewpoint.suffix());
-        let folder = self.out.join(&name);
-        let path = self.out.join(format!("{name}.png"));
+        self.check_width()?;
+        let options = (&self.picture, &self.finish);
+        match &self.scope {
+            None => {
+                let pictures = LitPictures::load(options, &self.file, asked)?;
+                let motion = self.motion(pictures.rest());
+                let poses = motion.poses();
+                let pictures = pictures.fitting(&poses)?;
+                self.write((&pictures, ""), (&motion, &poses), (asked, format, delay_ms))
+            }
+            Some(scope) => {
+                let setup = ScopeSetup::load(options, &self.file, scope)?;
+                let motion = self.motion(asked);
+                let poses = motion.poses();
+                let pictures = setup.pictures(&motion, &poses)?;
+                self.write((&pictures, setup.name()), (&motion, &poses), (asked, format, delay_ms))
+            }
+        }
+    }
+
+    fn motion(&self, rest: Viewpoint) -> SpinMotion {
+        SpinMotion { motion: self.motion, rest, swing_deg: self.swing, frames: self.frames }
+    }
+
+    /// Writes the animation, and its frames where a folder is given. `scope` is the scope's name.
+    fn write(
+        &self,
+        (pictures, scope): (&dyn SpinPictures, &str),
+        (motion, poses): (&SpinMotion, &[SpinPose]),
+        (asked, format, delay_ms): (Viewpoint, AnimationFormat, u16),
+    ) -> Result<(), Failure> {
+        let transparent = pictures.is_transparent();
+        if transparent && format == AnimationFormat::Mp4 {
+            return Err(Failure::Usage(
+                "--background transparent: MP4 has no cover; give a .png or a .gif".into(),
+            ));
+        }
+        let curves = self.curves(pictures, (motion, poses))?;
         let [width, height] = self.picture.size;
-        let animation = Frames {
-            count: self.frames,
-            size: (width, height),
-            delay_ms,
-            transparent: studio.develop.background == Background::Transparent,
-        };
-        let description =
-            format!("{}, {} frames; {}", studio.assembly.name, self.frames, studio.description());
-        let bar = WorkProgress::new(&format!("{}: spin", studio.assembly.name));
+        let panel = SpinPanel::new((pictures, width), poses, self.caption, curves)?;
+        let size = (width, height + panel.height());
+        let output = self.output(format, &asked, scope);
+        let (count, exact) = (self.frames, pictures.exact_colours());
+        let animation = Frames { count, size, delay_ms, transparent, exact };
+        let title = pictures.title();
+        let description = format!("{title}, {}; {}", motion.description(), pictures.description());
+        let bar = WorkProgress::new(&format!("{title}: spin"));
         let mut moves = false;
-        write_apng(&path, animation, &description, |animation| -> Result<(), Failure> {
+        write_animation((&output.path, format), &animation, &description, |file| -> Result<(), Failure> {
             let mut first: Option<Vec<u8>> = None;
-            for (number, view) in frames.iter().enumerate() {
-                let done = |part: f64| bar.watch()((number as f64 + part) / frames.len() as f64);
-                let job = studio.job(&stones, view, pixel);
-                let mut taken = studio.take(&job, &done)?;
-                let rgba = studio.finish(&job).pixels(&mut taken.light, &done)?;
-                let still = folder.join(format!("{:04}.png", number + 1));
-                write_rgba_png(&still, &rgba, (width, height), &taken.description)?;
-                animation.push(&rgba)?;
-                let same = first.get_or_insert_with(|| rgba.clone()) == &rgba;
+            for (number, pose) in poses.iter().enumerate() {
+                let done = |part: f64| bar.watch()((number as f64 + part) / poses.len() as f64);
+                let mut taken = pictures.take(number, pose, &done)?;
+                let same = first.get_or_insert_with(|| taken.rgba.clone()) == &taken.rgba;
                 moves |= !same;
+                panel.add(pose, &mut taken.rgba)?;
+                if let Some(folder) = &output.stills {
+                    let still = folder.join(format!("{:04}.png", number + 1));
+                    write_rgba_png(&still, &taken.rgba, size, &taken.description)?;
+                }
+                file.push(&taken.rgba)?;
             }
             Ok(())
         })?;
@@ -107,18 +156,78 @@ impl Spin {
                 "note: all {frames} frames look the same because of the symmetry of the stone; give another number"
             ));
         }
-        written(&path)
+        written(&output.path)
+    }
+
+    /// Takes the measures whose curves are wanted.
+    fn curves(
+        &self,
+        pictures: &dyn SpinPictures,
+        motion: (&SpinMotion, &[SpinPose]),
+    ) -> Result<Option<SpinCurves>, Failure> {
+        if self.measures.is_empty() {
+            return Ok(None);
+        }
+        let Some(design) = pictures.design()? else {
+            return Err(Failure::Usage("--of: measures are of one stone, and this is a scene".into()));
+        };
+        let settings = CurveSettings {
+            measures: &self.measures,
+            head_deg: self.picture.head.unwrap_or(MEASURES_HEAD_DEG),
+            polarised: !self.picture.unpolarised,
+        };
+        let bar = WorkProgress::new(&format!("{}: measures", pictures.title()));
+        SpinCurves::of(design, settings, motion, &bar.watch()).map(Some)
+    }
+
+    /// Says whether `--out` is a single file, and not a folder.
+    fn is_file(&self) -> bool {
+        AnimationFormat::of_name(&self.out).is_some() && !self.out.is_dir()
+    }
+
+    /// Returns the format of the animation.
+    fn format(&self) -> Result<AnimationFormat, Failure> {
+        const OTHERS: [&str; 10] = ["jpg", "jpeg", "webp", "avif", "webm", "mkv", "mov", "avi", "svg", "exr"];
+        let refused = |text: String| Err(Failure::Usage(format!("--out{text}")));
+        if is_standard(&self.out) {
+            return refused(" -: give a file or a folder".into());
+        }
+        let ending = self.out.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+        if let Some(ending) = ending.filter(|e| OTHERS.contains(&e.as_str()) && !self.out.is_dir()) {
+            return refused(format!(": .{ending} is not written; give a .png, a .gif, an .mp4 or a folder"));
+        }
+        let format = AnimationFormat::of_name(&self.out).filter(|_| self.is_file());
+        let format = format.unwrap_or(AnimationFormat::Apng);
+        if !format.is_built_in() {
+            return refused(format!(
+                ": this program was built without .{}; give a .png or a .gif, or build it with `--features video`",
+                format.ending()
+            ));
+        }
+        Ok(format)
+    }
+
+    /// Returns where the animation goes. In a folder its name is that of the stone with the viewpoint's suffix and the scope.
+    fn output(&self, format: AnimationFormat, asked: &Viewpoint, scope: &str) -> SpinOutput {
+        if self.is_file() {
+            return SpinOutput { path: self.out.clone(), stills: None };
+        }
+        let scope = if scope.is_empty() { String::new() } else { format!("-{scope}") };
+        let name = format!("{}{}{scope}-spin", stem(&self.file), asked.suffix());
+        let path = self.out.join(format!("{name}.{}", format.ending()));
+        SpinOutput { path, stills: Some(self.out.join(name)) }
     }
 
     /// Returns how long each frame is shown, in milliseconds.
-    fn delay_ms(&self) -> Result<u16, Failure> {
+    fn delay_ms(&self, format: AnimationFormat) -> Result<u16, Failure> {
         let delay = (1000.0 * self.seconds / f64::from(self.frames)).round();
-        if (1.0..=f64::from(u16::MAX)).contains(&delay) {
+        let [least, most] = format.delays_ms();
+        if (f64::from(least)..=f64::from(most)).contains(&delay) {
             return Ok(delay as u16);
         }
         let (seconds, frames) = (self.seconds, self.frames);
         let message =
-            format!("--seconds {seconds}: {frames} frames of {delay} ms; each may take 1 to 65535 ms");
+            format!("--seconds {seconds}: {frames} frames of {delay} ms; each may take {least} to {most} ms");
         Err(Failure::Usage(message))
     }
 
@@ -138,14 +247,16 @@ impl Spin {
         }
     }
 
-    /// Returns the view of a frame. Whatever moves, the stones stay as they are.
-    fn frame(&self, first: &View, number: u32) -> View {
-        let part = TAU * f64::from(number) / f64::from(self.frames);
-        let swing = self.swing.to_radians();
-        match self.motion {
-            Motion::Turn => first.of_turned(DQuat::from_rotation_z(part)),
-            Motion::Rock => View { tilt: first.tilt + swing * part.sin(), ..*first },
-            Motion::Wobble => View { tilt: swing, azimuth: first.azimuth + part, ..*first },
+    /// Refuses pictures that are too narrow for what is drawn under them.
+    fn check_width(&self) -> Result<(), Failure> {
+        let width = self.picture.size[0];
+        let too_narrow = |option: &str, least: u32| {
+            Err(Failure::Usage(format!("--size: {width} pixels across: {option} needs {least}")))
+        };
+        match () {
+            () if !self.measures.is_empty() && width < LEAST_PLOTTED => too_narrow("--of", LEAST_PLOTTED),
+            () if self.caption && width < LEAST_CAPTIONED => too_narrow("--caption", LEAST_CAPTIONED),
+            () => Ok(()),
         }
     }
 }

@@ -11,6 +11,7 @@ use crate::io::design_file::DesignFormat;
 use crate::io::{Failure, library};
 use crate::measure::{MeasureName, PatternSettings, ROCK_DEG, pupil_deg};
 use crate::render::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue, SweptStone};
+use crate::trace::Watch;
 use clap::Args;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -140,11 +141,16 @@ impl SweepArguments {
             self.outputs(&files, loaded.as_ref().and_then(|sweep| sweep.as_ref().ok()), &measures)?;
         let points = self.points();
         let kept = outputs.table.as_ref().map_or(0, SweepTable::kept);
+        let progress = WorkProgress::new(&sweeping(&files));
+        let left = (files.len() * points).saturating_sub(kept).max(1) as f64;
         for (number, file) in files.iter().enumerate().skip(kept / points) {
             let sweep = loaded.take().filter(|_| number == 0).unwrap_or_else(|| self.sweep(file, &measures));
             let from = kept.saturating_sub(number * points);
-            self.sweep_file(file, sweep, from..points, &mut outputs)?;
+            let (before, these) = ((number * points + from - kept) as f64, (points - from) as f64);
+            let watch = |done: f64| progress.watch()((before + done * these) / left);
+            self.sweep_file(file, (sweep, from..points), &watch, &mut outputs)?;
         }
+        drop(progress);
         // A plot that cannot be drawn loses no row.
         if let Some(table) = outputs.table {
             table.finish()?;
@@ -231,8 +237,8 @@ impl SweepArguments {
     fn sweep_file(
         &self,
         file: &Path,
-        sweep: Result<Sweep, Failure>,
-        points: Range<usize>,
+        (sweep, points): (Result<Sweep, Failure>, Range<usize>),
+        watch: Watch,
         outputs: &mut SweepOutputs,
     ) -> Result<(), Failure> {
         let name = file.display().to_string();
@@ -246,8 +252,7 @@ impl SweepArguments {
             }
             Err(failure) => return Err(failure),
         };
-        let progress = WorkProgress::new(&format!("sweeping {name}"));
-        sweep.run(points, &progress.watch(), |point, found| {
+        sweep.run(points, watch, |point, found| {
             let error = found.as_ref().err().map_or(String::new(), SweepError::to_string);
             outputs.put(&name, &self.labels(point), (found.as_ref().ok(), &error))
         })
@@ -280,6 +285,14 @@ impl SweepOutputs<'_> {
             Some(table) => table.write((file, point), self.measures, found),
             None => Ok(()),
         }
+    }
+}
+
+/// Returns what the progress of a sweep over these files is called.
+fn sweeping(files: &[PathBuf]) -> String {
+    match files {
+        [file] => format!("sweeping {}", file.display()),
+        several => format!("sweeping {} designs", several.len()),
     }
 }
 

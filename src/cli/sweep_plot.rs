@@ -159,7 +159,7 @@ impl<'a> SweepPlot<'a> {
 }
 
 /// What stands beside the values of measures.
-const UNIT: &str = "% of face";
+pub const UNIT: &str = "% of face";
 
 /// Returns what stands beside the axis of a number of a cut.
 pub fn label(key: &SweepKey, cut: &Cut) -> String {

@@ -5,6 +5,7 @@ mod figures;
 mod hearts;
 mod measures;
 mod pictures;
+mod scope_picture;
 mod sheet;
 mod viewing;
 
@@ -16,6 +17,8 @@ pub use event::{Event, Reporter};
 pub use figures::{FigureReport, measure};
 pub use hearts::{HeartsReport, hearts};
 pub use measures::{MeasureReport, light_measures};
+pub use scope_picture::{ScopePicture, ScopeShot};
+pub use sheet::caption_pixels;
 pub use viewing::Viewing;
 #[cfg(feature = "interchange")]
 pub(in crate::io) use viewing::note;

@@ -1,6 +1,6 @@
 //! Floor 6: files, in and out. The path `-` is standard input and output everywhere.
 
-mod apng;
+mod animation;
 #[cfg(feature = "interchange")]
 pub mod asc;
 mod atomic;
@@ -50,7 +50,7 @@ mod text;
 mod toml_format;
 mod toml_text;
 
-pub use apng::{Animation, Frames, write_apng};
+pub use animation::{Animation, AnimationFormat, Frames, write_animation};
 pub use atomic::{Abandoned, Sink, WholeFile, WriteError, abandon_writes, write};
 #[cfg(feature = "interchange")]
 pub use cutters::as_tiers;

@@ -3,7 +3,7 @@
 mod curves;
 mod panels;
 
-pub use curves::{COLOURS_OF_CURVES, PlotCurve, curves};
+pub use curves::{COLOURS_OF_CURVES, PlotCurve, curves, marked_curves};
 pub use panels::{PlotPanel, panels};
 
 use contour::ContourBuilder;

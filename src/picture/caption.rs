@@ -40,11 +40,21 @@ impl Caption {
         Self { title: title.to_owned(), remarks, zones }
     }
 
+    /// Builds a caption without a legend.
+    pub fn plain(title: &str, remarks: Vec<String>) -> Self {
+        Self { title: title.to_owned(), remarks, zones: vec![] }
+    }
+
     /// Returns the caption alone, as a drawing of this width. Its small type is 13 units high, and down to 9 where the
     /// drawing is narrow.
     pub fn document(&self, width: f64) -> Document {
         let (group, height) = self.drawn(width);
         page(DVec2::new(width, height)).add(group)
+    }
+
+    /// Returns the height that [`document`](Self::document) has at this width.
+    pub fn height(&self, width: f64) -> f64 {
+        self.drawn(width).1
     }
 
     /// Returns a square drawing of this side with the caption under it.
@@ -73,7 +83,10 @@ impl Caption {
             texts = texts.add(line(sheet.remark, [left, y + step / 2.0], &remark));
             y += step;
         }
-        let (fields, texts, below) = self.legend(&sheet, y, texts);
+        let (fields, texts, below) = match self.zones.is_empty() {
+            true => (Group::new(), texts, y),
+            false => self.legend(&sheet, y, texts),
+        };
         let height = (below + top).ceil();
         let paper = Rectangle::new().set("width", width).set("height", height).set("fill", "#ffffff");
         (Group::new().set("class", "caption").add(paper).add(fields).add(texts), height)
@@ -195,6 +208,19 @@ mod tests {
             assert!(text.contains(label), "{label}: {text}");
         }
         assert!(text.contains("below the horizon: light from behind") && text.contains("#00ff00"));
+    }
+
+    #[test]
+    fn a_caption_without_a_legend_is_lower_and_as_high_as_it_says() {
+        let scope = Scope::aset(ASET_CONE, Backing::Black);
+        let remarks = vec!["one".to_owned(), "two".to_owned()];
+        let (with, without) =
+            (Caption::new("A title", remarks.clone(), &scope), Caption::plain("A title", remarks));
+        assert!(without.height(400.0) < with.height(400.0));
+        for caption in [with, without] {
+            let text = caption.document(400.0).to_string();
+            assert!(text.contains(&format!("0 0 400 {}", caption.height(400.0))), "{text}");
+        }
     }
 
     #[test]

@@ -9,7 +9,7 @@ use std::path::Path;
 const LIST: &str = "docs/licences.md";
 
 /// The accepted licences, which demand no more than to be named.
-const ACCEPTED: [&str; 16] = [
+const ACCEPTED: [&str; 17] = [
     "0BSD",
     "Apache-2.0",
     "Apache-2.0 WITH LLVM-exception",
@@ -21,6 +21,7 @@ const ACCEPTED: [&str; 16] = [
     "MIT",
     "MIT-0",
     "MPL-2.0",
+    "NCSA",
     "OFL-1.1",
     "Ubuntu-font-1.0",
     "Unicode-3.0",

@@ -14,6 +14,7 @@ mod recorder;
 mod renders;
 mod reports;
 mod searching;
+mod spins;
 mod streams;
 mod sweeps;
 

@@ -14,6 +14,9 @@ pub(super) const UNRESOLVED: f64 = 1e-3;
 /// The width in pixels up to which a caption's lines are broken to fit; a caption of a wider picture is scaled up instead.
 const CAPTION_WIDTH: u32 = 1000;
 
+/// The program as captions name it.
+const PROGRAM: &str = concat!("Brillianteer ", env!("CARGO_PKG_VERSION"));
+
 /// A picture in a scope, with all that it is made from.
 pub(super) struct ScopeSheet<'a> {
     /// The name that the picture bears in the names of its files.
@@ -53,6 +56,14 @@ pub(super) fn how(reading: Reading, part: f64) -> String {
     format!("exact beams, {open} {part:.2e}")
 }
 
+/// Describes how a job was traced; exact beams leave the part `open` of the light or the area open, which rays do not know.
+pub(super) fn traced(reading: Reading, (backend, open): (&Backend, Option<f64>), job: &Job) -> String {
+    match open {
+        Some(open) => how(reading, open),
+        None => format!("{}, each followed to {:.2e}", backend.description(), job.quality.rays.least_weight),
+    }
+}
+
 /// Describes the same trace in percent, for captions.
 pub(super) fn in_percent(reading: Reading, part: f64) -> String {
     let what = match reading {
@@ -85,6 +96,17 @@ impl ScopeSheet<'_> {
 
     /// Returns the caption; `how` says how the picture was traced.
     pub fn caption(&self, reading: Reading, how: &str) -> Caption {
+        let seen = self.viewing.described().description();
+        self.caption_of(reading, &seen, &format!("{how}; "))
+    }
+
+    /// Returns the caption of a picture of energy that says in these words from where the stone is seen, and not how it was
+    /// traced.
+    pub fn moving_caption(&self, seen: &str) -> Caption {
+        self.caption_of(Reading::Energy, seen, "")
+    }
+
+    fn caption_of(&self, reading: Reading, seen: &str, how: &str) -> Caption {
         let ScopeSheet { scope, viewing, .. } = self;
         let Viewing { medium, polarised, wavelength_nm, specimen, .. } = viewing;
         let material = &specimen.material;
@@ -98,10 +120,8 @@ impl ScopeSheet<'_> {
         };
         let colour = if material.colour_is_illustrative { ", colour illustrative" } else { "" };
         let polarised = if *polarised { "polarised" } else { "unpolarised" };
-        let seen = viewing.described().description();
         let view = format!("{}: {}; {seen}", scope.name, remark(reading, self.glare));
-        let program = concat!("Brillianteer ", env!("CARGO_PKG_VERSION"));
-        let mut remarks = vec![view, format!("{light}{colour}, {polarised}; {how}; {program}")];
+        let mut remarks = vec![view, format!("{light}{colour}, {polarised}; {how}{PROGRAM}")];
         if reading == Reading::Energy {
             remarks.push("Mixed colours: light from several zones.".to_owned());
         }
@@ -129,17 +149,11 @@ impl SheetFile {
     ) -> Result<Self, Failure> {
         let path =
             outputs.path(&sheet.suffix, &format!("{}{}", sheet.name, kind(reading)), OutputFormat::Png);
-        let [how, in_caption] = match open {
-            Some(open) => [how(reading, open), in_percent(reading, open)],
-            None => {
-                let least_weight = job.quality.rays.least_weight;
-                let how = format!("{}, each followed to {least_weight:.2e}", backend.description());
-                [how.clone(), how]
-            }
-        };
+        let how = traced(reading, (backend, open), job);
+        let in_caption = open.map_or_else(|| how.clone(), |open| in_percent(reading, open));
         let [width, height] = job.film.size;
         let (below, caption) = match outputs.caption {
-            true => pixels(&sheet.caption(reading, &in_caption), width)?,
+            true => caption_pixels(&sheet.caption(reading, &in_caption), width)?,
             false => (0, vec![]),
         };
         let description = sheet.description(&remark(reading, sheet.glare), &how);
@@ -166,8 +180,11 @@ impl SheetFile {
     }
 }
 
-/// Returns a caption's height in pixels and its pixels, in rows of this width.
-fn pixels(caption: &Caption, width: u32) -> Result<(u32, Vec<u8>), Failure> {
+/// Returns a caption's height in pixels and its pixels (red, green and blue), in rows of this width.
+///
+/// # Errors
+/// [`Failure::Output`] where the caption cannot be drawn.
+pub fn caption_pixels(caption: &Caption, width: u32) -> Result<(u32, Vec<u8>), Failure> {
     let text = caption.document(f64::from(width.min(CAPTION_WIDTH))).to_string();
     let (_, height, pixels) = rasterize(&text, width).map_err(|e| Failure::Output(e.to_string()))?;
     Ok((height, pixels))

@@ -20,6 +20,9 @@ const COLOURS: [RGBColor; COLOURS_OF_CURVES] = [
     RGBColor(0, 0, 0),
 ];
 
+/// The colour of the line at a marked place.
+const MARK: RGBColor = RGBColor(60, 60, 60);
+
 /// A curve, drawn as a band from its least to its greatest values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlotCurve {
@@ -35,8 +38,21 @@ pub struct PlotCurve {
 /// # Errors
 /// A [`PlotError`]: an axis that does not rise or fall, or no number.
 pub fn curves(
-    (title, size): (&str, (u32, u32)),
+    title: (&str, (u32, u32)),
     axis: &PlotAxis,
+    unit: &str,
+    curves: &[PlotCurve],
+) -> Result<String, PlotError> {
+    marked_curves(title, (axis, None), unit, curves)
+}
+
+/// Draws curves as [`curves`] does, with a line up the chart at a place of the axis.
+///
+/// # Errors
+/// Those of [`curves`].
+pub fn marked_curves(
+    (title, size): (&str, (u32, u32)),
+    (axis, mark): (&PlotAxis, Option<f64>),
     unit: &str,
     curves: &[PlotCurve],
 ) -> Result<String, PlotError> {
@@ -45,7 +61,7 @@ pub fn curves(
     drawn(size, |root| {
         let (left, right) = root.split_horizontally(size.0 as i32 - KEY_WIDTH);
         draw_key(&right, if title.is_empty() { 40 } else { 90 }, curves)?;
-        draw_curves(&left, (title, 24), axis, unit, curves)
+        draw_curves(&left, (title, 24), (axis, mark), unit, curves)
     })
 }
 
@@ -54,11 +70,11 @@ pub(super) fn numbers(curves: &[PlotCurve]) -> impl Iterator<Item = f64> {
     curves.iter().flat_map(|curve| curve.bands.iter().flatten().flatten().copied())
 }
 
-/// Draws a chart of curves, with a title of this size above it.
+/// Draws a chart of curves, with a title of this size above it, and a line at a marked place of the axis.
 pub(super) fn draw_curves(
     area: &Area,
     (title, size): (&str, u32),
-    axis: &PlotAxis,
+    (axis, mark): (&PlotAxis, Option<f64>),
     unit: &str,
     curves: &[PlotCurve],
 ) -> Result<(), PlotError> {
@@ -72,7 +88,7 @@ pub(super) fn draw_curves(
         .margin_right(0)
         .x_label_area_size(52)
         .y_label_area_size(72)
-        .build_cartesian_2d(across, up)
+        .build_cartesian_2d(across, up.clone())
         .map_err(failed)?;
     chart
         .configure_mesh()
@@ -110,6 +126,8 @@ pub(super) fn draw_curves(
         PathElement::new(points.collect::<Vec<_>>(), colour.stroke_width(2))
     });
     chart.draw_series(middles).map_err(failed)?;
+    let line = mark.map(|at| PathElement::new([(at, up.start), (at, up.end)], MARK.stroke_width(2)));
+    chart.draw_series(line).map_err(failed)?;
     Ok(())
 }
 
@@ -146,6 +164,23 @@ fn paler(colour: RGBColor, by: u8) -> RGBColor {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_mark_is_one_more_line_whose_place_follows_the_axis() {
+        let x = PlotAxis { label: "x".into(), values: vec![-30.0, 0.0, 30.0] };
+        let all = [PlotCurve { name: "a".into(), bands: vec![Some([1.0, 2.0]); 3] }];
+        let of = |mark| marked_curves(("t", (800, 400)), (&x, mark), "%", &all).unwrap();
+        assert_eq!(of(None), curves(("t", (800, 400)), &x, "%", &all).unwrap());
+        // Nothing else in the drawing has the line's colour.
+        let places = [-30.0, 0.0, 30.0].map(|at| {
+            let text = of(Some(at));
+            let line = text.lines().find(|line| line.contains("#3C3C3C")).unwrap();
+            let points = line.split("points=\"").nth(1).unwrap();
+            points.split([',', ' ']).next().unwrap().parse::<f64>().unwrap()
+        });
+        assert!((places[1] - (places[0] + places[2]) / 2.0).abs() <= 1.0, "{places:?}");
+        assert!(places[0] + 100.0 < places[2] && !of(None).contains("#3C3C3C"));
+    }
 
     #[test]
     fn a_curve_has_a_gap_where_it_has_no_value() {

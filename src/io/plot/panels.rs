@@ -57,7 +57,7 @@ pub fn panels(
         right.draw(&Text::new(family.to_owned(), (16, 8), heading)).map_err(failed)?;
         draw_key(&right, 44, &first.curves)?;
         for (area, panel) in left.split_evenly((rows, columns)).iter().zip(panels) {
-            draw_curves(area, (&panel.name, NAME), axis, unit, &panel.curves)?;
+            draw_curves(area, (&panel.name, NAME), (axis, None), unit, &panel.curves)?;
         }
         Ok(())
     })

@@ -1,18 +1,16 @@
 //! The pictures of a report: a stone in every scope and under light, its profile and its facet diagram.
 
 use crate::io::Failure;
-use crate::io::export::{Reporter, Viewing, note};
+use crate::io::export::{Reporter, ScopeShot, Viewing, note};
 use crate::io::lighting::Lighting;
 use crate::io::png_bytes::png;
 use crate::measure::facet_deviations;
 use crate::optics::linear_from_encoded;
 use crate::picture::{
-    Background, Develop, DiagramStyle, EmbeddedDrawing, Inks, Linear, Palette, Picture, Scoped, develop,
-    diagram, named, profile,
+    Background, Develop, DiagramStyle, EmbeddedDrawing, Inks, Linear, Picture, Scoped, develop, diagram,
+    named, profile,
 };
-use crate::render::{
-    Job, LightProduct, Partial, Product, Quality, Reading, Renderer, ScopeProduct, Steps, Surroundings,
-};
+use crate::render::{Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings};
 use crate::scene::Scene;
 use crate::trace::Watch;
 use ::png::{BitDepth, ColorType};
@@ -86,29 +84,10 @@ fn in_scope(
     watch: Watch,
     tell: Reporter,
 ) -> Result<EmbeddedDrawing, Failure> {
-    let viewing = viewing.facing(scoped.side);
-    let by_beams = viewing.check(renderer)?;
-    let scope = scoped.with_head(viewing.head_deg);
-    let palette = Palette::of(&scope);
-    let (medium, glare) = (viewing.medium, viewing.glare.unwrap_or_default());
-    let product = Product::Scope(ScopeProduct { scope, medium, glare, readings: vec![Reading::Energy] });
-    let mut job = viewing.job(viewing.film(side), product, UNRESOLVED);
-    job.quality.samples = (!by_beams).then_some(RAYS_PER_SIDE);
-    let mut rgb: Vec<u8> = vec![];
-    renderer.run(&job, watch, &mut |part| match part {
-        Partial::Begun { .. } => {
-            rgb.clear();
-            Ok(())
-        }
-        Partial::Rows { rows, first_channel, .. } => {
-            for y in rows.first..rows.first + rows.count {
-                palette.encode(rows, first_channel, y, &mut rgb);
-            }
-            Ok(())
-        }
-        other => note(&other, tell),
-    })?;
-    drawn(side, &rgb)
+    let film = viewing.facing(scoped.side).film(side);
+    let rays_per_side = Some(RAYS_PER_SIDE);
+    let shot = ScopeShot { viewing: *viewing, scoped, film, unresolved: UNRESOLVED, rays_per_side };
+    drawn(side, &shot.take(renderer, watch, tell)?.rgb)
 }
 
 fn under_light(

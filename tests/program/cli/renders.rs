@@ -220,7 +220,7 @@ fn a_render_at_fault_is_refused_and_says_why() {
         ("render modern-ideal --strength 1.1", 2, "--strength 1.1: give 0 to 1"),
         ("render modern-ideal --out a.jpg", 2, ".jpg is not written"),
         ("render modern-ideal --background none.png", 1, "none.png: there is no such file"),
-        ("spin modern-ideal --out a.png", 2, "give a folder"),
+        ("spin modern-ideal --out a.jpg", 2, ".jpg is not written"),
         ("render modern-ideal tolkowsky --out a.png", 2, "several stones need a folder"),
         ("spin modern-ideal --seconds 0", 2, "--seconds 0: 48 frames of 0 ms"),
         ("spin modern-ideal --motion rock --swing 100", 2, "--swing 100: with the tilt"),

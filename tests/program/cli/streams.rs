@@ -79,7 +79,7 @@ fn a_dash_is_standard_output_where_one_file_is_written_and_refused_where_several
         ),
         ("export cube.toml tolkowsky --format json --out -", "several stones need a folder"),
         ("render cube.toml tolkowsky --out -", "several stones need a folder"),
-        ("spin cube.toml --out -", "give a folder"),
+        ("spin cube.toml --out -", "give a file or a folder"),
         ("refraction-map cube.toml --out -", "give a folder"),
         ("liquid-glass --background dots --compare --out -", "give a folder"),
         ("convert tolkowsky -", "--format"),

@@ -1,0 +1,261 @@
+//! What is drawn under the pictures of an animation: a caption, and how measures change with the tilt or the azimuth.
+
+use super::measure_taking::{UNRESOLVED, settings_of};
+use super::spin_motion::{Motion, SpinMotion, SpinPose};
+use super::spin_pictures::SpinPictures;
+use super::sweep_plot::UNIT;
+use crate::cut::Design;
+use crate::io::export::caption_pixels;
+use crate::io::plot::{PlotAxis, PlotCurve, marked_curves};
+use crate::io::{Failure, rasterize};
+use crate::measure::{Interval, MeasureName, PatternSettings, ROCK_DEG};
+use crate::optics::line;
+use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue};
+use crate::trace::Watch;
+
+/// The least width of pictures with a caption, and of those with curves, in pixels.
+pub const LEAST_CAPTIONED: u32 = crate::io::export::LEAST_CAPTIONED;
+pub const LEAST_PLOTTED: u32 = 320;
+
+/// The least width of a plot in units of its drawing; on narrower pictures it is drawn smaller.
+const PLOT_WIDTH: u32 = 640;
+
+/// The height of a plot as a part of its width.
+const PLOT_SHAPE: f64 = 0.45;
+
+/// The longest steps of tilts and of azimuths from one place of a curve to the next, degrees.
+const MOST_TILT_STEP: f64 = 2.0;
+const MOST_AZIMUTH_STEP: f64 = 10.0;
+
+/// What curves are of, besides the design and the motion.
+#[derive(Debug, Clone, Copy)]
+pub struct CurveSettings<'a> {
+    pub measures: &'a [MeasureName],
+    /// The half angle of the head that hides light in obstruction, extinction and contrast, degrees.
+    pub head_deg: f64,
+    pub polarised: bool,
+}
+
+/// Measures at each tilt or azimuth of a motion.
+pub struct SpinCurves {
+    axis: PlotAxis,
+    /// For each measure its name, and its value at each place of the axis.
+    curves: Vec<(String, Vec<Option<Interval>>)>,
+}
+
+impl SpinCurves {
+    /// Measures a design at each tilt of a rocking stone, or at each azimuth of a wobbling one.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] where the stone turns, or where there is one tilt only; [`Failure::Input`] where nothing can be
+    /// measured; [`Failure::Stopped`].
+    pub fn of(
+        design: Design,
+        settings: CurveSettings,
+        (motion, poses): (&SpinMotion, &[SpinPose]),
+        watch: Watch,
+    ) -> Result<Self, Failure> {
+        let (key, axis) = axis(motion, poses)?;
+        let measures = settings.measures;
+        let mut of = settings_of(measures, settings.head_deg);
+        of.pattern = PatternSettings::needed_by(measures, 0.5 * design.diameter_mm, ROCK_DEG);
+        let values = axis.values.iter().map(|&value| SweepValue::Number(value)).collect();
+        let viewpoint = poses.first().map_or(motion.rest, |pose| pose.viewpoint);
+        let sweep = Sweep {
+            design,
+            viewpoint,
+            axes: vec![SweepAxis { key, values }],
+            settings: of,
+            wavelength_nm: line::SODIUM_D,
+            unresolved: UNRESOLVED,
+            polarised: settings.polarised,
+        };
+        let mut curves: Vec<_> = measures.iter().map(|name| (name.to_string(), vec![])).collect();
+        let mut fault = None;
+        sweep.run(0..sweep.count(), watch, |_, found| {
+            for ((_, values), name) in curves.iter_mut().zip(measures) {
+                values.push(found.as_ref().ok().and_then(|stone| name.of(&stone.measures)));
+            }
+            fault = found.err().or(fault.take());
+            Ok::<_, Failure>(())
+        })?;
+        let is_empty = curves.iter().all(|(_, values)| values.iter().all(Option::is_none));
+        match fault.filter(|_| is_empty) {
+            Some(error) => Err(Failure::Input(format!("--of: nothing can be measured: {error}"))),
+            None => Ok(Self { axis, curves }),
+        }
+    }
+
+    /// Draws the curves with a mark at a pose; the key says what the measures are there.
+    fn svg(&self, pose: &SpinPose, title: &str, width: u32) -> Result<String, Failure> {
+        let at = match self.axis.label.starts_with("tilt") {
+            true => pose.viewpoint.tilt_deg,
+            false => pose.viewpoint.azimuth_deg,
+        };
+        let place = self.axis.values.iter().position(|&value| value == at);
+        let curve = |(name, values): &(String, Vec<Option<Interval>>)| {
+            let here =
+                place.and_then(|place| values[place]).map_or(String::new(), |value| in_percent(&value));
+            let band = |value: &Option<Interval>| {
+                let Interval { least, most } = (*value)?;
+                most.is_finite().then_some([100.0 * least, 100.0 * most])
+            };
+            PlotCurve { name: format!("{name} {here}"), bands: values.iter().map(band).collect() }
+        };
+        let curves: Vec<PlotCurve> = self.curves.iter().map(curve).collect();
+        let size = (width, (PLOT_SHAPE * f64::from(width)) as u32);
+        marked_curves((title, size), (&self.axis, Some(at)), UNIT, &curves)
+            .map_err(|error| Failure::Output(format!("--of: {error}")))
+    }
+}
+
+/// Returns what a motion varies, and its values: those of the frames, each once and rising, and others between them.
+fn axis(motion: &SpinMotion, poses: &[SpinPose]) -> Result<(SweepKey, PlotAxis), Failure> {
+    let (key, label, step, of): (_, _, f64, fn(&SpinPose) -> f64) = match motion.motion {
+        Motion::Turn => {
+            let message = "--of: curves are over the tilt of --motion rock or the azimuth of --motion wobble";
+            return Err(Failure::Usage(message.into()));
+        }
+        Motion::Rock => {
+            let label = format!("tilt toward azimuth {}, degrees", motion.rest.azimuth_deg);
+            (SweepKey::Tilt, label, MOST_TILT_STEP, |pose| pose.viewpoint.tilt_deg)
+        }
+        Motion::Wobble => {
+            let label = format!("azimuth of a tilt of {}, degrees", motion.swing_deg);
+            (SweepKey::Azimuth, label, MOST_AZIMUTH_STEP, |pose| pose.viewpoint.azimuth_deg)
+        }
+    };
+    let mut values: Vec<f64> = poses.iter().map(of).collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    if values.len() < 2 {
+        return Err(Failure::Usage("--of: all frames show one tilt; give more --frames or a --swing".into()));
+    }
+    if motion.motion == Motion::Wobble {
+        values.push(values[0] + 360.0);
+    }
+    Ok((key, PlotAxis { label, values: filled(&values, step) }))
+}
+
+/// Returns rising values with others between them, so that no step is longer than `most`.
+fn filled(values: &[f64], most: f64) -> Vec<f64> {
+    let between = |pair: &[f64]| {
+        let (from, parts) = (pair[0], ((pair[1] - pair[0]) / most).ceil().max(1.0));
+        let step = (pair[1] - from) / parts;
+        (0..parts as usize).map(move |k| from + k as f64 * step).collect::<Vec<_>>()
+    };
+    values.windows(2).flat_map(between).chain(values.last().copied()).collect()
+}
+
+/// Returns a measure in percent with its bound.
+fn in_percent(value: &Interval) -> String {
+    format!("{:.1} ± {:.1} %", 100.0 * value.middle(), (1000.0 * value.error()).ceil() / 10.0)
+}
+
+/// What is drawn under each picture, as high under one as under the other.
+pub struct SpinPanel<'a> {
+    pictures: &'a dyn SpinPictures,
+    is_captioned: bool,
+    curves: Option<SpinCurves>,
+    width: u32,
+    /// The heights of caption and curves, in pixels.
+    heights: [u32; 2],
+}
+
+impl<'a> SpinPanel<'a> {
+    /// Lays out a panel under pictures of this width.
+    pub fn new(
+        (pictures, width): (&'a dyn SpinPictures, u32),
+        poses: &[SpinPose],
+        is_captioned: bool,
+        curves: Option<SpinCurves>,
+    ) -> Result<Self, Failure> {
+        let mut panel = Self { pictures, is_captioned, curves, width, heights: [0, 0] };
+        // How the stone stands may need more lines in one caption than in another. Plots are all alike.
+        let height = |pose: &&SpinPose| pictures.caption(pose).height(f64::from(width));
+        let tallest = poses.iter().max_by(|a, b| height(a).total_cmp(&height(b)));
+        if let Some(pose) = tallest {
+            panel.heights = [panel.caption(pose)?.0, panel.plot(pose)?.0];
+        }
+        Ok(panel)
+    }
+
+    /// Returns the height of the panel in pixels.
+    pub fn height(&self) -> u32 {
+        self.heights.iter().sum()
+    }
+
+    /// Adds the panel of a pose to the pixels of a picture.
+    pub fn add(&self, pose: &SpinPose, rgba: &mut Vec<u8>) -> Result<(), Failure> {
+        let parts = [self.caption(pose)?.1, self.plot(pose)?.1];
+        for (mut rgb, height) in parts.into_iter().zip(self.heights) {
+            // A caption of fewer lines leaves white paper.
+            rgb.resize(3 * self.width as usize * height as usize, u8::MAX);
+            rgba.extend(rgb.chunks_exact(3).flat_map(|c| [c[0], c[1], c[2], u8::MAX]));
+        }
+        Ok(())
+    }
+
+    fn caption(&self, pose: &SpinPose) -> Result<(u32, Vec<u8>), Failure> {
+        match self.is_captioned {
+            true => caption_pixels(&self.pictures.caption(pose), self.width),
+            false => Ok((0, vec![])),
+        }
+    }
+
+    fn plot(&self, pose: &SpinPose) -> Result<(u32, Vec<u8>), Failure> {
+        let Some(curves) = &self.curves else { return Ok((0, vec![])) };
+        // A caption says already how the stone stands.
+        let title = if self.is_captioned { String::new() } else { pose.words() };
+        let svg = curves.svg(pose, &title, self.width.max(PLOT_WIDTH))?;
+        let drawn = rasterize(&svg, self.width).map_err(|error| Failure::Output(error.to_string()))?;
+        Ok((drawn.1, drawn.2))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Viewpoint;
+
+    fn axis_of(motion: Motion, swing_deg: f64, frames: u32) -> Result<(SweepKey, PlotAxis), Failure> {
+        let motion = SpinMotion { motion, rest: Viewpoint::default(), swing_deg, frames };
+        axis(&motion, &motion.poses())
+    }
+
+    #[test]
+    fn curves_have_a_place_for_each_frame_and_no_long_steps() {
+        for (motion, frames, most) in
+            [(Motion::Rock, 12, 2.0), (Motion::Rock, 300, 2.0), (Motion::Wobble, 7, 10.0)]
+        {
+            let (_, axis) = axis_of(motion, 30.0, frames).unwrap();
+            assert!(axis.values.windows(2).all(|pair| pair[0] < pair[1] && pair[1] - pair[0] <= most + 1e-9));
+            let moving = SpinMotion { motion, rest: Viewpoint::default(), swing_deg: 30.0, frames };
+            for pose in moving.poses() {
+                let Viewpoint { tilt_deg, azimuth_deg, .. } = pose.viewpoint;
+                let value = if motion == Motion::Rock { tilt_deg } else { azimuth_deg };
+                assert!(axis.values.contains(&value), "{value} of {:?}", axis.values);
+            }
+        }
+        let (_, around) = axis_of(Motion::Wobble, 5.0, 8).unwrap();
+        assert_eq!((around.values[0], around.values.last()), (0.0, Some(&360.0)));
+    }
+
+    #[test]
+    fn what_does_not_change_has_no_curves() {
+        for (motion, swing, frames) in
+            [(Motion::Turn, 5.0, 8), (Motion::Rock, 0.0, 8), (Motion::Rock, 5.0, 2)]
+        {
+            assert!(
+                matches!(axis_of(motion, swing, frames), Err(Failure::Usage(_))),
+                "{motion:?} {swing} {frames}"
+            );
+        }
+    }
+
+    #[test]
+    fn bounds_are_rounded_up() {
+        let interval = Interval { least: 0.5021, most: 0.5044 };
+        assert_eq!(in_percent(&interval), "50.3 ± 0.2 %");
+    }
+}
