@@ -5,7 +5,7 @@ use super::options::{ViewOptions, number};
 use super::picture_options::{FinishOptions, PictureOptions};
 use super::progress::WorkProgress;
 use super::specimen::stem;
-use super::spin_motion::{Motion, SpinMotion, SpinPose};
+use super::spin_motion::{SpinMotion, SpinPose, StoneMotion};
 use super::spin_panel::{CurveSettings, LEAST_CAPTIONED, LEAST_PLOTTED, SpinCurves, SpinPanel};
 use super::spin_pictures::{LitPictures, ScopeSetup, SpinPictures};
 use crate::io::{AnimationFormat, Failure, Frames, is_standard, write_animation, write_rgba_png};
@@ -42,8 +42,8 @@ pub struct Spin {
     #[arg(long, default_value = "out")]
     out: PathBuf,
     /// How the stone moves
-    #[arg(long, value_enum, default_value_t = Motion::Turn)]
-    motion: Motion,
+    #[arg(long, value_enum, default_value_t = StoneMotion::Turn)]
+    motion: StoneMotion,
     /// Frames of one round
     #[arg(long, value_name = "N", default_value_t = 48, value_parser = clap::value_parser!(u32).range(2..=3600))]
     frames: u32,
@@ -234,10 +234,10 @@ impl Spin {
     fn check_swing(&self) -> Result<(), Failure> {
         let tilt = if self.view.eye_tilt == 0.0 { self.view.tilt } else { self.view.eye_tilt };
         match self.motion {
-            Motion::Wobble if tilt != 0.0 => Err(Failure::Usage(
+            StoneMotion::Wobble if tilt != 0.0 => Err(Failure::Usage(
                 "--motion wobble: --swing is the tilt; leave out --tilt and --eye-tilt".into(),
             )),
-            Motion::Rock | Motion::Wobble if !(0.0..=90.0 - tilt.abs()).contains(&self.swing) => {
+            StoneMotion::Rock | StoneMotion::Wobble if !(0.0..=90.0 - tilt.abs()).contains(&self.swing) => {
                 Err(Failure::Usage(format!(
                     "--swing {}: with the tilt it must be from 0 to 90 degrees",
                     self.swing

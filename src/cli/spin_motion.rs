@@ -8,7 +8,7 @@ use glam::DQuat;
 const DIGITS: f64 = 1e6;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Motion {
+pub enum StoneMotion {
     /// About its own axis, while eye and light stay; --tilt or --eye-tilt shows more of its side
     Turn,
     /// To and fro toward --azimuth
@@ -24,13 +24,13 @@ pub struct SpinPose {
     pub viewpoint: Viewpoint,
     /// The turn of the stone about its axis, degrees.
     pub turned_deg: f64,
-    motion: Motion,
+    motion: StoneMotion,
 }
 
 /// A motion that comes back to its beginning after the last frame.
 #[derive(Debug, Clone, Copy)]
 pub struct SpinMotion {
-    pub motion: Motion,
+    pub motion: StoneMotion,
     /// The viewpoint in which the stone rests.
     pub rest: Viewpoint,
     /// How far the stone rocks or wobbles, degrees.
@@ -50,12 +50,12 @@ impl SpinMotion {
         let rounded = |degrees: f64| (degrees * DIGITS).round() / DIGITS + 0.0;
         let (mut viewpoint, mut turned_deg) = (self.rest, 0.0);
         match self.motion {
-            Motion::Turn => turned_deg = 360.0 * part,
-            Motion::Rock => {
+            StoneMotion::Turn => turned_deg = 360.0 * part,
+            StoneMotion::Rock => {
                 let phase = std::f64::consts::TAU * part;
                 viewpoint.tilt_deg = rounded(self.rest.tilt_deg + self.swing_deg * phase.sin());
             }
-            Motion::Wobble => {
+            StoneMotion::Wobble => {
                 viewpoint.tilt_deg = self.swing_deg;
                 viewpoint.azimuth_deg = rounded(self.rest.azimuth_deg + 360.0 * part);
             }
@@ -67,12 +67,12 @@ impl SpinMotion {
     pub fn description(&self) -> String {
         let (frames, swing) = (self.frames, self.swing_deg);
         let how = match self.motion {
-            Motion::Turn => format!("turning about its axis, {}", self.rest.description()),
-            Motion::Rock => {
+            StoneMotion::Turn => format!("turning about its axis, {}", self.rest.description()),
+            StoneMotion::Rock => {
                 let azimuth = self.rest.azimuth_deg;
                 format!("rocking {swing} degrees to and fro toward {azimuth}, {}", self.rest.description())
             }
-            Motion::Wobble => format!("leaning {swing} degrees toward all azimuths in turn"),
+            StoneMotion::Wobble => format!("leaning {swing} degrees toward all azimuths in turn"),
         };
         format!("{how}, {frames} frames")
     }
@@ -94,9 +94,9 @@ impl SpinPose {
             Lean::Eye => format!("eye moved {tilt:.1}° toward {azimuth}°"),
         };
         match self.motion {
-            Motion::Turn if tilt_deg == 0.0 => format!("turned {:.1}°", self.turned_deg),
-            Motion::Turn => format!("turned {:.1}°, {leaning}", self.turned_deg),
-            Motion::Rock | Motion::Wobble => leaning,
+            StoneMotion::Turn if tilt_deg == 0.0 => format!("turned {:.1}°", self.turned_deg),
+            StoneMotion::Turn => format!("turned {:.1}°, {leaning}", self.turned_deg),
+            StoneMotion::Rock | StoneMotion::Wobble => leaning,
         }
     }
 }
@@ -105,14 +105,14 @@ impl SpinPose {
 mod tests {
     use super::*;
 
-    fn motion(motion: Motion, tilt_deg: f64, frames: u32) -> SpinMotion {
+    fn motion(motion: StoneMotion, tilt_deg: f64, frames: u32) -> SpinMotion {
         let rest = Viewpoint { tilt_deg, azimuth_deg: 22.5, ..Viewpoint::default() };
         SpinMotion { motion, rest, swing_deg: 30.0, frames }
     }
 
     #[test]
     fn a_rocking_stone_begins_at_rest_reaches_both_ends_and_comes_back_without_a_jump() {
-        let poses = motion(Motion::Rock, 5.0, 48).poses();
+        let poses = motion(StoneMotion::Rock, 5.0, 48).poses();
         let tilts: Vec<f64> = poses.iter().map(|pose| pose.viewpoint.tilt_deg).collect();
         assert_eq!((tilts[0], tilts[12], tilts[24], tilts[36]), (5.0, 35.0, 5.0, -25.0));
         // No step is longer than the first, also from the last frame to the first.
@@ -124,10 +124,10 @@ mod tests {
 
     #[test]
     fn turns_and_wobbles_go_once_around_in_even_steps() {
-        let turn = motion(Motion::Turn, 10.0, 8).poses();
+        let turn = motion(StoneMotion::Turn, 10.0, 8).poses();
         assert!(turn.iter().map(|pose| pose.turned_deg).eq((0..8).map(|k| 45.0 * f64::from(k))));
         assert!(turn.iter().all(|pose| pose.viewpoint == turn[0].viewpoint));
-        let wobble = motion(Motion::Wobble, 0.0, 4).poses();
+        let wobble = motion(StoneMotion::Wobble, 0.0, 4).poses();
         let azimuths = wobble.iter().map(|pose| pose.viewpoint.azimuth_deg);
         assert!(azimuths.eq([22.5, 112.5, 202.5, 292.5]));
         assert!(wobble.iter().all(|pose| pose.viewpoint.tilt_deg == 30.0));
@@ -136,12 +136,12 @@ mod tests {
     #[test]
     fn words_say_how_the_stone_stands() {
         let words = |m, tilt, k: usize| motion(m, tilt, 48).poses()[k].words();
-        assert_eq!(words(Motion::Rock, 0.0, 0), "tilted 0.0° toward 22.5°");
-        assert_eq!(words(Motion::Rock, 0.0, 25), "tilted -3.9° toward 22.5°");
-        assert_eq!(words(Motion::Turn, 0.0, 6), "turned 45.0°");
-        assert_eq!(words(Motion::Turn, 9.0, 6), "turned 45.0°, tilted 9.0° toward 22.5°");
-        assert_eq!(words(Motion::Wobble, 0.0, 24), "tilted 30.0° toward 202.5°");
-        let text = motion(Motion::Rock, 0.0, 48).description();
+        assert_eq!(words(StoneMotion::Rock, 0.0, 0), "tilted 0.0° toward 22.5°");
+        assert_eq!(words(StoneMotion::Rock, 0.0, 25), "tilted -3.9° toward 22.5°");
+        assert_eq!(words(StoneMotion::Turn, 0.0, 6), "turned 45.0°");
+        assert_eq!(words(StoneMotion::Turn, 9.0, 6), "turned 45.0°, tilted 9.0° toward 22.5°");
+        assert_eq!(words(StoneMotion::Wobble, 0.0, 24), "tilted 30.0° toward 202.5°");
+        let text = motion(StoneMotion::Rock, 0.0, 48).description();
         assert_eq!(text, "rocking 30 degrees to and fro toward 22.5, table side, 48 frames");
     }
 }

@@ -1,7 +1,7 @@
 //! What is drawn under the pictures of an animation: a caption, and how measures change with the tilt or the azimuth.
 
 use super::measure_taking::{UNRESOLVED, settings_of};
-use super::spin_motion::{Motion, SpinMotion, SpinPose};
+use super::spin_motion::{SpinMotion, SpinPose, StoneMotion};
 use super::spin_pictures::SpinPictures;
 use super::sweep_plot::UNIT;
 use crate::cut::Design;
@@ -112,15 +112,15 @@ impl SpinCurves {
 /// Returns what a motion varies, and its values: those of the frames, each once and rising, and others between them.
 fn axis(motion: &SpinMotion, poses: &[SpinPose]) -> Result<(SweepKey, PlotAxis), Failure> {
     let (key, label, step, of): (_, _, f64, fn(&SpinPose) -> f64) = match motion.motion {
-        Motion::Turn => {
+        StoneMotion::Turn => {
             let message = "--of: curves are over the tilt of --motion rock or the azimuth of --motion wobble";
             return Err(Failure::Usage(message.into()));
         }
-        Motion::Rock => {
+        StoneMotion::Rock => {
             let label = format!("tilt toward azimuth {}, degrees", motion.rest.azimuth_deg);
             (SweepKey::Tilt, label, MOST_TILT_STEP, |pose| pose.viewpoint.tilt_deg)
         }
-        Motion::Wobble => {
+        StoneMotion::Wobble => {
             let label = format!("azimuth of a tilt of {}, degrees", motion.swing_deg);
             (SweepKey::Azimuth, label, MOST_AZIMUTH_STEP, |pose| pose.viewpoint.azimuth_deg)
         }
@@ -131,7 +131,7 @@ fn axis(motion: &SpinMotion, poses: &[SpinPose]) -> Result<(SweepKey, PlotAxis),
     if values.len() < 2 {
         return Err(Failure::Usage("--of: all frames show one tilt; give more --frames or a --swing".into()));
     }
-    if motion.motion == Motion::Wobble {
+    if motion.motion == StoneMotion::Wobble {
         values.push(values[0] + 360.0);
     }
     Ok((key, PlotAxis { label, values: filled(&values, step) }))
@@ -147,9 +147,12 @@ fn filled(values: &[f64], most: f64) -> Vec<f64> {
     values.windows(2).flat_map(between).chain(values.last().copied()).collect()
 }
 
-/// Returns a measure in percent with its bound.
+/// Returns a measure in percent, to a tenth, with a bound that holds for the rounded number.
 fn in_percent(value: &Interval) -> String {
-    format!("{:.1} ± {:.1} %", 100.0 * value.middle(), (1000.0 * value.error()).ceil() / 10.0)
+    let exact = 100.0 * value.middle();
+    let told = (10.0 * exact).round() / 10.0;
+    let bound = 100.0 * value.error() + (told - exact).abs();
+    format!("{told:.1} ± {:.1} %", (10.0 * bound).ceil() / 10.0)
 }
 
 /// What is drawn under each picture, as high under one as under the other.
@@ -218,7 +221,7 @@ mod tests {
     use super::*;
     use crate::scene::Viewpoint;
 
-    fn axis_of(motion: Motion, swing_deg: f64, frames: u32) -> Result<(SweepKey, PlotAxis), Failure> {
+    fn axis_of(motion: StoneMotion, swing_deg: f64, frames: u32) -> Result<(SweepKey, PlotAxis), Failure> {
         let motion = SpinMotion { motion, rest: Viewpoint::default(), swing_deg, frames };
         axis(&motion, &motion.poses())
     }
@@ -226,25 +229,25 @@ mod tests {
     #[test]
     fn curves_have_a_place_for_each_frame_and_no_long_steps() {
         for (motion, frames, most) in
-            [(Motion::Rock, 12, 2.0), (Motion::Rock, 300, 2.0), (Motion::Wobble, 7, 10.0)]
+            [(StoneMotion::Rock, 12, 2.0), (StoneMotion::Rock, 300, 2.0), (StoneMotion::Wobble, 7, 10.0)]
         {
             let (_, axis) = axis_of(motion, 30.0, frames).unwrap();
             assert!(axis.values.windows(2).all(|pair| pair[0] < pair[1] && pair[1] - pair[0] <= most + 1e-9));
             let moving = SpinMotion { motion, rest: Viewpoint::default(), swing_deg: 30.0, frames };
             for pose in moving.poses() {
                 let Viewpoint { tilt_deg, azimuth_deg, .. } = pose.viewpoint;
-                let value = if motion == Motion::Rock { tilt_deg } else { azimuth_deg };
+                let value = if motion == StoneMotion::Rock { tilt_deg } else { azimuth_deg };
                 assert!(axis.values.contains(&value), "{value} of {:?}", axis.values);
             }
         }
-        let (_, around) = axis_of(Motion::Wobble, 5.0, 8).unwrap();
+        let (_, around) = axis_of(StoneMotion::Wobble, 5.0, 8).unwrap();
         assert_eq!((around.values[0], around.values.last()), (0.0, Some(&360.0)));
     }
 
     #[test]
     fn what_does_not_change_has_no_curves() {
         for (motion, swing, frames) in
-            [(Motion::Turn, 5.0, 8), (Motion::Rock, 0.0, 8), (Motion::Rock, 5.0, 2)]
+            [(StoneMotion::Turn, 5.0, 8), (StoneMotion::Rock, 0.0, 8), (StoneMotion::Rock, 5.0, 2)]
         {
             assert!(
                 matches!(axis_of(motion, swing, frames), Err(Failure::Usage(_))),
@@ -255,7 +258,9 @@ mod tests {
 
     #[test]
     fn bounds_are_rounded_up() {
-        let interval = Interval { least: 0.5021, most: 0.5044 };
-        assert_eq!(in_percent(&interval), "50.3 ± 0.2 %");
+        let told =
+            [(0.5021, 0.5044), (0.51234, 0.51236)].map(|(least, most)| in_percent(&Interval { least, most }));
+        // The first is 50.325 ± 0.115: 0.1 would leave a part of it out. The second is 51.235, and was rounded by 0.035.
+        assert_eq!(told, ["50.3 ± 0.2 %", "51.2 ± 0.1 %"]);
     }
 }

@@ -8,7 +8,7 @@ use super::specimen::{LoadedSpecimen, asked_material, note_colour};
 use super::spin_motion::{SpinMotion, SpinPose};
 use crate::cut::Design;
 use crate::io::Failure;
-use crate::io::export::{ScopePicture, ScopeShot, Viewing};
+use crate::io::export::{ScopePicture, ScopeStill, Viewing};
 use crate::optics::line;
 use crate::picture::{Background, Caption, Scoped};
 use crate::render::{Card, Renderer};
@@ -184,7 +184,7 @@ impl<'a> ScopeSetup<'a> {
     /// Returns what takes the pictures of these poses.
     pub fn pictures(&self, motion: &SpinMotion, poses: &[SpinPose]) -> Result<ScopePictures<'_>, Failure> {
         let viewings: Vec<Viewing> = poses.iter().map(|pose| self.viewing(pose)).collect();
-        let shots = ScopeShot::alike(&viewings, &self.scoped, self.options.0.size, &self.renderer.borrow())?;
+        let shots = ScopeStill::alike(&viewings, &self.scoped, self.options.0.size, &self.renderer.borrow())?;
         Ok(ScopePictures { setup: self, shots, rest: motion.rest })
     }
 }
@@ -192,7 +192,7 @@ impl<'a> ScopeSetup<'a> {
 /// Pictures in a scope.
 pub struct ScopePictures<'a> {
     setup: &'a ScopeSetup<'a>,
-    shots: Vec<ScopeShot<'a>>,
+    shots: Vec<ScopeStill<'a>>,
     rest: Viewpoint,
 }
 
@@ -230,7 +230,7 @@ impl SpinPictures for ScopePictures<'_> {
         let words = format!("{side} side, {}", pose.words());
         let viewing = self.setup.viewing(pose);
         let film = self.shots[0].film;
-        ScopeShot { viewing, film, ..self.shots[0] }.caption(&words)
+        ScopeStill { viewing, film, ..self.shots[0] }.caption(&words)
     }
 
     fn take(&self, number: usize, _: &SpinPose, watch: Watch) -> Result<SpinPicture, Failure> {

@@ -17,7 +17,7 @@ pub use event::{Event, Reporter};
 pub use figures::{FigureReport, measure};
 pub use hearts::{HeartsReport, hearts};
 pub use measures::{MeasureReport, light_measures};
-pub use scope_picture::{ScopePicture, ScopeShot};
+pub use scope_picture::{ScopePicture, ScopeStill};
 pub use sheet::caption_pixels;
 pub use viewing::Viewing;
 #[cfg(feature = "interchange")]

@@ -84,7 +84,7 @@ const BY_FILE: [(&str, &str); 2] = [("cobyla", "MIT"), ("slsqp", "MIT")];
 fn write(needed: &BTreeSet<(String, String)>) {
     let cargo = std::env::var_os("CARGO").unwrap();
     let answer = std::process::Command::new(cargo)
-        .args(["metadata", "--locked", "--format-version", "1"])
+        .args(["metadata", "--all-features", "--locked", "--format-version", "1"])
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()
         .unwrap();

@@ -1,6 +1,6 @@
 //! Writes animated PNG (third edition of the PNG specification, W3C 2025), which browsers play as they show PNG.
 
-use super::{FrameSink, Frames};
+use super::frames::{FrameSink, Frames};
 use crate::io::atomic::Sink;
 use crate::io::picture_file::without_cover;
 use crate::io::png::encoder;

@@ -1,7 +1,7 @@
 //! Writes animated GIF (GIF89a, CompuServe 1990).
 
+use super::frames::{FrameSink, Frames};
 use super::gif_palette::GifPalette;
-use super::{FrameSink, Frames};
 use crate::io::atomic::Sink;
 use gif::{AnyExtension, DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 use std::borrow::Cow;

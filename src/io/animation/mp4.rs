@@ -1,6 +1,6 @@
 //! Writes MP4 (ISO/IEC 14496-12) with AV1 (AV1 Codec ISO Media File Format Binding 1.2).
 
-use super::{FrameSink, Frames};
+use super::frames::{FrameSink, Frames};
 use crate::io::atomic::Sink;
 use rav1e::prelude::*;
 use shiguredo_mp4::boxes::{Av01Box, Av1cBox, SampleEntry, VisualSampleEntryFields};

@@ -13,7 +13,7 @@ use glam::DVec2;
 
 /// A picture of energy in a scope that is to be taken.
 #[derive(Clone, Copy)]
-pub struct ScopeShot<'a> {
+pub struct ScopeStill<'a> {
     /// The stone and how it is viewed. A scope that is made for one side of the stone sees that side.
     pub viewing: Viewing<'a>,
     /// The scope.
@@ -35,7 +35,7 @@ pub struct ScopePicture {
     pub description: String,
 }
 
-impl<'a> ScopeShot<'a> {
+impl<'a> ScopeStill<'a> {
     /// Returns the shots of several viewings of one stone, with `size` pixels of the same side: that with which the stone
     /// fits into each, as into a picture that [`Export`](super::Export) writes. The pictures are as good as such ones.
     ///

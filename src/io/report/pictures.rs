@@ -1,7 +1,7 @@
 //! The pictures of a report: a stone in every scope and under light, its profile and its facet diagram.
 
 use crate::io::Failure;
-use crate::io::export::{Reporter, ScopeShot, Viewing, note};
+use crate::io::export::{Reporter, ScopeStill, Viewing, note};
 use crate::io::lighting::Lighting;
 use crate::io::png_bytes::png;
 use crate::measure::facet_deviations;
@@ -86,7 +86,7 @@ fn in_scope(
 ) -> Result<EmbeddedDrawing, Failure> {
     let film = viewing.facing(scoped.side).film(side);
     let rays_per_side = Some(RAYS_PER_SIDE);
-    let shot = ScopeShot { viewing: *viewing, scoped, film, unresolved: UNRESOLVED, rays_per_side };
+    let shot = ScopeStill { viewing: *viewing, scoped, film, unresolved: UNRESOLVED, rays_per_side };
     drawn(side, &shot.take(renderer, watch, tell)?.rgb)
 }
 
