@@ -140,7 +140,8 @@ fn the_scale_of_a_side_is_the_tangent_ratio_by_which_a_design_is_fitted() {
     };
     for (side, key) in [("crown", "crown_scale"), ("pavilion", "pavilion_scale")] {
         let rule = format!("--rule tangent-ratio --side {side} --factor 1.025 --material diamond --no-light");
-        desk.done(&format!("retarget tolkowsky.asc {rule} --out {side}.asc"));
+        let (code, _, stderr) = desk.run(&format!("retarget tolkowsky.asc {rule} --out {side}.asc"));
+        assert_eq!(code, 0, "{stderr}");
         let swept = measured(&format!("tolkowsky.asc --over {key}=100,102.5,95"));
         let single = [measured("tolkowsky.asc")[0], measured(&format!("{side}.asc"))[0]];
         for (swept, single) in swept.iter().zip(single) {
