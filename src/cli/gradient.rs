@@ -3,7 +3,7 @@
 use super::console::{json, print};
 use super::measure_taking::MeasureTaking;
 use super::progress::WorkProgress;
-use crate::cut::{Cut, Unit};
+use crate::cut::{Cut, ScaledSide, Unit};
 use crate::io::Failure;
 use crate::measure::MeasureName;
 use crate::render::{MeasureGradient, RenderError, Sweep, SweepError, SweepKey};
@@ -20,8 +20,8 @@ const USUAL: [&str; 7] =
 pub struct GradientArguments {
     /// A design, a mesh, or the name of a cut that comes with the program
     file: PathBuf,
-    /// A number to change: the key of a proportion, tier: or distance: and the name of a tier, or index; may be repeated [default: all that the
-    /// design gives, and the index]
+    /// A number to change: the key of a proportion, tier: or distance: and the name of a tier, crown_scale, pavilion_scale, or index; may be
+    /// repeated [default: all that the design gives, and the index]
     #[arg(long, value_name = "KEY")]
     by: Vec<String>,
     /// A measure: leakage, windowing, obstruction, fire, absorbed, extinction, contrast, or the return of a dome as in return-even,
@@ -76,6 +76,9 @@ fn all_keys(cut: &Cut) -> Vec<SweepKey> {
             keys.push(SweepKey::Tier(setting.name));
         }
     }
+    if cut.has_scalable_sides() {
+        keys.extend(ScaledSide::ALL.map(SweepKey::Scale));
+    }
     keys.push(SweepKey::Index);
     keys
 }
@@ -108,6 +111,7 @@ fn table(sweep: &Sweep, keys: &[SweepKey], found: &[MeasureGradient]) -> String 
         let unit = match key {
             SweepKey::Proportion(name) => sweep.design.cut.proportion(name).map_or("", |row| row.unit.name()),
             SweepKey::Tier(_) => "degrees",
+            SweepKey::Scale(_) => "percent",
             _ => "",
         };
         let name = if unit.is_empty() { key.to_string() } else { format!("{key}, {unit}") };

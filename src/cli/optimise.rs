@@ -35,8 +35,8 @@ pub struct OptimiseArguments {
     /// A measure to lower, in the same way
     #[arg(long, value_name = "MEASURE[=WEIGHT]")]
     lower: Vec<WeightedMeasure>,
-    /// A number that may change, and its range, as in crown_angle=30:38 or tier:P1=40:44; may be repeated [default: the goal file's, or
-    /// else all that the design gives but for its outline and girdle]
+    /// A number that may change, and its range, as in crown_angle=30:38, tier:P1=40:44 or pavilion_scale=90:110 (percent of its height); may
+    /// be repeated [default: the goal file's, or else all that the design gives but for its outline and girdle]
     #[arg(long, value_name = "KEY=FROM:TO")]
     vary: Vec<VariedRange>,
     /// Let angles end on multiples of this, as a machine's scale has them, such as 0.1 [default: any angle]
@@ -144,7 +144,13 @@ impl OptimiseArguments {
         }
         let outcome = self.searched(&search, &path).map_err(refused)?;
         if outcome.was_stopped {
-            say("note: the search was stopped before its end");
+            let angles = match self.angle_step {
+                Some(step) => format!(", so that angles may be no multiples of {step} degrees"),
+                None => String::new(),
+            };
+            say(&format!(
+                "note: the search was stopped before its end{angles}; figures are as rough as they were until then"
+            ));
         }
         if !outcome.keeps_limits {
             say(&format!(

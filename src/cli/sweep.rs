@@ -31,7 +31,8 @@ pub struct SweepArguments {
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// What varies, and its values: crown_angle=30:38:0.5 (from, to, step), crown_angle=33,34.5 or material=diamond,ruby; the key of a
-    /// proportion, tier: (its angle) or distance: and the name of a tier, index, material, tilt or azimuth. May be repeated; the last varies quickest
+    /// proportion, tier: (its angle) or distance: and the name of a tier, crown_scale or pavilion_scale (percent of a side's height), index,
+    /// material, tilt or azimuth. May be repeated; the last varies quickest
     #[arg(long, value_name = "KEY=VALUES")]
     over: Vec<AxisArgument>,
     /// A measure to list: return-even, return-cos2@15, return-even+glare, leakage, windowing, obstruction, extinction, contrast,

@@ -171,6 +171,7 @@ pub fn label(key: &SweepKey, cut: &Cut) -> String {
         },
         SweepKey::Tier(name) => format!("angle of {name}, degrees"),
         SweepKey::Distance(name) => format!("distance of {name}"),
+        SweepKey::Scale(side) => format!("scale of the {side}, percent"),
         SweepKey::Index => "refractive index".to_owned(),
         SweepKey::Material => "material".to_owned(),
         SweepKey::Tilt => "tilt, degrees".to_owned(),

@@ -9,8 +9,12 @@ use crate::trace::beam::Beams;
 use glam::{DQuat, DVec2};
 use serde::Serialize;
 
-/// The directions into which the stone rocks: two axes, both ways.
-const DIRECTIONS: [DVec2; 4] = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y];
+/// The number of directions into which the stone rocks, evenly around it.
+///
+/// The mean over twelve of them is that over all directions for what changes as any wave of fewer than twelve periods around the stone
+/// does: of stones of 1, 2, 3, 4, 6 and 8 repeats the first wave that is left has 12, 12, 12, 12, 12 and 24. Four or eight directions
+/// are all alike to a brilliant, whose facets repeat every 45 degrees.
+const DIRECTIONS: u32 = 12;
 
 /// The part of the face's mean brightness by which a place must change to count as one that changes.
 const CHANGES: f64 = 0.5;
@@ -38,7 +42,12 @@ pub fn rocked_views(view: &View, rock_deg: f64) -> Vec<View> {
             ..*view
         }
     };
-    DIRECTIONS.iter().map(rocked).collect()
+    directions().map(|direction| rocked(&direction)).collect()
+}
+
+/// Returns the directions of the axes in the image, about which the stone rocks.
+fn directions() -> impl Iterator<Item = DVec2> {
+    (0..DIRECTIONS).map(|k| DVec2::from_angle(std::f64::consts::TAU * f64::from(k) / f64::from(DIRECTIONS)))
 }
 
 impl Scintillation {
@@ -119,6 +128,15 @@ mod tests {
     use super::*;
     use crate::scene::Side;
 
+    /// What repeats n times around a stone and is its own mirror image changes as cos(n φ), cos(2n φ) and so on.
+    #[test]
+    fn the_mean_over_directions_is_that_over_all_of_them_for_slow_waves() {
+        for wave in 1..12 {
+            let sum: f64 = directions().map(|direction| (f64::from(wave) * direction.to_angle()).cos()).sum();
+            assert!(sum.abs() < 1e-12, "{wave}: {sum}");
+        }
+    }
+
     #[test]
     fn a_stone_rocks_by_the_angle_under_eye_and_light_that_stay() {
         for view in [
@@ -127,7 +145,8 @@ mod tests {
             View { side: Side::Culet, turn: DQuat::from_rotation_z(0.3), ..View::default() },
         ] {
             let rocked = rocked_views(&view, 3.0);
-            for (other, direction) in rocked.iter().zip(DIRECTIONS) {
+            assert_eq!(rocked.len(), 12);
+            for (other, direction) in rocked.iter().zip(directions()) {
                 let angle = other.basis().toward.angle_between(view.basis().toward).to_degrees();
                 assert!((angle - 3.0).abs() < 1e-9, "{angle}");
                 let lean = |view: &View| view.basis().toward.dot(view.zenith());

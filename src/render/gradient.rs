@@ -1,10 +1,11 @@
 //! Gradients: how the measures of a design change with its proportions, the angles of its tiers and its index.
 
-use super::sweep::{Sweep, SweepError, SweepKey, SweptStone, VariedDesign, with_numbers};
-use crate::cut::{Cut, Design, Unit};
-use crate::math::Plane;
+use super::sweep::{Sweep, SweepError, SweptStone, VariedDesign, with_numbers};
+use super::sweep_key::SweepKey;
+use crate::cut::{Cut, Design, ScaleError, ScaledSide, SideSlope, Unit};
+use crate::math::{Facet, Plane};
 use crate::measure::{MeasureDerivatives, MeasureName};
-use crate::scene::{Specimen, SpecimenError};
+use crate::scene::{Specimen, SpecimenError, Stone};
 use crate::trace::Watch;
 use glam::DVec3;
 use std::collections::HashMap;
@@ -57,8 +58,8 @@ impl PlaneChanges {
 impl Sweep {
     /// Returns how measures of the design, which stands at no point of the axes, change with numbers of it.
     ///
-    /// The derivatives of the light are exact ([`MeasureName::derivatives`]). How the planes follow from the numbers is taken
-    /// from central differences of fourth order of the planes alone.
+    /// The derivatives of the light are exact ([`MeasureName::derivatives`]), and so are those of the planes by the scale of a side. How
+    /// the planes follow from other numbers is taken from central differences of fourth order of the planes alone.
     ///
     /// # Errors
     /// A [`SweepError`]: a number that the design does not have, a measure without derivatives, or a stone that cannot be
@@ -111,8 +112,30 @@ impl Sweep {
         let stone = specimen.stone().map_err(|why| SweepError::NoDerivative(why.to_string()))?;
         let facets: Vec<String> =
             (0..stone.polytope.facets().len() as u32).map(|facet| stone.name(facet).into_owned()).collect();
-        let of_key = |key: &SweepKey| self.changes_by(&start, key, &facets);
+        let of_key = |key: &SweepKey| match key {
+            SweepKey::Scale(side) => self.changes_by_scale(*side, stone).map(Some),
+            key => self.changes_by(&start, key, &facets),
+        };
         Ok(PlaneChanges { of_keys: keys.iter().map(of_key).collect::<Result<_, _>>()? })
+    }
+
+    /// Returns how each facet's normal and offset change per percent of the height of a side, exactly.
+    fn changes_by_scale(&self, side: ScaledSide, stone: &Stone) -> Result<Vec<(DVec3, f64)>, SweepError> {
+        if !self.design.cut.has_scalable_sides() {
+            let (key, error) = (SweepKey::Scale(side).to_string(), ScaleError::NotScalable);
+            return Err(SweepError::Scale { key, error });
+        }
+        let slope = SideSlope::of(side, &stone.polytope);
+        // The block that closes an open design stays as it is.
+        let given = self.design.facets().map_err(SpecimenError::from)?.len();
+        let change = |facet: &Facet| {
+            if facet.source >= given {
+                return (DVec3::ZERO, 0.0);
+            }
+            let (normal, offset) = slope.of_plane(&facet.plane);
+            (0.01 * normal, 0.01 * offset)
+        };
+        Ok(stone.polytope.facets().iter().map(change).collect())
     }
 
     /// Returns how each facet's normal and offset change with a number; `None` for the index, which changes no plane.
@@ -134,8 +157,9 @@ impl Sweep {
             SweepKey::Tier(name) => (tier(&start.design.cut, name), STEP),
             SweepKey::Distance(name) => distance(&start.design.cut, name),
             other => {
-                let why =
-                    format!("{other} has no derivatives; give a proportion, a tier, a distance or index");
+                let why = format!(
+                    "{other} has no derivatives; give a proportion, a tier, a distance, a scale or index"
+                );
                 return Err(SweepError::NoDerivative(why));
             }
         };

@@ -14,6 +14,7 @@ mod renderer;
 mod scope;
 mod surroundings;
 mod sweep;
+mod sweep_key;
 
 #[cfg(test)]
 mod tests;
@@ -29,4 +30,5 @@ pub use measure::{MeasureError, MeasureOptions, measure};
 pub use plan::{CardWorth, Demands, Plan, Unfit, Wanted};
 pub use renderer::{EachPart, Output, Partial, RenderError, Rendered, Renderer, TakenMeasures};
 pub use surroundings::{HungPicture, Surroundings};
-pub use sweep::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue, SweptStone, with_numbers};
+pub use sweep::{Sweep, SweepAxis, SweepError, SweepValue, SweptStone, with_numbers};
+pub use sweep_key::SweepKey;

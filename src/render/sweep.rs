@@ -2,8 +2,9 @@
 
 use super::job::{Job, MeasuresProduct, Product, Quality};
 use super::renderer::{RenderError, Renderer, TakenMeasures};
+use super::sweep_key::{PERCENT_OF_SIDE, SweepKey};
 use super::{Card, Wanted};
-use crate::cut::{Cut, Design, MachineSetting, MaterialRef, MeetError};
+use crate::cut::{Cut, Design, MachineSetting, MaterialRef, MeetError, ScaleError, scaled};
 use crate::measure::{Bounds, LightMeasures, MeasureName, MeasureSettings};
 use crate::optics::{DispersionError, Material, line};
 use crate::scene::{Film, Medium, Scene, Specimen, SpecimenError, Viewpoint};
@@ -18,62 +19,6 @@ const AT_ONCE: usize = 64;
 
 /// A distance that was set is kept where it differs by no more than this part of it.
 const SAME_DISTANCE: f64 = 1e-9;
-
-/// What varies along an axis of a sweep.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum SweepKey {
-    /// A proportion of the cut's family, by its key in cut files and in the unit of its row.
-    Proportion(String),
-    /// The angle of a tier, by its name: degrees from the girdle plane, above 0 on either side. Meets are followed.
-    Tier(String),
-    /// The distance of a tier from the origin, by the tier's name, in the design's own unit. A tier whose distance follows from a meet
-    /// has none to give.
-    Distance(String),
-    /// The refractive index, 1 to 5, the same at all wavelengths.
-    Index,
-    /// The material, by its name.
-    Material,
-    /// The tilt of the view, degrees, -90 to 90.
-    Tilt,
-    /// The azimuth of the tilt, degrees.
-    Azimuth,
-}
-
-/// What the keys of the angles and of the distances of tiers begin with.
-const TIER: &str = "tier:";
-const DISTANCE: &str = "distance:";
-
-impl SweepKey {
-    /// Returns the key of this name: `index`, `material`, `tilt`, `azimuth`, `tier:` or `distance:` and the name of
-    /// a tier, or else a proportion.
-    pub fn of(name: &str) -> Self {
-        match name {
-            "index" => Self::Index,
-            "material" => Self::Material,
-            "tilt" => Self::Tilt,
-            "azimuth" => Self::Azimuth,
-            _ => match (name.strip_prefix(TIER), name.strip_prefix(DISTANCE)) {
-                (Some(tier), _) => Self::Tier(tier.to_owned()),
-                (None, Some(tier)) => Self::Distance(tier.to_owned()),
-                (None, None) => Self::Proportion(name.to_owned()),
-            },
-        }
-    }
-}
-
-impl fmt::Display for SweepKey {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Proportion(key) => f.write_str(key),
-            Self::Tier(name) => write!(f, "{TIER}{name}"),
-            Self::Distance(name) => write!(f, "{DISTANCE}{name}"),
-            Self::Index => f.write_str("index"),
-            Self::Material => f.write_str("material"),
-            Self::Tilt => f.write_str("tilt"),
-            Self::Azimuth => f.write_str("azimuth"),
-        }
-    }
-}
 
 /// A value at a place of an axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -206,6 +151,14 @@ pub enum SweepError {
     /// A meet that cannot be followed with the angle of a tier.
     #[error(transparent)]
     Meet(#[from] MeetError),
+    /// A side that cannot be scaled.
+    #[error("{key}: {error}")]
+    Scale {
+        /// The key as given.
+        key: String,
+        /// Why not.
+        error: ScaleError,
+    },
 }
 
 /// A stone at one point of a sweep, before it is measured.
@@ -239,7 +192,11 @@ impl Sweep {
         let mut varied = self.start();
         let each = self.axes.iter().flat_map(|axis| axis.values.iter().map(|value| (&axis.key, value)));
         for (key, value) in each {
-            varied.set(key, value)?;
+            match key {
+                // One scale after the other would multiply.
+                SweepKey::Scale(_) => varied.factor(key, value).map(drop)?,
+                _ => varied.set(key, value)?,
+            }
         }
         Ok(())
     }
@@ -319,11 +276,8 @@ impl Sweep {
 
     /// Returns the design and the view at a point.
     fn varied(&self, point: usize) -> Result<VariedDesign, SweepError> {
-        let mut varied = self.start();
-        for (axis, value) in self.axes.iter().zip(self.values(point)) {
-            varied.set(&axis.key, value)?;
-        }
-        varied.followed()
+        let values: Vec<_> = self.axes.iter().map(|axis| &axis.key).zip(self.values(point)).collect();
+        self.start().set_all(&values)
     }
 
     pub(super) fn start(&self) -> VariedDesign {
@@ -370,7 +324,31 @@ impl VariedDesign {
         }
     }
 
-    pub fn set(&mut self, key: &SweepKey, value: &SweepValue) -> Result<(), SweepError> {
+    /// Sets all numbers, and follows the meets. Sides are scaled first, so that angles and distances end as they are given.
+    fn set_all(mut self, numbers: &[(&SweepKey, &SweepValue)]) -> Result<Self, SweepError> {
+        let (scales, others): (Vec<_>, Vec<_>) =
+            numbers.iter().partition(|(key, _)| matches!(key, SweepKey::Scale(_)));
+        for (key, value) in scales.into_iter().chain(others) {
+            self.set(key, value)?;
+        }
+        self.followed()
+    }
+
+    /// Returns the factor by which a side is to be scaled.
+    fn factor(&self, key: &SweepKey, value: &SweepValue) -> Result<f64, SweepError> {
+        let refused = |error| SweepError::Scale { key: key.to_string(), error };
+        match value {
+            _ if !self.design.cut.has_scalable_sides() => Err(refused(ScaleError::NotScalable)),
+            SweepValue::Number(percent) if PERCENT_OF_SIDE.contains(percent) => Ok(percent / 100.0),
+            value => Err(SweepError::Value {
+                key: key.to_string(),
+                value: value.to_string(),
+                expected: "percentage from 10 to 1000",
+            }),
+        }
+    }
+
+    fn set(&mut self, key: &SweepKey, value: &SweepValue) -> Result<(), SweepError> {
         let wrong = |expected| SweepError::Value { key: key.to_string(), value: value.to_string(), expected };
         let number = match value {
             SweepValue::Number(number) if number.is_finite() => Ok(*number),
@@ -388,6 +366,12 @@ impl VariedDesign {
             SweepKey::Tilt => self.viewpoint.tilt_deg = number?,
             SweepKey::Azimuth => self.viewpoint.azimuth_deg = number?,
             SweepKey::Proportion(key) => set_proportion(&mut self.design.cut, key, number?)?,
+            SweepKey::Scale(side) => {
+                let factor = self.factor(key, value)?;
+                // Meets need not be followed: a stretch keeps them.
+                self.design.cut = scaled(&self.design, *side, factor)
+                    .map_err(|error| SweepError::Scale { key: key.to_string(), error })?;
+            }
             SweepKey::Tier(name) => {
                 let cut = &mut self.design.cut;
                 let (place, before) = tier_of(cut, key, name)?;
@@ -456,9 +440,8 @@ pub fn with_numbers<'a>(
     design: &Design,
     numbers: impl IntoIterator<Item = (&'a SweepKey, f64)>,
 ) -> Result<Design, SweepError> {
-    let mut varied = VariedDesign::new(design.clone(), Viewpoint::default());
-    for (key, number) in numbers {
-        varied.set(key, &SweepValue::Number(number))?;
-    }
-    Ok(varied.followed()?.design)
+    let numbers: Vec<_> =
+        numbers.into_iter().map(|(key, number)| (key, SweepValue::Number(number))).collect();
+    let numbers: Vec<_> = numbers.iter().map(|(key, value)| (*key, value)).collect();
+    Ok(VariedDesign::new(design.clone(), Viewpoint::default()).set_all(&numbers)?.design)
 }

@@ -13,12 +13,14 @@ pub enum SearchError {
     Goal(#[from] GoalFault),
     /// The design has no numbers to change.
     #[error(
-        "the design has no numbers that may change: it is a mesh or a list of planes, or no tier keeps all meets when it moves"
+        "the design has no numbers that may change: it is a mesh, or nothing that was named keeps all meets when it moves; of a design \
+         of tiers, name crown_scale or pavilion_scale, by which all tiers of a side move together"
     )]
     NoNumbers,
     /// A key that is no number of the design.
     #[error(
-        "vary: {0} is no number of a design; give the key of a proportion, or tier: and the name of a tier"
+        "vary: {0} is no number of a design; give the key of a proportion, tier: and the name of a tier, crown_scale or \
+         pavilion_scale"
     )]
     NotOfDesign(String),
     /// The design as it was given lies outside a range.

@@ -2,7 +2,7 @@
 
 use super::appraisal::SearchError;
 use super::goal::Goal;
-use crate::cut::{Cut, Design, MachineSetting, Unit};
+use crate::cut::{Cut, Design, MachineSetting, ScaledSide, Unit};
 use crate::math::Plane;
 use crate::render::{SweepKey, with_numbers};
 
@@ -11,6 +11,11 @@ const TIER_RANGE_DEG: f64 = 5.0;
 
 /// The angles that a tier keeps to: a table stays a table, and a girdle a girdle.
 const TIER_ANGLES_DEG: [f64; 2] = [1.0, 89.0];
+
+/// The height of a side that changes by a scale, percent: as it is in the design, and how far it usually changes. At 80 and 125 a main
+/// of 41° would lie at 34.8 and 47.4°.
+pub(super) const AS_IT_IS: f64 = 100.0;
+const SCALE_RANGE: [f64; 2] = [80.0, 125.0];
 
 /// The key of the girdle's thickness in all families.
 const GIRDLE_KEY: &str = "girdle_thickness";
@@ -54,6 +59,18 @@ impl VariedNumber {
             low if low - self.least <= near => ", ended at the least",
             high if self.most - high <= near => ", ended at the greatest",
             _ => "",
+        }
+    }
+
+    /// Returns the side of the stone on which the number moves one tier or all; `None` for other numbers.
+    pub(super) fn side(&self, cut: &Cut) -> Option<ScaledSide> {
+        match &self.key {
+            SweepKey::Scale(side) => Some(*side),
+            SweepKey::Tier(name) | SweepKey::Distance(name) => {
+                let angle = of_tier(cut, name, |setting| setting.angle);
+                Some(if angle > 0.0 { ScaledSide::Crown } else { ScaledSide::Pavilion })
+            }
+            _ => None,
         }
     }
 
@@ -103,6 +120,7 @@ impl VariedNumber {
             SweepKey::Proportion(key) => cut.proportion(key).map_or(f64::NAN, |row| (row.get)(cut)),
             SweepKey::Tier(tier) => of_tier(cut, tier, |setting| setting.angle.abs()),
             SweepKey::Distance(tier) => of_tier(cut, tier, |setting| setting.distance),
+            SweepKey::Scale(_) => AS_IT_IS,
             _ => return Err(SearchError::NotOfDesign(name.to_owned())),
         };
         // A key that the design does not have is refused by the design, with what it has.
@@ -175,6 +193,11 @@ fn given_by(cut: &Cut) -> Vec<VariedNumber> {
             let most = (start + TIER_RANGE_DEG).min(TIER_ANGLES_DEG[1]);
             numbers.push(VariedNumber { key: SweepKey::Tier(setting.name), least, most, start });
         }
+    }
+    if cut.has_scalable_sides() {
+        let [least, most] = SCALE_RANGE;
+        let scale = |side| VariedNumber { key: SweepKey::Scale(side), least, most, start: AS_IT_IS };
+        numbers.extend(ScaledSide::ALL.map(scale));
     }
     numbers
 }

@@ -4,12 +4,12 @@ use super::appraisal::{Appraisal, GoalValue, SearchError, Slopes};
 use super::goal::Goal;
 use super::kept_corners::KeptCorners;
 use super::limits::GeometryLimit;
-use super::numbers::VariedNumber;
+use super::numbers::{AS_IT_IS, VariedNumber};
 use super::terms::{GoalView, Term, views_and_terms};
 use crate::cut::{Cut, Design, TierOutcome, Tiers};
 use crate::measure::{Interval, MeasureSettings, PatternSettings, ROCK_DEG};
 use crate::optics::line;
-use crate::render::{PlaneChanges, RenderError, Sweep, SweepError, SweptStone, with_numbers};
+use crate::render::{PlaneChanges, RenderError, Sweep, SweepError, SweepKey, SweptStone, with_numbers};
 use crate::scene::Specimen;
 use crate::trace::Watch;
 use rayon::prelude::*;
@@ -41,7 +41,8 @@ impl Objective {
     /// that one that loses nothing is never refused.
     ///
     /// The meets that a design of tiers states, and those that its geometry shows, are followed from here on, but for stated ones
-    /// that contradict the design. Numbers that break a meet when they alone change are held.
+    /// that contradict the design. Numbers that break a meet when they alone change are held. Where the goal names no number, a side of
+    /// which a tier is held changes by its scale as well, which moves all its tiers together.
     ///
     /// # Errors
     /// The goal or the design is at fault, or `watch` stops.
@@ -74,6 +75,9 @@ impl Objective {
             Self { design, numbers, views, terms, limits, corners, held: vec![], start: blank, polarised };
         new.drop_unsteady_meets();
         new.hold_what_breaks_meets();
+        if goal.vary.is_empty() {
+            new.drop_idle_scales();
+        }
         if new.numbers.is_empty() {
             return Err(SearchError::NoNumbers);
         }
@@ -121,9 +125,15 @@ impl Objective {
         self.numbers.iter().map(VariedNumber::start_place).collect()
     }
 
-    /// Returns whether derivatives of all that counts help: extinction and contrast have them, but jump too often.
+    /// Returns whether derivatives of all that counts help: extinction and contrast have them, but jump too often. A tier that is varied
+    /// beside the scale of its side does not follow it, which the slope by the scale does not know.
     pub(super) fn has_slopes(&self) -> bool {
-        self.terms.iter().all(|term| term.name.is_energy())
+        let cut = &self.design.cut;
+        let is_beside = |scale: &VariedNumber| {
+            let beside = |other: &&VariedNumber| other.key != scale.key && other.side(cut) == scale.side(cut);
+            matches!(scale.key, SweepKey::Scale(_)) && self.numbers.iter().any(|other| beside(&other))
+        };
+        !self.numbers.iter().any(is_beside) && self.terms.iter().all(|term| term.name.is_energy())
     }
 
     /// Returns the design at a place of the ranges, with its meets followed.
@@ -256,8 +266,10 @@ impl Objective {
         for term in &self.terms {
             let place = self.views[term.view].names.iter().position(|name| *name == term.name);
             let per = place.and_then(|place| measured[term.view].1.get(place));
-            let whole =
-                |k: usize| per.map_or(0.0, |per| per[k]) * (self.numbers[k].most - self.numbers[k].least);
+            let whole = |k: usize| {
+                let slope = per.map_or(0.0, |per| per[k] * self.units_at(places, k));
+                slope * (self.numbers[k].most - self.numbers[k].least)
+            };
             let slope: Vec<f64> = (0..count).map(whole).collect();
             total.iter_mut().zip(&slope).for_each(|(sum, slope)| *sum += term.weight * slope);
             push_slopes(&mut slacks, term.ends, &slope);
@@ -268,6 +280,15 @@ impl Objective {
             push_slopes(&mut slacks, limit.ends, &slope);
         }
         Slopes { total, slacks }
+    }
+
+    /// Returns how many units of a number, counted from the design at this place, one unit of it is: a percent of a side's height in the
+    /// design as it was given is another part of the height there.
+    fn units_at(&self, places: &[f64], number: usize) -> f64 {
+        match self.numbers[number].key {
+            SweepKey::Scale(_) => AS_IT_IS / self.numbers[number].at(places[number]),
+            _ => 1.0,
+        }
     }
 
     /// Returns how the limited figures change over the range of a number; 0 where one side of the place makes no stone.
@@ -303,17 +324,27 @@ impl Objective {
 
     /// Holds the numbers that break a meet when they alone change.
     fn hold_what_breaks_meets(&mut self) {
-        let start = self.start_places();
-        let keeps = |number: usize| {
-            let mut places = start.clone();
-            places[number] += if places[number] < 0.5 { MEET_STEP } else { -MEET_STEP };
-            self.design_at(&places).and_then(|design| self.figures(&design)).is_ok()
+        let keeps = |number: &VariedNumber| {
+            let place = number.start_place();
+            let beside = number.at(place + if place < 0.5 { MEET_STEP } else { -MEET_STEP });
+            // The others are not set: tiers that are set to their angles do not move with their side.
+            let design = with_numbers(&self.design, [(&number.key, beside)]).map_err(SearchError::from);
+            design.and_then(|design| self.figures(&design)).is_ok()
         };
-        let kept: Vec<bool> = (0..self.numbers.len()).map(keeps).collect();
+        let kept: Vec<bool> = self.numbers.iter().map(keeps).collect();
         let all = std::mem::take(&mut self.numbers).into_iter().zip(kept);
         let (numbers, held): (Vec<_>, Vec<_>) = all.partition(|(_, keeps)| *keeps);
         self.numbers = numbers.into_iter().map(|(number, _)| number).collect();
         self.held = held.into_iter().map(|(number, _)| number).collect();
+    }
+
+    /// Drops the scales of sides whose tiers all move alone.
+    fn drop_idle_scales(&mut self) {
+        let held: Vec<_> = self.held.iter().filter_map(|number| number.side(&self.design.cut)).collect();
+        self.numbers.retain(|number| match &number.key {
+            SweepKey::Scale(side) => held.contains(side),
+            _ => true,
+        });
     }
 
     /// Turns what may be lost against the start into limits.

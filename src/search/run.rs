@@ -7,7 +7,7 @@ use super::numbers::VariedNumber;
 use super::objective::Objective;
 use super::outcome::{ProgressPoint, SearchOutcome, SearchProgress};
 use crate::cut::Design;
-use crate::trace::{Watch, unwatched};
+use crate::trace::Watch;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -85,7 +85,8 @@ pub struct SearchOptions {
     /// Whether polarisation is followed.
     pub polarised: bool,
     /// The step of angles in degrees, above 0, such as that of a faceting machine's scale: those that change end on multiples of it
-    /// where their ranges hold one. `None` where any angle will do.
+    /// where their ranges hold one, unless the search is stopped. Those of a side that is scaled end anywhere. `None` where any angle
+    /// will do.
     pub angle_step_deg: Option<f64>,
 }
 
@@ -118,7 +119,8 @@ pub struct DesignSearch {
 /// What is known while a search runs.
 #[derive(Default)]
 struct Record {
-    best: Option<(Vec<f64>, f64)>,
+    /// The places of the best, and what it is worth.
+    best: Option<(Vec<f64>, Appraisal)>,
     curve: Vec<ProgressPoint>,
 }
 
@@ -163,7 +165,7 @@ impl DesignSearch {
 
     /// Searches on all cores. `report` is called from any of them.
     ///
-    /// When `watch` stops, the best so far is the outcome.
+    /// When `watch` stops, the best so far is the outcome, as finely as it was measured until then.
     ///
     /// # Errors
     /// The design that was found cannot be measured finely, which does not happen where it could be measured roughly.
@@ -208,7 +210,7 @@ impl DesignSearch {
         if let Some(step) = self.options.angle_step_deg {
             trials.snap(step, self.snapping());
         }
-        self.outcome(&trials)
+        self.outcome(&trials, watch)
     }
 
     /// Returns the number of appraisals that bring angles to multiples of their step.
@@ -257,26 +259,31 @@ impl DesignSearch {
         found
     }
 
-    fn outcome(&self, trials: &Trials) -> Result<SearchOutcome, SearchError> {
+    /// Measures the best finely, unless the search was stopped: then its figures stay as rough as they are.
+    fn outcome(&self, trials: &Trials, watch: Watch) -> Result<SearchOutcome, SearchError> {
         let record = trials.record();
         let start = self.objective.start_places();
-        let (places, keeps_limits) = match &record.best {
-            Some((places, _)) => (places, true),
-            None => (&start, false),
-        };
         let finest = self.options.unresolved / FINER;
         let mut best = self.objective.start().clone();
-        let mut found = places;
-        if *places != start {
-            // What has been found is measured to its end even where the search was stopped.
-            let finely = self.objective.appraise(places, finest, false, &unwatched)?;
+        let mut found = &start;
+        if let Some((places, roughly)) = record.best.as_ref().filter(|(places, _)| *places != start) {
+            let finely = match trials.stopped.load(Ordering::Relaxed) {
+                true => Err(SearchError::Stopped),
+                false => self.objective.appraise(places, finest, false, &|_| watch(1.0)),
+            };
+            let better = match finely {
+                Err(SearchError::Stopped) => {
+                    trials.stopped.store(true, Ordering::Relaxed);
+                    roughly.clone()
+                }
+                finely => finely?,
+            };
             // Rough figures may have promised what fine ones do not keep.
-            if finely.total.middle() > best.total.middle() || !best.keeps_limits() {
-                best = finely;
-            } else {
-                found = &start;
+            if better.total.middle() > best.total.middle() || !best.keeps_limits() {
+                (best, found) = (better, places);
             }
         }
+        let keeps_limits = record.best.is_some();
         let values = self.objective.numbers().iter().zip(found).map(|(number, &place)| number.at(place));
         Ok(SearchOutcome {
             design: self.objective.design_at(found)?,
@@ -313,11 +320,12 @@ impl Trials<'_> {
 
     /// Returns the place and the total of the best so far.
     fn best(&self) -> Option<(Vec<f64>, f64)> {
-        self.record().best.clone()
+        self.record().best.as_ref().map(|(places, found)| (places.clone(), found.total.middle()))
     }
 
     /// Replaces the best so far by the best design near it whose angles are multiples of a step: its angles are rounded, and then
-    /// each is moved by a step either way for as long as that is better, but no more than `most` designs are appraised.
+    /// each is moved by a step either way for as long as that is better, but no more than `most` designs are appraised. A search that
+    /// was stopped before leaves the best as it is.
     fn snap(&self, step: f64, most: usize) {
         let objective = &self.search.objective;
         let Some((best, _)) = self.best() else { return };
@@ -346,10 +354,10 @@ impl Trials<'_> {
             next = neighbours(objective.numbers(), &top.0, step, &on_scale);
             found = Some(top);
         }
+        // Without a stone near it, or where the search was stopped before, the best stays as it is.
+        let Some(found) = found else { return };
         let mut record = self.record();
-        record.best = found
-            .filter(|(_, appraisal)| appraisal.keeps_limits())
-            .map(|(places, appraisal)| (places, appraisal.total.middle()));
+        record.best = Some(found).filter(|(_, appraisal)| appraisal.keeps_limits());
     }
 
     fn appraise(&self, places: &[f64], unresolved: f64, with_slopes: bool) -> Option<Appraisal> {
@@ -382,12 +390,13 @@ impl Trials<'_> {
         let mut record = self.record();
         // Read while the record is held, so that the curve never goes back.
         let appraised = self.appraised.load(Ordering::Relaxed);
-        let is_best = found.keeps_limits() && record.best.as_ref().is_none_or(|(_, best)| total > *best);
+        let best = record.best.as_ref().map(|(_, best)| best.total.middle());
+        let is_best = found.keeps_limits() && best.is_none_or(|best| total > best);
         if is_best {
-            record.best = Some((places.to_vec(), total));
+            record.best = Some((places.to_vec(), found.clone()));
             record.curve.push(ProgressPoint { appraised, total });
         }
-        let best_total = record.best.as_ref().map(|(_, total)| *total);
+        let best_total = record.best.as_ref().map(|(_, best)| best.total.middle());
         drop(record);
         let design = is_best.then(|| self.search.objective.design_at(places).ok()).flatten();
         self.tell(appraised, best_total, design);

@@ -4,10 +4,12 @@ use super::{
     AtLeastAtMost, DesignSearch, Goal, GoalMaterial, Objective, OneOrMore, SearchError, SearchOptions,
     SearchProgress, VariedNumber,
 };
-use crate::cut::{Crown, Cut, Design, MaterialRef, Pavilion, RoundBrilliant, TOLKOWSKY};
+use crate::cut::{
+    Crown, Cut, Design, Indexed, MaterialRef, Pavilion, RoundBrilliant, TOLKOWSKY, Tier, Tiers,
+};
 use crate::measure::MeasureSettings;
 use crate::optics::line;
-use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue};
+use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue, with_numbers};
 use crate::scene::{DomeLight, Viewpoint};
 use crate::trace::{Stopped, unwatched};
 use std::ops::ControlFlow;
@@ -134,6 +136,59 @@ fn slopes_of_an_appraisal_are_the_weighed_gradients_of_its_measures() {
         }
     }
     assert!(slopes.slacks[2][0] > 0.05 && slopes.slacks[3][0] < -0.05 && slopes.slacks[1][1] > 4.9);
+}
+
+/// A percent of the height of a side is one of the design as it was given, wherever the search has come.
+#[test]
+fn slopes_by_a_scale_are_those_of_the_scaled_design_by_the_percent_of_the_given_one() {
+    let planes = |design: Design| Design { cut: Cut::Planes(design.facets().unwrap()), ..design };
+    let given = planes(brilliant(33.0, 40.9));
+    let keys = ["crown_scale", "pavilion_scale"].map(SweepKey::of);
+    let scaled = with_numbers(&given, keys.iter().zip([104.0, 102.0])).unwrap();
+    let slopes = |design: &Design, values: [f64; 2]| {
+        let mut goal = Goal::of([("return-cos2".parse().unwrap(), 1.0)]);
+        goal.vary = keys.iter().map(|key| (key.to_string(), [90.0, 110.0])).collect();
+        let objective = Objective::new(design, &goal, true, (0.05, 0.05), &unwatched).unwrap();
+        assert!(objective.numbers().len() == 2 && objective.has_slopes(), "a number is held");
+        let places = values.map(|value| (value - 90.0) / 20.0);
+        objective.appraise(&places, 0.01, true, &unwatched).unwrap().slopes.unwrap().total
+    };
+    let (there, here) = (slopes(&given, [104.0, 102.0]), slopes(&scaled, [100.0; 2]));
+    for ((there, here), factor) in there.iter().zip(&here).zip([1.04, 1.02]) {
+        assert!((there * factor - here).abs() < 1e-6 * here.abs() && here.abs() > 1e-3, "{there} {here}");
+    }
+}
+
+/// A tier that varies beside the scale of its side does not follow it, so that there are no slopes.
+#[test]
+fn a_scale_beside_a_tier_of_its_side_has_no_slopes() {
+    let tier = |angle: f64, distance: f64, teeth: &[f64], name: &str| Tier {
+        angle,
+        distance,
+        instructions: String::new(),
+        meet: None,
+        is_cut: true,
+        frosting: 0.0,
+        facets: teeth.iter().map(|&index| Indexed { index, name: name.to_owned() }).collect(),
+    };
+    let four = [0.0, 24.0, 48.0, 72.0];
+    let tiers = vec![
+        tier(-42.0, 0.7, &four, "P"),
+        tier(-90.0, 1.0, &four, "G"),
+        tier(35.0, 0.75, &four, "C"),
+        tier(0.0, 0.4, &[0.0], "T"),
+    ];
+    let cut = Cut::Tiers(Tiers { gear: 96, symmetry: 4, mirror: true, tiers, ..Tiers::default() });
+    let design = Design { cut, ..brilliant(33.0, 40.9) };
+    let has_slopes = |other: &str, range: [f64; 2]| {
+        let mut goal = Goal::of([("return-cos2".parse().unwrap(), 1.0)]);
+        goal.vary = [("pavilion_scale".to_owned(), [90.0, 110.0]), (other.to_owned(), range)].into();
+        let objective = Objective::new(&design, &goal, true, (0.05, 0.05), &unwatched).unwrap();
+        assert_eq!(objective.numbers().len(), 2, "{other} is held");
+        objective.has_slopes()
+    };
+    assert!(has_slopes("crown_scale", [90.0, 110.0]) && has_slopes("tier:C", [30.0, 40.0]));
+    assert!(!has_slopes("tier:P", [38.0, 46.0]) && !has_slopes("distance:P", [0.6, 0.8]));
 }
 
 #[test]
@@ -296,6 +351,8 @@ fn a_search_that_is_stopped_hands_out_the_best_so_far() {
     assert_eq!(outcome.curve.len(), seen.lock().unwrap().len());
     assert!(outcome.best.total.middle() >= search.objective().start().total.middle());
     let whole = search.run(&unwatched, &|_| {}).unwrap();
+    // What was stopped is not measured finely any more.
+    assert!(outcome.best.total.error() > 1.5 * whole.best.total.error(), "{outcome:?} {whole:?}");
     assert!(!whole.was_stopped && whole.appraised > outcome.appraised);
 }
 

@@ -189,25 +189,65 @@ fn fire_is_nothing_without_dispersion_and_grows_with_it() {
     assert!((ratio - 2.0).abs() < 0.1, "{ratio}");
 }
 
-/// The order of materials with nearly the same dispersion depends on the cut as well: glass, with a window in a cut for diamond,
-/// spreads what passes near the critical angle more than sapphire does.
+/// The fire of a modern ideal in some materials without colour, by rising dispersion: the dispersion between B and G, the fire, and the
+/// light that crosses the stone without a reflection.
+fn fire_of_materials() -> Vec<(&'static str, f64, Interval, f64)> {
+    let names = [
+        "quartz",
+        "BK7",
+        "sapphire",
+        "spinel",
+        "YAG",
+        "lead crystal",
+        "zircon",
+        "SF10",
+        "diamond",
+        "SF11",
+        "cubic zirconia",
+        "moissanite",
+        "strontium titanate",
+        "rutile",
+    ];
+    let stone = modern();
+    let of = |name: &'static str| {
+        let material = material(name).unwrap();
+        let indices = [line::FRAUNHOFER_B, line::FRAUNHOFER_G].map(|nm| material.index(nm));
+        let medium = Medium::clear(material.index(line::SODIUM_D));
+        let settings = MeasureSettings::usual(indices);
+        let found = measures(&stone.polytope, medium, &View::default(), 5e-3, &settings);
+        (name, indices[1] - indices[0], found.fire, found.windowing.least)
+    };
+    let found: Vec<_> = names.into_iter().map(of).collect();
+    for (name, dispersion, fire, windowing) in &found {
+        println!("{name}: {dispersion:.4}, {:.3} to {:.3}, windowing {windowing:.3}", fire.least, fire.most);
+    }
+    assert!(found.windows(2).all(|pair| pair[0].1 < pair[1].1), "the list is by dispersion");
+    found
+}
+
+/// Between materials of nearly the same dispersion the index counts as much: light near the critical angle spreads most, and the lower
+/// the index, the more of it there is in a cut for diamond.
 #[test]
 fn materials_have_fire_in_the_order_of_their_dispersion() {
-    let names = ["sapphire", "diamond", "cubic zirconia", "moissanite", "strontium titanate"];
-    let stone = modern();
-    let mut found: Vec<(f64, f64, &str)> = names
+    let found = fire_of_materials();
+    let told: Vec<String> = found
         .iter()
-        .map(|name| {
-            let material = material(name).unwrap();
-            let indices = [line::FRAUNHOFER_B, line::FRAUNHOFER_G].map(|nm| material.index(nm));
-            let medium = Medium::clear(material.index(line::SODIUM_D));
-            let settings = MeasureSettings::usual(indices);
-            let fire = measures(&stone.polytope, medium, &View::default(), 5e-3, &settings).fire;
-            (indices[1] - indices[0], fire.least, &*material.name)
-        })
+        .map(|(name, dispersion, fire, _)| format!("{name} {dispersion:.4} {:.3}", fire.middle()))
         .collect();
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    assert!(found.windows(2).all(|pair| pair[0].1 < pair[1].1), "{found:?}");
+    let order = ["BK7", "zircon", "diamond", "cubic zirconia", "moissanite", "strontium titanate"];
+    let of = |name: &str| found.iter().find(|found| found.0 == name).unwrap();
+    for pair in order.windows(2) {
+        let [less, more] = [of(pair[0]), of(pair[1])];
+        assert!(less.1 < more.1 && less.2.most < more.2.least, "{pair:?} are not in order: {told:?}");
+    }
+    // Of two materials without a window, the one with half as much dispersion again has more fire.
+    let whole: Vec<_> = found.iter().filter(|(.., windowing)| *windowing < 1e-3).collect();
+    assert!(whole.len() == found.len() - 1, "BK7 alone has a window: {told:?}");
+    for (k, less) in whole.iter().enumerate() {
+        for more in whole[k + 1..].iter().filter(|more| more.1 > 1.5 * less.1) {
+            assert!(less.2.most < more.2.least, "{} and {} are not in order: {told:?}", less.0, more.0);
+        }
+    }
 }
 
 /// The weighted light return of GIA's study (Hemphill, Reinitz, Johnson and Shigley, 1998): an even white hemisphere lights

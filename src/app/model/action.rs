@@ -20,7 +20,7 @@ use super::workspace::PanelSide;
 use crate::app::liquid::Liquid;
 use crate::app::shows::Shows;
 use crate::app::studio::{FiguresOrder, Grade, Order, Smoothing, SweptPoint, Tilts, Which};
-use crate::cut::{Audit, Cut, Design, MaterialRef, TierChange};
+use crate::cut::{Audit, Cut, Design, MaterialRef, ScaledSide, TierChange};
 use crate::io::Failure;
 use crate::io::lighting::Lighting;
 use crate::io::mesh_options::MeshOptions;
@@ -74,6 +74,15 @@ pub enum Edit {
     },
     /// A change of the list of tiers.
     Tiers(TierChange),
+    /// Scales a side of a cut along the axis, and takes the cut that comes of it, if there is one.
+    Scale {
+        /// The side.
+        side: ScaledSide,
+        /// Its height afterwards, percent of that before.
+        percent: f64,
+        /// The cut before, as it was when the drag began.
+        of: Box<Cut>,
+    },
     /// Lists the facets of a cut as tiers.
     IntoTiers,
     /// Adds a tier after the one at a place, beside the stone.

@@ -177,7 +177,8 @@ impl GoalForm {
         missing.into_keys().collect()
     }
 
-    /// Returns the goal with the numbers that may change.
+    /// Returns the goal with the numbers that may change. Where these are the usual ones in their usual ranges the goal names none, so
+    /// that the search itself finds whether tiers move alone or their side as a whole.
     ///
     /// # Errors
     /// Why no search can begin with it.
@@ -194,7 +195,13 @@ impl GoalForm {
             return Err(GoalFormFault::Range { name, value });
         }
         let mut goal = self.goal.clone();
-        goal.vary.extend(varied().map(|number| (number.key.to_string(), number.ends)));
+        let are_usual = goal.vary.is_empty()
+            && self.numbers.iter().all(|number| {
+                number.is_varied == number.is_usual && (!number.is_varied || number.ends == number.usual)
+            });
+        if !are_usual {
+            goal.vary.extend(varied().map(|number| (number.key.to_string(), number.ends)));
+        }
         goal.check()?;
         Ok(goal)
     }
@@ -219,6 +226,7 @@ fn has(cut: &Cut, key: &str) -> bool {
         SweepKey::Tier(name) | SweepKey::Distance(name) => {
             cut.settings().iter().any(|setting| setting.name == name)
         }
+        SweepKey::Scale(_) => cut.has_scalable_sides(),
         SweepKey::Index | SweepKey::Material | SweepKey::Tilt | SweepKey::Azimuth => false,
     }
 }
@@ -294,7 +302,25 @@ mod tests {
         assert!(form.take(goal, &cut).is_empty());
         let held: Vec<_> =
             form.numbers.iter().filter(|number| !number.is_varied).map(|number| &number.name).collect();
-        assert_eq!(held, ["Girdle thickness"]);
+        assert_eq!(held, ["Girdle"]);
+        assert!(form.wanted().unwrap().vary.is_empty(), "the usual numbers are not named");
+        number(&mut form, "Table").is_varied = false;
+        let named = form.wanted().unwrap().vary;
+        assert!(named.contains_key("crown_angle") && !named.contains_key("table"), "{named:?}");
+    }
+
+    #[test]
+    fn the_sides_of_tiers_are_ticked_at_first_and_named_where_others_are_not() {
+        let document = Document::first().unwrap();
+        let cut = Cut::Tiers(crate::io::as_tiers(document.specimen()).unwrap());
+        let mut form = GoalForm::default();
+        form.follow(&cut);
+        let scale = number(&mut form, "Scale of the crown");
+        assert!(scale.is_varied && scale.written(scale.value) == "100.00 %");
+        assert!(form.wanted().unwrap().vary.is_empty());
+        form.numbers.iter_mut().for_each(|number| number.is_varied = number.name.starts_with("Scale"));
+        let named: Vec<String> = form.wanted().unwrap().vary.into_keys().collect();
+        assert_eq!(named, ["crown_scale", "pavilion_scale"]);
     }
 
     #[test]

@@ -6,7 +6,8 @@
 use super::growing_sweep::{GrowingSweep, sweep_of, takes};
 use super::impossible::by_name;
 use crate::app::studio::SweepOrder;
-use crate::cut::{Cut, Design, MaterialRef, Proportion, Unit};
+use crate::cut::{Cut, Design, MaterialRef, Proportion, ScaledSide, Unit};
+use crate::math::Plane;
 use crate::measure::{MeasureName, MeasureSettings};
 use crate::render::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue};
 use std::sync::Arc;
@@ -26,6 +27,9 @@ const AROUND_TIER: f64 = 4.0;
 /// The least and the greatest angle of a tier on a map, degrees.
 const TIER_ANGLES: [f64; 2] = [0.5, 89.5];
 
+/// How far a side is scaled at first, percent of its height.
+const SCALES: [f64; 2] = [80.0, 125.0];
+
 /// Lengths and angles that differ by less than this are the same: meets are found anew on each way to a place.
 const SAME: f64 = 1e-7;
 
@@ -43,6 +47,8 @@ pub struct MapAxis {
     pub unit: &'static str,
     /// The values at the left or lower end and at the other end; the first is the lesser.
     pub ends: [f64; 2],
+    /// What is 100 % of a side's scale: the tangent of its first leaning facet in the cut of which the axis was made. 1 for other numbers.
+    whole: f64,
 }
 
 impl MapAxis {
@@ -54,6 +60,7 @@ impl MapAxis {
             name: row.name.to_owned(),
             unit: unit_text(row.unit),
             ends: row.usual,
+            whole: 1.0,
         };
         let [least, most] = TIER_ANGLES;
         let settings = cut.settings();
@@ -65,8 +72,14 @@ impl MapAxis {
             unit: "°",
             ends: [tier.angle.abs() - AROUND_TIER, tier.angle.abs() + AROUND_TIER]
                 .map(|angle| angle.clamp(least, most)),
+            whole: 1.0,
         };
-        rows.map(row).chain(tiers.map(tier)).collect()
+        let scales = ScaledSide::ALL.into_iter().filter(|_| cut.has_scalable_sides());
+        let scale = |side: ScaledSide| {
+            let (key, name) = (SweepKey::Scale(side), format!("Scale of the {side}"));
+            Some(Self { key, name, unit: " %", ends: SCALES, whole: cut.tangent_of_side(side)? })
+        };
+        rows.map(row).chain(tiers.map(tier)).chain(scales.filter_map(scale)).collect()
     }
 
     /// Returns the value that a cut has; `None` where it has none.
@@ -74,6 +87,7 @@ impl MapAxis {
         let value = match &self.key {
             SweepKey::Proportion(key) => (cut.proportion(key)?.get)(cut),
             SweepKey::Tier(name) => cut.settings().iter().find(|tier| tier.name == *name)?.angle.abs(),
+            SweepKey::Scale(side) => 100.0 * cut.tangent_of_side(*side)? / self.whole,
             _ => return None,
         };
         value.is_finite().then_some(value)
@@ -99,8 +113,14 @@ impl MapAxis {
         self.key == other.key || pair(self).is_some_and(|key| SweepKey::of(key) == other.key)
     }
 
-    fn sweep_axis(&self, values: Vec<f64>) -> SweepAxis {
-        SweepAxis { key: self.key.clone(), values: values.into_iter().map(SweepValue::Number).collect() }
+    /// Returns the axis of a sweep of a cut. A sweep counts scales from the cut that it varies.
+    fn sweep_axis(&self, values: Vec<f64>, cut: &Cut) -> SweepAxis {
+        let unit = match self.key {
+            SweepKey::Scale(_) => self.value(cut).map_or(1.0, |percent| 100.0 / percent),
+            _ => 1.0,
+        };
+        let values = values.into_iter().map(|value| SweepValue::Number(unit * value)).collect();
+        SweepAxis { key: self.key.clone(), values }
     }
 }
 
@@ -263,7 +283,7 @@ fn first_measure() -> MeasureName {
 
 /// Returns the design at these values of two axes.
 fn at(axes: &[MapAxis; 2], design: &Design, to: [f64; 2]) -> Result<Design, SweepError> {
-    let axes = axes.iter().zip(to).map(|(axis, value)| axis.sweep_axis(vec![value])).collect();
+    let axes = axes.iter().zip(to).map(|(axis, value)| axis.sweep_axis(vec![value], &design.cut)).collect();
     sweep_of(design, axes, MeasureName::Fire, UNRESOLVED).design_at(0)
 }
 
@@ -279,8 +299,14 @@ fn is_along(axes: &[MapAxis; 2], a: &Design, b: &Design) -> bool {
     }
 }
 
-/// Whether two cuts are the same but for the rounding of tiers.
+/// Whether two cuts are the same but for the rounding of tiers and planes.
 fn is_same_cut(a: &Cut, b: &Cut) -> bool {
+    if let (Cut::Planes(one), Cut::Planes(other)) = (a, b) {
+        let is_same = |(a, b): (&(String, Plane), &(String, Plane))| {
+            a.0 == b.0 && a.1.normal.abs_diff_eq(b.1.normal, SAME) && (a.1.offset - b.1.offset).abs() < SAME
+        };
+        return one.len() == other.len() && one.iter().zip(other).all(is_same);
+    }
     let (Cut::Tiers(one), Cut::Tiers(other)) = (a, b) else { return a == b };
     let mut rounded = other.clone();
     for (tier, exact) in rounded.tiers.iter_mut().zip(&one.tiers) {
@@ -295,7 +321,8 @@ fn is_same_cut(a: &Cut, b: &Cut) -> bool {
 
 /// Returns the order of a map: its whole grid, coarse places first.
 fn order(options: &MapOptions, design: &Design, number: u64) -> SweepOrder {
-    let places = |axis: &MapAxis| axis.sweep_axis((0..=STEPS).map(|place| axis.at(place)).collect());
+    let places =
+        |axis: &MapAxis| axis.sweep_axis((0..=STEPS).map(|place| axis.at(place)).collect(), &design.cut);
     let axes = options.axes.iter().map(places).collect();
     let sweep: Sweep = sweep_of(design, axes, options.measure, UNRESOLVED);
     let mut points = Vec::with_capacity(sweep.count());

@@ -16,6 +16,7 @@ pub mod material_rows;
 pub mod mesh_rows;
 pub mod pane_rows;
 pub mod rows;
+mod scale_fields;
 mod search_plot;
 mod search_table;
 pub mod search_window;

@@ -5,8 +5,8 @@
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit, ViewAction};
-use crate::app::panels::gear_fields;
 use crate::app::panels::rows::{ANY, Number, explain, spoken};
+use crate::app::panels::{gear_fields, scale_fields};
 use crate::cut::{Cut, Tier, TierChange, TierZone, Tiers, read_indices};
 use egui::{Color32, ComboBox, Id, Panel, Response, RichText, ScrollArea, Sense, TextEdit, Ui, vec2};
 
@@ -94,6 +94,7 @@ fn buttons(tiers: &Tiers, selected: Option<usize>, actions: &mut Actions, ui: &m
     let meaning = "Gives every tier without a meet the one that the stone shows: the points through which its facets pass.";
     actions.push_if(explain(ui, find, meaning).clicked(), Edit::Tiers(TierChange::FindMeets));
     gear_fields::show(tiers, actions, ui);
+    scale_fields::show(tiers, actions, ui);
 }
 
 fn heads(ui: &mut Ui) {

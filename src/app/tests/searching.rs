@@ -206,14 +206,39 @@ fn the_window_says_what_is_missing_and_why_glass_cannot_be_searched() {
     assert!(bench.harness.query_by_label("Start").is_none());
 }
 
-#[test]
-fn a_mesh_whose_facets_cannot_move_says_so_and_stays() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("stone.stl");
+/// Opens the stone of the first design as a mesh, whose tiers cannot move alone.
+fn opened_mesh(folder: &Path) -> Bench {
+    let file = folder.join("stone.stl");
     let stone = crate::app::model::document::Document::first().unwrap().specimen().clone();
     crate::io::design_file::write(&stone, crate::io::design_file::DesignFormat::Stl, &file).unwrap();
-    let mut bench = opened(Setup { file: Some(file), ..Setup::default() });
+    opened(Setup { file: Some(file), ..Setup::default() })
+}
+
+#[test]
+fn a_mesh_is_searched_by_the_scales_of_its_sides_and_its_tiers_are_held() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bench = opened_mesh(folder.path());
+    pick(&mut bench, "Effort", "quick");
+    bench.click("Start");
+    bench.wait(|editor| matches!(state(editor), SearchState::Ended(_)));
+    let SearchEnd::Found(report) = &ended(&bench).end else { panic!("{:?}", ended(&bench).end) };
+    let keys: Vec<String> = report.numbers.iter().map(|number| number.key.to_string()).collect();
+    assert_eq!(keys, ["crown_scale", "pavilion_scale"]);
+    assert!(report.held.len() > 4 && report.is_better(), "{report:?}");
+    assert!(bench.harness.query_all_by_label_contains("Scale of the pavilion").next().is_some());
+}
+
+#[test]
+fn a_mesh_none_of_whose_numbers_can_move_says_so_and_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bench = opened_mesh(folder.path());
     let before = design(&bench).clone();
+    for side in ["crown", "pavilion"] {
+        let tick = format!("Vary Scale of the {side}");
+        bench.harness.get_by_label(&tick).scroll_to_me();
+        bench.harness.run_steps(SCROLLED);
+        bench.click(&tick);
+    }
     bench.click("Start");
     bench.wait(|editor| matches!(state(editor), SearchState::Ended(_)));
     assert!(matches!(ended(&bench).end, SearchEnd::Failed(_)), "{:?}", ended(&bench).end);

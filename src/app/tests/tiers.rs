@@ -3,7 +3,7 @@
 use super::*;
 use crate::app::model::action::Edit;
 use crate::app::model::{Action, update};
-use crate::cut::{Tier, TierChange, Tiers};
+use crate::cut::{Tier, TierChange, TierZone, Tiers};
 use egui::Role;
 
 /// Returns the tiers of the open design.
@@ -113,6 +113,80 @@ fn an_angle_that_is_typed_keeps_its_side_and_moves_one_tier() {
     for (now, before) in others(&now).iter().zip(&others(&before)) {
         assert!((now.distance - before.distance).abs() < 1e-9 && now.angle == before.angle, "{now:?}");
     }
+}
+
+/// Returns the tangents of the angles of a side, above 0.
+fn tangents(tiers: &Tiers, zone: TierZone) -> Vec<f64> {
+    let side = tiers.tiers.iter().filter(|tier| tier.zone() == zone);
+    side.map(|tier| tier.angle.abs().to_radians().tan()).collect()
+}
+
+#[test]
+fn a_side_is_scaled_by_name_as_one_step_whether_it_is_typed_or_dragged() {
+    let mut bench = turned();
+    let before = tiers(&bench);
+    let [crown, pavilion] = [TierZone::Crown, TierZone::Pavilion].map(|zone| tangents(&before, zone));
+    let ratios = |bench: &Bench, zone, of: &[f64]| -> Vec<f64> {
+        tangents(&tiers(bench), zone).iter().zip(of).map(|(now, before)| now / before).collect()
+    };
+    let steps = bench.editor().model.document.steps();
+    bench.type_number("Scale of the crown", "90");
+    bench.settle();
+    let of_crown = ratios(&bench, TierZone::Crown, &crown);
+    assert!(of_crown.len() > 2 && of_crown.iter().all(|ratio| (ratio - 0.9).abs() < 1e-12), "{of_crown:?}");
+    assert_eq!(tangents(&tiers(&bench), TierZone::Pavilion), pavilion);
+    assert!(bench.editor().model.session.meet_faults.iter().all(Option::is_none));
+    let at = bench.field(Role::SpinButton, "Scale of the pavilion").rect().center();
+    bench.at_once(vec![egui::Event::PointerMoved(at)]);
+    bench.at_once(vec![egui::Event::PointerButton {
+        pos: at,
+        button: egui::PointerButton::Primary,
+        pressed: true,
+        modifiers: egui::Modifiers::NONE,
+    }]);
+    let mut dragged = vec![];
+    for by in [10.0, 25.0, 40.0] {
+        bench.at_once(vec![egui::Event::PointerMoved(at + egui::vec2(by, 0.0))]);
+        dragged.push(ratios(&bench, TierZone::Pavilion, &pavilion));
+    }
+    bench.at_once(vec![egui::Event::PointerButton {
+        pos: at + egui::vec2(40.0, 0.0),
+        button: egui::PointerButton::Primary,
+        pressed: false,
+        modifiers: egui::Modifiers::NONE,
+    }]);
+    bench.settle();
+    let of_pavilion = ratios(&bench, TierZone::Pavilion, &pavilion);
+    // Each change counts from where the drag began, so that the last is what the field said.
+    let last = of_pavilion[0];
+    assert!(last > dragged[0][0] && (1.01..1.06).contains(&last), "{dragged:?} {last}");
+    assert!(of_pavilion.iter().all(|ratio| (ratio - last).abs() < 1e-12), "{of_pavilion:?}");
+    let percent = 100.0 * last;
+    assert!((percent - (100.0 * percent).round() / 100.0).abs() < 1e-9, "{percent} is a sum of factors");
+    for (zone, of) in [(TierZone::Pavilion, &pavilion), (TierZone::Crown, &crown)] {
+        bench.choose("Edit", "Undo");
+        bench.settle();
+        assert_eq!(&tangents(&tiers(&bench), zone), of, "one step each");
+    }
+    assert_eq!((tiers(&bench), bench.editor().model.document.steps().0), (before, steps.0));
+}
+
+#[test]
+fn a_scale_that_cannot_be_leaves_the_design_and_says_why() {
+    let mut bench = turned();
+    let mut steep = tiers(&bench);
+    let place = steep.tiers.iter().position(|tier| tier.name() == "P1").unwrap();
+    steep.tiers[place].angle = -89.4;
+    let of = Box::new(Cut::Tiers(steep));
+    let before = tiers(&bench);
+    let edit = Edit::Scale { side: crate::cut::ScaledSide::Pavilion, percent: 200.0, of };
+    let model = &mut bench.harness.state_mut().model;
+    update(model, Action::Edit(edit));
+    bench.settle();
+    assert_eq!(tiers(&bench), before);
+    assert!(
+        bench.harness.query_by_label_contains("The design stays: tier 'P1' would go from 89.40").is_some()
+    );
 }
 
 #[test]

@@ -7,19 +7,16 @@
 //! view. It is a stretch of that side along the axis, so it keeps every meet.
 
 use super::outline::UPRIGHT;
+use super::side_scale::{
+    ANGLES_DEG, AngleChange, FACTORS, ScaleError, ScaledSide, changed_planes, changed_tiers, in_block, solid,
+};
 use super::{
     Crown, Cut, Design, DesignError, MaterialRef, Meet, Outline, Pavilion, RoundBrilliant, TierOutcome,
     Tiers, tier_stem,
 };
-use crate::math::{Plane, Polytope, PolytopeError, grouped};
+use crate::math::{Plane, Polytope, grouped};
 use crate::optics::{critical_angle, line};
 use serde::Serialize;
-
-/// The factors of tangents that are taken.
-const FACTORS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
-
-/// The flattest and the steepest angle that a leaning facet may have afterwards, degrees from the girdle plane.
-const ANGLES_DEG: std::ops::RangeInclusive<f64> = 0.5..=89.5;
 
 /// A vertex nearer to the lowest one than this, in units of the stone's depth, is at the culet.
 const AT_CULET: f64 = 1e-6;
@@ -137,46 +134,16 @@ pub enum RetargetError {
     },
 }
 
-/// What becomes of the angles of one side.
-#[derive(Clone, Copy)]
-struct AngleChange {
-    /// 1 for the crown, -1 for the pavilion.
-    side: f64,
-    /// The height about which the side is stretched or its facets are turned.
-    level: f64,
-    /// The factor of the depth of level facets, and of all tangents where `shift` is `None`.
-    factor: f64,
-    /// The angle that is added, radians.
-    shift: Option<f64>,
-}
-
-impl AngleChange {
-    /// Returns the changed plane of a facet of this side; `None` for other facets, and the angles before and after, in
-    /// degrees, where the new one is not possible.
-    fn plane(&self, plane: &Plane) -> Result<Option<Plane>, [f64; 2]> {
-        let across = plane.normal.truncate();
-        let (run, rise) = (across.length(), plane.normal.z);
-        if rise.abs() < UPRIGHT || rise.signum() != self.side {
-            return Ok(None);
+impl From<ScaleError> for RetargetError {
+    fn from(error: ScaleError) -> Self {
+        match error {
+            ScaleError::Design(error) => error.into(),
+            ScaleError::Solid(text) => Self::Solid(text),
+            ScaleError::NotScalable => Self::NotConvex,
+            ScaleError::Factor { value } => Self::Factor { value },
+            ScaleError::Angle { tier, before, after } => Self::Angle { tier, before, after },
+            ScaleError::Origin { tier } => Self::Origin { tier },
         }
-        if run < UPRIGHT {
-            let height = plane.offset / rise;
-            let moved = self.level + self.factor * (height - self.level);
-            return Ok(Some(Plane::new(plane.normal, moved * rise)));
-        }
-        let before = run.atan2(rise.abs());
-        let after = match self.shift {
-            Some(shift) => before + shift,
-            None => (self.factor * before.tan()).atan(),
-        };
-        if !ANGLES_DEG.contains(&after.to_degrees()) {
-            return Err([before, after].map(f64::to_degrees));
-        }
-        // The line in which the plane crosses the level stays where it is.
-        let radius = (plane.offset - rise * self.level) / run;
-        let (sin, cos) = after.sin_cos();
-        let normal = (across / run * sin).extend(self.side * cos);
-        Ok(Some(Plane::new(normal, radius * sin + self.side * cos * self.level)))
     }
 }
 
@@ -231,7 +198,7 @@ pub fn retarget(
     if change.shift.is_some() && !matches!(cut, Cut::RoundBrilliant(_) | Cut::Tiers(_)) {
         notes.push(TURNED.to_owned());
     }
-    if change.side < 0.0 {
+    if change.side == ScaledSide::Pavilion {
         notes.push("the crown stays as it is".to_owned());
     }
     let mut retargeted = Design { material, cut, ..design.clone() };
@@ -240,33 +207,6 @@ pub fn retarget(
     let tiers = compared(&facets, &retargeted.facets()?);
     let critical_deg = critical.map(f64::to_degrees);
     Ok(Retargeted { design: retargeted, critical_deg, main, factor: change.factor, tiers, notes })
-}
-
-/// Returns the solid of a design in its own unit.
-fn solid(design: &Design, facets: &[(String, Plane)]) -> Result<Polytope, RetargetError> {
-    let planes: Vec<Plane> = facets.iter().map(|(_, plane)| *plane).collect();
-    let solid = match design.cut {
-        Cut::Tiers(_) => in_block(&planes),
-        _ => Polytope::from_planes(&planes),
-    };
-    solid.map_err(|error| {
-        RetargetError::Solid(error.message(|place| match facets.get(place) {
-            Some((name, _)) => format!("'{name}'"),
-            None => "the block".to_owned(),
-        }))
-    })
-}
-
-/// Returns the solid between the planes of a cutter's design. One that they leave open is closed by the block that it is cut
-/// from.
-fn in_block(planes: &[Plane]) -> Result<Polytope, PolytopeError> {
-    match Polytope::from_planes(planes) {
-        Err(PolytopeError::Unbounded { .. }) => {
-            let block = Tiers::block().map(|(_, plane)| plane);
-            Polytope::from_planes(&planes.iter().copied().chain(block).collect::<Vec<_>>())
-        }
-        solid => solid,
-    }
 }
 
 /// Returns a material's critical angle in sodium light, radians.
@@ -299,22 +239,22 @@ fn change(
 ) -> Result<AngleChange, RetargetError> {
     let outline = Outline::of(solid);
     let margin = (main_angle + new - old).tan() / main_angle.tan();
-    let (side, level, factor, shift) = match rule {
-        RetargetRule::CriticalAngle => (-1.0, outline.girdle_bottom, margin, Some(new - old)),
-        RetargetRule::PavilionRatio(factor) => (-1.0, outline.girdle_bottom, factor.unwrap_or(margin), None),
-        RetargetRule::CrownRatio(factor) => (1.0, outline.girdle_top, factor, None),
+    let (side, factor, shift) = match rule {
+        RetargetRule::CriticalAngle => (ScaledSide::Pavilion, margin, Some(new - old)),
+        RetargetRule::PavilionRatio(factor) => (ScaledSide::Pavilion, factor.unwrap_or(margin), None),
+        RetargetRule::CrownRatio(factor) => (ScaledSide::Crown, factor, None),
     };
     if !FACTORS.contains(&factor) {
         return Err(RetargetError::Factor { value: factor });
     }
-    Ok(AngleChange { side, level, factor, shift })
+    Ok(AngleChange { shift, ..AngleChange::scale(side, &outline, factor) })
 }
 
 fn changed_brilliant(given: &RoundBrilliant, change: &AngleChange) -> RoundBrilliant {
     let factor = change.factor;
     let angle = |degrees: f64| (factor * degrees.to_radians().tan()).atan().to_degrees();
     let mut changed = *given;
-    if change.side > 0.0 {
+    if change.side == ScaledSide::Crown {
         changed.crown = match given.crown {
             Crown::Angle(degrees) => Crown::Angle(angle(degrees)),
             Crown::Height(percent) => Crown::Height(factor * percent),
@@ -326,26 +266,6 @@ fn changed_brilliant(given: &RoundBrilliant, change: &AngleChange) -> RoundBrill
         };
     }
     changed
-}
-
-fn changed_tiers(tiers: &Tiers, change: &AngleChange) -> Result<Tiers, RetargetError> {
-    let mut changed = tiers.clone();
-    for (number, tier) in (1..).zip(&mut changed.tiers) {
-        let name = || tier.called(number);
-        let plane = tiers.plane(tier, 0.0);
-        let refused = |[before, after]: [f64; 2]| RetargetError::Angle { tier: name(), before, after };
-        let Some(plane) = change.plane(&plane).map_err(refused)? else { continue };
-        if plane.offset < 0.0 {
-            return Err(RetargetError::Origin { tier: name() });
-        }
-        if tier.angle != 0.0 {
-            let angle = plane.normal.truncate().length().atan2(plane.normal.z.abs()).to_degrees();
-            // A file may give a facet that faces down as one above 0 and beyond 90 degrees.
-            tier.angle = angle.copysign(plane.normal.z);
-        }
-        tier.distance = plane.offset.copysign(tier.distance);
-    }
-    Ok(changed)
 }
 
 /// Returns a design of turned tiers with each of them at the point that it met before; `None` where the stone is none the
@@ -376,17 +296,6 @@ fn met_anew(before: &Tiers, turned: &Tiers) -> Option<Tiers> {
     };
     let ((facets, corners), (left, open)) = (counted(&solved)?, counted(turned)?);
     (facets >= left && corners < open).then_some(solved)
-}
-
-fn changed_planes(
-    planes: impl Iterator<Item = (String, Plane)>,
-    change: &AngleChange,
-) -> Result<Vec<(String, Plane)>, RetargetError> {
-    let changed = |(name, plane): (String, Plane)| match change.plane(&plane) {
-        Ok(changed) => Ok((name, changed.unwrap_or(plane))),
-        Err([before, after]) => Err(RetargetError::Angle { tier: name, before, after }),
-    };
-    planes.map(changed).collect()
 }
 
 /// Returns the notes of the new design: those of the old one, and a sentence about the change.

@@ -1,7 +1,7 @@
 //! The exact slopes of measures by the angles and distances of cutters' tiers.
 
 use super::as_tiers;
-use crate::cut::{Cut, Design};
+use crate::cut::{Cut, Design, ScaledSide};
 use crate::io::{cut_file, library};
 use crate::measure::{MeasureDerivatives, MeasureName, MeasureSettings};
 use crate::render::{Sweep, SweepKey, with_numbers};
@@ -92,12 +92,16 @@ fn derivatives_by_angles_and_distances_of_tiers_are_those_of_differences() {
             polarised: true,
         };
         let tiers = design.cut.settings();
+        let scales = ScaledSide::ALL.map(|side| (SweepKey::Scale(side), 100.0, 2e-4));
         let slanted = tiers.iter().filter(|tier| (5.0..85.0).contains(&tier.angle.abs())).take(4);
-        for tier in slanted {
-            for (key, at, step) in [
+        let of_tiers = slanted.map(|tier| {
+            [
                 (SweepKey::Tier(tier.name.clone()), tier.angle.abs(), 2e-5),
                 (SweepKey::Distance(tier.name.clone()), tier.distance, 2e-7 * tier.distance),
-            ] {
+            ]
+        });
+        for group in of_tiers.chain([scales]) {
+            for (key, at, step) in group {
                 let changes = sweep.plane_changes(std::slice::from_ref(&key)).unwrap();
                 let changes = changes.of_key(0).unwrap().to_vec();
                 assert_eq!(changes.len(), facets);

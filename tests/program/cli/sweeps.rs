@@ -129,6 +129,39 @@ fn angles_of_tiers_materials_and_tilts_vary_as_well() {
 }
 
 #[test]
+fn the_scale_of_a_side_is_the_tangent_ratio_by_which_a_design_is_fitted() {
+    let desk = Desk::new();
+    let (code, _, stderr) = desk.run("convert tolkowsky tolkowsky.asc");
+    assert_eq!(code, 0, "{stderr}");
+    let measured = |line: &str| -> Vec<f64> {
+        let (columns, rows) = table(&desk.done(&format!("sweep {line} --of return-cos2 --unresolved 0.001")));
+        let column = columns.iter().position(|column| column == "return-cos2").unwrap();
+        rows.iter().map(|row| row[column].parse().unwrap()).collect()
+    };
+    for (side, key) in [("crown", "crown_scale"), ("pavilion", "pavilion_scale")] {
+        let rule = format!("--rule tangent-ratio --side {side} --factor 1.025 --material diamond --no-light");
+        let (code, _, stderr) = desk.run(&format!("retarget tolkowsky.asc {rule} --out {side}.asc"));
+        assert_eq!(code, 0, "{stderr}");
+        let swept = measured(&format!("tolkowsky.asc --over {key}=100,102.5,95"));
+        let single = [measured("tolkowsky.asc")[0], measured(&format!("{side}.asc"))[0]];
+        for (swept, single) in swept.iter().zip(single) {
+            assert!((swept - single).abs() < 1e-5, "{key}: {swept} {single}");
+        }
+        assert!(swept.iter().all(|value| (value - swept[0]).abs() > 1e-3 || *value == swept[0]), "{swept:?}");
+        let found = desk.json(&format!("gradient tolkowsky.asc --by {key} --of return-cos2 --json"));
+        assert!(at(&found["measures"]["return-cos2"]["per"], key).abs() > 1e-5, "{found}");
+    }
+    for (line, told) in [
+        ("tolkowsky --over crown_scale=90", "vary the proportions of another"),
+        ("tolkowsky.asc --over crown_scale=5", "percentage from 10 to 1000"),
+        ("tolkowsky.asc --over crown_scale=high", "percentage from 10 to 1000"),
+    ] {
+        let stderr = desk.refused(&format!("sweep {line}"), 2);
+        assert!(stderr.contains(told), "{line}: {stderr}");
+    }
+}
+
+#[test]
 fn a_sweep_that_was_stopped_goes_on_and_gives_the_same_file() {
     let desk = Desk::new();
     for ending in ["csv", "jsonl"] {
@@ -279,7 +312,8 @@ fn a_gradient_is_the_slope_of_the_measures_beside_the_design() {
     assert!(desk.done("gradient tolkowsky").contains("lower_half_length"), "numbers that are given");
     let tiers = desk.run("convert oval oval.asc");
     assert_eq!(tiers.0, 0);
-    assert!(desk.done("gradient oval.asc --of leakage").contains("tier:main, degrees"));
+    let listed = desk.done("gradient oval.asc --of leakage");
+    assert!(listed.contains("tier:main, degrees") && listed.contains("crown_scale, percent"), "{listed}");
     let ruby = desk.json("gradient emerald --material ruby --by table --of absorbed --of fire --json");
     for name in ["absorbed", "fire"] {
         assert!(at(&ruby["measures"][name]["per"], "table").abs() > 1e-5, "{ruby}");

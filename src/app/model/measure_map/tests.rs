@@ -111,6 +111,40 @@ fn a_design_of_tiers_is_mapped_by_two_angles_and_its_meets_follow() {
 }
 
 #[test]
+fn a_design_of_tiers_or_planes_is_mapped_by_the_scales_of_its_sides() {
+    let planes = design("tolkowsky");
+    let planes = Design { cut: Cut::Planes(planes.facets().unwrap()), ..planes };
+    for design in [tiers("tolkowsky"), planes] {
+        let (mut map, mut numbers) = map(&design);
+        let all = MapAxis::all(&design.cut);
+        let of = |key: &str| all.iter().find(|axis| axis.key == SweepKey::of(key)).unwrap().clone();
+        let axes = [of("pavilion_scale"), of("crown_scale")];
+        map.choose(MapOptions { axes: axes.clone(), ..map.options().unwrap().clone() });
+        map.follow(&design, &mut numbers);
+        let begun = numbers;
+        let here = |design: &Design| axes.each_ref().map(|axis| axis.value(&design.cut).unwrap());
+        assert!(here(&design).iter().all(|percent| (percent - 100.0).abs() < 1e-9));
+        // Two moves count from the design of the first, not one from the other.
+        let first = Design { cut: map.moved(&design, [101.0, 90.0]).unwrap(), ..design.clone() };
+        let second = Design { cut: map.moved(&first, [103.0, 110.0]).unwrap(), ..design.clone() };
+        let at_once = map.moved(&design, [103.0, 110.0]).unwrap();
+        assert!(is_same_cut(&second.cut, &at_once) && !is_same_cut(&first.cut, &at_once));
+        let there = here(&second);
+        assert!((there[0] - 103.0).abs() < 1e-9 && (there[1] - 110.0).abs() < 1e-9, "{there:?}");
+        for moved in [&first, &second] {
+            map.follow(moved, &mut numbers);
+            assert_eq!(numbers, begun, "the map stays");
+        }
+        // A map that begins at a scaled design has the same places.
+        let mut other = MeasureMap { options: map.options.clone(), ..MeasureMap::default() };
+        other.follow(&second, &mut numbers);
+        let [at_first, at_second] =
+            [&map, &other].map(|map| map.sweep.wanted().unwrap().sweep.design_at(point(16, 40)).unwrap());
+        assert!(is_same_cut(&at_first.cut, &at_second.cut));
+    }
+}
+
+#[test]
 fn axes_of_which_one_follows_from_the_other_are_refused() {
     let design = design("tolkowsky");
     let (mut map, mut numbers) = map(&design);

@@ -3,7 +3,7 @@
 use crate::app::model::Model;
 use crate::app::model::action::Edit;
 use crate::app::model::extent;
-use crate::cut::{Cut, Design, SolvedTiers, TierChange, TierOutcome};
+use crate::cut::{Cut, Design, ScaledSide, SolvedTiers, TierChange, TierOutcome, scaled};
 use crate::io::as_tiers;
 use crate::scene::{Copies, Pose};
 use glam::DVec3;
@@ -25,6 +25,7 @@ pub fn edit(model: &mut Model, edit: Edit) {
         }
         Edit::Tiers(change) => change_tiers(model, change),
         Edit::AddTier(after) => add_tier(model, after),
+        Edit::Scale { side, percent, of } => scale(model, side, 0.01 * percent, *of),
         Edit::IntoTiers => {
             let tiers = as_tiers(model.document.specimen()).map(|tiers| tiers.with_found_meets());
             keep_tiers_in_place(model, |cut| tiers.into_iter().for_each(|tiers| *cut = Cut::Tiers(tiers)));
@@ -78,6 +79,15 @@ fn move_along(model: &mut Model, to: [f64; 2]) {
             note_meet_faults(model);
         }
         Err(why) => session.notes.say(&format!("The design stays: {why}.")),
+    }
+}
+
+/// Scales a side of a cut, or says why the design stays. Meets stay as they are, because a stretch keeps them.
+fn scale(model: &mut Model, side: ScaledSide, factor: f64, of: Cut) {
+    let design = &mut model.document.work.design;
+    match scaled(&Design { cut: of, ..design.clone() }, side, factor) {
+        Ok(cut) => design.cut = cut,
+        Err(why) => model.session.notes.say(&format!("The design stays: {why}.")),
     }
 }
 
