@@ -2,12 +2,30 @@
 //! has its place on the stone.
 
 use super::names;
-use crate::math::{Plane, Polytope, Surface, triangulate};
+use super::outline::LEVEL;
+use crate::math::{Facet, Plane, Polytope, Surface, span, triangulate};
 use glam::DVec3;
+use std::collections::BTreeSet;
 
-/// A facet that reaches less than this across, girdle radii, is a sliver: no cutter polishes it. On a stone of 6.5 mm it
-/// is 0.01 mm.
-const NARROWEST: f64 = 0.003;
+/// A facet of crown or pavilion that is less wide than this, girdle radii, is a sliver: 1 % of the stone's width, as in an
+/// audit.
+const NARROWEST: f64 = 0.02;
+
+/// The least width of table and culet, girdle radii. On a stone of 6.5 mm it is 0.01 mm.
+const NARROWEST_LEVEL: f64 = 0.003;
+
+/// An upright facet whose area is below this part of the median area of all upright facets is a sliver, if the girdle closes
+/// beside it.
+const SLIVER: f64 = 0.02;
+
+/// The girdle closes, or nearly so, at both ends of a facet that is lower than this part of the highest upright facet.
+const CLOSING: f64 = 0.5;
+
+/// Corners nearer to one another than this, girdle radii, are one: what rounding leaves.
+const SAME: f64 = 1e-9;
+
+/// Areas within this factor of the smallest are alike: those of facets that are each other's image differ by rounding.
+const ALIKE: f64 = 1.0 + 1e-6;
 
 /// A triangle whose height is below this part of its longest side gives no plane: only rounding is left of it.
 const FLAT: f64 = 1e-9;
@@ -35,7 +53,7 @@ pub struct NoRoom {
 
 impl FacetNet {
     /// Returns an empty net for the facets of one half, at x of 0 and more, of a stone. The other half is its mirror image. Each
-    /// half is convex; the stone need not be so. A facet square to the plane x = 0 lies on both.
+    /// half is convex; the stone need not be so. A facet that reaches the plane x = 0, square to it, lies on both.
     pub fn half() -> Self {
         Self { is_half: true, ..Self::default() }
     }
@@ -78,25 +96,73 @@ impl FacetNet {
         names.into_iter().zip(self.facets.iter().map(|(_, plane)| *plane)).collect()
     }
 
-    /// Returns the solid between the facets, the stone or one half of it, and checks that each facet is on it and is no sliver.
-    /// Upright facets may vanish where the girdle is a knife edge.
+    /// Returns the net with the facets that have their place on the stone, and the solid between them: the stone, or one half
+    /// of it. Where the girdle closes to a knife edge, upright facets that are not on the solid, or of which only a sliver is
+    /// left, are dropped; their neighbours, or the facets above and below, take their place.
     ///
     /// # Errors
-    /// The first tier with a facet that has no room.
-    pub fn solid(&self) -> Result<Polytope, NoRoom> {
-        let mirror = self.is_half.then_some(MIRROR);
-        let planes: Vec<Plane> = self.facets.iter().map(|(_, plane)| *plane).chain(mirror).collect();
-        let stone = Polytope::from_planes(&planes).map_err(|_| NoRoom::default())?;
-        let leaning = |index: &usize| planes[*index].normal.z != 0.0;
-        let merged = stone.merged().iter().map(|(dropped, _)| *dropped);
-        let unseen = stone.redundant().iter().copied().chain(merged).find(leaning);
-        let narrow = || {
-            let facets = stone.facets().iter().filter(|facet| facet.plane.normal.z != 0.0);
-            facets.into_iter().find(|facet| width(&stone, facet) < NARROWEST).map(|facet| facet.source)
+    /// The first tier with another facet that has no room.
+    pub fn settled(mut self) -> Result<(Self, Polytope), NoRoom> {
+        loop {
+            let planes: Vec<Plane> =
+                self.facets.iter().map(|(_, plane)| *plane).chain(self.mirror()).collect();
+            let solid = Polytope::from_planes(&planes).map_err(|_| NoRoom::default())?;
+            let dropped = self.without_place(&solid);
+            if dropped.is_empty() {
+                self.check_room(&solid)?;
+                return Ok((self, solid));
+            }
+            let mut place = 0..;
+            self.facets.retain(|_| !place.next().is_some_and(|place| dropped.contains(&place)));
+        }
+    }
+
+    /// Returns the plane in which both halves of a stone meet.
+    fn mirror(&self) -> Option<Plane> {
+        self.is_half.then_some(MIRROR)
+    }
+
+    /// Returns the facets of a solid as (index of the plane, facet), without that in which both halves meet.
+    fn facets_of<'a>(&self, solid: &'a Polytope) -> impl Iterator<Item = (usize, &'a Facet)> + use<'a> {
+        let count = self.facets.len();
+        solid.facets().iter().map(|facet| (facet.source, facet)).filter(move |(index, _)| *index < count)
+    }
+
+    /// Returns the upright planes that are not on the solid, or else those of the smallest slivers, which are alike; none where
+    /// all upright planes have their place.
+    fn without_place(&self, solid: &Polytope) -> BTreeSet<usize> {
+        let is_upright =
+            |index: &usize| self.facets.get(*index).is_some_and(|(_, plane)| plane.normal.z == 0.0);
+        let unseen: BTreeSet<usize> = unseen(solid).filter(is_upright).collect();
+        if !unseen.is_empty() {
+            return unseen;
+        }
+        let upright = self.facets_of(solid).filter(|(index, _)| is_upright(index));
+        let sized: Vec<(usize, Upright)> =
+            upright.map(|(index, facet)| (index, Upright::of(solid, facet))).collect();
+        let mut areas: Vec<f64> = sized.iter().map(|(_, upright)| upright.area).collect();
+        areas.sort_by(f64::total_cmp);
+        let median = areas.get(areas.len() / 2).copied().unwrap_or(0.0);
+        let highest = sized.iter().map(|(_, upright)| upright.height).fold(0.0, f64::max);
+        let slivers = || sized.iter().filter(|(_, upright)| upright.is_sliver(median, highest));
+        let smallest = slivers().map(|(_, upright)| upright.area).fold(f64::INFINITY, f64::min);
+        slivers().filter(|(_, upright)| upright.area <= ALIKE * smallest).map(|(index, _)| *index).collect()
+    }
+
+    /// Checks that every facet that leans or lies flat is on a solid and is no sliver.
+    fn check_room(&self, solid: &Polytope) -> Result<(), NoRoom> {
+        let least = |facet: &Facet| match facet.plane.normal {
+            normal if normal.z == 0.0 => 0.0,
+            normal if normal.truncate().length() < LEVEL => NARROWEST_LEVEL,
+            _ => NARROWEST,
         };
-        match unseen.or_else(narrow) {
+        let narrow = || {
+            let found = self.facets_of(solid).find(|(_, facet)| solid.facet_width(facet) < least(facet));
+            found.map(|(index, _)| index)
+        };
+        match unseen(solid).next().or_else(narrow) {
             Some(index) => Err(NoRoom { tier: self.facets.get(index).map_or("", |(tier, _)| tier) }),
-            None => Ok(stone),
+            None => Ok(()),
         }
     }
 
@@ -122,7 +188,8 @@ impl FacetNet {
         let mut surface = Surface::default();
         let mut tiers = vec![];
         for (place, facet) in half.facets().iter().enumerate().filter(|(_, facet)| facet.source != mirror) {
-            let is_both = facet.plane.normal.x.abs() < SQUARE;
+            let reaches_seam = facet.outline.iter().any(|corner| vertices[*corner as usize].x.abs() < SAME);
+            let is_both = reaches_seam && facet.plane.normal.x.abs() < SQUARE;
             let own = tiers.len() as u32;
             let other = if is_both { own } else { own + 1 };
             tiers.extend(vec![self.facets[facet.source].0; (other - own + 1) as usize]);
@@ -138,10 +205,39 @@ impl FacetNet {
     }
 }
 
-/// Returns how far a facet reaches across: twice its area over its longest diagonal or side, so that it is the height of a
-/// triangle.
-fn width(stone: &Polytope, facet: &crate::math::Facet) -> f64 {
-    let corners: Vec<DVec3> = stone.corners(facet).collect();
-    let pairs = corners.iter().flat_map(|a| corners.iter().map(move |b| (*a - *b).length()));
-    2.0 * stone.facet_area(facet) / pairs.fold(f64::MIN_POSITIVE, f64::max)
+/// The measures of an upright facet.
+struct Upright {
+    area: f64,
+    height: f64,
+    /// The extent along the girdle.
+    length: f64,
+    /// Whether the girdle closes at one of the facet's ends.
+    is_closed: bool,
+}
+
+impl Upright {
+    fn of(solid: &Polytope, facet: &Facet) -> Self {
+        let along = facet.plane.normal.cross(DVec3::Z);
+        let extent = |direction: DVec3| span(solid.corners(facet).map(|corner| corner.dot(direction)));
+        let ((low, high), (from, to)) = (extent(DVec3::Z), extent(along));
+        let is_closed = [from, to].iter().any(|end| {
+            let here = solid.corners(facet).filter(|corner| (corner.dot(along) - end).abs() < SAME);
+            let (low, high) = span(here.map(|corner| corner.z));
+            high - low < SAME
+        });
+        Self { area: solid.facet_area(facet), height: high - low, length: to - from, is_closed }
+    }
+
+    /// Returns whether the facet is what is left where the girdle closes: too small or too short to be cut. `median` is the
+    /// median area of the upright facets, `highest` the height of the highest.
+    fn is_sliver(&self, median: f64, highest: f64) -> bool {
+        let is_closing = self.is_closed || self.height < CLOSING * highest;
+        is_closing && (self.area < SLIVER * median || self.length < NARROWEST.min(self.height))
+    }
+}
+
+/// Returns the indices of the planes that have no facet of their own on a solid.
+fn unseen(solid: &Polytope) -> impl Iterator<Item = usize> + '_ {
+    let merged = solid.merged().iter().map(|(dropped, _)| *dropped);
+    solid.redundant().iter().copied().chain(merged)
 }

@@ -1,7 +1,7 @@
 //! The facets and the stone of a cut that a family's function makes, after its limits have been checked.
 
 use super::design::DesignError;
-use super::facet_net::{FacetNet, NoRoom};
+use super::facet_net::NoRoom;
 use super::family_cut::FamilyCut;
 use super::proportion_error::ProportionError;
 use super::shape::Cut;
@@ -23,7 +23,9 @@ impl FamilyCut {
     /// # Errors
     /// The first limit crossed, and by how much; [`DesignError::NotConvex`] where the stone is not convex.
     pub fn facets(&self) -> Result<Vec<(String, Plane)>, DesignError> {
-        let net = self.checked()?;
+        let cut = Cut::Family(*self);
+        cut.check_numbers()?;
+        let (net, _) = self.settled().map_err(|unfit| cut.without_room(unfit))?;
         if net.is_half() { Err(NotConvex.into()) } else { Ok(net.named()) }
     }
 
@@ -38,8 +40,7 @@ impl FamilyCut {
     }
 
     fn made(&self) -> Result<FamilySolid, NoRoom> {
-        let net = self.net()?;
-        let solid = net.solid()?;
+        let (net, solid) = self.settled()?;
         if net.is_half() {
             let mesh = TriangleMesh::of_groups(net.both_halves(&solid)?).map_err(|_| NoRoom::default())?;
             return Ok(FamilySolid::Mesh(mesh));
@@ -47,12 +48,5 @@ impl FamilyCut {
         let named = net.named();
         let names = solid.facets().iter().map(|facet| named[facet.source].0.clone()).collect();
         Ok(FamilySolid::Convex(solid, names))
-    }
-
-    /// Returns the net of a cut that crosses no limit.
-    fn checked(&self) -> Result<FacetNet, ProportionError> {
-        let cut = Cut::Family(*self);
-        cut.check()?;
-        self.net().map_err(|unfit| cut.without_room(unfit))
     }
 }

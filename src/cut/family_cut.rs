@@ -3,6 +3,7 @@
 use super::facet_net::{FacetNet, NoRoom};
 use super::family::{Family, Proportion};
 use super::shape::Cut;
+use crate::math::Polytope;
 use std::fmt;
 use std::ops::Index;
 
@@ -46,12 +47,12 @@ impl FamilyCut {
         make(self)
     }
 
-    /// Checks that every facet of the net has its place on the stone.
+    /// Returns the net with all facets that have their place on the stone, and the solid between them.
     ///
     /// # Errors
-    /// The first facet without room.
-    pub(super) fn check_net(&self) -> Result<(), NoRoom> {
-        self.net()?.solid().map(|_| ())
+    /// What the numbers leave no room for.
+    pub(super) fn settled(&self) -> Result<(FacetNet, Polytope), NoRoom> {
+        self.net()?.settled()
     }
 }
 

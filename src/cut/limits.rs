@@ -15,7 +15,7 @@ impl Cut {
     pub fn check(&self) -> Result<(), ProportionError> {
         self.check_numbers()?;
         match self {
-            Self::Family(cut) => cut.check_net().map_err(|unfit| self.without_room(unfit)),
+            Self::Family(cut) => cut.settled().map(|_| ()).map_err(|unfit| self.without_room(unfit)),
             _ => Ok(()),
         }
     }
@@ -44,7 +44,7 @@ impl Cut {
             row.set(&mut cut, value);
             cut
         };
-        let fits = |cut: &Self| matches!(cut, Self::Family(cut) if cut.check_net().is_ok());
+        let fits = |cut: &Self| matches!(cut, Self::Family(cut) if cut.settled().is_ok());
         let unusual = |(row, value): &(&Proportion, f64)| {
             (value - usual(row)).abs() / (row.usual[1] - row.usual[0]).max(f64::MIN_POSITIVE)
         };

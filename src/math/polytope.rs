@@ -1,7 +1,7 @@
 //! A closed convex solid bounded by planes, and its measures. `polytope_build` builds it.
 
-use super::{Plane, Pose, bounds, polytope_build};
-use glam::DVec3;
+use super::{Calipers, Plane, Pose, bounds, hull, polytope_build};
+use glam::{DVec2, DVec3};
 
 /// One face of a [`Polytope`].
 #[derive(Debug, Clone, PartialEq)]
@@ -106,6 +106,13 @@ impl Polytope {
     /// Returns the area of one facet.
     pub fn facet_area(&self, facet: &Facet) -> f64 {
         self.vector_area(facet).dot(facet.plane.normal)
+    }
+
+    /// Returns the least distance between two parallel lines in a facet's plane that hold the facet.
+    pub fn facet_width(&self, facet: &Facet) -> f64 {
+        let (u, v) = facet.plane.normal.any_orthonormal_pair();
+        let flat = |corner: DVec3| DVec2::new(corner.dot(u), corner.dot(v));
+        Calipers::of(&hull(self.corners(facet).map(flat).collect())).map_or(0.0, |found| found.width)
     }
 
     /// Returns the area of all facets.

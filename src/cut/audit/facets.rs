@@ -3,8 +3,7 @@
 use super::finding::{Finding, FindingKind, FindingUnit};
 use super::subject::Subject;
 use crate::cut::{TierZone, tier_stem};
-use crate::math::{Calipers, grouped, hull};
-use glam::{DVec2, DVec3};
+use crate::math::grouped;
 
 /// A facet smaller than this, in percent of the median area of the facets of its zone, is small.
 pub const SMALL_FACET: f64 = 15.0;
@@ -47,7 +46,8 @@ fn median(mut values: Vec<f64>) -> f64 {
 pub(super) fn thin(subject: &Subject) -> Vec<Finding> {
     let leaning = (0..subject.facets().len())
         .filter(|&facet| matches!(subject.zones[facet], TierZone::Crown | TierZone::Pavilion));
-    let sized = leaning.map(|facet| (facet, subject.percent(least_width(subject, facet))));
+    let least_width = |facet: usize| subject.given.stone.facet_width(&subject.facets()[facet]);
+    let sized = leaning.map(|facet| (facet, subject.percent(least_width(facet))));
     let finding = |(facet, size)| Finding {
         kind: FindingKind::ThinFacet,
         points: vec![subject.middle(facet)],
@@ -57,15 +57,6 @@ pub(super) fn thin(subject: &Subject) -> Vec<Finding> {
         unit: FindingUnit::PercentOfWidth,
     };
     sized.filter(|(_, size)| *size < THIN_FACET).map(finding).collect()
-}
-
-/// Returns the least distance between two parallel lines in a facet's plane that hold the facet.
-fn least_width(subject: &Subject, facet: usize) -> f64 {
-    let facet = &subject.facets()[facet];
-    let (u, v) = facet.plane.normal.any_orthonormal_pair();
-    let flat = |corner: DVec3| DVec2::new(corner.dot(u), corner.dot(v));
-    let outline = hull(subject.given.stone.corners(facet).map(flat).collect());
-    Calipers::of(&outline).map_or(0.0, |found| found.width)
 }
 
 /// Returns the tiers of the pavilion that lie flatter than the critical angle, each with the angle of its flattest facet.

@@ -92,7 +92,7 @@ impl<'a> Brilliant<'a> {
     fn add_crown(&self, net: &mut FacetNet) -> Result<(), NoRoom> {
         let top = |main| self.toward_middle(main, self.table).extend(self.crown_height);
         for main in self.girdle.mains() {
-            let GirdlePlace { at, normal } = self.girdle.main(main);
+            let GirdlePlace { at, normal, .. } = self.girdle.main(main);
             let level = normal.perp().extend(0.0);
             net.through("bezel", [at.extend(0.0), at.extend(0.0) + level, top(main)], self.inside())?;
         }
@@ -120,7 +120,7 @@ impl<'a> Brilliant<'a> {
             self.add_halves(net, "lower_half", main, *tip, -self.thickness)?;
         }
         for main in self.girdle.mains() {
-            let GirdlePlace { at, normal } = self.girdle.main(main);
+            let GirdlePlace { at, normal, .. } = self.girdle.main(main);
             let (edge, level) = (at.extend(-self.thickness), normal.perp().extend(0.0));
             net.through("main", [edge, edge + level, point], self.inside())?;
         }

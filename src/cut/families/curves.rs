@@ -8,7 +8,7 @@ use glam::DVec2;
 pub fn around(way: f64, quarter: impl Fn(f64) -> GirdlePlace) -> GirdlePlace {
     let (number, part) = ((4.0 * way).floor(), (4.0 * way).fract());
     let flipped =
-        |place: GirdlePlace, by: DVec2| GirdlePlace { at: place.at * by, normal: place.normal * by };
+        |place: GirdlePlace, by: DVec2| GirdlePlace { at: place.at * by, normal: place.normal * by, ..place };
     match number as i64 % 4 {
         0 => quarter(part),
         1 => flipped(quarter(1.0 - part), DVec2::new(-1.0, 1.0)),
@@ -47,8 +47,9 @@ impl Wing {
         let along = (middle - start) * (weight * back * back)
             + (end - start) * (back * on)
             + (end - middle) * (weight * on * on);
-        let normal = if part == 1.0 { DVec2::Y } else { -along.perp().normalize_or(DVec2::NEG_X) };
-        GirdlePlace { at, normal }
+        let is_corner = part == 1.0;
+        let normal = if is_corner { DVec2::Y } else { -along.perp().normalize_or(DVec2::NEG_X) };
+        GirdlePlace { at, normal, is_corner }
     }
 }
 
@@ -98,6 +99,6 @@ impl RoundedQuarter {
             1.0 => DVec2::Y,
             _ => DVec2::from_angle(from + way / radius),
         };
-        GirdlePlace { at: centre + normal * radius, normal }
+        GirdlePlace { at: centre + normal * radius, normal, is_corner: false }
     }
 }

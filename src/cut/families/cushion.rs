@@ -72,7 +72,7 @@ pub(super) const fn corner<const PLACE: usize>() -> Proportion {
 pub(super) fn girdle(length: f64, bulge: f64, corner: f64, mains: usize) -> Result<Girdle, NoRoom> {
     let quarter = RoundedQuarter::new(length, bulge / 50.0, corner / 50.0);
     let quarter = quarter.ok_or(NoRoom { tier: "girdle" })?;
-    Ok(Girdle::new(mains, 4, |way| around(way, |part| quarter.at(part))))
+    Ok(Girdle::new(mains, |way| around(way, |part| quarter.at(part))))
 }
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {

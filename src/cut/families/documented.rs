@@ -21,6 +21,11 @@ from the girdle plane. The length is measured along y, which is up in pictures. 
 range of the editor's slider; \"possible\" is what the program takes if the facets still have room. All keys are required but those
 that have a default.
 
+![All families of this page: facets, ASET, and a render under the studio light](images/contact-sheet.png)
+
+Each family's first cut, in the order of the tables below, in diamond: its facets seen from above, its ASET, and a render under
+the light `studio`. [`contact-sheet.sh`](images/contact-sheet.sh) makes the picture by the program's own commands.
+
 ## What the families weigh
 
 The trade estimates the weight of a set diamond from its dimensions: carats = length · width · depth · k, in mm. Diamond has

@@ -11,49 +11,59 @@ pub struct GirdlePlace {
     pub at: DVec2,
     /// The unit normal of the outline there, outward. Where the outline has a corner, it lies between those of both sides.
     pub normal: DVec2,
+    /// Whether the outline has a corner there.
+    pub is_corner: bool,
 }
 
-impl GirdlePlace {
-    /// Returns the place of an outline that is larger by a factor.
-    pub fn scaled(self, factor: f64) -> Self {
-        Self { at: factor * self.at, ..self }
-    }
-}
+/// How many upright facets lie between a corner of the outline and the next station. Beside a main that touches the outline,
+/// half of one belongs to it.
+const UPRIGHT: usize = 4;
 
 /// An outline, counter-clockwise, with a main facet at every second station: closed, or the half on the side of +x of an
 /// outline that its mirror image completes.
 ///
 /// Stations alternate between those where a main touches the outline and those where two half facets part. Between two
-/// stations the girdle has a number of upright facets. They touch the curve in their middles, so that length and width are
-/// the distances of opposite facets.
+/// stations the girdle has a number of upright facets. One touches the curve where a main does, so that length and width are
+/// the distances of opposite facets. Where halves part, and where the outline has a corner, two meet in a point of the curve:
+/// all facets that come together there end in one point. The others meet in points of the curve as well.
 pub struct Girdle {
     stations: Vec<GirdlePlace>,
-    /// The places where upright facets touch the curve.
-    upright: Vec<GirdlePlace>,
+    /// The upright facets, each by a point and its normal.
+    upright: Vec<(DVec2, DVec2)>,
     /// Whether the outline is one half, whose first and last stations lie at x = 0.
     is_half: bool,
 }
 
 impl Girdle {
     /// Divides a curve into stations. `curve` takes the way around, from 0 to 1, to a place; equal parts of this way lie
-    /// between the stations of `mains` main facets, and `upright` girdle facets belong to each station.
-    pub fn new(mains: usize, upright: usize, curve: impl Fn(f64) -> GirdlePlace) -> Self {
-        let (stations, upright) = (2 * mains.max(2), upright.max(1));
-        let places = |count: usize| (0..count).map(|place| curve(place as f64 / count as f64)).collect();
-        Self { stations: places(stations), upright: places(stations * upright), is_half: false }
+    /// between the stations of `mains` main facets.
+    pub fn new(mains: usize, curve: impl Fn(f64) -> GirdlePlace) -> Self {
+        Self::divided(2 * mains.max(2), false, curve)
     }
 
     /// Divides one half of an outline, on the side of +x: `curve` begins and ends at x = 0, with a main at both ends, and
-    /// this leaves `gaps` gaps between mains.
-    pub fn half(gaps: usize, upright: usize, curve: impl Fn(f64) -> GirdlePlace) -> Self {
-        let (steps, upright) = (2 * gaps.max(2), upright.max(1));
-        let places = |count: usize| (0..=count).map(|place| curve(place as f64 / count as f64)).collect();
-        Self { stations: places(steps), upright: places(steps * upright), is_half: true }
+    /// this leaves `gaps` gaps between mains. The outline has a corner at both ends.
+    pub fn half(gaps: usize, curve: impl Fn(f64) -> GirdlePlace) -> Self {
+        Self::divided(2 * gaps.max(2), true, curve)
     }
 
-    /// Adds an upright facet that touches the outline at a place, so that the outline reaches no farther there.
-    pub fn touch(&mut self, place: GirdlePlace) {
-        self.upright.push(place);
+    fn divided(steps: usize, is_half: bool, curve: impl Fn(f64) -> GirdlePlace) -> Self {
+        let place = |step: f64| curve(step / steps as f64);
+        let stations = (0..steps + usize::from(is_half)).map(|step| place(step as f64)).collect();
+        let mut girdle = Self { stations, upright: vec![], is_half };
+        for step in (0..steps).step_by(2) {
+            let (main, next) = (girdle.main(step / 2), girdle.main(step / 2 + 1));
+            if !main.is_corner {
+                girdle.upright.push((main.at, main.normal));
+            }
+            let ends = [step as f64, (step + 2) as f64];
+            let mut corners: Vec<DVec2> = corner_ways(main).map(|way| place(ends[0] + way).at).collect();
+            let back: Vec<DVec2> = corner_ways(next).map(|way| place(ends[1] - way).at).collect();
+            corners.extend(back.iter().rev().skip(1));
+            let sides = corners.windows(2).map(|ends| (ends[0], -(ends[1] - ends[0]).perp()));
+            girdle.upright.extend(sides);
+        }
+        girdle
     }
 
     /// Returns a net without facets for a stone with this outline.
@@ -83,8 +93,16 @@ impl Girdle {
 
     /// Adds the upright facets.
     pub fn add_to(&self, net: &mut FacetNet) {
-        for GirdlePlace { at, normal } in &self.upright {
+        for (at, normal) in &self.upright {
             net.plane("girdle", normal.extend(0.0), at.extend(0.0));
         }
     }
+}
+
+/// Returns the ways from a main's station to the next place where halves part, in parts of the way there, at which upright
+/// facets meet on the curve. The last meets the first from the other side there; the first of a main that touches the outline
+/// meets the facet that does so too.
+fn corner_ways(main: GirdlePlace) -> impl Iterator<Item = f64> {
+    let (count, first) = if main.is_corner { (UPRIGHT, 0.0) } else { (UPRIGHT - 1, 0.5) };
+    (0..=count).map(move |number| (first + number as f64) / (first + count as f64))
 }

@@ -8,8 +8,8 @@
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::{Fixed, Of};
-use super::super::family::{Bound, Family, Proportion};
-use super::super::family_cut::FamilyCut;
+use super::super::family::{Bound, Family, Proportion, Unit};
+use super::super::family_cut::{FamilyCut, number};
 use super::super::shape::Cut;
 use super::brilliant::Brilliant;
 use super::curves::Wing;
@@ -24,20 +24,24 @@ const LOBE: usize = 2;
 const FULLNESS: usize = 3;
 const MIDDLE: usize = 4;
 const TABLE: usize = 5;
+const MAINS: usize = 12;
 
-/// The stations from the point to the widest place, as parts of the way from there to the point. Mains and places between
-/// them alternate; the first is a main.
+/// The stations from the point to the widest place, as parts of the way from there to the point, of a heart with four gaps in
+/// each half. Mains and places between them alternate; the first is a main. With more gaps, stations are spread alike.
 const SIDE: [f64; 4] = [1.0, 0.68, 0.34, 0.0];
 
-/// The stations from the widest place to the top of the lobe, as parts of the quarter by which the outline turns; the first lies
-/// between two mains, and the last is a main. Widest place and top are stations, so that length and width are exact.
+/// The stations from the widest place to the top of the lobe, as parts of the quarter by which the outline turns. Widest place
+/// and top are stations, so that length and width are exact.
 const OUTER_LOBE: [f64; 4] = [0.0, 0.4, 0.7, 1.0];
 
 /// The family of the heart.
 pub static HEART: Family = Family {
     key: "heart",
     name: "Heart",
-    first: FamilyCut::first(&HEART, &[1.0, 14.0, 30.0, 100.0, 8.0, 56.0, 34.5, 40.75, 35.0, 75.0, 4.0, 0.0]),
+    first: FamilyCut::first(
+        &HEART,
+        &[1.0, 14.0, 30.0, 100.0, 8.0, 56.0, 34.5, 40.75, 35.0, 75.0, 4.0, 0.0, 4.0],
+    ),
     net: Some(net),
     proportions: &[
         rows::length_to_width::<LENGTH>([0.9, 1.1]),
@@ -80,6 +84,20 @@ pub static HEART: Family = Family {
         brilliant_rows::lower_half_length::<9>(),
         rows::girdle_thickness::<10>(),
         rows::culet::<11>(),
+        Proportion {
+            key: "mains_per_half",
+            name: "Mains per half",
+            unit: Unit::Count,
+            of: "in half of the outline",
+            meaning: "The number of mains, and of bezels, in each half of the outline beside that at the point: 4 make nine mains.",
+            usual: [4.0, 6.0],
+            step: 1.0,
+            speed: 0.02,
+            least: Bound::at(Fixed(4.0), "the fewest mains that follow the lobes"),
+            most: Bound::at(Fixed(6.0), "the most mains allowed"),
+            default: Some(4.0),
+            ..number::<MAINS>()
+        },
     ],
 };
 
@@ -101,13 +119,14 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     // Each lobe is an arc of an ellipse, from the widest place over its top to the cleft.
     let sine = 1.0 - cut[CLEFT] / cut[LOBE];
     let across = 1.0 / (1.0 + (1.0 - sine * sine).sqrt());
-    let place = |at: DVec2, normal: DVec2| GirdlePlace {
+    let place = |at: DVec2, normal: DVec2, is_corner: bool| GirdlePlace {
         at: widest + at * scale,
         normal: normal.normalize_or(DVec2::X),
+        is_corner,
     };
     let side = |part: f64| {
-        let (GirdlePlace { at, normal }, below) = (wing.at(part), DVec2::new(1.0, -1.0));
-        place(at * below, normal * below)
+        let (GirdlePlace { at, normal, is_corner }, below) = (wing.at(part), DVec2::new(1.0, -1.0));
+        place(at * below, normal * below, is_corner)
     };
     let lobe_at = |angle: f64| {
         // The top is exact to the last bit.
@@ -116,26 +135,37 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
         let (sin, cos) = (sin / across, cos / lobe);
         let size = sin.hypot(cos);
         let at = DVec2::new(1.0 - across + across * cos / size, lobe * sin / size);
-        place(at, normal)
+        place(at, normal, false)
     };
     // The angle of the normal at the cleft.
     let cleft = (sine * across).atan2(-(1.0 - sine * sine).sqrt() * lobe);
-    let [a, b, c, top] = OUTER_LOBE.map(|part| part * FRAC_PI_2);
-    let lobes = [a, b, c, top, 0.5 * (top + cleft), cleft];
+    let gaps = cut[MAINS] as usize;
+    let (sides, outer) = (gaps - 1, gaps.div_ceil(2) + 1);
+    let inner = (2 * gaps).saturating_sub(sides + outer).max(1);
+    let steps = sides + outer + inner;
     let curve = |way: f64| {
-        let (step, part) = ((way * 8.0).floor() as usize, (way * 8.0).fract());
-        let between =
-            |stations: &[f64], from: usize| stations[from] + (stations[from + 1] - stations[from]) * part;
-        match step {
-            0..3 => side(between(&SIDE, step)),
-            3..8 => lobe_at(between(&lobes, step - 3)),
+        let place = way * steps as f64;
+        let along = [place, place - sides as f64, place - (sides + outer) as f64];
+        match place {
+            place if place < sides as f64 => side(station(&SIDE, along[0] / sides as f64)),
+            place if place < (sides + outer) as f64 => {
+                lobe_at(station(&OUTER_LOBE, along[1] / outer as f64) * FRAC_PI_2)
+            }
+            place if place < steps as f64 => lobe_at(station(&[FRAC_PI_2, cleft], along[2] / inner as f64)),
             _ => {
-                let GirdlePlace { at, normal } = lobe_at(cleft);
-                GirdlePlace { at: DVec2::new(0.0, at.y), normal }
+                let GirdlePlace { at, normal, .. } = lobe_at(cleft);
+                GirdlePlace { at: DVec2::new(0.0, at.y), normal, is_corner: true }
             }
         }
     };
-    let girdle = Girdle::half(4, 4, curve);
+    let girdle = Girdle::half(gaps, curve);
     let middle = widest - DVec2::Y * (cut[MIDDLE] / 50.0);
     Brilliant { is_star_free: true, ..Brilliant::of(cut, TABLE, &girdle, middle, scale) }.net()
+}
+
+/// Returns the number at a part of the way along a list, between two of its numbers in proportion.
+fn station(list: &[f64], way: f64) -> f64 {
+    let place = way * (list.len() - 1) as f64;
+    let from = (place as usize).min(list.len() - 2);
+    list[from] + (list[from + 1] - list[from]) * (place - from as f64)
 }

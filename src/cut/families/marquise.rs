@@ -15,12 +15,13 @@ use glam::DVec2;
 const LENGTH: usize = 0;
 const FULLNESS: usize = 1;
 const TABLE: usize = 2;
+const MAINS: usize = 9;
 
 /// The family of the marquise.
 pub static MARQUISE: Family = Family {
     key: "marquise",
     name: "Marquise",
-    first: FamilyCut::first(&MARQUISE, &[2.0, 100.0, 57.0, 34.5, 40.75, 50.0, 75.0, 3.0, 0.0]),
+    first: FamilyCut::first(&MARQUISE, &[2.0, 100.0, 57.0, 34.5, 40.75, 50.0, 75.0, 3.0, 0.0, 2.0]),
     net: Some(net),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.6, 2.5]),
@@ -32,11 +33,12 @@ pub static MARQUISE: Family = Family {
         brilliant_rows::lower_half_length::<6>(),
         rows::girdle_thickness::<7>(),
         rows::culet::<8>(),
+        brilliant_rows::mains_per_quarter::<MAINS>(),
     ],
 };
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let wing = Wing::new(cut[LENGTH], cut[FULLNESS] / 100.0).ok_or(NoRoom { tier: "girdle" })?;
-    let girdle = Girdle::new(8, 4, |way| around(way, |part| wing.at(part)));
+    let girdle = Girdle::new(4 * cut[MAINS] as usize, |way| around(way, |part| wing.at(part)));
     Brilliant::of(cut, TABLE, &girdle, DVec2::ZERO, 1.0).net()
 }

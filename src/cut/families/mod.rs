@@ -14,6 +14,8 @@ mod cushion_chevrons;
 #[cfg(test)]
 mod documented;
 mod emerald;
+#[cfg(test)]
+mod facet_tests;
 mod girdle;
 mod heart;
 mod hexagon;

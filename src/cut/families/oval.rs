@@ -52,7 +52,7 @@ pub static OVAL: Family = Family {
 
 /// Returns the place on a superellipse of half-axes 1 and `length` at a part of the way around, from +x. Equal parts of
 /// the way are equal angles of the circle from which it is stretched.
-pub(super) fn superellipse(length: f64, exponent: f64, way: f64) -> GirdlePlace {
+fn superellipse(length: f64, exponent: f64, way: f64) -> GirdlePlace {
     // Quarters are exact, so that stones are symmetric to the last bit of their extents.
     let (sin, cos) = match (way * 4.0).fract() {
         0.0 => [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)][(way * 4.0) as usize % 4],
@@ -63,11 +63,12 @@ pub(super) fn superellipse(length: f64, exponent: f64, way: f64) -> GirdlePlace 
     GirdlePlace {
         at: DVec2::new(cos, sin * length) * radius,
         normal: DVec2::new(slope(cos), slope(sin) / length).normalize_or(DVec2::X),
+        is_corner: false,
     }
 }
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let mains = 4 * cut[MAINS] as usize;
-    let girdle = Girdle::new(mains, 4, |way| superellipse(cut[LENGTH], cut[FULLNESS], way));
+    let girdle = Girdle::new(mains, |way| superellipse(cut[LENGTH], cut[FULLNESS], way));
     Brilliant::of(cut, TABLE, &girdle, DVec2::ZERO, 1.0).net()
 }

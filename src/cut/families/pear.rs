@@ -19,12 +19,13 @@ const FULLNESS: usize = 1;
 const HEAD: usize = 2;
 const MIDDLE: usize = 3;
 const TABLE: usize = 4;
+const MAINS: usize = 11;
 
 /// The family of the pear.
 pub static PEAR: Family = Family {
     key: "pear",
     name: "Pear",
-    first: FamilyCut::first(&PEAR, &[1.6, 100.0, 100.0, 0.0, 57.0, 34.5, 40.75, 50.0, 75.0, 3.0, 0.0]),
+    first: FamilyCut::first(&PEAR, &[1.6, 100.0, 100.0, 0.0, 57.0, 34.5, 40.75, 50.0, 75.0, 3.0, 0.0, 2.0]),
     net: Some(net),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.4, 1.9]),
@@ -54,6 +55,7 @@ pub static PEAR: Family = Family {
         brilliant_rows::lower_half_length::<8>(),
         rows::girdle_thickness::<9>(),
         rows::culet::<10>(),
+        brilliant_rows::mains_per_quarter::<MAINS>(),
     ],
 };
 
@@ -64,13 +66,13 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     // The widest place lies this far from the middle of the length.
     let widest = DVec2::new(0.0, head - cut[LENGTH]);
     let curve = |way: f64| {
-        let GirdlePlace { at, normal } = around(way, |part| match way < 0.5 {
+        let place = around(way, |part| match way < 0.5 {
             true => wing.at(part),
             false => ellipse(head, part),
         });
-        GirdlePlace { at: at + widest, normal }
+        GirdlePlace { at: place.at + widest, ..place }
     };
-    let girdle = Girdle::new(8, 4, curve);
+    let girdle = Girdle::new(4 * cut[MAINS] as usize, curve);
     let middle = widest + DVec2::Y * (cut[MIDDLE] / 50.0);
     Brilliant::of(cut, TABLE, &girdle, middle, 1.0).net()
 }
@@ -79,5 +81,5 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
 fn ellipse(height: f64, part: f64) -> GirdlePlace {
     let (sin, cos) = if part == 1.0 { (1.0, 0.0) } else { (part * FRAC_PI_2).sin_cos() };
     let normal = DVec2::new(cos * height, sin).normalize_or(DVec2::X);
-    GirdlePlace { at: DVec2::new(cos, sin * height), normal }
+    GirdlePlace { at: DVec2::new(cos, sin * height), normal, is_corner: false }
 }

@@ -33,7 +33,7 @@ pub static RADIANT: Family = Family {
     name: "Radiant cut",
     first: FamilyCut::first(
         &RADIANT,
-        &[1.2, 17.0, 65.0, 0.0, 34.0, 12.0, 12.0, 3.0, 50.0, 6.0, 30.0, 10.0, 3.0, 1.0],
+        &[1.2, 17.0, 65.0, 0.0, 34.0, 12.0, 12.0, 3.0, 50.0, 6.0, 30.0, 9.95, 3.0, 1.0],
     ),
     net: Some(net),
     proportions: &[

@@ -6,17 +6,21 @@
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::{Family, Proportion};
 use super::super::family_cut::FamilyCut;
-use super::girdle::{Girdle, GirdlePlace};
-use super::oval::superellipse;
 use super::rows;
-use glam::DVec3;
-use std::f64::consts::{FRAC_PI_8, PI};
+use glam::{DVec2, DVec3};
+use std::f64::consts::{FRAC_PI_8, PI, TAU};
 
 const TABLE: usize = 0;
 const CROWN: usize = 1;
 const PAVILION: usize = 2;
 const GIRDLE: usize = 3;
 const CULET: usize = 4;
+
+/// The facets around the table, and those below.
+const MAINS: u32 = 8;
+
+/// The upright facets of the girdle: eight beside each main, so that corners lie where mains meet.
+const UPRIGHT: u32 = 64;
 
 /// The family of the single cut.
 pub static SINGLE_CUT: Family = Family {
@@ -46,26 +50,28 @@ pub static SINGLE_CUT: Family = Family {
 };
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
-    // A round stone is measured by the circle through its corners, so that the girdle's 64 sides touch a smaller one.
-    let inner = (PI / 64.0).cos();
-    let girdle = Girdle::new(8, 4, |way| superellipse(1.0, 2.0, way).scaled(inner));
     let [crown, pavilion] = [CROWN, PAVILION].map(|place| cut[place].to_radians().tan());
     let thickness = cut[GIRDLE] / 50.0;
     // The table's corners lie between the mains.
     let side = cut[TABLE] / 100.0 * FRAC_PI_8.cos();
+    let around = |count: u32, from: f64| {
+        (0..count).map(move |number| DVec2::from_angle((f64::from(number) + from) * TAU / f64::from(count)))
+    };
     let mut net = FacetNet::default();
-    net.plane("table", DVec3::Z, DVec3::Z * (inner - side) * crown);
-    for main in girdle.mains() {
-        let GirdlePlace { at, normal } = girdle.main(main);
-        net.plane("bezel", (normal * crown).extend(1.0), at.extend(0.0));
+    net.plane("table", DVec3::Z, DVec3::Z * (1.0 - side) * crown);
+    for out in around(MAINS, 0.0) {
+        net.plane("bezel", (out * crown).extend(1.0), out.extend(0.0));
     }
-    girdle.add_to(&mut net);
-    for main in girdle.mains() {
-        let GirdlePlace { at, normal } = girdle.main(main);
-        net.plane("main", (normal * pavilion).extend(-1.0), at.extend(-thickness));
+    if thickness > 0.0 {
+        // Two meet in a corner wherever two mains do. The corners lie on the circle by which a round stone is measured.
+        let apart = (PI / f64::from(UPRIGHT)).cos();
+        around(UPRIGHT, 0.5).for_each(|out| net.plane("girdle", out.extend(0.0), (out * apart).extend(0.0)));
+    }
+    for out in around(MAINS, 0.0) {
+        net.plane("main", (out * pavilion).extend(-1.0), out.extend(-thickness));
     }
     if cut[CULET] > 0.0 {
-        let depth = thickness + pavilion * (inner - cut[CULET] / 100.0);
+        let depth = thickness + pavilion * (1.0 - cut[CULET] / 100.0);
         net.plane("culet", DVec3::NEG_Z, DVec3::NEG_Z * depth);
     }
     Ok(net)

@@ -227,6 +227,10 @@ fn counts_make_as_many_facets_as_they_say() {
     let tests = [
         ("oval", "mains_per_quarter", 3.0, "main", 12),
         ("cushion", "mains_per_quarter", 4.0, "bezel", 16),
+        ("marquise", "mains_per_quarter", 4.0, "main", 16),
+        ("pear", "mains_per_quarter", 3.0, "star", 12),
+        ("trillion", "mains_per_side", 3.0, "main", 9),
+        ("heart", "mains_per_half", 6.0, "bezel", 13),
         ("modified_cushion", "rows", 2.0, "chevron_2", 8),
         ("modified_cushion", "rows", 4.0, "chevron_4", 8),
     ];

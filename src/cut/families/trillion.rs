@@ -16,6 +16,7 @@ use std::f64::consts::{FRAC_PI_3, FRAC_PI_6, TAU};
 
 const BULGE: usize = 0;
 const TABLE: usize = 1;
+const MAINS: usize = 8;
 
 /// The distance of the middle of a triangle's side from its centre, in halves of a side.
 const INNER: f64 = 0.577_350_269_189_625_8;
@@ -24,7 +25,7 @@ const INNER: f64 = 0.577_350_269_189_625_8;
 pub static TRILLION: Family = Family {
     key: "trillion",
     name: "Trillion",
-    first: FamilyCut::first(&TRILLION, &[9.0, 55.0, 34.0, 41.0, 50.0, 70.0, 3.0, 0.0]),
+    first: FamilyCut::first(&TRILLION, &[9.0, 55.0, 34.0, 41.0, 50.0, 70.0, 3.0, 0.0, 2.0]),
     net: Some(net),
     proportions: &[
         Proportion {
@@ -44,6 +45,15 @@ pub static TRILLION: Family = Family {
         brilliant_rows::lower_half_length::<5>(),
         rows::girdle_thickness::<6>(),
         rows::culet::<7>(),
+        Proportion {
+            key: "mains_per_side",
+            name: "Mains per side",
+            of: "in a third of the outline",
+            meaning: "The number of mains, and of bezels, in a third of the outline, with that at a corner: 2 make six mains.",
+            usual: [2.0, 3.0],
+            most: Bound::at(Fixed(3.0), "the most mains allowed"),
+            ..brilliant_rows::mains_per_quarter::<MAINS>()
+        },
         Proportion {
             key: "length_to_width",
             name: "Length to width",
@@ -75,9 +85,10 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let widest = (1.0 / radius).asin();
     // The length is shorter than the width, so that half of it is 1.
     let centre = DVec2::Y * ((INNER + bulge) / length - 1.0);
-    let place = |corner: DVec2, normal: f64| GirdlePlace {
-        at: centre + corner / length,
+    let place = |at: DVec2, normal: f64, is_corner: bool| GirdlePlace {
+        at: centre + at / length,
         normal: DVec2::from_angle(normal),
+        is_corner,
     };
     let corner = |number: f64| {
         let angle = number * TAU / 3.0 + 3.0 * FRAC_PI_6;
@@ -87,17 +98,13 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
         let (number, part) = ((3.0 * way).floor(), (3.0 * way).fract());
         let (at, angle) = corner(number);
         if part == 0.0 {
-            return place(at, angle);
+            return place(at, angle, true);
         }
         let (side, turn) = (angle + FRAC_PI_3, (2.0 * part - 1.0) * widest);
         let arc = DVec2::from_angle(side) * (INNER + bulge - radius);
-        place(arc + DVec2::from_angle(side + turn) * radius, side + turn)
+        place(arc + DVec2::from_angle(side + turn) * radius, side + turn, false)
     };
-    let mut girdle = Girdle::new(6, 4, curve);
-    for number in [0.0, 1.0, 2.0] {
-        let (at, angle) = corner(number);
-        [-FRAC_PI_6, FRAC_PI_6].into_iter().for_each(|turn| girdle.touch(place(at, angle + turn)));
-    }
+    let girdle = Girdle::new(3 * cut[MAINS] as usize, curve);
     let reach = (INNER + bulge) / length;
     Brilliant::of(cut, TABLE, &girdle, centre, reach).net()
 }
