@@ -13,7 +13,7 @@ for cut in single-cut portuguese rose briolette oval marquise pear heart cushion
     "$program" render cuts/$cut.toml --light studio --overlay wireframe --samples 1 --size $side --out "$made-facets.png"
     "$program" render cuts/$cut.toml --light studio --size $side --out "$made-studio.png"
     "$program" export cuts/$cut.toml --views aset --size $side --out "$made"
-    # A stone that is not convex, a heart, has no picture with energy: rays find the strongest.
+    # A heart, which is not convex, is traced by rays, which give the strongest light alone.
     aset="$made/$cut-aset.png"
     if [ ! -e "$aset" ]; then aset="$made/$cut-aset-strongest.png"; fi
     montage "$made-facets.png" "$aset" "$made-studio.png" -tile 3x1 -geometry ${side}x${side}+2+2 \
@@ -22,4 +22,4 @@ for cut in single-cut portuguese rose briolette oval marquise pear heart cushion
         "$(sed -n 's/^name = "\(.*\)"/\1/p' cuts/$cut.toml)" "$made-tile.png"
     tiles="$tiles $made-tile.png"
 done
-montage $tiles -tile 2x -geometry +6+4 -background white -colors 160 docs/images/contact-sheet.png
+montage $tiles -tile 2x -geometry +6+4 -background white -depth 8 -colors 128 png8:docs/images/contact-sheet.png
