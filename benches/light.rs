@@ -1,13 +1,13 @@
 //! The benchmarks that docs/performance.md reports: `cargo bench`. They run on one core, so that figures of different
 //! machines can be compared.
 
-use brillianteer::cut::{Crown, LowerHalf, MaterialRef, Pavilion, RoundBrilliant};
-use brillianteer::io::{WriteError, cut_file, library, write_png};
+use brillianteer::cut::{Crown, Cut, LowerHalf, MaterialRef, Pavilion, RoundBrilliant, TierChange};
+use brillianteer::io::{WriteError, as_tiers, cut_file, library, write_png};
 use brillianteer::measure::{MeasureName, MeasureSettings, by_beams_and_rays};
 use brillianteer::optics::line;
 use brillianteer::picture::{Layer, Palette, paint};
 use brillianteer::render::{Sweep, SweepKey};
-use brillianteer::scene::{ASET_CONE, Backing, Film, Glare, Medium, Scope, Stone, View, Viewpoint};
+use brillianteer::scene::{ASET_CONE, Backing, Film, Glare, Medium, Scope, Specimen, Stone, View, Viewpoint};
 use brillianteer::trace::{beam, ray, unwatched};
 use criterion::{Criterion, criterion_group, criterion_main};
 use glam::DVec2;
@@ -127,6 +127,28 @@ fn geometry(c: &mut Criterion) {
     });
 }
 
+/// An edit of a tier of 193 facets: the meets are followed, and the stone is built anew. The goal is 5 ms together.
+fn edits(c: &mut Criterion) {
+    let text = library::cut("portuguese").expect("it comes with the program");
+    let mut design = cut_file::parse(text, "portuguese").expect("it is a cut");
+    let given = Specimen::new(design.clone()).expect("a stone");
+    let tiers = as_tiers(&given).expect("a stone between planes").with_own_meets();
+    let main = tiers.tiers.iter().position(|tier| (-80.0..0.0).contains(&tier.angle)).expect("a pavilion");
+    let (angle, distance) = (tiers.tiers[main].angle, tiers.tiers[main].distance);
+    let mut turned = 0.0;
+    let mut edited = || {
+        turned = if turned < 0.04 { turned + 0.001 } else { 0.0 };
+        tiers.changed(TierChange::Setting(main, angle + turned, distance))
+    };
+    c.bench_function("tiers: an edit of 193 facets, meets followed", |b| b.iter(&mut edited));
+    c.bench_function("tiers: an edit of 193 facets, meets followed and stone built (goal 5 ms)", |b| {
+        b.iter(|| {
+            design.cut = Cut::Tiers(edited().tiers);
+            Specimen::new(design.clone()).expect("a stone")
+        });
+    });
+}
+
 /// One figure of a design without and with its gradient by seven numbers. Both make the stone and trace it.
 fn gradients(c: &mut Criterion) {
     let mut design =
@@ -168,5 +190,5 @@ fn on_one_core() -> Criterion {
     Criterion::default().sample_size(20)
 }
 
-criterion_group! { name = light; config = on_one_core(); targets = beam_tracing, figures, energy_picture, rays, geometry, gradients }
+criterion_group! { name = light; config = on_one_core(); targets = beam_tracing, figures, energy_picture, rays, geometry, edits, gradients }
 criterion_main!(light);

@@ -134,7 +134,7 @@ pub fn with_finish(instructions: Cow<'_, str>, frosting: f64) -> Cow<'_, str> {
 }
 
 /// Returns the words of a text in small letters, without signs around them.
-fn words(text: &str) -> impl Iterator<Item = String> {
+pub(super) fn words(text: &str) -> impl Iterator<Item = String> {
     let bare = |word: &str| word.trim_matches(|c: char| !c.is_alphanumeric()).to_lowercase();
     text.split(|c: char| c.is_whitespace() || c == '-').map(bare).filter(|word| !word.is_empty())
 }

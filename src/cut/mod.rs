@@ -8,6 +8,7 @@
 pub mod audit;
 mod beyond_gear;
 mod class_estimate;
+mod concave;
 mod derive;
 mod design;
 mod facet_net;
@@ -56,7 +57,7 @@ pub use family_cut::FamilyCut;
 pub use frosting::{FROSTINGS, FinishNote, USUAL_FROSTING, with_finish};
 pub use glass::{Glass, Plate, Sides};
 pub use material::{MaterialError, MaterialRef};
-pub use meets::{GivenSize, Meet, MeetError, MeetFault, MeetPoint, SolvedTiers, TierOutcome};
+pub use meets::{GivenSize, Meet, MeetError, MeetFault, MeetPoint, SolvedTiers, TierCorner, TierOutcome};
 pub use mesh_shape::MeshShape;
 pub use outline::{AlongAxes, Outline, is_girdle, is_table, round_diameter};
 pub use proportion_error::{Limit, ProportionError};

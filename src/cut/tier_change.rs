@@ -36,11 +36,15 @@ pub enum TierChange {
     /// Sets the indices at which a tier is cut, in teeth.
     Indices(usize, Vec<f64>),
     /// Sets the angle of a tier, degrees, and its distance, in the unit of the design. A tier whose distance changes loses its
-    /// meet, which would give another.
+    /// meet, which would give another, and instructions that say no more than that meet; a size that the cutter chooses stays.
     Setting(usize, f64, f64),
-    /// Sets where the facets of a tier go; `None` for its distance.
+    /// Sets how much the facets of a tier are frosted: 0 polished, 1 as rough as can be.
+    Frosting(usize, f64),
+    /// Sets where the facets of a tier go; `None` for its distance. Instructions that state another meet make way for the words
+    /// of this one.
     Meet(usize, Option<Meet>),
-    /// Gives every tier without a meet the one that the geometry shows, if it shows one.
+    /// Gives every tier without a meet the one that its instructions state, or else the one that the geometry shows; neither
+    /// where it would move the tier.
     FindMeets,
     /// Sets the teeth of the index gear, below 0 where they are counted clockwise; not 0. All facets stay where they are, so
     /// that their indices change.
@@ -76,7 +80,7 @@ impl Tiers {
                     self.tiers.insert(place + 1, copy);
                 }
             }
-            TierChange::FindMeets => *self = self.with_found_meets(),
+            TierChange::FindMeets => *self = self.with_own_meets(),
             TierChange::Gear(teeth) if teeth != 0 => self.change_gear(teeth),
             TierChange::Symmetry(symmetry, mirror) => (self.symmetry, self.mirror) = (symmetry, mirror),
             TierChange::Name(place, name) if place < count => {
@@ -84,9 +88,18 @@ impl Tiers {
                 self.tiers[place].rename(&name);
             }
             TierChange::Delete(place) if place < count => drop(self.tiers.remove(place)),
+            TierChange::Meet(place, Some(meet)) if place < count => {
+                let stated = self.meet_in_words(place, &self.tiers[place].instructions);
+                let tier = &mut self.tiers[place];
+                if stated.is_some_and(|stated| tier.meet.as_ref() != Some(&meet) && stated != meet) {
+                    tier.instructions.clear();
+                }
+                tier.meet = Some(meet);
+            }
             TierChange::IsCut(place, _)
             | TierChange::Instructions(place, _)
             | TierChange::Indices(place, _)
+            | TierChange::Frosting(place, _)
             | TierChange::Meet(place, _)
             | TierChange::Setting(place, ..)
                 if place < count =>
@@ -139,12 +152,18 @@ impl Tiers {
     /// Returns the place of the tier to which a plane of the design belongs. `plane` counts the facets of all tiers that are
     /// cut, in their order.
     pub fn tier_of_plane(&self, plane: usize) -> Option<usize> {
+        self.facet_of_plane(plane).map(|(tier, _)| tier)
+    }
+
+    /// Returns the place of the tier to which a plane of the design belongs, as [`tier_of_plane`](Self::tier_of_plane) does, and
+    /// the place of the facet in that tier.
+    pub fn facet_of_plane(&self, plane: usize) -> Option<(usize, usize)> {
         let mut before = 0;
-        let holds = |tier: &Tier| {
-            before += if tier.is_cut { tier.facets.len() } else { 0 };
-            plane < before
-        };
-        self.tiers.iter().position(holds)
+        self.tiers.iter().enumerate().filter(|(_, tier)| tier.is_cut).find_map(|(place, tier)| {
+            let facet = plane.checked_sub(before).filter(|facet| *facet < tier.facets.len());
+            before += tier.facets.len();
+            facet.map(|facet| (place, facet))
+        })
     }
 }
 
@@ -224,10 +243,14 @@ impl Tier {
                 self.facets = indices.into_iter().map(facet).collect();
                 self.rename(&name);
             }
+            TierChange::Frosting(_, frosting) => self.frosting = frosting,
             TierChange::Meet(_, meet) => self.meet = meet,
             TierChange::Setting(_, angle, distance) => {
-                if distance != self.distance {
-                    self.meet = None;
+                if distance != self.distance && !matches!(self.meet, Some(Meet::Given(_))) {
+                    let words = self.meet.take().map(|meet| meet.to_string()).unwrap_or_default();
+                    if bare(&words) == bare(&self.instructions) {
+                        self.instructions.clear();
+                    }
                 }
                 (self.angle, self.distance) = (angle, distance);
             }
@@ -248,6 +271,11 @@ impl Tier {
         };
         self.facets.iter().map(tooth).collect::<Vec<_>>().join("-")
     }
+}
+
+/// Returns the letters and digits of a text, in small letters.
+fn bare(text: &str) -> String {
+    text.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
 /// Reads indices as cutters write them: joined by dashes, commas or blanks. `None` where one of them is no number, or
@@ -348,6 +376,34 @@ mod tests {
         // A tier that is not cut has no planes.
         assert_eq!(tiers.tier_of_plane(0), Some(1));
         assert_eq!((tiers.tier_of_plane(4), tiers.tier_of_plane(5)), (Some(2), None));
+    }
+
+    #[test]
+    fn instructions_never_state_another_meet_than_the_tier_has() {
+        let mut tiers = design();
+        let meet =
+            |names: [&str; 3]| Meet::Points(vec![MeetPoint::Corner(names.map(str::to_owned).to_vec())]);
+        tiers.tiers[2].instructions = "meet p1-P1-g1.".to_owned();
+        tiers.tiers[2].meet = Some(meet(["P1", "P1", "G1"]));
+        let stated = tiers.clone();
+        // The same meet keeps its words, another one has its own.
+        tiers.change(TierChange::Meet(2, Some(meet(["P1", "P1", "G1"]))));
+        assert_eq!(tiers, stated);
+        tiers.change(TierChange::Meet(2, Some(meet(["P1", "G1", "G1"]))));
+        assert_eq!(tiers.tiers[2].instruction(), "Meet P1-G1-G1");
+        // A distance of its own ends the meet, and words that state it alone.
+        let mut tiers = stated.clone();
+        tiers.change(TierChange::Setting(2, 0.0, 0.7));
+        assert_eq!((tiers.tiers[2].meet.clone(), tiers.tiers[2].instruction().as_ref()), (None, ""));
+        let mut tiers = stated;
+        tiers.tiers[2].instructions = "Polish first".to_owned();
+        tiers.change(TierChange::Setting(2, 0.0, 0.7));
+        assert_eq!(tiers.tiers[2].instructions, "Polish first");
+        // A size that the cutter chooses is chosen again.
+        let given = Some(Meet::Given(super::super::GivenSize::Size));
+        tiers.tiers[1].meet.clone_from(&given);
+        tiers.change(TierChange::Setting(1, 90.0, 0.7));
+        assert_eq!(tiers.tiers[1].meet, given);
     }
 
     #[test]

@@ -23,6 +23,8 @@ pub struct Specimen {
     /// The greatest distance that the stone reaches from its axis, or along the axis from the origin, girdle radii. Views
     /// are fitted to it, so that the girdle keeps its size while the depth changes.
     pub reach: f64,
+    /// The unit of the design's own distances, in the unit of the stone's frame; 1 for all designs but those of tiers.
+    pub unit: f64,
     /// The greatest distance that the stone reaches from the origin in any direction, girdle radii.
     pub radius: f64,
 }
@@ -64,9 +66,9 @@ impl Specimen {
         let given = facets.len();
         let unusual = design.warnings()?;
         let mut warnings = vec![];
-        let stone = match (Stone::new(&facets), &design.cut) {
+        let (stone, unit) = match (Stone::new(&facets), &design.cut) {
             (Ok(stone), Cut::Tiers(_)) => stone.girdled(),
-            (Ok(stone), _) => stone,
+            (Ok(stone), _) => (stone, 1.0),
             (Err(PolytopeError::Unbounded { .. }), Cut::Tiers(_)) => {
                 facets.extend(Tiers::block());
                 let stone = Stone::new(&facets).map_err(|e| with_names(&e, &facets))?;
@@ -84,14 +86,18 @@ impl Specimen {
         };
         warnings.extend(odd(&stone, &facets, given));
         warnings.extend(scattering(&stone));
-        Ok(Self { unusual, warnings, ..Self::made(design, Body::Stone(stone), material) })
+        if let Cut::Tiers(tiers) = &design.cut {
+            warnings.extend(tiers.concave_warning());
+        }
+        Ok(Self { unusual, warnings, unit, ..Self::made(design, Body::Stone(stone), material) })
     }
 
     fn made(design: Design, body: Body, material: Material) -> Self {
         let far = |v: &DVec3| v.truncate().length().max(v.z.abs());
         let reach = body.solid().vertices().iter().map(far).fold(0.0, f64::max);
         let radius = body.solid().reach();
-        Self { design, body: Arc::new(body), material, unusual: vec![], warnings: vec![], reach, radius }
+        let (unusual, warnings, unit) = (vec![], vec![], 1.0);
+        Self { design, body: Arc::new(body), material, unusual, warnings, reach, unit, radius }
     }
 
     /// Returns the shape, as tracers take it.

@@ -51,8 +51,8 @@ impl Stone {
     /// Returns the same stone in the frame of all stones, where it had a unit of its own.
     ///
     /// It is scaled so that half its diameter is 1, and moved so that its middle lies on the axis and the girdle's upper
-    /// edge at z = 0.
-    pub fn girdled(&self) -> Self {
+    /// edge at z = 0. Returns it with its own unit, in the unit of that frame.
+    pub fn girdled(&self) -> (Self, f64) {
         let outline = Outline::of(&self.polytope);
         let scale = 2.0 / outline.diameter;
         // A stone that lies on the axis but for the last digits is not shifted, so that no digit changes.
@@ -60,7 +60,7 @@ impl Stone {
             if outline.middle.length() > CENTRED * outline.width { outline.middle } else { DVec2::ZERO };
         let at = -scale * off.extend(outline.girdle_top);
         let polytope = self.polytope.reframed(&Pose { at, scale, ..Pose::STILL });
-        Self { polytope, names: self.names.clone() }
+        (Self { polytope, names: self.names.clone() }, scale)
     }
 
     /// Returns the same stone with frosted facets, as [`Polytope::frosted`] says.

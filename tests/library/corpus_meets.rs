@@ -175,3 +175,31 @@ fn the_check_of_meets_can_fail() {
     let most = apart.map(|(_, (a, b))| (a.distance.abs() - b.distance.abs()).abs()).fold(0.0, f64::max);
     assert!(most > COMES_BACK, "{most}");
 }
+
+#[test]
+fn meets_that_designs_state_are_kept_where_they_move_nothing() {
+    let files = files(&["asc"]);
+    let counts: Vec<[usize; 3]> = files
+        .par_iter()
+        .filter_map(|file| {
+            let Cut::Tiers(design) = design_file::read(file).ok()?.design.cut else { return None };
+            let kept = design.with_own_meets();
+            let largest = design.tiers.iter().map(|tier| tier.distance.abs()).fold(0.0, f64::max);
+            let solved = kept.solved();
+            assert_eq!(solved.errors().count(), 0, "{}", file.display());
+            for (own, solved) in design.tiers.iter().zip(&solved.tiers.tiers) {
+                let moved = (own.distance.abs() - solved.distance.abs()).abs();
+                assert!(moved <= 1e-4 * largest, "{}: {} moves by {moved:.1e}", file.display(), own.name());
+            }
+            let met = |tiers: &Tiers| tiers.tiers.iter().filter(|tier| tier.meet.is_some()).count();
+            Some([met(&design.with_stated_meets()), met(&design.with_kept_stated_meets()), met(&kept)])
+        })
+        .collect();
+    let [stated, adopted, all] =
+        counts.iter().fold([0; 3], |sum, count| [0, 1, 2].map(|at| sum[at] + count[at]));
+    println!(
+        "{} designs: {stated} meets stated, {adopted} kept, {all} with those that are found",
+        counts.len()
+    );
+    assert!(files.is_empty() || (adopted > stated / 2 && all > adopted), "{adopted} of {stated}, {all}");
+}

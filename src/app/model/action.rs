@@ -85,6 +85,13 @@ pub enum Edit {
     },
     /// Lists the facets of a cut as tiers.
     IntoTiers,
+    /// Cuts the tier at a place to the next corner that it reaches, deeper or farther out, if a meet leads there.
+    NextMeet {
+        /// The place of the tier in the design's list.
+        place: usize,
+        /// Whether the tier is cut deeper.
+        is_deeper: bool,
+    },
     /// Adds a tier after the one at a place, beside the stone.
     AddTier(Option<usize>),
     Material(MaterialRef),
@@ -126,6 +133,8 @@ pub enum ViewAction {
     Cutting(CuttingProgress),
     /// Selects the tier at a place of the design's list, or none.
     Tier(Option<usize>),
+    /// Lets a click on a corner choose where the tier at a place goes; `None` ends that.
+    PickMeet(Option<usize>),
     /// Selects the finding at a place of the audit's list, or none.
     Finding(Option<usize>),
     /// Chooses what the map of a measure shows.

@@ -50,6 +50,15 @@ fn is_same_stone(a: &Design, b: &Design) -> bool {
     is_same_cut && a.diameter_mm == b.diameter_mm && a.material == b.material
 }
 
+/// Takes the meets that the instructions of a design state, where its file keeps none and they move no tier.
+fn adopt_meets(design: &mut Design) {
+    if let Cut::Tiers(tiers) = &mut design.cut
+        && tiers.tiers.iter().all(|tier| tier.meet.is_none())
+    {
+        *tiers = tiers.with_kept_stated_meets();
+    }
+}
+
 /// The light that the program starts with.
 pub const FIRST_LIGHT: &str = "studio";
 
@@ -110,7 +119,8 @@ impl Document {
     /// # Errors
     /// Fails where the file cannot be read, is no design, or makes no stone.
     pub fn open(path: &Path, mesh: MeshOptions) -> Result<Self, FileError> {
-        let ImportedDesign { design, notes, warnings, doubt } = design_file::read_with(path, mesh)?;
+        let ImportedDesign { mut design, notes, warnings, doubt } = design_file::read_with(path, mesh)?;
+        adopt_meets(&mut design);
         let mut document = Self::new(design, Some(path.to_owned()))
             .map_err(|error| FileError::new(path.display(), error))?;
         document.work.remarks = warnings.into_iter().chain(notes).collect();

@@ -36,7 +36,7 @@ impl Extent {
     ///
     /// Length and width are those of [`Outline`]; of glass, they are the sides of its box.
     pub fn of(specimen: &Specimen) -> Self {
-        let unit = unit(&specimen.design).unwrap_or(1.0);
+        let unit = specimen.unit;
         let solid = specimen.solid();
         let (low, high) = solid.bounds();
         let sides = (high - low).truncate();

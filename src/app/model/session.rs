@@ -119,6 +119,8 @@ pub struct Session {
     pub edited: Option<&'static str>,
     /// The place of the tier that is selected in the design's list.
     pub tier: Option<usize>,
+    /// The place of the tier whose meet is being picked in a view.
+    pub picking: Option<usize>,
     /// Why the meet of each tier could not be followed after the last change; `None` where it was.
     pub meet_faults: Vec<Option<String>>,
     /// The audit of the stone, while its list is open.
@@ -181,6 +183,7 @@ impl Session {
             held: None,
             edited: None,
             tier: None,
+            picking: None,
             meet_faults: vec![],
             audit: SessionAudit::default(),
             map: MeasureMap::default(),

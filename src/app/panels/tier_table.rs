@@ -7,15 +7,17 @@ use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit, ViewAction};
 use crate::app::panels::rows::{ANY, Number, explain, spoken};
 use crate::app::panels::{gear_fields, scale_fields};
-use crate::cut::{Cut, Tier, TierChange, TierZone, Tiers, read_indices};
+use crate::cut::{Cut, FROSTINGS, Tier, TierChange, TierZone, Tiers, read_indices};
 use egui::{Color32, ComboBox, Id, Panel, Response, RichText, ScrollArea, Sense, TextEdit, Ui, vec2};
 
 /// The least, the first and the greatest height of the table, points.
 const HEIGHTS: [f32; 3] = [110.0, 270.0, 560.0];
-/// The widths of the columns, points: grip, cut, name, zone, angle, distance, meet, indices, instructions.
-const WIDTHS: [f32; 9] = [34.0, 34.0, 84.0, 88.0, 84.0, 92.0, 190.0, 240.0, 200.0];
+/// The widths of the columns, points: grip, cut, name, zone, angle, distance, meet, indices, frosting, instructions.
+const WIDTHS: [f32; 10] = [34.0, 34.0, 84.0, 88.0, 84.0, 92.0, 226.0, 240.0, 64.0, 200.0];
+/// The width of the button beside a meet, points.
+const PICK: f32 = 36.0;
 /// The heads of the columns and their meanings.
-const HEADS: [(&str, &str); 9] = [
+const HEADS: [(&str, &str); 10] = [
     ("", "The number of the tier. Drag it to cut the tier earlier or later."),
     ("Cut", "A tier that is not cut stays in the list and makes no facets."),
     ("Name", "What cutters call the tier, such as P1, G1, C1 or T."),
@@ -28,6 +30,7 @@ const HEADS: [(&str, &str); 9] = [
          follows, also when an earlier tier changes. Empty for the distance as it is.",
     ),
     ("Indices", "The teeth of the gear at which the tier is cut, joined by dashes."),
+    ("Frosting", "How much the facets are frosted: 0 is polished, 1 as rough as can be."),
     ("Instructions", "What the cutter is told besides."),
 ];
 
@@ -44,9 +47,17 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
         ui.horizontal_wrapped(|ui| buttons(tiers, selected, actions, ui));
         ScrollArea::both().auto_shrink(false).show(ui, |ui| {
             heads(ui);
+            let seen = ui.make_persistent_id("selected row in sight");
+            let is_new = ui.data(|data| data.get_temp::<Option<usize>>(seen)).flatten() != selected;
             for place in 0..tiers.tiers.len() {
-                row(model, tiers, place, actions, ui);
+                let row = row(model, tiers, place, actions, ui);
+                if is_new && selected == Some(place) {
+                    // The table is wider than its window, and keeps its place across.
+                    let across = ui.clip_rect().x_range();
+                    ui.scroll_to_rect(egui::Rect::from_x_y_ranges(across, row.y_range()), None);
+                }
             }
+            ui.data_mut(|data| data.insert_temp(seen, selected));
         });
     });
 }
@@ -91,10 +102,25 @@ fn buttons(tiers: &Tiers, selected: Option<usize>, actions: &mut Actions, ui: &m
         }
     }
     let find = ui.button("Find meets");
-    let meaning = "Gives every tier without a meet the one that the stone shows: the points through which its facets pass.";
+    let meaning = "Gives every tier without a meet the one that its instructions state, or else the one that the stone shows: the \
+        points through which its facets pass. No tier moves.";
     actions.push_if(explain(ui, find, meaning).clicked(), Edit::Tiers(TierChange::FindMeets));
+    next_meets(selected, actions, ui);
     gear_fields::show(tiers, actions, ui);
     scale_fields::show(tiers, actions, ui);
+}
+
+/// Draws the buttons that cut the selected tier to the next corner.
+fn next_meets(selected: Option<usize>, actions: &mut Actions, ui: &mut Ui) {
+    for (name, meaning, is_deeper) in [
+        ("Out to a meet", "Cuts the selected tier less deep, to the next corner that it reaches.", false),
+        ("In to a meet", "Cuts the selected tier deeper, to the next corner that it reaches.", true),
+    ] {
+        let button = ui.add_enabled(selected.is_some(), egui::Button::new(name));
+        if let (true, Some(place)) = (explain(ui, button, meaning).clicked(), selected) {
+            actions.push(Edit::NextMeet { place, is_deeper });
+        }
+    }
 }
 
 fn heads(ui: &mut Ui) {
@@ -119,8 +145,8 @@ fn cell<T>(ui: &mut Ui, width: f32, contents: impl FnOnce(&mut Ui) -> T) -> T {
     shown.inner
 }
 
-/// Draws the row of a tier.
-fn row(model: &Model, tiers: &Tiers, place: usize, actions: &mut Actions, ui: &mut Ui) {
+/// Draws the row of a tier; returns its place.
+fn row(model: &Model, tiers: &Tiers, place: usize, actions: &mut Actions, ui: &mut Ui) -> egui::Rect {
     let tier = &tiers.tiers[place];
     let called = if tier.name().is_empty() { format!("tier {}", place + 1) } else { tier.name().to_owned() };
     let is_selected = model.session.tier == Some(place);
@@ -140,20 +166,22 @@ fn row(model: &Model, tiers: &Tiers, place: usize, actions: &mut Actions, ui: &m
             let turned = cell(ui, WIDTHS[3], |ui| zone((place, tier, &called), ui));
             named.into_iter().chain(turned).for_each(|change| actions.push(Edit::Tiers(change)));
             setting(model, (place, tier, &called), grip.id, actions, ui);
-            let meet = meet(model, (place, tiers, &called), ui);
+            let meet = meet(model, (place, tiers, &called), actions, ui);
             let indices =
                 text(ui, WIDTHS[7], (place, "Indices", &called), &tier.indices(tiers.gear), |text| {
                     read_indices(text).map(|indices| TierChange::Indices(place, indices))
                 });
+            let frosting = frosting((place, tier, &called), grip.id, ui);
             let instructions =
-                text(ui, WIDTHS[8], (place, "Instructions", &called), &tier.instructions, |text| {
+                text(ui, WIDTHS[9], (place, "Instructions", &called), &tier.instructions, |text| {
                     Some(TierChange::Instructions(place, text.to_owned()))
                 });
-            let changes = [meet, indices, instructions].into_iter().flatten();
+            let changes = [meet, indices, frosting, instructions].into_iter().flatten();
             changes.for_each(|change| actions.push(Edit::Tiers(change)));
         });
     });
     dropped(place, &frame.response, actions, ui);
+    frame.response.rect
 }
 
 /// Draws the number of a row, by which it is selected and dragged.
@@ -246,24 +274,48 @@ fn setting(
     actions.push_if(is_changed && is_possible, Edit::Tiers(TierChange::Setting(place, angle, distance)));
 }
 
-/// Draws the field for the meet of a tier, and marks one that could not be followed.
-fn meet(model: &Model, (place, tiers, called): (usize, &Tiers, &str), ui: &mut Ui) -> Option<TierChange> {
+/// Draws the field for the frosting of a tier; `grip` is the number of its row.
+fn frosting((place, tier, called): (usize, &Tier, &str), grip: Id, ui: &mut Ui) -> Option<TierChange> {
+    let (mut frosting, width) = (tier.frosting, WIDTHS[8]);
+    cell(ui, width, |ui| {
+        let number = Number { decimals: 2, speed: 0.005, range: FROSTINGS, unit: "" };
+        let shown = number.show(ui, (width - 8.0, grip), &mut frosting);
+        spoken(&shown, &format!("Frosting of {called}"));
+    });
+    (frosting != tier.frosting && FROSTINGS.contains(&frosting))
+        .then_some(TierChange::Frosting(place, frosting))
+}
+
+/// Draws the field for the meet of a tier with the button that picks it in a view, and marks one that could not be followed.
+fn meet(
+    model: &Model,
+    (place, tiers, called): (usize, &Tiers, &str),
+    actions: &mut Actions,
+    ui: &mut Ui,
+) -> Option<TierChange> {
     let own = tiers.tiers[place].meet.as_ref().map(ToString::to_string).unwrap_or_default();
     let fault = model.session.meet_faults.get(place).and_then(Option::as_ref);
     let left = ui.cursor().left();
-    let changed = text(ui, WIDTHS[6], (place, "Meet", called), &own, |text| match text.trim() {
+    let width = WIDTHS[6] - PICK - ui.spacing().item_spacing.x;
+    let changed = text(ui, width, (place, "Meet", called), &own, |text| match text.trim() {
         "" => Some(TierChange::Meet(place, None)),
         text => tiers.meet_in_words(place, text).map(|meet| TierChange::Meet(place, Some(meet))),
     });
     if let Some(fault) = fault {
         let (row, colour) = (ui.max_rect(), ui.visuals().error_fg_color);
-        let cell = egui::Rect::from_x_y_ranges(left..=left + WIDTHS[6] - 8.0, row.y_range());
+        let cell = egui::Rect::from_x_y_ranges(left..=left + width - 8.0, row.y_range());
         ui.painter().rect_stroke(cell, 3.0, egui::Stroke::new(1.0, colour), egui::StrokeKind::Inside);
         let under = ui.interact(cell, ui.scope_id().with(("fault", place)), Sense::hover());
         let said = format!("The meet of {called} cannot be followed: {fault}");
         spoken(&under, &said);
         under.on_hover_text(said);
     }
+    let is_picked = model.session.picking == Some(place);
+    let pick = cell(ui, PICK, |ui| ui.selectable_label(is_picked, "Pick"));
+    spoken(&pick, &format!("Pick meet of {called}"));
+    let pick =
+        explain(ui, pick, "Shows the corners that the tier can be cut to. Click one in a view to meet it.");
+    actions.push_if(pick.clicked(), ViewAction::PickMeet((!is_picked).then_some(place)));
     changed
 }
 

@@ -2,7 +2,9 @@
 //! `cargo test --release --lib drag -- --ignored --nocapture`
 
 use super::*;
-use crate::cut::Crown;
+use crate::app::model::action::Edit;
+use crate::app::model::{Action, update};
+use crate::cut::{Crown, TierChange};
 use crate::scene::Side;
 use glam::DVec2;
 
@@ -58,6 +60,26 @@ fn the_views_follow_the_hand() {
             editor.model.workspace.eye.free();
         }
         editor.model.workspace.eye.drag(Side::Table, DVec2::new(0.004, 0.002));
+    });
+}
+
+#[test]
+#[ignore = "measures times, which takes a minute of two idle cores"]
+fn the_views_follow_a_tier_as_they_follow_the_brilliant() {
+    let mut tiers = None;
+    drag("a tier of the brilliant", false, |editor, k| {
+        let first = || {
+            update(&mut editor.model, Action::Edit(Edit::IntoTiers));
+            let Cut::Tiers(tiers) = &editor.model.document.work.design.cut else { panic!() };
+            let place = tiers.tiers.iter().position(|tier| tier.name() == "C1").unwrap();
+            (place, tiers.tiers[place].clone())
+        };
+        let (place, tier) = tiers.get_or_insert_with(first);
+        let angle = tier.angle + 0.02 * f64::from(k);
+        update(
+            &mut editor.model,
+            Action::Edit(Edit::Tiers(TierChange::Setting(*place, angle, tier.distance))),
+        );
     });
 }
 

@@ -2,6 +2,7 @@
 
 use super::emerald::build;
 use super::fitting::pick;
+use super::tiers::reach;
 use super::*;
 use crate::app::model::dialog::Dialog;
 use crate::io::cutting_sheet::{SheetFormat, cutting_sheet, write};
@@ -125,6 +126,17 @@ fn an_oval_as_tiers() {
     bench.settle();
     bench.click_at(bench.harness.get_by_label("ASET picture").rect().center() + egui::vec2(60.0, 140.0));
     take(&mut bench, "tiers");
+}
+
+#[test]
+#[ignore = "writes a picture into docs/images/editor"]
+fn the_corners_that_a_bezel_can_be_cut_to() {
+    let mut bench = window("tolkowsky.toml", &Bench::small());
+    bench.choose("Edit", "Turn into tiers");
+    bench.settle();
+    reach(&mut bench, "Pick meet of C1");
+    bench.click("Pick meet of C1");
+    take(&mut bench, "pick");
 }
 
 #[test]

@@ -21,6 +21,7 @@ mod maps;
 mod reading;
 mod recorder;
 mod searching;
+mod tier_hand;
 mod tiers;
 mod views;
 

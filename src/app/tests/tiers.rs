@@ -4,6 +4,7 @@ use super::*;
 use crate::app::model::action::Edit;
 use crate::app::model::{Action, update};
 use crate::cut::{Tier, TierChange, TierZone, Tiers};
+use crate::io::design_file::{self, DesignFormat};
 use egui::Role;
 
 /// Returns the tiers of the open design.
@@ -23,6 +24,17 @@ fn turned() -> Bench {
     bench
 }
 
+/// Opens an editor in which the oval has been turned into tiers.
+fn turned_oval() -> Bench {
+    let mut bench = Bench::sized(Setup::default(), egui::vec2(1400.0, 900.0));
+    bench.choose("File", "New from a cut");
+    bench.click("Oval 1.40");
+    bench.settle();
+    bench.choose("Edit", "Turn into tiers");
+    bench.settle();
+    bench
+}
+
 /// Scrolls the table until a widget is in sight.
 pub fn reach(bench: &mut Bench, label: &str) {
     bench.harness.get_by_label(label).scroll_to_me();
@@ -36,7 +48,10 @@ pub fn type_text(bench: &mut Bench, name: &str, text: &str) {
     bench.harness.step();
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
     bench.harness.step();
-    bench.harness.get_by_role_and_label(Role::TextInput, name).type_text(text);
+    match text {
+        "" => bench.harness.key_press(egui::Key::Backspace),
+        _ => bench.harness.get_by_role_and_label(Role::TextInput, name).type_text(text),
+    }
     bench.harness.run_steps(2);
     bench.harness.key_press(egui::Key::Enter);
     bench.harness.run_steps(3);
@@ -307,6 +322,125 @@ fn a_tier_that_is_named_anew_keeps_its_meets_and_another_gear_moves_no_facet() {
         bench.choose("Edit", "Undo");
     }
     assert!(matches!(bench.editor().model.document.work.design.cut, Cut::RoundBrilliant(_)));
+}
+
+/// Makes the design in the window a file of GemCad, and opens an editor with it and the table of tiers.
+fn reopened(bench: &Bench, folder: &std::path::Path) -> Bench {
+    let path = folder.join("turned.asc");
+    design_file::write(bench.editor().model.document.specimen(), DesignFormat::Asc, &path).unwrap();
+    let mut bench = Bench::sized(Setup { file: Some(path), ..Setup::default() }, egui::vec2(1400.0, 900.0));
+    bench.settle();
+    bench.choose("View", "Table of tiers");
+    bench.settle();
+    bench
+}
+
+#[test]
+fn meets_that_a_file_states_are_taken_when_it_is_opened_and_later_tiers_follow() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bench = reopened(&turned(), folder.path());
+    let before = tiers(&bench);
+    let place = |name: &str| before.tiers.iter().position(|tier| tier.name() == name).unwrap();
+    let said = |tiers: &Tiers, place: usize| tiers.tiers[place].meet.as_ref().map(ToString::to_string);
+    assert!(said(&before, place("C3")).is_some_and(|words| words.contains("C1")));
+    assert!(before.tiers[place("C3")].instructions.starts_with("Meet "));
+    assert!(!bench.editor().model.document.is_changed() && !bench.editor().model.document.steps().0);
+    // "Find meets" reads the instructions as well.
+    type_text(&mut bench, "Meet of C3", "");
+    assert_eq!(said(&tiers(&bench), place("C3")), None);
+    bench.click("Find meets");
+    let found = tiers(&bench);
+    for (now, then) in found.tiers.iter().zip(&before.tiers) {
+        assert!((now.distance - then.distance).abs() < 1e-9 && now.meet == then.meet, "{now:?} {then:?}");
+    }
+    reach(&mut bench, "Angle of C1");
+    bench.type_number("Angle of C1", "33.5");
+    let now = tiers(&bench);
+    let moved = before.tiers.iter().zip(&now.tiers).filter(|(a, b)| (a.distance - b.distance).abs() > 1e-4);
+    let moved: Vec<&str> = moved.map(|(tier, _)| tier.name()).collect();
+    assert_eq!(moved, ["C3", "T"], "upper halves and table follow the bezels");
+    bench.choose("Edit", "Undo");
+    assert_eq!(tiers(&bench), found);
+}
+
+#[test]
+fn an_oval_becomes_tiers_whose_meets_follow_and_undo_brings_it_back() {
+    let mut bench = turned_oval();
+    let given = bench.editor().model.document.step_before().unwrap().design.cut.clone();
+    assert!(matches!(given, Cut::Family(_)));
+    let before = tiers(&bench);
+    // The first tier that another one follows by its meet.
+    let followed = |place: &usize| {
+        let tier = &before.tiers[*place];
+        let change = TierChange::Setting(*place, tier.angle + 0.25f64.copysign(tier.angle), tier.distance);
+        let now = before.changed(change);
+        let moved =
+            |(k, (a, b)): (usize, (&Tier, &Tier))| k != *place && (a.distance - b.distance).abs() > 1e-4;
+        now.errors().count() == 0 && before.tiers.iter().zip(&now.tiers.tiers).enumerate().any(moved)
+    };
+    let place = (0..before.tiers.len()).find(followed).expect("a tier follows another");
+    let name = before.tiers[place].name().to_owned();
+    let angle = before.tiers[place].angle.abs() + 0.25;
+    reach(&mut bench, &format!("Angle of {name}"));
+    bench.type_number(&format!("Angle of {name}"), &angle.to_string());
+    let now = tiers(&bench);
+    let apart = |(a, b): (&Tier, &Tier)| (a.distance - b.distance).abs() > 1e-4;
+    assert!(before.tiers.iter().zip(&now.tiers).filter(|pair| apart(*pair)).count() >= 1);
+    assert!(bench.editor().model.session.meet_faults.iter().all(Option::is_none));
+    let again = now.solved();
+    assert!(!again.tiers.tiers.iter().zip(&now.tiers).any(apart), "the meets hold");
+    bench.choose("Edit", "Undo");
+    assert_eq!(tiers(&bench), before);
+    bench.choose("Edit", "Undo");
+    assert_eq!(bench.editor().model.document.work.design.cut, given);
+}
+
+#[test]
+fn a_row_comes_into_sight_when_its_facet_is_clicked_and_rows_are_dragged() {
+    let mut bench = turned_oval();
+    let row = |bench: &Bench, name: &str| bench.harness.get_by_label(&format!("Select {name}")).rect();
+    assert!(row(&bench, "T").bottom() > 900.0, "{:?}", row(&bench, "T"));
+    bench.click_at(bench.harness.get_by_label("ASET picture").rect().center());
+    bench.harness.run_steps(SCROLLED);
+    let (table, left) = (row(&bench, "T"), row(&bench, "P1").left());
+    assert!(table.bottom() < 900.0 && table.left() == left && left < 700.0, "{table:?}");
+    // The first tiers change places.
+    reach(&mut bench, "Select P1");
+    let before = names(&tiers(&bench));
+    let (from, to) = (row(&bench, "P1").center(), row(&bench, "P2").center());
+    let (button, modifiers) = (egui::PointerButton::Primary, egui::Modifiers::NONE);
+    bench.harness.hover_at(from);
+    bench.harness.step();
+    bench.harness.event(egui::Event::PointerButton { pos: from, button, pressed: true, modifiers });
+    bench.harness.step();
+    for part in [0.3, 0.7, 1.0] {
+        bench.harness.hover_at(from + (to - from) * part);
+        bench.harness.step();
+    }
+    bench.harness.event(egui::Event::PointerButton { pos: to, button, pressed: false, modifiers });
+    bench.harness.run_steps(3);
+    let now = names(&tiers(&bench));
+    assert_eq!((now[0].as_str(), now[1].as_str()), (before[1].as_str(), before[0].as_str()));
+    bench.choose("Edit", "Undo");
+    assert_eq!(names(&tiers(&bench)), before);
+}
+
+#[test]
+fn a_tier_is_frosted_in_the_table_and_polished_by_undo() {
+    let mut bench = turned();
+    let before = tiers(&bench);
+    reach(&mut bench, "Frosting of P2");
+    bench.type_number("Frosting of P2", "0.5");
+    bench.settle();
+    let frosted = |bench: &Bench| {
+        let stone = bench.editor().model.document.specimen().stone().unwrap();
+        stone.polytope.facets().iter().filter(|facet| facet.frosting == 0.5).count()
+    };
+    assert_eq!(frosted(&bench), 8);
+    let now = tiers(&bench);
+    assert_eq!(now.tiers.iter().filter(|tier| tier.frosting == 0.5).count(), 1);
+    bench.choose("Edit", "Undo");
+    assert_eq!((tiers(&bench), frosted(&bench)), (before, 0));
 }
 
 #[test]

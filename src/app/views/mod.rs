@@ -6,6 +6,7 @@ mod copies;
 mod eye_hand;
 mod following;
 pub mod gallery;
+mod known_corners;
 pub mod light_path;
 pub mod light_path_window;
 mod liquid_view;
@@ -19,6 +20,9 @@ pub mod probe;
 mod refraction_view;
 mod scene_view;
 pub mod stage;
+mod tier_drag;
+mod tier_hand;
+mod tier_picking;
 pub mod tools;
 mod view_menu;
 

@@ -79,10 +79,11 @@ impl Probe {
         self.tracer.meet(origin, direction).is_some()
     }
 
-    /// Returns the facet at a point of the image; `None` beside the stone.
-    pub fn facet(&self, view: &View, at: DVec2) -> Option<usize> {
+    /// Returns the facet at a point of the image, and the point of the stone there; `None` beside the stone.
+    pub fn meet(&self, view: &View, at: DVec2) -> Option<(usize, DVec3)> {
         let (origin, direction) = self.ray(view, at);
-        self.tracer.meet(origin, direction).map(|(facet, _)| facet)
+        let (facet, distance) = self.tracer.meet(origin, direction)?;
+        Some((facet, origin + direction * distance))
     }
 
     /// Returns what lies at a point of a film, in its pixels; `None` beside the stone.

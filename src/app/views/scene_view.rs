@@ -3,7 +3,7 @@
 use super::pane_context::{PaneContext, focus};
 use super::pane_view::PaneView;
 use super::view_menu::attend;
-use super::{copies, eye_hand, refraction_view};
+use super::{copies, eye_hand, refraction_view, tier_hand, tier_picking};
 use crate::app::model::action::ViewAction;
 use crate::app::model::audit::finding_facets;
 use crate::app::shows::Shows;
@@ -38,16 +38,23 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect, size: [u32; 2]) {
     }
     ui.painter().rect_stroke(body, 4.0, focus(ui, &response), StrokeKind::Inside);
     cx.tools.attention.is_picture_focused |= response.has_focus();
-    if !copies::carried(cx, ui, &response, &sight) {
+    let is_alone = !shows.has_copies() || model.is_alone();
+    let holds_tier = is_alone && tier_hand::held(cx, ui, &response, &sight);
+    if !holds_tier && !copies::carried(cx, ui, &response, &sight) {
         let moved = eye_hand::moved(eye, ui, &response, &sight, moves_background);
         cx.actions.push_changed(&eye, moved, |eye| ViewAction::Eye(cx.pane, eye));
     }
     attend(cx, &response, response.hovered() || response.has_focus());
-    let is_alone = !shows.has_copies() || model.is_alone();
+    if is_alone {
+        selected(cx, ui, &sight);
+        found(cx, ui, &sight);
+    }
+    if is_alone && tier_picking::picked(cx, ui, &response, &sight) {
+        return;
+    }
     clicked(cx, ui, is_alone, &response, &sight);
     if is_alone {
-        selected(cx, ui, &response, &sight);
-        found(cx, ui, &sight);
+        select(cx, &response, &sight);
     }
     match is_alone {
         true => hover(cx, ui, &response, &sight),
@@ -75,8 +82,8 @@ fn clicked(cx: &mut PaneContext, ui: &Ui, is_alone: bool, response: &Response, s
     }
 }
 
-/// Outlines the facets of the tier that is selected in the table of tiers, and selects the tier whose facet is clicked.
-fn selected(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneView) {
+/// Outlines the facets of the tier that is selected in the table of tiers.
+fn selected(cx: &PaneContext, ui: &Ui, sight: &PaneView) {
     let model = cx.model;
     let Cut::Tiers(tiers) = &model.document.work.design.cut else { return };
     let specimen = model.document.specimen();
@@ -90,9 +97,18 @@ fn selected(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneView
             sight.outline(ui, specimen.solid(), facet as u32, |corner| corner);
         }
     }
-    let at = response.interact_pointer_pos().filter(|_| response.clicked());
-    let hit = at.and_then(|at| cx.tools.probe.of(specimen).facet(&sight.view, sight.image(at)));
-    if let Some(place) = hit.and_then(tier_of) {
+}
+
+/// Selects the tier whose facet is clicked, where the table of tiers is open.
+fn select(cx: &mut PaneContext, response: &Response, sight: &PaneView) {
+    let model = cx.model;
+    let Cut::Tiers(tiers) = &model.document.work.design.cut else { return };
+    let specimen = model.document.specimen();
+    let at = response.interact_pointer_pos().filter(|_| response.clicked() && model.shows_tiers());
+    let Some((at, Ok(stone))) = at.map(|at| (at, specimen.stone())) else { return };
+    let hit = cx.tools.probe.of(specimen).meet(&sight.view, sight.image(at));
+    let tier_of = |facet: usize| tiers.tier_of_plane(stone.polytope.facets()[facet].source);
+    if let Some(place) = hit.and_then(|(facet, _)| tier_of(facet)) {
         cx.actions.push(ViewAction::Tier(Some(place)));
     }
 }
@@ -184,4 +200,5 @@ fn hover(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneView) {
     let Some(found) = found else { return };
     sight.outline(ui, specimen.solid(), found.facet, |corner| corner);
     cx.tools.attention.message = found.message();
+    tier_hand::hint(cx, ui, sight, at);
 }

@@ -17,6 +17,10 @@ const GAP: f32 = 6.0;
 pub fn show(model: &Model, tools: &mut ViewTools, actions: &mut Actions, ui: &mut Ui) -> Vec<Seen> {
     let mut seen = vec![];
     tools.attention = Attention::default();
+    if !ui.input(|i| i.pointer.any_down() || i.pointer.any_released()) {
+        // The view in which a facet was dragged may be gone.
+        tools.tiers.drag = None;
+    }
     let frame = egui::Frame::NONE.fill(ui.visuals().panel_fill);
     CentralPanel::no_frame().frame(frame).show(ui, |ui| {
         let whole = ui.max_rect().shrink(GAP);

@@ -3,6 +3,7 @@
 use super::following::Following;
 use super::gallery::Gallery;
 use super::probe::ProbeCache;
+use super::tier_drag::TierHand;
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::motion::WaveCache;
@@ -21,6 +22,8 @@ pub struct ViewTools {
     pub probe: ProbeCache,
     /// The drawing of the stone from the side, in each view.
     pub profiles: [ProfileView; 4],
+    /// The hand on a tier of the design.
+    pub tiers: TierHand,
     /// The window of the light path.
     pub following: Following,
     /// The colours and the scale of drawings, light or dark as the window is.
@@ -35,9 +38,9 @@ impl ViewTools {
         Orders { model, waves: &mut self.waves, paper: self.paper }
     }
 
-    /// Whether a handle of a profile is dragged.
+    /// Whether a handle of a profile or a facet of a tier is dragged.
     pub fn is_handle_dragged(&self) -> bool {
-        self.profiles.iter().any(ProfileView::is_dragging)
+        self.tiers.is_dragging() || self.profiles.iter().any(ProfileView::is_dragging)
     }
 }
 

@@ -13,7 +13,7 @@ pub(super) const PASSES: f64 = 2e-5;
 const SAME_WAY: f64 = 1e-6;
 
 /// The fewest and the most names of a corner.
-const NAMES: std::ops::RangeInclusive<usize> = 3..=6;
+pub(super) const NAMES: std::ops::RangeInclusive<usize> = 3..=6;
 
 /// The most lists of names that are tried for one corner.
 const MOST_LISTS: usize = 60;
@@ -42,9 +42,15 @@ impl Tiers {
         design
     }
 
+    /// Returns the design with the meets that its instructions state and then those that its geometry shows, for tiers without
+    /// one. All numbers stay, also when the design is followed: see [`with_kept_stated_meets`](Self::with_kept_stated_meets).
+    pub fn with_own_meets(&self) -> Self {
+        self.with_kept_stated_meets().with_found_meets()
+    }
+
     /// Drops the first meet that `before` does not have and that fails or moves its tier when all are followed; returns whether
     /// there was one.
-    fn drop_a_moving_meet(&mut self, before: &Self, scale: f64) -> bool {
+    pub(super) fn drop_a_moving_meet(&mut self, before: &Self, scale: f64) -> bool {
         let solved = self.solved();
         let moves = |place: &usize| {
             let moved = (solved.tiers.tiers[*place].distance - before.tiers[*place].distance).abs();
@@ -60,11 +66,17 @@ impl Tiers {
 
 impl Bench<'_> {
     /// Returns a meet that gives a tier the distance that it has; `None` where there is none.
-    fn found(&self, place: usize, tier: &Tier) -> Option<Meet> {
+    pub fn found(&self, place: usize, tier: &Tier) -> Option<Meet> {
+        self.simple(place, tier).or_else(|| self.found_corner(place, tier))
+    }
+
+    /// Returns the meet at the centre point or at the level girdle that gives a tier the distance that it has; `None` where
+    /// neither does.
+    pub fn simple(&self, place: usize, tier: &Tier) -> Option<Meet> {
         let level = self.is_beside_girdle(tier).then_some(MeetPoint::LevelGirdle);
         let points = [MeetPoint::Centre { temporary: false }].into_iter().chain(level);
         let mut simple = points.map(|point| Meet::Points(vec![point]));
-        simple.find(|meet| self.gives(place, tier, meet)).or_else(|| self.found_corner(place, tier))
+        simple.find(|meet| self.gives(place, tier, meet))
     }
 
     /// Returns whether the first facet of a tier meets one below or above it in a level line: one of them is upright, and they
@@ -91,7 +103,10 @@ impl Bench<'_> {
     fn found_corner(&self, place: usize, tier: &Tier) -> Option<Meet> {
         let corners = self.passed(tier);
         let lists = |count: usize| {
-            corners.iter().flat_map(move |corner| self.lists(place, corner, count)).collect::<Vec<_>>()
+            corners
+                .iter()
+                .flat_map(move |corner| self.lists(place, &corner.planes, count))
+                .collect::<Vec<_>>()
         };
         let meets = NAMES.flat_map(lists).map(|names| Meet::Points(vec![MeetPoint::Corner(names)]));
         meets.into_iter().find(|meet| self.gives(place, tier, meet))
@@ -110,10 +125,9 @@ impl Bench<'_> {
         corners
     }
 
-    /// Returns lists of so many names of facets that meet at a corner.
-    fn lists(&self, place: usize, corner: &StoneCorner, count: usize) -> Vec<Vec<String>> {
-        let mut tiers: Vec<usize> =
-            corner.planes.iter().map(|&plane| self.stone().plane(plane).tier).collect();
+    /// Returns lists of so many names of facets that meet at a corner; `planes` are the places of the planes that meet there.
+    pub fn lists(&self, place: usize, planes: &[usize], count: usize) -> Vec<Vec<String>> {
+        let mut tiers: Vec<usize> = planes.iter().map(|&plane| self.stone().plane(plane).tier).collect();
         tiers.sort_unstable();
         let mut lists: Vec<Vec<usize>> = vec![];
         choose(&tiers, count, &mut vec![], &mut lists);

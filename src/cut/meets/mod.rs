@@ -1,11 +1,14 @@
 //! Meets: where the facets of a tier go, as cutters say it. `meet` is what a tier keeps, `words` reads it from instructions,
 //! `stated` takes the reading that the design's numbers bear out, `found` finds it in the geometry, and `solve` follows it
-//! to the corners that a facet can `reach`.
+//! to the corners that a facet can `reach`. `corners` lists those that a tier of a finished stone can be moved to.
 //!
 //! A meet is a point on the stone as it is cut so far (`stone`): a corner where named tiers meet (`names`), a corner of the
 //! girdle, the girdle line, or the point where the axis leaves the stone. Names may be written as cutters write them: P1 is
 //! the pavilion tier 1, G1 a girdle tier, C1 the crown tier 1, and small and capital letters are the same.
 
+mod corners;
+#[cfg(test)]
+mod corners_tests;
 mod fault;
 mod found;
 mod meet;
@@ -20,6 +23,7 @@ mod stone;
 mod tests;
 mod words;
 
+pub use corners::TierCorner;
 pub use fault::{MeetError, MeetFault};
 pub use meet::{GivenSize, Meet, MeetPoint};
 pub use solve::{SolvedTiers, TierOutcome};

@@ -33,6 +33,21 @@ impl Bench<'_> {
     /// Returns the corners that fit, in the order in which a facet reaches them as it is cut deeper, one for each depth. All
     /// facets of the tier are cut as deep, and leave the corner on the stone.
     pub fn reached(&self, planes: &[Plane], facet: usize, fits: impl Fn(&StoneCorner) -> bool) -> Vec<DVec3> {
+        let normal = planes[facet].normal;
+        let mut places: Vec<DVec3> =
+            self.reached_corners(planes, facet, fits).into_iter().map(|corner| corner.at).collect();
+        let same = SAME_DEPTH * self.stone().scale();
+        places.dedup_by(|next, before| normal.dot(*before - *next) <= same);
+        places
+    }
+
+    /// Returns all corners that fit, in the order in which a facet reaches them, as [`reached`](Self::reached) does.
+    pub fn reached_corners(
+        &self,
+        planes: &[Plane],
+        facet: usize,
+        fits: impl Fn(&StoneCorner) -> bool,
+    ) -> Vec<&StoneCorner> {
         let (normal, scale) = (planes[facet].normal, self.stone().scale());
         let highest = self.stone().support(normal) - REACHABLE * scale;
         let is_left = |at: DVec3, depth: f64| {
@@ -42,11 +57,9 @@ impl Bench<'_> {
             let depth = normal.dot(corner.at);
             depth < highest && is_left(corner.at, depth) && fits(corner)
         };
-        let mut places: Vec<DVec3> =
-            self.stone().corners().iter().filter(can_be_reached).map(|corner| corner.at).collect();
-        places.sort_by(|a, b| normal.dot(*b).total_cmp(&normal.dot(*a)));
-        places.dedup_by(|next, before| normal.dot(*before - *next) <= SAME_DEPTH * scale);
-        places
+        let mut corners: Vec<&StoneCorner> = self.stone().corners().iter().filter(can_be_reached).collect();
+        corners.sort_by(|a, b| normal.dot(b.at).total_cmp(&normal.dot(a.at)));
+        corners
     }
 
     /// Returns the number of corners, at different depths, that fit the names of a meet beside the first facet of a tier; of several

@@ -3,6 +3,7 @@
 use super::super::tiers::{Tier, Tiers};
 use super::found::PASSES;
 use super::meet::{Meet, MeetPoint};
+use super::names::TierNames;
 use super::solve::{AGREE, Bench, SAME_DEPTH, TierOutcome, cutting_order};
 use super::stone::StoneCorner;
 use super::words;
@@ -35,6 +36,19 @@ impl Tiers {
             }
             bench.cut(place, tier);
         }
+        design
+    }
+
+    /// Returns the design with those of the meets that its instructions state that its numbers bear out: followed together they
+    /// move no tier. Names are written as their tiers have them. Tiers that have a meet keep it, and all numbers stay.
+    pub fn with_kept_stated_meets(&self) -> Self {
+        let mut design = self.with_stated_meets();
+        let names = TierNames::of(self);
+        for (place, tier) in design.tiers.iter_mut().enumerate() {
+            tier.meet.iter_mut().for_each(|meet| words::name_as_written(meet, &names, place));
+        }
+        let scale = Bench::of(self).stone().scale();
+        while design.drop_a_moving_meet(self, scale) {}
         design
     }
 }

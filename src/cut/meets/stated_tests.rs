@@ -110,3 +110,31 @@ fn a_girdle_of_another_name_is_numbered() {
     let names = TierNames::of(&design);
     assert_eq!([names.meant("g1", 2), names.meant("g2", 2)], [vec![1], vec![]]);
 }
+
+#[test]
+fn stated_meets_that_the_numbers_bear_out_are_kept_and_others_dropped() {
+    let solved = brilliant();
+    let mut bare = solved.clone();
+    bare.tiers.iter_mut().for_each(|tier| tier.meet = None);
+    let kept = bare.with_kept_stated_meets();
+    let words = |tiers: &Tiers| -> Vec<Option<String>> {
+        tiers
+            .tiers
+            .iter()
+            .map(|tier| tier.meet.as_ref().map(|meet| meet.to_string().to_uppercase()))
+            .collect()
+    };
+    assert_eq!(words(&kept), words(&solved));
+    // Names are written as their tiers have them: the instruction says "meet b-C".
+    let table = kept.tiers.last().unwrap().meet.as_ref().unwrap().to_string();
+    assert!(table.contains('B') && !table.contains('b'), "{table}");
+    // A table that is cut deeper than its instruction says loses that meet alone, and nothing moves.
+    bare.tiers.last_mut().unwrap().distance *= 0.9;
+    let other = bare.with_kept_stated_meets();
+    assert_eq!(other.tiers.last().unwrap().meet, None);
+    assert_eq!(words(&other)[..6], words(&solved)[..6]);
+    let moved = other.solved().tiers;
+    for (moved, own) in moved.tiers.iter().zip(&bare.tiers) {
+        assert_near(&[moved.distance], &[own.distance]);
+    }
+}

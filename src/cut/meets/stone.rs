@@ -2,6 +2,7 @@
 
 use crate::math::{Draft, DraftCut, Plane};
 use glam::DVec3;
+use std::cell::OnceCell;
 
 /// The half side of the block that is cut from, in lengths of the largest distance. What touches the block is no corner of
 /// the stone.
@@ -65,6 +66,13 @@ pub(super) struct PartStone {
     scale: f64,
     draft: Draft,
     planes: Vec<CutPlane>,
+    /// The corners and the edges, once they are asked for.
+    found: OnceCell<Found>,
+}
+
+/// The corners and the edges of the stone so far.
+#[derive(Debug, Clone)]
+struct Found {
     corners: Vec<StoneCorner>,
     edges: Vec<PartEdge>,
 }
@@ -80,7 +88,7 @@ struct PartEdge {
 impl PartStone {
     pub fn new(scale: f64, most: usize) -> Self {
         let draft = Draft::cube(BLOCK_HALF * scale, most);
-        Self { scale, draft, planes: Vec::with_capacity(most), corners: vec![], edges: vec![] }
+        Self { scale, draft, planes: Vec::with_capacity(most), found: OnceCell::new() }
     }
 
     pub fn scale(&self) -> f64 {
@@ -88,7 +96,7 @@ impl PartStone {
     }
 
     pub fn corners(&self) -> &[StoneCorner] {
-        &self.corners
+        &self.found().corners
     }
 
     /// Returns all planes that were cut, in their order.
@@ -110,7 +118,7 @@ impl PartStone {
                 self.cut_anew();
             }
         }
-        self.find_corners();
+        self.found = OnceCell::new();
     }
 
     /// Cuts all planes from a new block with a smaller tolerance, which may close what a larger one could not. A plane that
@@ -139,13 +147,26 @@ impl PartStone {
         self.draft = draft;
     }
 
-    fn find_corners(&mut self) {
+    /// Returns the corners and the edges. Most tiers need none, so that they are found when a meet asks for them.
+    fn found(&self) -> &Found {
+        self.found.get_or_init(|| {
+            let touching = self.touching();
+            Found { edges: self.edges(&touching), corners: self.joined_corners(touching) }
+        })
+    }
+
+    /// Returns for each corner of the draft the sources of the faces that touch it.
+    fn touching(&self) -> Vec<Vec<usize>> {
         let mut touching: Vec<Vec<usize>> = vec![vec![]; self.draft.vertices.len()];
         for face in &self.draft.faces {
             face.outline.iter().for_each(|&corner| touching[corner as usize].push(face.source));
         }
+        touching
+    }
+
+    fn edges(&self, touching: &[Vec<usize>]) -> Vec<PartEdge> {
         let given = |source: usize| (source < self.planes.len()).then_some(source);
-        self.edges.clear();
+        let mut edges = vec![];
         for face in &self.draft.faces {
             let next = face.outline.iter().cycle().skip(1);
             for (&a, &b) in face.outline.iter().zip(next).filter(|(a, b)| a < b) {
@@ -154,9 +175,14 @@ impl PartStone {
                     .find(|&&other| other != face.source && touching[b as usize].contains(&other));
                 let ends = [a, b].map(|corner| self.draft.vertices[corner as usize]);
                 let planes = [given(face.source), across.copied().and_then(given)];
-                self.edges.push(PartEdge { ends, planes });
+                edges.push(PartEdge { ends, planes });
             }
         }
+        edges
+    }
+
+    /// Returns the corners of the stone; those that are one to a cutter have the planes of all.
+    fn joined_corners(&self, touching: Vec<Vec<usize>>) -> Vec<StoneCorner> {
         let count = self.planes.len();
         let live = touching.into_iter().zip(&self.draft.vertices);
         let is_corner = |planes: &Vec<usize>| !planes.is_empty() && planes.iter().all(|&plane| plane < count);
@@ -177,7 +203,7 @@ impl PartStone {
                 }
             }
         }
-        self.corners = corners;
+        corners
     }
 
     /// Returns the distance from the origin at which the axis leaves the stone on a side; `None` where nothing is cut there.
@@ -192,7 +218,7 @@ impl PartStone {
         let normal = |plane: Option<usize>| plane.map(|plane| self.planes[plane].plane.normal);
         let near = SAME_HEIGHT * self.scale;
         let mut lengths: Vec<(f64, f64)> = vec![];
-        for edge in &self.edges {
+        for edge in &self.found().edges {
             let [Some(a), Some(b)] = edge.planes.map(normal) else { continue };
             let is_beside = |leaning: DVec3| StoneSide::of(leaning) == Some(side);
             let is_girdle = (a.z == 0.0 && is_beside(b)) || (b.z == 0.0 && is_beside(a));
@@ -216,7 +242,7 @@ impl PartStone {
     /// section, or where it reaches the block.
     pub fn section_support(&self, height: f64, along: DVec3) -> Option<DVec3> {
         let near = SAME_HEIGHT * self.scale;
-        let points = self.edges.iter().flat_map(|edge| {
+        let points = self.found().edges.iter().flat_map(|edge| {
             let [a, b] = edge.ends;
             let crosses = (a.z - height) * (b.z - height) < 0.0;
             let crossing = crosses.then(|| a + (b - a) * ((height - a.z) / (b.z - a.z)));

@@ -84,13 +84,17 @@ impl Tiers {
         let tier = self.tiers.get(place)?;
         let names = TierNames::of(self);
         let mut meet = readings(text, tier.zone(), &names, place, vec![]).into_iter().next()?;
-        // A name that is typed in small letters is written as its tier has it.
-        for name in meet.names_mut() {
-            let meant = names.meant(name, place).into_iter().map(|tier| names.written(tier, place));
-            let own = meant.into_iter().find(|own| own.eq_ignore_ascii_case(name));
-            own.into_iter().for_each(|own| *name = own);
-        }
+        name_as_written(&mut meet, &names, place);
         Some(meet)
+    }
+}
+
+/// Writes each name of a meet as its tier has it, where the letters differ only in their size; `place` is the tier of the meet.
+pub(super) fn name_as_written(meet: &mut Meet, names: &TierNames, place: usize) {
+    for name in meet.names_mut() {
+        let mut meant = names.meant(name, place).into_iter().map(|tier| names.written(tier, place));
+        let own = meant.find(|own| own.eq_ignore_ascii_case(name));
+        own.into_iter().for_each(|own| *name = own);
     }
 }
 

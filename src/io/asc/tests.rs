@@ -313,3 +313,22 @@ fn frosting_that_is_not_plainly_a_tiers_own_gives_a_warning() {
     let header = warned("by nobody", "P1 unpolished.");
     assert!(header.starts_with("'P1 unpolished.' names frosted facets"), "{header}");
 }
+
+#[test]
+fn concave_facets_that_a_file_names_are_read_flat_with_a_warning_in_every_format() {
+    let said = STONE.replace("to a point", "concave, 17mm mandrel");
+    let brought = read(said.as_bytes(), "x.asc").unwrap();
+    let specimen = Specimen::new(brought.design).unwrap();
+    let written = [
+        read(&write(&specimen).bytes, "x.asc").unwrap(),
+        crate::io::gem::read(&crate::io::gem::write(&specimen).bytes, "x.gem").unwrap(),
+        crate::io::gcs::read(&crate::io::gcs::write(&specimen).bytes, "x.gcs").unwrap(),
+        ImportedDesign::of(cut_file::parse(&cut_file::write(&specimen.design), "x.toml").unwrap()),
+    ];
+    for (number, brought) in written.into_iter().enumerate() {
+        let warnings = Specimen::new(brought.design).unwrap().warnings.join("; ");
+        assert!(warnings.contains("'concave, 17mm mandrel'"), "format {number}: {warnings}");
+    }
+    let plain = Specimen::new(read(STONE.as_bytes(), "x.asc").unwrap().design).unwrap();
+    assert!(!plain.warnings.join("; ").contains("concave"));
+}

@@ -49,7 +49,16 @@ const ROOMS: [Room; 8] = [
     },
     Room {
         folder: "cut/meets",
-        door: &["GivenSize", "Meet", "MeetError", "MeetFault", "MeetPoint", "SolvedTiers", "TierOutcome"],
+        door: &[
+            "GivenSize",
+            "Meet",
+            "MeetError",
+            "MeetFault",
+            "MeetPoint",
+            "SolvedTiers",
+            "TierCorner",
+            "TierOutcome",
+        ],
     },
     Room {
         folder: "picture/liquid_glass",

@@ -23,6 +23,7 @@ pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
     workspace.rest();
     session.held = None;
     session.tier = None;
+    session.picking = None;
     session.meet_faults.clear();
     session.audit = SessionAudit::default();
     session.map.begin();

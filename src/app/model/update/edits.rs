@@ -24,10 +24,11 @@ pub fn edit(model: &mut Model, edit: Edit) {
             keep_tiers_in_place(model, |cut| cut.set(place, angle, distance));
         }
         Edit::Tiers(change) => change_tiers(model, change),
+        Edit::NextMeet { place, is_deeper } => next_meet(model, place, is_deeper),
         Edit::AddTier(after) => add_tier(model, after),
         Edit::Scale { side, percent, of } => scale(model, side, 0.01 * percent, *of),
         Edit::IntoTiers => {
-            let tiers = as_tiers(model.document.specimen()).map(|tiers| tiers.with_found_meets());
+            let tiers = as_tiers(model.document.specimen()).map(|tiers| tiers.with_own_meets());
             keep_tiers_in_place(model, |cut| tiers.into_iter().for_each(|tiers| *cut = Cut::Tiers(tiers)));
             model.session.meet_faults.clear();
         }
@@ -68,6 +69,18 @@ fn change_tiers(model: &mut Model, change: TierChange) {
     let SolvedTiers { tiers, outcomes, .. } = tiers.changed(change);
     model.session.meet_faults = faults(outcomes);
     keep_tiers_in_place(model, |cut| *cut = Cut::Tiers(tiers));
+}
+
+/// Cuts a tier to the next corner that it reaches, deeper or farther out; says so where no meet leads to one.
+fn next_meet(model: &mut Model, place: usize, is_deeper: bool) {
+    let Cut::Tiers(tiers) = &model.document.work.design.cut else { return };
+    match tiers.next_meet(place, is_deeper) {
+        Some(meet) => change_tiers(model, TierChange::Meet(place, Some(meet))),
+        None => {
+            let way = if is_deeper { "deeper" } else { "farther out" };
+            model.session.notes.say(&format!("There is no corner {way} to which a meet leads this tier."));
+        }
+    }
 }
 
 /// Moves the design to a place of the map, or says why it stays.

@@ -48,6 +48,10 @@ fn pass(model: &mut Model, change: ViewAction) {
     match change {
         ViewAction::Hover(pane) => session.hovered = pane,
         ViewAction::Tier(place) => session.tier = place,
+        ViewAction::PickMeet(place) => {
+            session.picking = place;
+            session.tier = place.or(session.tier);
+        }
         ViewAction::Finding(place) => session.audit.selected = place,
         ViewAction::Map(options) => session.map.choose(options),
         ViewAction::Tilt(options) => session.tilt.options = options,

@@ -1,0 +1,146 @@
+//! The corners of a finished stone that a tier can be moved to, and the meet that says so.
+
+use super::super::tiers::{Tier, Tiers};
+use super::found::{NAMES, PASSES};
+use super::meet::{Meet, MeetPoint};
+use super::names::TierNames;
+use super::solve::{Bench, TierOutcome, cutting_order};
+use glam::DVec3;
+
+/// The most corners that are tried of those that fit the same names.
+const MOST_REACHED: usize = 8;
+
+/// The most meets that are followed through the whole design before a corner counts as one that no meet names.
+const MOST_FOLLOWED: usize = 12;
+
+/// A corner of the stone to which a facet of a tier can be cut.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TierCorner {
+    /// The place of the corner, in the design's unit.
+    pub at: DVec3,
+    /// The distance of the tier whose facet passes through the corner, in the design's unit and without a sign.
+    pub distance: f64,
+    /// The place of that facet in its tier, from 0.
+    pub facet: usize,
+    /// The outward normals of the planes that meet at the corner.
+    pub normals: Vec<DVec3>,
+    /// The places of these planes on the bench without the tier.
+    planes: Vec<usize>,
+}
+
+impl Tiers {
+    /// Returns the corners to which the tier at a place can be cut, for each of its facets in the order in which the facet
+    /// reaches them as it is cut deeper; none for a place past the last tier, and where the tier has no facets.
+    ///
+    /// They are corners of the stone of all tiers that do not follow this one by a meet, at the numbers that the design has. While
+    /// the tier moves they stay.
+    pub fn tier_corners(&self, place: usize) -> Vec<TierCorner> {
+        let Some(tier) = self.tiers.get(place) else { return vec![] };
+        let bench = self.bench_without(place);
+        let planes = bench.planes(tier, tier.angle);
+        let of_facet = |facet: usize| {
+            let normal = planes[facet].normal;
+            let reached = bench.reached_corners(&planes, facet, |_| true);
+            let distance = move |at: DVec3| normal.dot(at);
+            reached.into_iter().filter(move |corner| distance(corner.at) >= 0.0).map(move |corner| {
+                TierCorner {
+                    at: corner.at,
+                    distance: distance(corner.at),
+                    facet,
+                    normals: vec![],
+                    planes: corner.planes.clone(),
+                }
+            })
+        };
+        let mut corners: Vec<TierCorner> = (0..planes.len()).flat_map(of_facet).collect();
+        for corner in &mut corners {
+            let normals = corner.planes.iter().map(|&plane| bench.stone().plane(plane).plane.normal);
+            corner.normals = normals.collect();
+        }
+        corners
+    }
+
+    /// Returns the meet that cuts the tier at a place to one of its [corners](Self::tier_corners); `None` where no meet gives it
+    /// this distance once all are followed.
+    ///
+    /// A corner on the axis is the centre point, and the level girdle is named where the tier lies beside the girdle. For other
+    /// corners the meet lists the tiers that meet there.
+    pub fn meet_at(&self, place: usize, corner: &TierCorner) -> Option<Meet> {
+        let own = self.tiers.get(place)?;
+        let distance = corner.distance.copysign(own.distance);
+        let tier = Tier { distance, meet: None, is_cut: true, ..own.clone() };
+        let bench = self.bench_without(place);
+        let mut meets: Vec<Meet> = bench.simple(place, &tier).into_iter().collect();
+        let lists = NAMES.flat_map(|count| bench.lists(place, &corner.planes, count));
+        let lists: Vec<Vec<String>> = lists.collect();
+        meets.extend(lists.iter().map(|names| Meet::Points(vec![MeetPoint::Corner(names.clone())])));
+        let later = |reached| {
+            let meet = |names: &Vec<String>| MeetPoint::LaterCorner { names: names.clone(), reached };
+            lists.iter().map(meet).map(|point| Meet::Points(vec![point])).collect::<Vec<_>>()
+        };
+        meets.extend((2..=MOST_REACHED).flat_map(later));
+        let given = meets.into_iter().filter(|meet| bench.gives(place, &tier, meet));
+        given.take(MOST_FOLLOWED).find(|meet| self.leads_to(place, &tier, meet))
+    }
+
+    /// Returns the next corner at another depth that the first facet of a tier can be cut to, deeper or less deep than it is now,
+    /// with the meet that says so; `None` where no corner follows to which a meet leads.
+    pub fn next_meet(&self, place: usize, is_deeper: bool) -> Option<Meet> {
+        let now = self.tiers.get(place)?.distance.abs();
+        let scale = Bench::of(self).stone().scale();
+        let corners = self.tier_corners(place).into_iter().filter(|corner| corner.facet == 0);
+        let beyond = |corner: &TierCorner| match is_deeper {
+            true => now - corner.distance > PASSES * scale,
+            false => corner.distance - now > PASSES * scale,
+        };
+        let mut next: Vec<TierCorner> = corners.filter(beyond).collect();
+        let apart = |corner: &TierCorner| (corner.distance - now).abs();
+        next.sort_by(|a, b| apart(a).total_cmp(&apart(b)));
+        next.iter().find_map(|corner| self.meet_at(place, corner))
+    }
+
+    /// Returns whether a tier has its distance by a meet once all meets of the design are followed.
+    fn leads_to(&self, place: usize, tier: &Tier, meet: &Meet) -> bool {
+        let mut design = self.clone();
+        design.tiers[place] = Tier { meet: Some(meet.clone()), ..tier.clone() };
+        let scale = Bench::of(self).stone().scale();
+        let solved = design.solved();
+        solved.outcomes[place] == TierOutcome::Solved
+            && (solved.tiers.tiers[place].distance - tier.distance).abs() <= PASSES * scale
+    }
+
+    /// Returns a bench on which all tiers are cut but the one at a place and those that follow it.
+    fn bench_without(&self, place: usize) -> Bench<'_> {
+        let follows = self.followers(place);
+        let mut bench = Bench::of(self);
+        for other in cutting_order(self) {
+            if self.tiers[other].is_cut && !follows[other] {
+                bench.cut(other, &self.tiers[other]);
+            }
+        }
+        bench
+    }
+
+    /// Returns for each tier whether it moves with the one at a place: that tier itself, those whose meets name it or are solved
+    /// on the stone that it shapes, and those that follow these.
+    fn followers(&self, place: usize) -> Vec<bool> {
+        let names = TierNames::of(self);
+        let mut follows = vec![false; self.tiers.len()];
+        // A tier is cut after those that it names.
+        for other in cutting_order(self) {
+            follows[other] = other == place
+                || match &self.tiers[other].meet {
+                    Some(Meet::Points(points)) => points.iter().any(|point| match point.named() {
+                        Some((named, _)) => {
+                            let meant = |name: &String| names.meant(name, other);
+                            named.iter().flat_map(meant).any(|tier| follows[tier])
+                        }
+                        None => follows.contains(&true),
+                    }),
+                    Some(Meet::CentreAngle(_)) => follows.contains(&true),
+                    Some(Meet::Given(_)) | None => false,
+                };
+        }
+        follows
+    }
+}
