@@ -45,7 +45,11 @@ impl Tiers {
     /// Returns the design with the meets that its instructions state and then those that its geometry shows, for tiers without
     /// one. All numbers stay, also when the design is followed: see [`with_kept_stated_meets`](Self::with_kept_stated_meets).
     pub fn with_own_meets(&self) -> Self {
-        self.with_kept_stated_meets().with_found_meets()
+        let mut design = self.with_kept_stated_meets().with_found_meets();
+        // A found meet moves its tier by less than can be told from rounding, but a stated one may pass such moves on, enlarged.
+        let scale = Bench::of(self).stone().scale();
+        while design.drop_a_moving_meet(self, scale) {}
+        design
     }
 
     /// Drops the first meet that `before` does not have and that fails or moves its tier when all are followed; returns whether
