@@ -1,4 +1,4 @@
-//! Floor 7: the command line. Each command has a file of its own.
+//! Floor 8: the command line. Each command has a file of its own.
 //!
 //! `options` holds the options that several commands share, `specimen` the stone that a command works on, `batch` the files
 //! that it takes one after the other, `names` what a name stands for, and `console` what is printed.

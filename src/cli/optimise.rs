@@ -149,7 +149,7 @@ impl OptimiseArguments {
                 None => String::new(),
             };
             say(&format!(
-                "note: the search was stopped before its end{angles}; figures are as rough as they were until then"
+                "note: the search was stopped early{angles}; the best design was not measured again more finely"
             ));
         }
         if !outcome.keeps_limits {

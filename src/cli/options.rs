@@ -275,10 +275,7 @@ impl LightOptions {
 
     /// Returns the half angle of the observer's head, in degrees, if it is from 0 to below 90.
     fn head(&self) -> Result<f64, Failure> {
-        if (0.0..90.0).contains(&self.head) {
-            return Ok(self.head);
-        }
-        Err(Failure::Usage(format!("a head of half angle {} degrees is not from 0 to below 90", self.head)))
+        checked_head(self.head)
     }
 
     /// Returns the part of the light that may stay unresolved, if it is between 0 and 1.
@@ -289,5 +286,18 @@ impl LightOptions {
             ))),
             part => Ok(part),
         }
+    }
+}
+
+/// Returns the half angle of an observer's head, in degrees.
+///
+/// # Errors
+/// The angle is not from 0 to below 90.
+pub fn checked_head(degrees: f64) -> Result<f64, Failure> {
+    match (0.0..90.0).contains(&degrees) {
+        true => Ok(degrees),
+        false => Err(Failure::Usage(format!(
+            "--head: a half angle of {degrees} degrees is not from 0 to below 90"
+        ))),
     }
 }

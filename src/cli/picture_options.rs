@@ -23,7 +23,7 @@ pub struct PictureOptions {
     /// worlds stand upright in any case
     #[arg(long)]
     pub upright: bool,
-    /// Half angle of the observer's head, which blocks light, in DEGREES [default: the light's]
+    /// Half angle of the observer's head, which blocks light, in DEGREES [default: the light's; in a scope none, for measures the usual one]
     #[arg(long, allow_negative_numbers = true, value_name = "DEGREES", value_parser = number)]
     pub head: Option<f64>,
     /// A material's name, or an index, instead of the file's

@@ -4,7 +4,7 @@ use super::console::{json, print, say};
 use super::mesh_options::MeshArguments;
 use super::options::number;
 use super::specimen::{LoadedSpecimen, asked_material};
-use crate::cut::{Design, RetargetError, RetargetRule, Retargeted, retarget};
+use crate::cut::{Design, RetargetError, RetargetRule, Retargeted, ScaleError, retarget};
 use crate::io::Failure;
 use crate::io::design_file::{self, DesignFormat};
 use crate::measure::Measured;
@@ -95,7 +95,7 @@ impl RetargetArguments {
         let path = specimen.path.clone();
         let (material, _) = asked_material(&self.material)?;
         let found = retarget(&specimen.design, material, rule).map_err(|error| match error {
-            RetargetError::Factor { .. } | RetargetError::NoCriticalAngle { .. } => {
+            RetargetError::Scale(ScaleError::Factor { .. }) | RetargetError::NoCriticalAngle { .. } => {
                 Failure::Usage(format!("{path}: {error}"))
             }
             error => Failure::Input(format!("{path}: {error}")),

@@ -6,8 +6,10 @@ use super::picture_options::{FinishOptions, PictureOptions};
 use super::progress::WorkProgress;
 use super::specimen::stem;
 use super::spin_motion::{SpinMotion, SpinPose, StoneMotion};
-use super::spin_panel::{CurveSettings, LEAST_CAPTIONED, LEAST_PLOTTED, SpinCurves, SpinPanel};
+use super::spin_panel::{CurveSettings, LEAST_PLOTTED, ONLY_TILTS, SpinCurves, SpinPanel};
 use super::spin_pictures::{LitPictures, ScopeSetup, SpinPictures};
+use crate::io::export::LEAST_CAPTIONED;
+use crate::io::plot::COLOURS_OF_CURVES;
 use crate::io::{AnimationFormat, Failure, Frames, is_standard, write_animation, write_rgba_png};
 use crate::measure::{MEASURES_HEAD_DEG, MeasureName};
 use crate::scene::Viewpoint;
@@ -85,7 +87,7 @@ impl Spin {
         let format = self.format()?;
         let delay_ms = self.delay_ms(format)?;
         self.check_swing()?;
-        self.check_width()?;
+        self.check_panel()?;
         let options = (&self.picture, &self.finish);
         match &self.scope {
             None => {
@@ -151,10 +153,11 @@ impl Spin {
         })?;
         drop(bar);
         if !moves {
-            let frames = self.frames;
-            say(&format!(
-                "note: all {frames} frames look the same because of the symmetry of the stone; give another number"
-            ));
+            let why = match self.motion {
+                StoneMotion::Turn => " because of the symmetry of the stone; give another number",
+                StoneMotion::Rock | StoneMotion::Wobble => "; give more --frames or a larger --swing",
+            };
+            say(&format!("note: all {} frames look the same{why}", self.frames));
         }
         written(&output.path)
     }
@@ -187,7 +190,10 @@ impl Spin {
 
     /// Returns the format of the animation.
     fn format(&self) -> Result<AnimationFormat, Failure> {
-        const OTHERS: [&str; 10] = ["jpg", "jpeg", "webp", "avif", "webm", "mkv", "mov", "avi", "svg", "exr"];
+        const OTHERS: [&str; 17] = [
+            "apng", "jpg", "jpeg", "webp", "avif", "tif", "tiff", "bmp", "hdr", "svg", "exr", "webm", "mkv",
+            "mov", "avi", "m4v", "ogv",
+        ];
         let refused = |text: String| Err(Failure::Usage(format!("--out{text}")));
         if is_standard(&self.out) {
             return refused(" -: give a file or a folder".into());
@@ -247,8 +253,21 @@ impl Spin {
         }
     }
 
-    /// Refuses pictures that are too narrow for what is drawn under them.
-    fn check_width(&self) -> Result<(), Failure> {
+    /// Refuses what cannot be drawn under the pictures: more curves than can be told apart, curves of what does not tilt, and all
+    /// that needs wider pictures.
+    fn check_panel(&self) -> Result<(), Failure> {
+        let refused = |what: &str| Err(Failure::Usage(format!("--of: {what}")));
+        match () {
+            () if self.measures.is_empty() => {}
+            () if self.measures.len() > COLOURS_OF_CURVES => {
+                return refused(&format!("a plot tells {COLOURS_OF_CURVES} measures apart; give fewer"));
+            }
+            () if self.motion == StoneMotion::Turn => return refused(ONLY_TILTS),
+            () if self.view.perspective.is_some() => {
+                return refused("measures need parallel rays; leave out --perspective");
+            }
+            () => {}
+        }
         let width = self.picture.size[0];
         let too_narrow = |option: &str, least: u32| {
             Err(Failure::Usage(format!("--size: {width} pixels across: {option} needs {least}")))

@@ -1,5 +1,6 @@
 //! What is drawn under the pictures of an animation: a caption, and how measures change with the tilt or the azimuth.
 
+use super::console::say;
 use super::measure_taking::{UNRESOLVED, settings_of};
 use super::spin_motion::{SpinMotion, SpinPose, StoneMotion};
 use super::spin_pictures::SpinPictures;
@@ -7,15 +8,18 @@ use super::sweep_plot::UNIT;
 use crate::cut::Design;
 use crate::io::export::caption_pixels;
 use crate::io::plot::{PlotAxis, PlotCurve, marked_curves};
-use crate::io::{Failure, rasterize};
+use crate::io::{Failure, rasterize, with_cover};
 use crate::measure::{Interval, MeasureName, PatternSettings, ROCK_DEG};
 use crate::optics::line;
 use crate::render::{Sweep, SweepAxis, SweepKey, SweepValue};
+use crate::scene::Lean;
 use crate::trace::Watch;
 
-/// The least width of pictures with a caption, and of those with curves, in pixels.
-pub const LEAST_CAPTIONED: u32 = crate::io::export::LEAST_CAPTIONED;
+/// The least width of pictures with curves, in pixels.
 pub const LEAST_PLOTTED: u32 = 320;
+
+/// Why a stone that turns has no curves.
+pub const ONLY_TILTS: &str = "curves are over the tilt of --motion rock or the azimuth of --motion wobble";
 
 /// The least width of a plot in units of its drawing; on narrower pictures it is drawn smaller.
 const PLOT_WIDTH: u32 = 640;
@@ -36,9 +40,17 @@ pub struct CurveSettings<'a> {
     pub polarised: bool,
 }
 
+/// What a motion varies.
+struct SpinAxis {
+    key: SweepKey,
+    plotted: PlotAxis,
+    /// Returns the place of a pose on the axis.
+    of: fn(&SpinPose) -> f64,
+}
+
 /// Measures at each tilt or azimuth of a motion.
 pub struct SpinCurves {
-    axis: PlotAxis,
+    axis: SpinAxis,
     /// For each measure its name, and its value at each place of the axis.
     curves: Vec<(String, Vec<Option<Interval>>)>,
 }
@@ -55,16 +67,16 @@ impl SpinCurves {
         (motion, poses): (&SpinMotion, &[SpinPose]),
         watch: Watch,
     ) -> Result<Self, Failure> {
-        let (key, axis) = axis(motion, poses)?;
+        let axis = axis(motion, poses)?;
         let measures = settings.measures;
         let mut of = settings_of(measures, settings.head_deg);
         of.pattern = PatternSettings::needed_by(measures, 0.5 * design.diameter_mm, ROCK_DEG);
-        let values = axis.values.iter().map(|&value| SweepValue::Number(value)).collect();
+        let values = axis.plotted.values.iter().map(|&value| SweepValue::Number(value)).collect();
         let viewpoint = poses.first().map_or(motion.rest, |pose| pose.viewpoint);
         let sweep = Sweep {
             design,
             viewpoint,
-            axes: vec![SweepAxis { key, values }],
+            axes: vec![SweepAxis { key: axis.key.clone(), values }],
             settings: of,
             wavelength_nm: line::SODIUM_D,
             unresolved: UNRESOLVED,
@@ -80,48 +92,54 @@ impl SpinCurves {
             Ok::<_, Failure>(())
         })?;
         let is_empty = curves.iter().all(|(_, values)| values.iter().all(Option::is_none));
-        match fault.filter(|_| is_empty) {
-            Some(error) => Err(Failure::Input(format!("--of: nothing can be measured: {error}"))),
+        match fault {
+            Some(error) if is_empty => Err(Failure::Input(format!("--of: nothing can be measured: {error}"))),
+            Some(error) => {
+                say(&format!("note: --of: some places cannot be measured: {error}"));
+                Ok(Self { axis, curves })
+            }
             None => Ok(Self { axis, curves }),
         }
     }
 
     /// Draws the curves with a mark at a pose; the key says what the measures are there.
     fn svg(&self, pose: &SpinPose, title: &str, width: u32) -> Result<String, Failure> {
-        let at = match self.axis.label.starts_with("tilt") {
-            true => pose.viewpoint.tilt_deg,
-            false => pose.viewpoint.azimuth_deg,
-        };
-        let place = self.axis.values.iter().position(|&value| value == at);
+        let (axis, at) = (&self.axis.plotted, (self.axis.of)(pose));
+        let place = axis.values.iter().position(|&value| value == at);
         let curve = |(name, values): &(String, Vec<Option<Interval>>)| {
-            let here =
-                place.and_then(|place| values[place]).map_or(String::new(), |value| in_percent(&value));
+            let here = place.and_then(|place| values[place]);
+            // The figure stands first, because a long name ends at the edge of the picture.
+            let here = here.map_or("not measured".to_owned(), |value| in_percent(&value));
             let band = |value: &Option<Interval>| {
                 let Interval { least, most } = (*value)?;
                 most.is_finite().then_some([100.0 * least, 100.0 * most])
             };
-            PlotCurve { name: format!("{name} {here}"), bands: values.iter().map(band).collect() }
+            PlotCurve { name: format!("{here}  {name}"), bands: values.iter().map(band).collect() }
         };
         let curves: Vec<PlotCurve> = self.curves.iter().map(curve).collect();
         let size = (width, (PLOT_SHAPE * f64::from(width)) as u32);
-        marked_curves((title, size), (&self.axis, Some(at)), UNIT, &curves)
+        marked_curves((title, size), (axis, Some(at)), UNIT, &curves)
             .map_err(|error| Failure::Output(format!("--of: {error}")))
     }
 }
 
 /// Returns what a motion varies, and its values: those of the frames, each once and rising, and others between them.
-fn axis(motion: &SpinMotion, poses: &[SpinPose]) -> Result<(SweepKey, PlotAxis), Failure> {
+fn axis(motion: &SpinMotion, poses: &[SpinPose]) -> Result<SpinAxis, Failure> {
+    let side = motion.rest.side.name();
+    let tilt = match motion.rest.lean {
+        Lean::Stone => "tilt",
+        Lean::Eye => "way of the eye",
+    };
     let (key, label, step, of): (_, _, f64, fn(&SpinPose) -> f64) = match motion.motion {
         StoneMotion::Turn => {
-            let message = "--of: curves are over the tilt of --motion rock or the azimuth of --motion wobble";
-            return Err(Failure::Usage(message.into()));
+            return Err(Failure::Usage(format!("--of: {ONLY_TILTS}")));
         }
         StoneMotion::Rock => {
-            let label = format!("tilt toward azimuth {}, degrees", motion.rest.azimuth_deg);
+            let label = format!("{tilt} toward azimuth {}, {side} side, degrees", motion.rest.azimuth_deg);
             (SweepKey::Tilt, label, MOST_TILT_STEP, |pose| pose.viewpoint.tilt_deg)
         }
         StoneMotion::Wobble => {
-            let label = format!("azimuth of a tilt of {}, degrees", motion.swing_deg);
+            let label = format!("azimuth of a {tilt} of {}, {side} side, degrees", motion.swing_deg);
             (SweepKey::Azimuth, label, MOST_AZIMUTH_STEP, |pose| pose.viewpoint.azimuth_deg)
         }
     };
@@ -134,7 +152,7 @@ fn axis(motion: &SpinMotion, poses: &[SpinPose]) -> Result<(SweepKey, PlotAxis),
     if motion.motion == StoneMotion::Wobble {
         values.push(values[0] + 360.0);
     }
-    Ok((key, PlotAxis { label, values: filled(&values, step) }))
+    Ok(SpinAxis { key, plotted: PlotAxis { label, values: filled(&values, step) }, of })
 }
 
 /// Returns rising values with others between them, so that no step is longer than `most`.
@@ -194,7 +212,7 @@ impl<'a> SpinPanel<'a> {
         for (mut rgb, height) in parts.into_iter().zip(self.heights) {
             // A caption of fewer lines leaves white paper.
             rgb.resize(3 * self.width as usize * height as usize, u8::MAX);
-            rgba.extend(rgb.chunks_exact(3).flat_map(|c| [c[0], c[1], c[2], u8::MAX]));
+            rgba.extend(with_cover(&rgb));
         }
         Ok(())
     }
@@ -221,9 +239,9 @@ mod tests {
     use super::*;
     use crate::scene::Viewpoint;
 
-    fn axis_of(motion: StoneMotion, swing_deg: f64, frames: u32) -> Result<(SweepKey, PlotAxis), Failure> {
+    fn axis_of(motion: StoneMotion, swing_deg: f64, frames: u32) -> Result<PlotAxis, Failure> {
         let motion = SpinMotion { motion, rest: Viewpoint::default(), swing_deg, frames };
-        axis(&motion, &motion.poses())
+        axis(&motion, &motion.poses()).map(|axis| axis.plotted)
     }
 
     #[test]
@@ -231,7 +249,7 @@ mod tests {
         for (motion, frames, most) in
             [(StoneMotion::Rock, 12, 2.0), (StoneMotion::Rock, 300, 2.0), (StoneMotion::Wobble, 7, 10.0)]
         {
-            let (_, axis) = axis_of(motion, 30.0, frames).unwrap();
+            let axis = axis_of(motion, 30.0, frames).unwrap();
             assert!(axis.values.windows(2).all(|pair| pair[0] < pair[1] && pair[1] - pair[0] <= most + 1e-9));
             let moving = SpinMotion { motion, rest: Viewpoint::default(), swing_deg: 30.0, frames };
             for pose in moving.poses() {
@@ -240,7 +258,7 @@ mod tests {
                 assert!(axis.values.contains(&value), "{value} of {:?}", axis.values);
             }
         }
-        let (_, around) = axis_of(StoneMotion::Wobble, 5.0, 8).unwrap();
+        let around = axis_of(StoneMotion::Wobble, 5.0, 8).unwrap();
         assert_eq!((around.values[0], around.values.last()), (0.0, Some(&360.0)));
     }
 

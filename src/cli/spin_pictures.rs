@@ -1,14 +1,14 @@
 //! The pictures of an animation: under light, or in a scope.
 
 use super::console::report;
-use super::options::scoped;
+use super::options::{checked_head, scoped};
 use super::picture_options::{FinishOptions, PictureOptions};
 use super::picturing::PictureSetup;
 use super::specimen::{LoadedSpecimen, asked_material, note_colour};
 use super::spin_motion::{SpinMotion, SpinPose};
 use crate::cut::Design;
-use crate::io::Failure;
-use crate::io::export::{ScopePicture, ScopeStill, Viewing};
+use crate::io::export::{PROGRAM, ScopePicture, ScopeStill, Viewing};
+use crate::io::{Failure, with_cover};
 use crate::optics::line;
 use crate::picture::{Background, Caption, Scoped};
 use crate::render::{Card, Renderer};
@@ -17,9 +17,6 @@ use crate::trace::Watch;
 use std::cell::RefCell;
 use std::path::Path;
 use std::sync::Arc;
-
-/// The program as captions name it.
-const PROGRAM: &str = concat!("Brillianteer ", env!("CARGO_PKG_VERSION"));
 
 /// A picture of an animation: red, green, blue and cover of each pixel, and what it shows.
 pub struct SpinPicture {
@@ -51,7 +48,7 @@ pub trait SpinPictures {
     fn take(&self, number: usize, pose: &SpinPose, watch: Watch) -> Result<SpinPicture, Failure>;
 }
 
-/// Pictures under light.
+/// The frames of stones under light, all with pixels of one size.
 pub struct LitPictures<'a> {
     setup: PictureSetup<'a>,
     material: Option<&'a str>,
@@ -128,7 +125,7 @@ impl SpinPictures for LitPictures<'_> {
     }
 }
 
-/// A stone in a scope.
+/// What `spin` needs of a stone, a scope and its options before it knows how many frames there are.
 pub struct ScopeSetup<'a> {
     options: (&'a PictureOptions, &'a FinishOptions),
     specimen: LoadedSpecimen,
@@ -145,6 +142,7 @@ impl<'a> ScopeSetup<'a> {
         scope: &Path,
     ) -> Result<Self, Failure> {
         let scoped = scoped(scope)?;
+        options.head.map(checked_head).transpose()?;
         let specimen = LoadedSpecimen::load(file, options.mesh.options())?
             .made_of(options.material.as_deref(), options.stone)?;
         note_colour(&specimen.material);
@@ -184,15 +182,16 @@ impl<'a> ScopeSetup<'a> {
     /// Returns what takes the pictures of these poses.
     pub fn pictures(&self, motion: &SpinMotion, poses: &[SpinPose]) -> Result<ScopePictures<'_>, Failure> {
         let viewings: Vec<Viewing> = poses.iter().map(|pose| self.viewing(pose)).collect();
-        let shots = ScopeStill::alike(&viewings, &self.scoped, self.options.0.size, &self.renderer.borrow())?;
-        Ok(ScopePictures { setup: self, shots, rest: motion.rest })
+        let stills =
+            ScopeStill::alike(&viewings, &self.scoped, self.options.0.size, &self.renderer.borrow())?;
+        Ok(ScopePictures { setup: self, stills, rest: motion.rest })
     }
 }
 
-/// Pictures in a scope.
+/// The frames of a stone in a scope, all with pixels of one size.
 pub struct ScopePictures<'a> {
     setup: &'a ScopeSetup<'a>,
-    shots: Vec<ScopeStill<'a>>,
+    stills: Vec<ScopeStill<'a>>,
     rest: Viewpoint,
 }
 
@@ -228,15 +227,12 @@ impl SpinPictures for ScopePictures<'_> {
     fn caption(&self, pose: &SpinPose) -> Caption {
         let side = pose.viewpoint.facing(self.setup.scoped.side).side.name();
         let words = format!("{side} side, {}", pose.words());
-        let viewing = self.setup.viewing(pose);
-        let film = self.shots[0].film;
-        ScopeStill { viewing, film, ..self.shots[0] }.caption(&words)
+        ScopeStill { viewing: self.setup.viewing(pose), ..self.stills[0] }.caption(&words)
     }
 
     fn take(&self, number: usize, _: &SpinPose, watch: Watch) -> Result<SpinPicture, Failure> {
         let mut renderer = self.setup.renderer.borrow_mut();
-        let ScopePicture { rgb, description } = self.shots[number].take(&mut renderer, watch, &report)?;
-        let rgba = rgb.chunks_exact(3).flat_map(|c| [c[0], c[1], c[2], u8::MAX]).collect();
-        Ok(SpinPicture { rgba, description })
+        let ScopePicture { rgb, description } = self.stills[number].take(&mut renderer, watch, &report)?;
+        Ok(SpinPicture { rgba: with_cover(&rgb), description })
     }
 }

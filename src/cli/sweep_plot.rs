@@ -158,8 +158,8 @@ impl<'a> SweepPlot<'a> {
     }
 }
 
-/// What stands beside the values of measures.
-pub const UNIT: &str = "% of face";
+/// The unit of all measures; what each is a percentage of is in docs/optics.md.
+pub const UNIT: &str = "percent";
 
 /// Returns what stands beside the axis of a number of a cut.
 pub fn label(key: &SweepKey, cut: &Cut) -> String {

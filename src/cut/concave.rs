@@ -27,16 +27,15 @@ impl Tiers {
     pub fn concave_warning(&self) -> Option<String> {
         let cut = (1..).zip(&self.tiers).filter(|(_, tier)| tier.is_cut);
         let named = cut.filter(|(_, tier)| names_concave(&tier.instructions)).map(|(number, tier)| {
-            let name = if tier.name().is_empty() { String::new() } else { format!(" ({})", tier.name()) };
-            format!("tier {number}{name} '{}'", quoted(&tier.instructions))
+            format!("tier {number} ({}) '{}'", tier.called(number), quoted(&tier.instructions))
         });
         let texts = self.headers.iter().chain(&self.footers).filter(|text| names_concave(text));
         let places: Vec<String> = named.chain(texts.map(|text| format!("'{}'", quoted(text)))).collect();
         let (first, others) = places.split_first()?;
         let more = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
         Some(format!(
-            "concave facets are named, whose shape the file does not hold: {first}{more}; all facets are taken as flat, so \
-             that the light of the finished stone is another"
+            "concave facets are named, whose shape the file does not hold: {first}{more}; they are made flat here, so the \
+             finished stone will look different"
         ))
     }
 }

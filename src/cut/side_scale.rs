@@ -5,7 +5,7 @@
 //! outline and its thickness. Source: the tangent ratio of R. Long and N. Steele, *Facet Design*, vol. 1.
 
 use super::outline::UPRIGHT;
-use super::{Cut, Design, DesignError, Meet, Outline, Tiers};
+use super::{Cut, Design, DesignError, Meet, Outline, Tier, Tiers};
 use crate::math::{Plane, Polytope, PolytopeError};
 use glam::DVec3;
 use std::fmt;
@@ -69,7 +69,7 @@ pub enum ScaleError {
     /// The design is at fault.
     #[error(transparent)]
     Design(#[from] DesignError),
-    /// A cut that lists no facets.
+    /// The cut is a family, a mesh or a glass shape, so it lists neither tiers nor planes.
     #[error(
         "only a design of tiers or a list of planes has sides to scale; vary the proportions of another, such as crown_angle"
     )]
@@ -77,13 +77,13 @@ pub enum ScaleError {
     /// The planes of the design enclose nothing.
     #[error("{0}")]
     Solid(String),
-    /// A factor out of range.
+    /// The factor of the tangents lies outside 0.1 to 10.
     #[error("the factor {value} must be from {} to {}", FACTORS.start(), FACTORS.end())]
     Factor {
         /// The factor as given.
         value: f64,
     },
-    /// A tier that would become too flat or too steep.
+    /// A tier would become too flat or too steep.
     #[error(
         "tier '{tier}' would go from {before:.2} to {after:.2} degrees; from {} to {} are possible",
         ANGLES_DEG.start(),
@@ -97,7 +97,7 @@ pub enum ScaleError {
         /// Its angle afterwards, degrees.
         after: f64,
     },
-    /// A tier of a cutter's design whose plane would have the origin outside.
+    /// The plane of a tier would leave the design's origin outside the stone.
     #[error(
         "tier '{tier}' would pass the design's origin, and its distance would be below 0; give a smaller change"
     )]
@@ -113,19 +113,33 @@ impl Cut {
         matches!(self, Self::Tiers(_) | Self::Planes(_))
     }
 
+    /// Returns the name of the first leaning tier of a side, by whose slope [`Self::tangent_of_side`] goes; `None` for a cut that is
+    /// no design of tiers, and where the side has no such tier.
+    pub fn tier_of_side(&self, side: ScaledSide) -> Option<String> {
+        let Self::Tiers(tiers) = self else { return None };
+        let leans = |tier: &&Tier| leaning(side, tiers.plane(tier, 0.0).normal).is_some();
+        tiers.tiers.iter().find(leans).map(|tier| tier.name().to_owned())
+    }
+
     /// Returns the tangent of the slope of the first leaning facet of a side, which scaling multiplies by its factor; `None` where
     /// the cut lists no such facet.
     pub fn tangent_of_side(&self, side: ScaledSide) -> Option<f64> {
-        let leaning = |normal: DVec3| {
-            let run = normal.truncate().length();
-            (side.has(normal) && run >= UPRIGHT).then(|| run / normal.z.abs())
-        };
         match self {
-            Self::Tiers(tiers) => tiers.tiers.iter().find_map(|tier| leaning(tiers.plane(tier, 0.0).normal)),
-            Self::Planes(planes) => planes.iter().find_map(|(_, plane)| leaning(plane.normalized()?.normal)),
+            Self::Tiers(tiers) => {
+                tiers.tiers.iter().find_map(|tier| leaning(side, tiers.plane(tier, 0.0).normal))
+            }
+            Self::Planes(planes) => {
+                planes.iter().find_map(|(_, plane)| leaning(side, plane.normalized()?.normal))
+            }
             _ => None,
         }
     }
+}
+
+/// Returns the tangent of the slope of a facet of a side; `None` for level facets and those of other sides.
+fn leaning(side: ScaledSide, normal: DVec3) -> Option<f64> {
+    let run = normal.truncate().length();
+    (side.has(normal) && run >= UPRIGHT).then(|| run / normal.z.abs())
 }
 
 /// Returns the cut of a design with one side scaled along the axis by a factor, 0.1 to 10.
@@ -161,7 +175,7 @@ pub struct SideSlope {
 }
 
 impl SideSlope {
-    /// Takes a side of a stone.
+    /// Returns how the planes of a stone change with the factor of one side, before it is scaled.
     pub fn of(side: ScaledSide, stone: &Polytope) -> Self {
         Self { side, level: side.level(&Outline::of(stone)) }
     }
@@ -311,4 +325,4 @@ pub(super) fn changed_planes(
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -90,24 +90,42 @@ impl Tiers {
             TierChange::Delete(place) if place < count => drop(self.tiers.remove(place)),
             TierChange::Meet(place, Some(meet)) if place < count => {
                 let stated = self.meet_in_words(place, &self.tiers[place].instructions);
-                let tier = &mut self.tiers[place];
-                if stated.is_some_and(|stated| tier.meet.as_ref() != Some(&meet) && stated != meet) {
-                    tier.instructions.clear();
+                if stated
+                    .is_some_and(|stated| self.tiers[place].meet.as_ref() != Some(&meet) && stated != meet)
+                {
+                    let others = self.words_beside_meets(place);
+                    let words = if others.is_empty() { others } else { format!("{meet}, {others}") };
+                    self.tiers[place].instructions = words;
                 }
-                tier.meet = Some(meet);
+                self.tiers[place].meet = Some(meet);
+            }
+            TierChange::Setting(place, angle, distance) if place < count => {
+                let tier = &self.tiers[place];
+                if distance != tier.distance && !matches!(tier.meet, Some(Meet::Given(_)) | None) {
+                    self.tiers[place].instructions = self.words_beside_meets(place);
+                    self.tiers[place].meet = None;
+                }
+                (self.tiers[place].angle, self.tiers[place].distance) = (angle, distance);
             }
             TierChange::IsCut(place, _)
             | TierChange::Instructions(place, _)
             | TierChange::Indices(place, _)
             | TierChange::Frosting(place, _)
             | TierChange::Meet(place, _)
-            | TierChange::Setting(place, ..)
                 if place < count =>
             {
                 self.tiers[place].change(change);
             }
             _ => {}
         }
+    }
+
+    /// Returns the clauses of a tier's instructions that state no meet.
+    fn words_beside_meets(&self, place: usize) -> String {
+        let text = &self.tiers[place].instructions;
+        let clauses = text.split("; ").flat_map(|part| part.split(", ")).flat_map(|part| part.split(". "));
+        let others = clauses.filter(|clause| self.meet_in_words(place, clause).is_none());
+        others.map(str::trim).filter(|clause| !clause.is_empty()).collect::<Vec<_>>().join(", ")
     }
 
     /// Puts another gear on the machine, at whose indices the facets lie as before.
@@ -245,15 +263,6 @@ impl Tier {
             }
             TierChange::Frosting(_, frosting) => self.frosting = frosting,
             TierChange::Meet(_, meet) => self.meet = meet,
-            TierChange::Setting(_, angle, distance) => {
-                if distance != self.distance && !matches!(self.meet, Some(Meet::Given(_))) {
-                    let words = self.meet.take().map(|meet| meet.to_string()).unwrap_or_default();
-                    if bare(&words) == bare(&self.instructions) {
-                        self.instructions.clear();
-                    }
-                }
-                (self.angle, self.distance) = (angle, distance);
-            }
             _ => {}
         }
     }
@@ -271,11 +280,6 @@ impl Tier {
         };
         self.facets.iter().map(tooth).collect::<Vec<_>>().join("-")
     }
-}
-
-/// Returns the letters and digits of a text, in small letters.
-fn bare(text: &str) -> String {
-    text.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
 /// Reads indices as cutters write them: joined by dashes, commas or blanks. `None` where one of them is no number, or
@@ -399,6 +403,12 @@ mod tests {
         tiers.tiers[2].instructions = "Polish first".to_owned();
         tiers.change(TierChange::Setting(2, 0.0, 0.7));
         assert_eq!(tiers.tiers[2].instructions, "Polish first");
+        // What else they say stays.
+        tiers.tiers[2].instructions = "Meet P1-P1-G1, polish with 3000".to_owned();
+        tiers.change(TierChange::Meet(2, Some(meet(["P1", "G1", "G1"]))));
+        assert_eq!(tiers.tiers[2].instructions, "Meet P1-G1-G1, polish with 3000");
+        tiers.change(TierChange::Setting(2, 0.0, 0.75));
+        assert_eq!(tiers.tiers[2].instructions, "polish with 3000");
         // A size that the cutter chooses is chosen again.
         let given = Some(Meet::Given(super::super::GivenSize::Size));
         tiers.tiers[1].meet.clone_from(&given);

@@ -18,7 +18,7 @@ pub use figures::{FigureReport, measure};
 pub use hearts::{HeartsReport, hearts};
 pub use measures::{MeasureReport, light_measures};
 pub use scope_picture::{ScopePicture, ScopeStill};
-pub use sheet::caption_pixels;
+pub use sheet::{PROGRAM, caption_pixels};
 pub use viewing::Viewing;
 #[cfg(feature = "interchange")]
 pub(in crate::io) use viewing::note;

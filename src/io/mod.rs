@@ -1,4 +1,4 @@
-//! Floor 6: files, in and out. The path `-` is standard input and output everywhere.
+//! Floor 7: files, in and out. The path `-` is standard input and output everywhere.
 
 mod animation;
 #[cfg(feature = "interchange")]
@@ -65,7 +65,7 @@ pub use mesh::{write_glb, write_obj, write_ply, write_stl};
 pub use pdf::pdf;
 #[cfg(feature = "exr")]
 pub use picture_file::write_linear_exr;
-pub use picture_file::{Finish, write_rgba_png};
+pub use picture_file::{Finish, with_cover, write_rgba_png};
 pub use png::{MOST_PIXELS, PngFile, write_png};
 pub use standard::{STANDARD, is_standard};
 pub use stored_light::StoredLight;

@@ -47,6 +47,11 @@ pub fn write_rgba_png(
     })
 }
 
+/// Returns pixels with the colours of `rgb` that cover all behind them: red, green, blue and cover (alpha) of each.
+pub fn with_cover(rgb: &[u8]) -> Vec<u8> {
+    rgb.chunks_exact(3).flat_map(|pixel| [pixel[0], pixel[1], pixel[2], u8::MAX]).collect()
+}
+
 /// Returns the colours of pixels without their cover.
 pub(super) fn without_cover(rgba: &[u8]) -> Vec<u8> {
     rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()

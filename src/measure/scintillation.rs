@@ -11,9 +11,9 @@ use serde::Serialize;
 
 /// The number of directions into which the stone rocks, evenly around it.
 ///
-/// The mean over twelve of them is that over all directions for what changes as any wave of fewer than twelve periods around the stone
-/// does: of stones of 1, 2, 3, 4, 6 and 8 repeats the first wave that is left has 12, 12, 12, 12, 12 and 24. Four or eight directions
-/// are all alike to a brilliant, whose facets repeat every 45 degrees.
+/// A wave of 1 to 11 periods around the stone averages to 0 over twelve directions, so their mean is that over all directions up to
+/// the 12th wave for stones of 1, 2, 3, 4 or 6 repeats, and up to the 24th for those of 8. Four or eight directions are all alike to
+/// a brilliant, whose facets repeat every 45 degrees.
 const DIRECTIONS: u32 = 12;
 
 /// The part of the face's mean brightness by which a place must change to count as one that changes.

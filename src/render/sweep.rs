@@ -103,6 +103,12 @@ pub enum SweepError {
     /// The light cannot be traced.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// Two axes vary the same number.
+    #[error("{key} is given twice; give all its values at once")]
+    Twice {
+        /// The key.
+        key: String,
+    },
     /// The cut has no proportion of this key, or one that only follows from others.
     #[error("{key}: the design has no such proportion to set; {known}")]
     NoProportion {
@@ -189,6 +195,11 @@ impl Sweep {
     /// # Errors
     /// A [`SweepError`] that names the axis. Points whose stone cannot be made are no errors of the sweep.
     pub fn check(&self) -> Result<(), SweepError> {
+        for (place, axis) in self.axes.iter().enumerate() {
+            if self.axes[..place].iter().any(|before| before.key == axis.key) {
+                return Err(SweepError::Twice { key: axis.key.to_string() });
+            }
+        }
         let mut varied = self.start();
         let each = self.axes.iter().flat_map(|axis| axis.values.iter().map(|value| (&axis.key, value)));
         for (key, value) in each {

@@ -2,7 +2,7 @@
 
 use super::{Body, Medium, Stone};
 use crate::cut::{Audit, AuditSubject, Cut, Design, DesignError, FamilySolid, Tiers, Warning};
-use crate::math::{NotConvex, Plane, Polytope, PolytopeError, SmoothSolid, SolidRef};
+use crate::math::{NotConvex, Plane, Polytope, PolytopeError, Pose, SmoothSolid, SolidRef};
 use crate::optics::{Material, critical_angle, line};
 use glam::DVec3;
 use std::sync::Arc;
@@ -23,8 +23,9 @@ pub struct Specimen {
     /// The greatest distance that the stone reaches from its axis, or along the axis from the origin, girdle radii. Views
     /// are fitted to it, so that the girdle keeps its size while the depth changes.
     pub reach: f64,
-    /// The unit of the design's own distances, in the unit of the stone's frame; 1 for all designs but those of tiers.
-    pub unit: f64,
+    /// The pose that carries the design's own frame into the stone's; [`Pose::STILL`] for all designs but those of tiers. Its
+    /// scale is the unit of the design's distances, in girdle radii.
+    pub frame: Pose,
     /// The greatest distance that the stone reaches from the origin in any direction, girdle radii.
     pub radius: f64,
 }
@@ -66,9 +67,9 @@ impl Specimen {
         let given = facets.len();
         let unusual = design.warnings()?;
         let mut warnings = vec![];
-        let (stone, unit) = match (Stone::new(&facets), &design.cut) {
+        let (stone, frame) = match (Stone::new(&facets), &design.cut) {
             (Ok(stone), Cut::Tiers(_)) => stone.girdled(),
-            (Ok(stone), _) => (stone, 1.0),
+            (Ok(stone), _) => (stone, Pose::STILL),
             (Err(PolytopeError::Unbounded { .. }), Cut::Tiers(_)) => {
                 facets.extend(Tiers::block());
                 let stone = Stone::new(&facets).map_err(|e| with_names(&e, &facets))?;
@@ -89,15 +90,15 @@ impl Specimen {
         if let Cut::Tiers(tiers) = &design.cut {
             warnings.extend(tiers.concave_warning());
         }
-        Ok(Self { unusual, warnings, unit, ..Self::made(design, Body::Stone(stone), material) })
+        Ok(Self { unusual, warnings, frame, ..Self::made(design, Body::Stone(stone), material) })
     }
 
     fn made(design: Design, body: Body, material: Material) -> Self {
         let far = |v: &DVec3| v.truncate().length().max(v.z.abs());
         let reach = body.solid().vertices().iter().map(far).fold(0.0, f64::max);
         let radius = body.solid().reach();
-        let (unusual, warnings, unit) = (vec![], vec![], 1.0);
-        Self { design, body: Arc::new(body), material, unusual, warnings, reach, unit, radius }
+        let (unusual, warnings, frame) = (vec![], vec![], Pose::STILL);
+        Self { design, body: Arc::new(body), material, unusual, warnings, reach, frame, radius }
     }
 
     /// Returns the shape, as tracers take it.
@@ -150,6 +151,11 @@ impl Specimen {
         let material = design.material.material().map_err(DesignError::from)?;
         let unusual = design.warnings()?;
         Ok(Self { design, material, unusual, ..self.clone() })
+    }
+
+    /// Returns the unit of the design's own distances in mm.
+    pub fn design_unit_mm(&self) -> f64 {
+        self.unit_mm() * self.frame.scale
     }
 
     /// Returns the girdle radius in mm.

@@ -51,16 +51,16 @@ impl Stone {
     /// Returns the same stone in the frame of all stones, where it had a unit of its own.
     ///
     /// It is scaled so that half its diameter is 1, and moved so that its middle lies on the axis and the girdle's upper
-    /// edge at z = 0. Returns it with its own unit, in the unit of that frame.
-    pub fn girdled(&self) -> (Self, f64) {
+    /// edge at z = 0. Returns it with the pose that carries its own frame into that one.
+    pub fn girdled(&self) -> (Self, Pose) {
         let outline = Outline::of(&self.polytope);
         let scale = 2.0 / outline.diameter;
         // A stone that lies on the axis but for the last digits is not shifted, so that no digit changes.
         let off =
             if outline.middle.length() > CENTRED * outline.width { outline.middle } else { DVec2::ZERO };
         let at = -scale * off.extend(outline.girdle_top);
-        let polytope = self.polytope.reframed(&Pose { at, scale, ..Pose::STILL });
-        (Self { polytope, names: self.names.clone() }, scale)
+        let pose = Pose { at, scale, ..Pose::STILL };
+        (Self { polytope: self.polytope.reframed(&pose), names: self.names.clone() }, pose)
     }
 
     /// Returns the same stone with frosted facets, as [`Polytope::frosted`] says.

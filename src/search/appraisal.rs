@@ -13,13 +13,13 @@ pub enum SearchError {
     Goal(#[from] GoalFault),
     /// The design has no numbers to change.
     #[error(
-        "the design has no numbers that may change: it is a mesh, or nothing that was named keeps all meets when it moves; of a design \
-         of tiers, name crown_scale or pavilion_scale, by which all tiers of a side move together"
+        "the design has no numbers to vary: it is a mesh, or each number breaks a meet when it changes alone; of tiers or a list of \
+         planes vary crown_scale or pavilion_scale, which moves all facets of a side together"
     )]
     NoNumbers,
     /// A key that is no number of the design.
     #[error(
-        "vary: {0} is no number of a design; give the key of a proportion, tier: and the name of a tier, crown_scale or \
+        "vary: {0} is no number of a design; give the key of a proportion, tier: or distance: and the name of a tier, crown_scale or \
          pavilion_scale"
     )]
     NotOfDesign(String),

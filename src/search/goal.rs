@@ -19,8 +19,9 @@ pub struct Goal {
     pub name: Option<String>,
     /// The measures that are weighed, at least one.
     pub measure: Vec<GoalMeasure>,
-    /// The numbers that may change, with the least and the greatest value of each: keys of proportions, `tier:` and the name
-    /// of a tier, `crown_scale` and `pavilion_scale`. Where none is given, all that the design gives may change within usual ranges, but for its outline and girdle.
+    /// The numbers that may change, with the least and the greatest value of each: keys of proportions, `tier:` or
+    /// `distance:` and the name of a tier, `crown_scale` and `pavilion_scale`. Where none is given, all that the design gives may
+    /// change within usual ranges, but for its outline and girdle.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub vary: BTreeMap<String, [f64; 2]>,
     /// Limits on the geometry: keys of the cut's proportions, or [`LIMIT_NAMES`](super::LIMIT_NAMES).

@@ -282,8 +282,8 @@ impl Objective {
         Slopes { total, slacks }
     }
 
-    /// Returns how many units of a number, counted from the design at this place, one unit of it is: a percent of a side's height in the
-    /// design as it was given is another part of the height there.
+    /// Returns the factor from a slope by the design at this place to a slope by the number. The number of a scale is in percent of
+    /// the given design's height, and the slope in percent of the height here.
     fn units_at(&self, places: &[f64], number: usize) -> f64 {
         match self.numbers[number].key {
             SweepKey::Scale(_) => AS_IT_IS / self.numbers[number].at(places[number]),

@@ -354,10 +354,10 @@ impl Trials<'_> {
             next = neighbours(objective.numbers(), &top.0, step, &on_scale);
             found = Some(top);
         }
-        // Without a stone near it, or where the search was stopped before, the best stays as it is.
-        let Some(found) = found else { return };
-        let mut record = self.record();
-        record.best = Some(found).filter(|(_, appraisal)| appraisal.keeps_limits());
+        // A search that was stopped keeps its best as it is.
+        if found.is_some() || !self.stopped.load(Ordering::Relaxed) {
+            self.record().best = found.filter(|(_, appraisal)| appraisal.keeps_limits());
+        }
     }
 
     fn appraise(&self, places: &[f64], unresolved: f64, with_slopes: bool) -> Option<Appraisal> {

@@ -306,7 +306,12 @@ impl Document {
 
     /// Whether there is anything to undo, and anything to redo.
     pub fn steps(&self) -> (bool, bool) {
-        (self.history.can_undo() || self.work != *self.history.present(), self.history.can_redo())
+        (self.history.can_undo() || self.has_unsettled(), self.history.can_redo())
+    }
+
+    /// Whether anything has changed since the last step: what a gesture that goes on has done so far.
+    pub fn has_unsettled(&self) -> bool {
+        self.work != *self.history.present()
     }
 
     /// Undoes one step.

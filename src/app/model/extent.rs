@@ -14,8 +14,6 @@ pub struct Extent {
     pub width: f64,
     /// Whether one number, a diameter, says as much as both sides: see [`Outline::diameter`].
     pub is_round: bool,
-    /// The unit of the design's own distances, in the unit of the frame.
-    pub unit: f64,
 }
 
 /// Returns the unit of a design's own distances, in the unit of its stone's frame; `None` where the design makes no stone.
@@ -36,12 +34,10 @@ impl Extent {
     ///
     /// Length and width are those of [`Outline`]; of glass, they are the sides of its box.
     pub fn of(specimen: &Specimen) -> Self {
-        let unit = specimen.unit;
         let solid = specimen.solid();
         let (low, high) = solid.bounds();
         let sides = (high - low).truncate();
-        let by_sides =
-            Self { length: sides.max_element(), width: sides.min_element(), is_round: false, unit };
+        let by_sides = Self { length: sides.max_element(), width: sides.min_element(), is_round: false };
         if matches!(*specimen.body, Body::Glass(_)) {
             return by_sides;
         }
@@ -49,7 +45,7 @@ impl Extent {
         // A solid so thin that rounding leaves no outline is measured along its axes.
         Calipers::along_mirror(&outline).map_or(by_sides, |Calipers { length, width, middle, .. }| {
             let is_round = round_diameter(&outline, middle, width).is_some();
-            Self { length, width, is_round, unit }
+            Self { length, width, is_round }
         })
     }
 }

@@ -110,7 +110,15 @@ impl MapAxis {
             SweepKey::Proportion(key) => cut.proportion(key).and_then(|row| row.pair),
             _ => None,
         };
-        self.key == other.key || pair(self).is_some_and(|key| SweepKey::of(key) == other.key)
+        let is_scaled = |side: ScaledSide, tier: &String| cut.tier_of_side(side).as_ref() == Some(tier);
+        self.key == other.key
+            || pair(self).is_some_and(|key| SweepKey::of(key) == other.key)
+            || match (&self.key, &other.key) {
+                // The scale of a side is told by the angle of this tier.
+                (SweepKey::Scale(side), SweepKey::Tier(tier)) => is_scaled(*side, tier),
+                (SweepKey::Tier(tier), SweepKey::Scale(side)) => is_scaled(*side, tier),
+                _ => false,
+            }
     }
 
     /// Returns the axis of a sweep of a cut. A sweep counts scales from the cut that it varies.
@@ -261,7 +269,7 @@ impl MeasureMap {
 #[derive(Debug, thiserror::Error)]
 pub enum MapFault {
     /// There is no map.
-    #[error("the design has no two proportions or tiers that a map can vary")]
+    #[error("the design has no two proportions, tiers or sides that a map can vary")]
     Nothing,
     /// There is no stone at the place.
     #[error("no stone there: {}", no_stone(.0))]

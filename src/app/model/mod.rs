@@ -35,7 +35,6 @@ pub mod recovery;
 pub mod saving;
 pub mod session;
 pub mod task;
-pub mod tier_frame;
 pub mod update;
 pub mod view_history;
 pub mod work;

@@ -1,6 +1,7 @@
 //! The fields above the table of tiers that scale the crown or the pavilion: all tiers of the side move together, so that every meet
 //! stays.
 
+use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit};
 use crate::app::panels::rows::{Number, explain, spoken};
 use crate::cut::{Cut, ScaledSide, Tiers};
@@ -22,15 +23,15 @@ const FIELDS: [(ScaledSide, &str, &str, &str); 2] = [
         ScaledSide::Crown,
         "Scale crown",
         "Scale of the crown",
-        "Makes the crown this much as high: the tangents of all its angles are multiplied by one factor, which keeps every meet, \
-         the plan view and the girdle. 100 % is the design as it is.",
+        "Sets the height of the crown, in percent of what it is now: the tangents of all its angles are multiplied by one factor, \
+         which keeps every meet, the plan view and the girdle.",
     ),
     (
         ScaledSide::Pavilion,
         "Scale pavilion",
         "Scale of the pavilion",
-        "Makes the pavilion this much as deep: the tangents of all its angles are multiplied by one factor, which keeps every \
-         meet, the plan view and the girdle. 100 % is the design as it is.",
+        "Sets the depth of the pavilion, in percent of what it is now: the tangents of all its angles are multiplied by one factor, \
+         which keeps every meet, the plan view and the girdle.",
     ),
 ];
 
@@ -41,8 +42,8 @@ struct DraggedScale {
     percent: f64,
 }
 
-/// Draws the fields.
-pub fn show(tiers: &Tiers, actions: &mut Actions, ui: &mut Ui) {
+/// Draws the fields by which crown and pavilion are scaled in height.
+pub fn show(model: &Model, tiers: &Tiers, actions: &mut Actions, ui: &mut Ui) {
     ui.separator();
     for (side, name, spoken_name, meaning) in FIELDS {
         // The name stays with its field where the line breaks.
@@ -50,7 +51,8 @@ pub fn show(tiers: &Tiers, actions: &mut Actions, ui: &mut Ui) {
         ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
             let label = ui.label(name);
             let label = explain(ui, label, meaning);
-            let id = ui.make_persistent_id(("scale", name));
+            // What is dragged belongs to the document in which the drag began.
+            let id = ui.make_persistent_id(("scale", name, model.session.begun));
             let dragged = ui.data(|data| data.get_temp::<DraggedScale>(id));
             let before = dragged.as_ref().map_or(AS_IT_IS, |dragged| dragged.percent);
             let mut percent = before;

@@ -14,7 +14,7 @@ const MEANING: &str = "A tier: all facets that are cut at one angle and one dist
 
 /// Draws the tiers of the cut.
 pub fn show(document: &Document, actions: &mut Actions, ui: &mut Ui) {
-    let unit_mm = document.specimen().unit_mm() * document.extent().unit;
+    let unit_mm = document.specimen().design_unit_mm();
     let about = format!(
         "The distance from the origin to the facets, in mm at the stone's present size. 1 in the file is \
             {unit_mm:.3} mm."

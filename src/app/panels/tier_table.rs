@@ -44,7 +44,7 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     panel.size_range(HEIGHTS[0]..=HEIGHTS[2]).show(ui, |ui| {
         let selected = model.session.tier.filter(|place| *place < tiers.tiers.len());
         ui.add_space(4.0);
-        ui.horizontal_wrapped(|ui| buttons(tiers, selected, actions, ui));
+        ui.horizontal_wrapped(|ui| buttons(model, (tiers, selected), actions, ui));
         ScrollArea::both().auto_shrink(false).show(ui, |ui| {
             heads(ui);
             let seen = ui.make_persistent_id("selected row in sight");
@@ -63,7 +63,7 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
 }
 
 /// Draws the buttons that change the list, and the gear.
-fn buttons(tiers: &Tiers, selected: Option<usize>, actions: &mut Actions, ui: &mut Ui) {
+fn buttons(model: &Model, (tiers, selected): (&Tiers, Option<usize>), actions: &mut Actions, ui: &mut Ui) {
     let add = ui.button("Add tier");
     let meaning =
         "Adds a tier after the selected one. It touches the stone and cuts nothing until it is moved.";
@@ -105,18 +105,19 @@ fn buttons(tiers: &Tiers, selected: Option<usize>, actions: &mut Actions, ui: &m
     let meaning = "Gives every tier without a meet the one that its instructions state, or else the one that the stone shows: the \
         points through which its facets pass. No tier moves.";
     actions.push_if(explain(ui, find, meaning).clicked(), Edit::Tiers(TierChange::FindMeets));
-    next_meets(selected, actions, ui);
+    next_meets(tiers, selected, actions, ui);
     gear_fields::show(tiers, actions, ui);
-    scale_fields::show(tiers, actions, ui);
+    scale_fields::show(model, tiers, actions, ui);
 }
 
 /// Draws the buttons that cut the selected tier to the next corner.
-fn next_meets(selected: Option<usize>, actions: &mut Actions, ui: &mut Ui) {
+fn next_meets(tiers: &Tiers, selected: Option<usize>, actions: &mut Actions, ui: &mut Ui) {
+    let is_cut = selected.and_then(|place| tiers.tiers.get(place)).is_some_and(|tier| tier.is_cut);
     for (name, meaning, is_deeper) in [
         ("Out to a meet", "Cuts the selected tier less deep, to the next corner that it reaches.", false),
         ("In to a meet", "Cuts the selected tier deeper, to the next corner that it reaches.", true),
     ] {
-        let button = ui.add_enabled(selected.is_some(), egui::Button::new(name));
+        let button = ui.add_enabled(is_cut, egui::Button::new(name));
         if let (true, Some(place)) = (explain(ui, button, meaning).clicked(), selected) {
             actions.push(Edit::NextMeet { place, is_deeper });
         }
@@ -251,7 +252,7 @@ fn setting(
     ui: &mut Ui,
 ) {
     let document = &model.document;
-    let unit_mm = document.specimen().unit_mm() * document.extent().unit;
+    let unit_mm = document.specimen().design_unit_mm();
     let (mut angle, mut distance_mm) = (tier.angle, tier.distance * unit_mm);
     let before_mm = distance_mm;
     let number =
@@ -310,8 +311,10 @@ fn meet(
         spoken(&under, &said);
         under.on_hover_text(said);
     }
-    let is_picked = model.session.picking == Some(place);
-    let pick = cell(ui, PICK, |ui| ui.selectable_label(is_picked, "Pick"));
+    let is_picked = model.picked_tier() == Some(place);
+    let is_cut = tiers.tiers[place].is_cut;
+    let pick =
+        cell(ui, PICK, |ui| ui.add_enabled_ui(is_cut, |ui| ui.selectable_label(is_picked, "Pick")).inner);
     spoken(&pick, &format!("Pick meet of {called}"));
     let pick =
         explain(ui, pick, "Shows the corners that the tier can be cut to. Click one in a view to meet it.");

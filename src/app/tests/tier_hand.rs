@@ -2,7 +2,6 @@
 
 use super::tiers::{reach, tiers};
 use super::*;
-use crate::app::model::tier_frame::TierFrame;
 use crate::cut::{Tier, TierCorner, Tiers};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use glam::{DMat2, DVec2};
@@ -35,7 +34,7 @@ fn at(bench: &Bench, image: DVec2) -> Pos2 {
 /// Returns the points of the window for each unit of the design.
 fn points_per_unit(bench: &Bench) -> f64 {
     let apart = at(bench, DVec2::X) - at(bench, DVec2::ZERO);
-    f64::from(apart.x) * bench.editor().model.document.specimen().unit
+    f64::from(apart.x) * bench.editor().model.document.specimen().frame.scale
 }
 
 fn table_place(tiers: &Tiers) -> usize {
@@ -63,7 +62,7 @@ fn pull(bench: &mut Bench, from: Pos2, by: Vec2, modifiers: Modifiers) {
     }
 }
 
-/// Drags from a point.
+/// Drags from a point of the window, lets go, and releases the keys that were held.
 fn drag(bench: &mut Bench, from: Pos2, by: Vec2, modifiers: Modifiers) {
     pull(bench, from, by, modifiers);
     press(bench, from + by, false, modifiers);
@@ -158,7 +157,7 @@ fn a_corner_that_is_picked_becomes_the_meet_of_the_tier() {
     assert_eq!(bench.editor().model.session.picking, None);
     reach(&mut bench, "Pick meet of T");
     bench.click("Pick meet of T");
-    let frame = TierFrame::of(bench.editor().model.document.specimen()).unwrap();
+    let frame = bench.editor().model.document.specimen().frame;
     let place = at(&bench, frame.place(corner.at).truncate());
     bench.click_at(place + vec2(3.0, -2.0));
     let now = tiers(&bench);
@@ -167,6 +166,11 @@ fn a_corner_that_is_picked_becomes_the_meet_of_the_tier() {
     assert_eq!(bench.editor().model.session.picking, None);
     bench.choose("Edit", "Undo");
     assert_eq!(tiers(&bench), before);
+    // Another edit ends a pick, because its tier may stand in another place then.
+    reach(&mut bench, "Pick meet of T");
+    bench.click("Pick meet of T");
+    bench.click("Earlier");
+    assert_eq!(bench.editor().model.session.picking, None);
 }
 
 #[test]

@@ -1,11 +1,11 @@
 //! The corners of the stone to which a tier can be cut, as the views show them.
 
 use super::pane_view::PaneView;
-use crate::app::model::tier_frame::TierFrame;
 use crate::cut::{Cut, Meet, TierCorner};
 use crate::scene::Specimen;
 use crate::trace::ray::Camera;
 use egui::{Color32, Pos2};
+use glam::DVec3;
 use std::sync::Arc;
 
 /// The colour of corners that a tier can be cut to: bright on any picture, and not that of a finding.
@@ -22,8 +22,6 @@ pub struct KnownCorners(Option<CornersOfTier>);
 pub struct CornersOfTier {
     specimen: Arc<Specimen>,
     place: usize,
-    /// Where the corners lie in the stone's frame.
-    pub frame: TierFrame,
     /// The corners, each with the meet that leads there, once that was looked for.
     pub corners: Vec<(TierCorner, Option<Option<Meet>>)>,
 }
@@ -33,22 +31,30 @@ impl KnownCorners {
     pub fn of(&mut self, specimen: &Arc<Specimen>, place: usize) -> Option<&mut CornersOfTier> {
         let is_known = |known: &CornersOfTier| Arc::ptr_eq(&known.specimen, specimen) && known.place == place;
         if !self.0.as_ref().is_some_and(is_known) {
-            let (Cut::Tiers(tiers), frame) = (&specimen.design.cut, TierFrame::of(specimen)?) else {
-                return None;
-            };
-            let corners = tiers.tier_corners(place).into_iter().map(|corner| (corner, None)).collect();
-            self.0 = Some(CornersOfTier { specimen: Arc::clone(specimen), place, frame, corners });
+            self.0 = Some(CornersOfTier::of(specimen, place)?);
         }
         self.0.as_mut()
     }
 }
 
 impl CornersOfTier {
+    /// Finds the corners of a tier; `None` where the stone is not cut by tiers.
+    pub fn of(specimen: &Arc<Specimen>, place: usize) -> Option<Self> {
+        let Cut::Tiers(tiers) = &specimen.design.cut else { return None };
+        let corners = tiers.tier_corners(place).into_iter().map(|corner| (corner, None)).collect();
+        Some(Self { specimen: Arc::clone(specimen), place, corners })
+    }
+
+    /// Returns where a corner lies in the frame of the stone.
+    pub fn at(&self, corner: &TierCorner) -> DVec3 {
+        self.specimen.frame.place(corner.at)
+    }
+
     /// Returns the corners that face the eye, each with its number and its place in the window.
     pub fn seen(&self, sight: &PaneView) -> Vec<(usize, Pos2)> {
         let camera = Camera::reaching(&sight.view, 1.0);
         let seen = |(number, (corner, _)): (usize, &(TierCorner, _))| {
-            let at = self.frame.place(corner.at);
+            let at = self.at(corner);
             let toward = camera.toward_eye(at);
             let is_in_sight = corner.normals.iter().any(|normal| normal.dot(toward) > IN_SIGHT);
             Some((number, sight.point(camera.project(at).filter(|_| is_in_sight)?.0)))
@@ -61,5 +67,30 @@ impl CornersOfTier {
         let Cut::Tiers(tiers) = &self.specimen.design.cut else { return None };
         let (corner, meet) = self.corners.get_mut(number)?;
         meet.get_or_insert_with(|| tiers.meet_at(self.place, corner)).clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::model::document::Document;
+    use crate::io::as_tiers;
+
+    #[test]
+    fn corners_that_tiers_can_be_cut_to_lie_on_the_stone() {
+        let mut document = Document::first().unwrap();
+        assert!(CornersOfTier::of(document.specimen(), 0).is_none(), "a brilliant is not cut by tiers");
+        let mut tiers = as_tiers(document.specimen()).unwrap().with_own_meets();
+        // Another unit than that of the stone's frame.
+        tiers.tiers.iter_mut().for_each(|tier| tier.distance *= 3.5);
+        let table = tiers.tiers.iter().position(|tier| tier.angle == 0.0).unwrap();
+        document.work.design.cut = Cut::Tiers(tiers);
+        assert!(document.update());
+        let specimen = document.specimen();
+        let known = CornersOfTier::of(specimen, table).unwrap();
+        let is_corner = |at: DVec3| specimen.solid().vertices().iter().any(|v| v.distance(at) < 1e-9);
+        let now = known.corners.iter().filter(|(corner, _)| is_corner(known.at(corner)));
+        assert!(now.count() >= 8, "the corners of the table are corners of the stone");
+        assert!((specimen.frame.scale * 3.5 - 1.0).abs() < 0.05, "{:?}", specimen.frame);
     }
 }

@@ -104,7 +104,9 @@ fn select(cx: &mut PaneContext, response: &Response, sight: &PaneView) {
     let model = cx.model;
     let Cut::Tiers(tiers) = &model.document.work.design.cut else { return };
     let specimen = model.document.specimen();
-    let at = response.interact_pointer_pos().filter(|_| response.clicked() && model.shows_tiers());
+    let at = response
+        .interact_pointer_pos()
+        .filter(|_| response.clicked() && model.shows_tiers() && !model.document.shows_last_possible());
     let Some((at, Ok(stone))) = at.map(|at| (at, specimen.stone())) else { return };
     let hit = cx.tools.probe.of(specimen).meet(&sight.view, sight.image(at));
     let tier_of = |facet: usize| tiers.tier_of_plane(stone.polytope.facets()[facet].source);

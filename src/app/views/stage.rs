@@ -4,11 +4,11 @@ use super::pane;
 use super::pane_context::PaneContext;
 use super::tools::{Attention, ViewTools};
 use crate::app::model::Model;
-use crate::app::model::action::Actions;
+use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::ordering::Seen;
 use crate::app::model::workspace::PaneLayout;
 use crate::app::trouble_bar;
-use egui::{CentralPanel, Rect, Ui, UiBuilder, pos2};
+use egui::{CentralPanel, Key, Rect, Ui, UiBuilder, pos2};
 
 /// The gap between views, points.
 const GAP: f32 = 6.0;
@@ -20,6 +20,10 @@ pub fn show(model: &Model, tools: &mut ViewTools, actions: &mut Actions, ui: &mu
     if !ui.input(|i| i.pointer.any_down() || i.pointer.any_released()) {
         // The view in which a facet was dragged may be gone.
         tools.tiers.drag = None;
+    }
+    let is_for_views = model.session.dialog.is_none() && !ui.ctx().text_edit_focused();
+    if model.picked_tier().is_some() && is_for_views && ui.input(|i| i.key_pressed(Key::Escape)) {
+        actions.push(ViewAction::PickMeet(None));
     }
     let frame = egui::Frame::NONE.fill(ui.visuals().panel_fill);
     CentralPanel::no_frame().frame(frame).show(ui, |ui| {

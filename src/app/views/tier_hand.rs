@@ -1,13 +1,12 @@
 //! The hand on a tier in a view: a facet of the selected tier is dragged, and the tier moves along its normal. It stops at
 //! corners that it nearly passes through, which become its meet.
 
-use super::known_corners::MEETING;
+use super::known_corners::{CornersOfTier, MEETING};
 use super::pane_context::PaneContext;
 use super::pane_view::PaneView;
 use super::tier_drag::TierDrag;
 use crate::app::model::action::Edit;
 use crate::app::model::command::Command;
-use crate::app::model::tier_frame::TierFrame;
 use crate::app::shows::Shows;
 use crate::cut::{Cut, Meet};
 use crate::trace::ray::Camera;
@@ -27,6 +26,9 @@ pub fn held(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneView
         cx.tools.tiers.drag = begun(cx, ui, sight);
     }
     let Some(mut drag) = cx.tools.tiers.drag.take_if(|drag| drag.pane == cx.pane) else { return false };
+    if drag.document != cx.model.session.begun {
+        return false;
+    }
     let is_down = response.dragged();
     if !is_down && !response.drag_stopped() {
         // The button was released while the view was not shown.
@@ -42,7 +44,10 @@ pub fn held(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneView
 fn selected_at(cx: &mut PaneContext, sight: &PaneView, at: Pos2) -> Option<((usize, usize), DVec3, DVec3)> {
     let model = cx.model;
     let Cut::Tiers(tiers) = &model.document.work.design.cut else { return None };
-    let can_hold = model.shows_tiers() && cx.shows != Shows::Refraction && model.session.picking.is_none();
+    let can_hold = model.shows_tiers()
+        && cx.shows != Shows::Refraction
+        && model.picked_tier().is_none()
+        && !model.document.shows_last_possible();
     let selected = model.session.tier.filter(|_| can_hold)?;
     let specimen = model.document.specimen();
     let (facet, point) = cx.tools.probe.of(specimen).meet(&sight.view, sight.image(at))?;
@@ -61,17 +66,20 @@ fn begun(cx: &mut PaneContext, ui: &Ui, sight: &PaneView) -> Option<TierDrag> {
     let (facet, point, normal) = selected_at(cx, sight, pressed)?;
     let Cut::Tiers(tiers) = &cx.model.document.work.design.cut else { return None };
     let (way, per_point) = way(sight, point, normal)?;
-    let corners = tiers.tier_corners(facet.0).into_iter().filter(|corner| corner.facet == facet.1);
+    let specimen = cx.model.document.specimen();
+    let mut corners = CornersOfTier::of(specimen, facet.0)?;
+    corners.corners.retain(|(corner, _)| corner.facet == facet.1);
+    let largest = tiers.tiers.iter().map(|tier| tier.distance.abs()).fold(0.0, f64::max);
     Some(TierDrag {
         pane: cx.pane,
-        before: tiers.clone(),
+        document: cx.model.session.begun,
         facet,
         pressed,
         way,
-        per_point: per_point / cx.model.document.extent().unit,
-        corners: corners.map(|corner| (corner, None)).collect(),
+        per_point: per_point / specimen.frame.scale,
+        start: [tiers.tiers[facet.0].distance.abs(), largest],
+        corners,
         stopped: None,
-        has_changed: false,
         is_over: false,
     })
 }
@@ -98,7 +106,7 @@ fn follow(cx: &mut PaneContext, ui: &Ui, drag: &mut TierDrag) {
     let (at, is_free, is_escaped) =
         ui.input(|i| (i.pointer.interact_pos(), i.modifiers.command, i.key_pressed(Key::Escape)));
     if is_escaped && !drag.is_over {
-        cx.actions.push_if(drag.has_changed, Command::Undo);
+        cx.actions.push_if(cx.model.document.has_unsettled(), Command::Undo);
         drag.is_over = true;
     }
     let (Cut::Tiers(tiers), Some(at), false) = (&cx.model.document.work.design.cut, at, drag.is_over) else {
@@ -106,7 +114,6 @@ fn follow(cx: &mut PaneContext, ui: &Ui, drag: &mut TierDrag) {
     };
     let Some(tier) = tiers.tiers.get(drag.facet.0) else { return };
     if let Some(change) = drag.change(tier, at, is_free) {
-        drag.has_changed = true;
         cx.actions.push(Edit::Tiers(change));
     }
 }
@@ -117,10 +124,10 @@ fn draw(cx: &mut PaneContext, ui: &Ui, sight: &PaneView, drag: &TierDrag) {
     ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
     let Cut::Tiers(tiers) = &document.work.design.cut else { return };
     let Some(tier) = tiers.tiers.get(drag.facet.0) else { return };
-    let mm = document.specimen().unit_mm() * document.extent().unit * tier.distance.abs();
-    let stopped = drag.stopped.filter(|_| !drag.is_over).and_then(|k| drag.corners.get(k));
-    if let (Some((corner, _)), Some(frame)) = (stopped, TierFrame::of(document.specimen())) {
-        sight.mark_corner(ui, frame.place(corner.at), MEETING);
+    let mm = document.specimen().design_unit_mm() * tier.distance.abs();
+    let stopped = drag.stopped.filter(|_| !drag.is_over).and_then(|k| drag.corners.corners.get(k));
+    if let Some((corner, _)) = stopped {
+        sight.mark_corner(ui, document.specimen().frame.place(corner.at), MEETING);
     }
     let there = match stopped {
         Some(_) => tier.meet.as_ref().map_or("at a corner that no meet names".to_owned(), Meet::to_string),

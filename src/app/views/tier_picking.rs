@@ -3,9 +3,9 @@
 use super::known_corners::MEETING;
 use super::pane_context::PaneContext;
 use super::pane_view::PaneView;
-use crate::app::model::action::{Edit, NoteAction, ViewAction};
+use crate::app::model::action::{Edit, NoteAction};
 use crate::cut::{Meet, TierChange};
-use egui::{Color32, Key, Pos2, Response, Ui};
+use egui::{Color32, Pos2, Response, Ui};
 
 /// The farthest that the pointer may be from a corner that it picks, points.
 const REACH: f32 = 14.0;
@@ -13,10 +13,7 @@ const REACH: f32 = 14.0;
 /// Lets the pointer pick a corner where the meet of a tier is being picked; returns whether it is.
 pub fn picked(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneView) -> bool {
     let model = cx.model;
-    let Some(place) = model.session.picking.filter(|_| model.shows_tiers()) else { return false };
-    if ui.input(|i| i.key_pressed(Key::Escape)) {
-        cx.actions.push(ViewAction::PickMeet(None));
-    }
+    let Some(place) = model.picked_tier() else { return false };
     let Some(known) = cx.tools.tiers.known.of(model.document.specimen(), place) else { return false };
     let seen = known.seen(sight);
     let painter = ui.painter().with_clip_rect(sight.body);
@@ -34,16 +31,13 @@ pub fn picked(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneVi
         }
         return true;
     };
-    let (at, meet) = (known.frame.place(known.corners[number].0.at), known.meet(number));
+    let (at, meet) = (known.at(&known.corners[number].0), known.meet(number));
     sight.mark_corner(ui, at, MEETING);
     let said = meet.as_ref().map_or("No meet leads the tier to this corner.".to_owned(), Meet::to_string);
     cx.tools.attention.message.clone_from(&said);
     match meet {
         _ if !response.clicked() => {}
-        Some(meet) => {
-            cx.actions.push(Edit::Tiers(TierChange::Meet(place, Some(meet))));
-            cx.actions.push(ViewAction::PickMeet(None));
-        }
+        Some(meet) => cx.actions.push(Edit::Tiers(TierChange::Meet(place, Some(meet)))),
         None => cx.actions.push(NoteAction::Say(said)),
     }
     true

@@ -99,9 +99,9 @@ impl Girdle {
     }
 }
 
-/// Returns the ways from a main's station to the next place where halves part, in parts of the way there, at which upright
-/// facets meet on the curve. The last meets the first from the other side there; the first of a main that touches the outline
-/// meets the facet that does so too.
+/// Returns where upright facets meet on the curve, as parts of the way from a main to the next place where halves part. At a main
+/// that touches the outline the first lies half a facet away, because one facet touches the curve at the main itself. The last is
+/// the place where halves part.
 fn corner_ways(main: GirdlePlace) -> impl Iterator<Item = f64> {
     let (count, first) = if main.is_corner { (UPRIGHT, 0.0) } else { (UPRIGHT - 1, 0.5) };
     (0..=count).map(move |number| (first + number as f64) / (first + count as f64))

@@ -141,21 +141,20 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let cleft = (sine * across).atan2(-(1.0 - sine * sine).sqrt() * lobe);
     let gaps = cut[MAINS] as usize;
     let (sides, outer) = (gaps - 1, gaps.div_ceil(2) + 1);
-    let inner = (2 * gaps).saturating_sub(sides + outer).max(1);
+    let inner = 2 * gaps - sides - outer;
     let steps = sides + outer + inner;
     let curve = |way: f64| {
-        let place = way * steps as f64;
-        let along = [place, place - sides as f64, place - (sides + outer) as f64];
-        match place {
-            place if place < sides as f64 => side(station(&SIDE, along[0] / sides as f64)),
-            place if place < (sides + outer) as f64 => {
-                lobe_at(station(&OUTER_LOBE, along[1] / outer as f64) * FRAC_PI_2)
-            }
-            place if place < steps as f64 => lobe_at(station(&[FRAC_PI_2, cleft], along[2] / inner as f64)),
-            _ => {
-                let GirdlePlace { at, normal, .. } = lobe_at(cleft);
-                GirdlePlace { at: DVec2::new(0.0, at.y), normal, is_corner: true }
-            }
+        let step = way * steps as f64;
+        let (on_outer, on_inner) = (step - sides as f64, step - (sides + outer) as f64);
+        if on_outer < 0.0 {
+            side(station(&SIDE, step / sides as f64))
+        } else if on_inner < 0.0 {
+            lobe_at(station(&OUTER_LOBE, on_outer / outer as f64) * FRAC_PI_2)
+        } else if on_inner < inner as f64 {
+            lobe_at(station(&[FRAC_PI_2, cleft], on_inner / inner as f64))
+        } else {
+            let GirdlePlace { at, normal, .. } = lobe_at(cleft);
+            GirdlePlace { at: DVec2::new(0.0, at.y), normal, is_corner: true }
         }
     };
     let girdle = Girdle::half(gaps, curve);

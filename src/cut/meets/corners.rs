@@ -37,27 +37,18 @@ impl Tiers {
     pub fn tier_corners(&self, place: usize) -> Vec<TierCorner> {
         let Some(tier) = self.tiers.get(place) else { return vec![] };
         let bench = self.bench_without(place);
-        let planes = bench.planes(tier, tier.angle);
+        let (planes, stone) = (bench.planes(tier, tier.angle), bench.stone());
         let of_facet = |facet: usize| {
             let normal = planes[facet].normal;
             let reached = bench.reached_corners(&planes, facet, |_| true);
             let distance = move |at: DVec3| normal.dot(at);
             reached.into_iter().filter(move |corner| distance(corner.at) >= 0.0).map(move |corner| {
-                TierCorner {
-                    at: corner.at,
-                    distance: distance(corner.at),
-                    facet,
-                    normals: vec![],
-                    planes: corner.planes.clone(),
-                }
+                let normals = corner.planes.iter().map(|&plane| stone.plane(plane).plane.normal).collect();
+                let (at, planes) = (corner.at, corner.planes.clone());
+                TierCorner { at, distance: distance(at), facet, normals, planes }
             })
         };
-        let mut corners: Vec<TierCorner> = (0..planes.len()).flat_map(of_facet).collect();
-        for corner in &mut corners {
-            let normals = corner.planes.iter().map(|&plane| bench.stone().plane(plane).plane.normal);
-            corner.normals = normals.collect();
-        }
-        corners
+        (0..planes.len()).flat_map(of_facet).collect()
     }
 
     /// Returns the meet that cuts the tier at a place to one of its [corners](Self::tier_corners); `None` where no meet gives it
@@ -71,8 +62,8 @@ impl Tiers {
         let tier = Tier { distance, meet: None, is_cut: true, ..own.clone() };
         let bench = self.bench_without(place);
         let mut meets: Vec<Meet> = bench.simple(place, &tier).into_iter().collect();
-        let lists = NAMES.flat_map(|count| bench.lists(place, &corner.planes, count));
-        let lists: Vec<Vec<String>> = lists.collect();
+        let lists: Vec<Vec<String>> =
+            NAMES.flat_map(|count| bench.lists(place, &corner.planes, count)).collect();
         meets.extend(lists.iter().map(|names| Meet::Points(vec![MeetPoint::Corner(names.clone())])));
         let later = |reached| {
             let meet = |names: &Vec<String>| MeetPoint::LaterCorner { names: names.clone(), reached };

@@ -47,6 +47,10 @@ impl Tiers {
         for (place, tier) in design.tiers.iter_mut().enumerate() {
             tier.meet.iter_mut().for_each(|meet| words::name_as_written(meet, &names, place));
         }
+        // Whether a tier that is not cut would move is not known before it is.
+        for (tier, own) in design.tiers.iter_mut().zip(&self.tiers).filter(|(tier, _)| !tier.is_cut) {
+            tier.meet.clone_from(&own.meet);
+        }
         let scale = Bench::of(self).stone().scale();
         while design.drop_a_moving_meet(self, scale) {}
         design

@@ -128,6 +128,10 @@ fn stated_meets_that_the_numbers_bear_out_are_kept_and_others_dropped() {
     // Names are written as their tiers have them: the instruction says "meet b-C".
     let table = kept.tiers.last().unwrap().meet.as_ref().unwrap().to_string();
     assert!(table.contains('B') && !table.contains('b'), "{table}");
+    // A tier that is not cut gets none: whether it would move is not known.
+    let mut muted = bare.clone();
+    muted.tiers.last_mut().unwrap().is_cut = false;
+    assert_eq!(muted.with_kept_stated_meets().tiers.last().unwrap().meet, None);
     // A table that is cut deeper than its instruction says loses that meet alone, and nothing moves.
     bare.tiers.last_mut().unwrap().distance *= 0.9;
     let other = bare.with_kept_stated_meets();

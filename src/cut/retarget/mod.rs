@@ -91,9 +91,9 @@ pub enum RetargetError {
          convex, and a glass shape is curved: change the angles in the cut file, and compare by `measure --material`"
     )]
     NotConvex,
-    /// The planes of the design enclose nothing.
-    #[error("{0}")]
-    Solid(String),
+    /// The planes enclose nothing, the factor is out of range, or a plane would pass the design's origin.
+    #[error(transparent)]
+    Scale(ScaleError),
     /// A material without total reflection.
     #[error("{material} has no critical angle at 589.3 nm; give a material with an index above 1")]
     NoCriticalAngle {
@@ -103,12 +103,6 @@ pub enum RetargetError {
     /// A stone without leaning facets that face down.
     #[error("the stone has no pavilion facets whose angles could follow the material")]
     NoPavilion,
-    /// A factor out of range.
-    #[error("factor: {value} must be from {} to {}", FACTORS.start(), FACTORS.end())]
-    Factor {
-        /// The factor as given.
-        value: f64,
-    },
     /// A tier that would become too flat or too steep.
     #[error(
         "tier '{tier}' would go from {before:.2} to {after:.2} degrees; from {} to {} are possible: try the tangent ratio, or a \
@@ -124,25 +118,14 @@ pub enum RetargetError {
         /// Its angle afterwards, degrees.
         after: f64,
     },
-    /// A tier of a cutter's design whose plane would have the origin outside.
-    #[error(
-        "tier '{tier}' would pass the design's origin, and its distance would be below 0; give a smaller change"
-    )]
-    Origin {
-        /// The tier's name.
-        tier: String,
-    },
 }
 
 impl From<ScaleError> for RetargetError {
     fn from(error: ScaleError) -> Self {
         match error {
             ScaleError::Design(error) => error.into(),
-            ScaleError::Solid(text) => Self::Solid(text),
-            ScaleError::NotScalable => Self::NotConvex,
-            ScaleError::Factor { value } => Self::Factor { value },
             ScaleError::Angle { tier, before, after } => Self::Angle { tier, before, after },
-            ScaleError::Origin { tier } => Self::Origin { tier },
+            error => Self::Scale(error),
         }
     }
 }
@@ -245,7 +228,7 @@ fn change(
         RetargetRule::CrownRatio(factor) => (ScaledSide::Crown, factor, None),
     };
     if !FACTORS.contains(&factor) {
-        return Err(RetargetError::Factor { value: factor });
+        return Err(ScaleError::Factor { value: factor }.into());
     }
     Ok(AngleChange { shift, ..AngleChange::scale(side, &outline, factor) })
 }

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::cut::round_brilliant::MODERN;
+use crate::cut::side_scale::tests::square_of_tiers as tiers;
 use crate::cut::{Indexed, Tier};
 use glam::DVec3;
 use proptest::prelude::*;
@@ -24,32 +25,6 @@ fn named(material: &str) -> MaterialRef {
 fn stone(design: &Design) -> Polytope {
     Polytope::from_planes(&design.facets().unwrap().into_iter().map(|(_, plane)| plane).collect::<Vec<_>>())
         .unwrap()
-}
-
-/// Returns a cutter's design: a square of four pavilion mains under four breaks, a crown, girdle and table.
-fn tiers() -> Tiers {
-    let tier = |angle: f64, distance: f64, first: f64, name: &str| {
-        let facets = (0..4).map(|k| Indexed { index: first + 24.0 * f64::from(k), name: name.to_owned() });
-        Tier {
-            angle,
-            distance,
-            instructions: String::new(),
-            meet: None,
-            is_cut: true,
-            frosting: 0.0,
-            facets: facets.collect(),
-        }
-    };
-    let tiers = vec![
-        tier(-42.0, 0.70, 0.0, "P1"),
-        tier(-55.0, 0.84, 0.0, "P2"),
-        tier(-90.0, 1.0, 0.0, "G"),
-        tier(-90.0, 1.2, 12.0, "G2"),
-        tier(-44.0, 0.80, 12.0, "P3"),
-        tier(35.0, 0.75, 0.0, "C"),
-        Tier { facets: vec![Indexed { index: 0.0, name: "T".to_owned() }], ..tier(0.0, 0.4, 0.0, "T") },
-    ];
-    Tiers { gear: 96, symmetry: 4, mirror: true, tiers, ..Tiers::default() }
 }
 
 /// Asserts that both stones have the same facets and corners, and that the pavilion of the second is that of the first,
@@ -254,7 +229,7 @@ fn what_cannot_be_fitted_says_why() {
     let told = |material: MaterialRef, rule| retarget(&old, material, rule).unwrap_err().to_string();
     let ratio = RetargetRule::PavilionRatio;
     assert!(told(MaterialRef::Index(1.0), ratio(None)).contains("no critical angle"));
-    assert!(told(named("ruby"), ratio(Some(f64::NAN))).starts_with("factor: NaN must be from 0.1"));
+    assert!(told(named("ruby"), ratio(Some(f64::NAN))).starts_with("the factor NaN must be from 0.1"));
     assert!(told(named("unobtainium"), ratio(None)).contains("unknown material"));
     let mut steep = tiers();
     steep.tiers[1].angle = -85.0;

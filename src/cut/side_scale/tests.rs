@@ -23,8 +23,9 @@ fn lists_of_planes() -> Vec<Design> {
     std::iter::once(brilliant).chain(convex).map(design).collect()
 }
 
-/// Returns a square of tiers whose origin lies above the middle of its girdle.
-fn tiers() -> Design {
+/// Returns a cutter's design whose origin lies above the middle of its girdle: a square of four pavilion mains under four
+/// breaks, a crown, girdle and table.
+pub(in crate::cut) fn square_of_tiers() -> Tiers {
     let tier = |angle: f64, distance: f64, first: f64, name: &str| {
         let facets = (0..4).map(|k| Indexed { index: first + 24.0 * f64::from(k), name: name.to_owned() });
         Tier {
@@ -48,7 +49,11 @@ fn tiers() -> Design {
         tier(35.0, 0.75, 0.0, "C"),
         table,
     ];
-    design(Cut::Tiers(Tiers { gear: 96, symmetry: 4, mirror: true, tiers: all, ..Tiers::default() }))
+    Tiers { gear: 96, symmetry: 4, mirror: true, tiers: all, ..Tiers::default() }
+}
+
+fn tiers() -> Design {
+    design(Cut::Tiers(square_of_tiers()))
 }
 
 fn solid_of(facets: &[(String, Plane)]) -> Option<Polytope> {

@@ -10,7 +10,7 @@ const FITTED: usize = 64;
 /// The part of a frame that a colour must cover to be kept as it is, where there are too many colours: one in so many pixels.
 const COVERED: u64 = 1000;
 
-/// How many samples of the pixels the library looks at: all.
+/// The library looks at every n-th pixel; 1 is all.
 const EACH_PIXEL: i32 = 1;
 
 /// The colours of a frame, and which stands for each colour of its pixels.

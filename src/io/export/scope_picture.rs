@@ -26,7 +26,7 @@ pub struct ScopeStill<'a> {
     pub rays_per_side: Option<u32>,
 }
 
-/// A picture in a scope.
+/// The pixels of a stone in a scope, with the description that goes into their file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScopePicture {
     /// Red, green and blue of each pixel, sRGB, row by row.
@@ -36,7 +36,7 @@ pub struct ScopePicture {
 }
 
 impl<'a> ScopeStill<'a> {
-    /// Returns the shots of several viewings of one stone, with `size` pixels of the same side: that with which the stone
+    /// Returns stills of several viewings of one stone, with `size` pixels of the same side: that with which the stone
     /// fits into each, as into a picture that [`Export`](super::Export) writes. The pictures are as good as such ones.
     ///
     /// # Errors
@@ -54,11 +54,11 @@ impl<'a> ScopeStill<'a> {
             reach = reach.max(Camera::new(&viewing.view(), solid).reach(solid).unwrap_or(1.0));
         }
         let film = Film::holding(DVec2::splat(reach), size);
-        let shot = |&viewing| Self { viewing, scoped, film, unresolved: UNRESOLVED, rays_per_side: None };
-        Ok(viewings.iter().map(shot).collect())
+        let still = |&viewing| Self { viewing, scoped, film, unresolved: UNRESOLVED, rays_per_side: None };
+        Ok(viewings.iter().map(still).collect())
     }
 
-    /// Takes the picture.
+    /// Traces the stone and returns its pixels.
     ///
     /// # Errors
     /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact beams do not fit,

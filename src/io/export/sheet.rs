@@ -15,7 +15,7 @@ pub(super) const UNRESOLVED: f64 = 1e-3;
 const CAPTION_WIDTH: u32 = 1000;
 
 /// The program as captions name it.
-const PROGRAM: &str = concat!("Brillianteer ", env!("CARGO_PKG_VERSION"));
+pub const PROGRAM: &str = concat!("Brillianteer ", env!("CARGO_PKG_VERSION"));
 
 /// A picture in a scope, with all that it is made from.
 pub(super) struct ScopeSheet<'a> {
@@ -56,7 +56,8 @@ pub(super) fn how(reading: Reading, part: f64) -> String {
     format!("exact beams, {open} {part:.2e}")
 }
 
-/// Describes how a job was traced; exact beams leave the part `open` of the light or the area open, which rays do not know.
+/// Describes how a job was traced. Exact beams give `open`, the part of the light or of the area that they leave open; rays give
+/// `None`.
 pub(super) fn traced(reading: Reading, (backend, open): (&Backend, Option<f64>), job: &Job) -> String {
     match open {
         Some(open) => how(reading, open),

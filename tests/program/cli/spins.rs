@@ -138,6 +138,13 @@ fn an_animation_at_fault_is_refused_and_says_why() {
         ("spin tolkowsky --scope asett", 2, "did you mean 'aset'"),
         ("spin tolkowsky --scope none.toml", 1, "none.toml"),
         ("spin tolkowsky --scope aset --light dome", 2, "cannot be used with"),
+        ("spin tolkowsky --scope aset --head=-5", 2, "--head: a half angle of -5 degrees"),
+        ("spin tolkowsky --out a.apng", 2, ".apng is not written"),
+        (
+            "spin tolkowsky --motion rock --perspective 5 --of leakage --size 320",
+            2,
+            "leave out --perspective",
+        ),
         ("spin tolkowsky --scope aset --overlay facets", 2, "cannot be used with"),
         ("spin trilogy --scope aset", 1, "trilogy"),
         ("spin trilogy --motion rock --of leakage --size 320", 2, "this is a scene"),

@@ -155,6 +155,7 @@ fn the_scale_of_a_side_is_the_tangent_ratio_by_which_a_design_is_fitted() {
         ("tolkowsky --over crown_scale=90", "vary the proportions of another"),
         ("tolkowsky.asc --over crown_scale=5", "percentage from 10 to 1000"),
         ("tolkowsky.asc --over crown_scale=high", "percentage from 10 to 1000"),
+        ("tolkowsky.asc --over crown_scale=90 --over crown_scale=95", "crown_scale is given twice"),
     ] {
         let stderr = desk.refused(&format!("sweep {line}"), 2);
         assert!(stderr.contains(told), "{line}: {stderr}");

@@ -61,6 +61,19 @@ fn every_cut_that_comes_with_the_program_offers_two_axes_or_has_nothing_to_vary(
 }
 
 #[test]
+fn a_side_and_the_tier_by_which_its_scale_is_told_make_no_map() {
+    let mut design = design("tolkowsky");
+    design.cut =
+        Cut::Tiers(crate::io::as_tiers(&crate::scene::Specimen::new(design.clone()).unwrap()).unwrap());
+    let all = MapAxis::all(&design.cut);
+    let of = |key: &str| all.iter().find(|axis| axis.key == SweepKey::of(key)).unwrap();
+    let told = design.cut.tier_of_side(ScaledSide::Crown).unwrap();
+    let (scale, tier, other) = (of("crown_scale"), of(&format!("tier:{told}")), of("tier:P1"));
+    assert!(scale.is_paired(tier, &design.cut) && tier.is_paired(scale, &design.cut));
+    assert!(!scale.is_paired(other, &design.cut) && !other.is_paired(scale, &design.cut));
+}
+
+#[test]
 fn a_map_stays_along_its_axes_and_begins_anew_beside_them() {
     for held in [Crown::Angle(34.5), Crown::Height(16.0)] {
         let mut design = design("tolkowsky");

@@ -48,6 +48,12 @@ impl Model {
         self.workspace.shows_tiers && self.has_tiers() && !self.is_at_bench()
     }
 
+    /// Returns the place of the tier whose meet is being picked in the views; `None` where none is. The stone in sight must be that
+    /// of the tiers, so that a corner means what is seen.
+    pub fn picked_tier(&self) -> Option<usize> {
+        self.session.picking.filter(|_| self.shows_tiers() && !self.document.shows_last_possible())
+    }
+
     /// Whether the list of the audit is in sight.
     pub fn shows_audit(&self) -> bool {
         self.workspace.shows_audit && !self.is_at_bench()
@@ -130,6 +136,8 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
             }
             model.document.update();
             edits::note_meet_faults(model);
+            // The tiers may stand in other places now.
+            model.session.picking = None;
         }
         other => look(model, other),
     }

@@ -11,6 +11,8 @@ use std::sync::Arc;
 
 /// Changes the work, and builds the stone that comes of it.
 pub fn edit(model: &mut Model, edit: Edit) {
+    // A pick ends with its edit, and after any other the tiers may stand in other places.
+    model.session.picking = None;
     let work = &mut model.document.work;
     match edit {
         Edit::Name(name) => work.design.rename(name),
@@ -55,7 +57,7 @@ pub fn edit(model: &mut Model, edit: Edit) {
 
 /// Changes the cut. A stone that becomes wider gets a greater diameter, so that all other tiers stay where they are.
 fn keep_tiers_in_place(model: &mut Model, change: impl FnOnce(&mut Cut)) {
-    let unit = model.document.extent().unit;
+    let unit = model.document.specimen().frame.scale;
     let design = &mut model.document.work.design;
     change(&mut design.cut);
     if let Some(now) = extent::unit(design) {
@@ -78,7 +80,7 @@ fn next_meet(model: &mut Model, place: usize, is_deeper: bool) {
         Some(meet) => change_tiers(model, TierChange::Meet(place, Some(meet))),
         None => {
             let way = if is_deeper { "deeper" } else { "farther out" };
-            model.session.notes.say(&format!("There is no corner {way} to which a meet leads this tier."));
+            model.session.notes.say(&format!("No meet leads this tier to a corner that is {way}."));
         }
     }
 }
