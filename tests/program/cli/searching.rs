@@ -89,7 +89,7 @@ fn a_search_whose_time_is_over_ends_with_what_it_has() {
     let desk = Desk::new();
     let line = format!("optimise tolkowsky --raise return-even {QUICK} --seconds 0 --json --out kept.toml");
     let (code, printed, stderr) = desk.run(&line);
-    assert!(code == 0 && stderr.contains("stopped before its end"), "{code}: {stderr}");
+    assert!(code == 0 && stderr.contains("was stopped early"), "{code}: {stderr}");
     let found: serde_json::Value = serde_json::from_str(&printed).unwrap();
     assert_eq!(found["stopped"], true);
     assert!(desk.at("kept.toml").exists());
