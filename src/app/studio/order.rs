@@ -130,24 +130,22 @@ impl PartialEq for Shot {
             && (!has_glare || self.glare == other.glare)
             && (seen || self.title == other.title)
             && (!by_light || (Arc::ptr_eq(&self.light, &other.light) && self.manner() == other.manner()))
+            && (!by_light || (&self.copies, &self.companions) == (&other.copies, &other.companions))
     }
 }
 
 impl Shot {
     /// The settings that only renders and refraction maps depend on, with fixed values for those that maps ignore.
-    fn manner(
-        &self,
-    ) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 6], (&[Pose], &Companions), Smoothing) {
+    fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 6], Smoothing) {
         let bounces = f64::from(self.bounces);
         let upright = f64::from(u8::from(self.light_upright));
-        let bodies = (&self.copies[..], &self.companions);
         let numbers = [self.distance, self.whole.pixel, self.light_turn, upright, self.strength, bounces];
         if self.shows == Shows::Refraction {
             let numbers = [numbers[0], numbers[1], numbers[2], upright, 1.0, 0.0];
-            return (self.exposure, 0, false, None, numbers, bodies, Smoothing::None);
+            return (self.exposure, 0, false, None, numbers, Smoothing::None);
         }
         let Self { exposure, bands, jitter, smoothing, .. } = *self;
-        (exposure, bands, jitter, self.behind.as_ref(), numbers, bodies, smoothing)
+        (exposure, bands, jitter, self.behind.as_ref(), numbers, smoothing)
     }
 }
 
