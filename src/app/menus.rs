@@ -9,6 +9,7 @@ use super::model::preset::{Known, PRESETS};
 use super::model::session::{HeldKeys, Session};
 use super::setup::PaintedBy;
 use super::studio::Studio;
+use crate::io::library::SCENES;
 use egui::{
     Align, Button, Context, Event, Key, Modifiers, Panel, Popup, Response, RichText, ThemePreference, Ui,
 };
@@ -69,6 +70,7 @@ fn entries(model: &Model, actions: &mut Actions, ui: &mut Ui, menu: &Menu) {
         if menu.title == "File" && k == 0 {
             opened_before(model, actions, ui);
             scenes_of_glass(actions, ui);
+            scenes_of_gems(actions, ui);
         }
     }
 }
@@ -131,6 +133,25 @@ fn scenes_of_glass(actions: &mut Actions, ui: &mut Ui) {
             choose(actions, ui, &entry, FileAction::Ask(Then::Preset(name.to_owned())));
         }
     });
+}
+
+/// The scenes of gems and rings that come with the program.
+fn scenes_of_gems(actions: &mut Actions, ui: &mut Ui) {
+    ui.menu_button("Scene of gems", |ui| {
+        let is_glass = |name: &str| PRESETS.iter().any(|known| known.name == name);
+        for (name, _) in SCENES.into_iter().filter(|(name, _)| !is_glass(name)) {
+            let about = "Several stones, or a ring with its stones. One design is edited; renders show all.";
+            let entry = ui.button(scene_title(name)).on_hover_text(about);
+            choose(actions, ui, &entry, FileAction::Ask(Then::Preset(name.to_owned())));
+        }
+    });
+}
+
+/// Returns the title in menus of a scene that comes with the program.
+fn scene_title(name: &str) -> String {
+    let mut letters = name.chars();
+    let first = letters.next().map(|letter| letter.to_ascii_uppercase());
+    first.into_iter().chain(letters).map(|letter| if letter == '-' { ' ' } else { letter }).collect()
 }
 
 /// Draws the status line at the bottom of the window.

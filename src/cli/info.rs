@@ -1,16 +1,16 @@
 //! `info`: prints a stone's geometry, proportions and weight, or the stones of a scene.
 
-use super::assembly::{Assembly, MadeRing};
 use super::audit_list::{audit_json, audit_list};
 use super::batch::each_file;
 use super::console::{json, print, say};
 use super::meets::KnownMeets;
 use super::mesh_options::MeshArguments;
-use super::names::is_scene;
-use super::specimen::LoadedSpecimen;
+use super::specimen::{LoadedSpecimen, load_assembly};
 use crate::cut::{AlongAxes, Audit, Cut, MeshHeights, ProportionReport, Spread, Unit, tier_stem};
 use crate::io::Failure;
 use crate::io::STANDARD;
+use crate::io::assembly::{Assembly, MadeRing};
+use crate::io::built_design::is_scene;
 use crate::math::{Facet, Polytope};
 use crate::scene::{ALLOYS, Alloy, Body};
 use clap::Args;
@@ -57,7 +57,7 @@ impl Info {
         let (mesh, material) = (self.mesh.options(), self.material.as_deref());
         each_file(&self.files, |file| {
             if is_scene(file) {
-                let assembly = Assembly::load(file, material, None, mesh)?;
+                let assembly = load_assembly(file, material, None, mesh)?;
                 for (name, is_asked) in [("--meets", self.meets), ("--audit", self.audit)] {
                     if is_asked {
                         let file = file.display();

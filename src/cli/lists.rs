@@ -1,7 +1,7 @@
 //! `materials`, `cuts`, `scenes`, `scopes`, `lights`: lists of what the program knows by name.
 
-use super::assembly::Assembly;
 use super::console::{json, print};
+use crate::io::assembly::Assembly;
 use crate::io::library::{CUTS, SCENES, cut, scene};
 use crate::io::{Failure, cut_file, light_file, lighting, scene_file, scope_file};
 use crate::optics::{line, materials};
@@ -10,6 +10,7 @@ use crate::scene::{LIGHTS, Scope, light};
 use clap::Args;
 use serde_json::{Value, json};
 use std::fmt::Write;
+use std::path::Path;
 
 #[derive(Debug, Args)]
 pub struct List {
@@ -97,7 +98,7 @@ impl Scenes {
             let title = scene.name.clone();
             // Only a ring that was made says how many stones it holds.
             let stones = match scene.ring {
-                Some(_) => Assembly::of_library(name, scene)?.places.len(),
+                Some(_) => Assembly::of(Path::new(name), scene)?.places.len(),
                 None => scene.stones.iter().map(|s| s.count).sum(),
             };
             rows.push((name, stones, title));

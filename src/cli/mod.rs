@@ -3,7 +3,6 @@
 //! `options` holds the options that several commands share, `specimen` the stone that a command works on, `batch` the files
 //! that it takes one after the other, `names` what a name stands for, and `console` what is printed.
 
-mod assembly;
 mod audit_list;
 mod batch;
 mod bench;
@@ -49,6 +48,7 @@ mod sweep_plot;
 mod sweep_table;
 mod without_window;
 
+use crate::io::built_design::hint;
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{Failure, is_standard};
 use clap::error::ErrorKind;
@@ -168,8 +168,7 @@ pub fn main(editor: Option<EditorOpener>) -> ExitCode {
             // A failure to print help or an error is ignored; clap's own `exit` would panic over it.
             let _ = error.print();
             let meant = given.get(1).filter(|_| error.kind() == ErrorKind::InvalidSubcommand);
-            if let Some(hint) = meant.map(|name| names::hint(Path::new(name))).filter(|hint| !hint.is_empty())
-            {
+            if let Some(hint) = meant.map(|name| hint(Path::new(name))).filter(|hint| !hint.is_empty()) {
                 say(hint.trim_start_matches("; "));
             }
             let is_edit = given.get(1).is_some_and(|command| command == "edit");
@@ -210,7 +209,7 @@ fn edit(
         let why = match () {
             () if file.is_dir() => "this is a directory; a file is expected".to_owned(),
             () if is_standard(file) => "the editor reads no standard input; give a file".to_owned(),
-            () => format!("there is no such file{}", names::hint(file)),
+            () => format!("there is no such file{}", hint(file)),
         };
         return Err(Failure::Input(format!("{}: {why}", file.display())));
     }

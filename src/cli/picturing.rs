@@ -1,10 +1,10 @@
 //! The stones, light, background and camera of a picture under light, and taking the picture.
 
-use super::assembly::Assembly;
 use super::console::{report, say};
 use super::options::unfit;
 use super::picture_options::{FinishOptions, PictureOptions};
-use super::specimen::note_colour;
+use super::specimen::{load_assembly, note_colour};
+use crate::io::assembly::Assembly;
 use crate::io::background::BackgroundRef;
 use crate::io::export::Event;
 use crate::io::lighting::Lighting;
@@ -76,7 +76,7 @@ impl<'a> PictureSetup<'a> {
         viewpoint: Viewpoint,
     ) -> Result<Self, Failure> {
         let assembly =
-            Assembly::load(file, options.material.as_deref(), options.stone, options.mesh.options())?;
+            load_assembly(file, options.material.as_deref(), options.stone, options.mesh.options())?;
         assembly.setting.instances.iter().for_each(|stone| note_colour(&stone.material));
         let own = assembly.light.as_ref().map(|light| light.display().to_string());
         let light = options.light.as_ref().or(own.as_ref());

@@ -1,12 +1,11 @@
 //! Reads and builds the stone that a command works on.
 
 use super::console::say;
-use super::names::hint;
 use crate::cut::{MaterialError, MaterialRef, Size};
-use crate::io::cut_file;
-use crate::io::design_file::{self, ImportedDesign};
+use crate::io::assembly::Assembly;
+use crate::io::built_design::BuiltDesign;
 use crate::io::mesh_options::MeshOptions;
-use crate::io::{Failure, FileError, is_standard, library};
+use crate::io::{Failure, is_standard};
 use crate::optics::Material;
 use crate::scene;
 use std::collections::BTreeSet;
@@ -35,37 +34,9 @@ impl LoadedSpecimen {
     /// Reads a design, or takes a cut that comes with the program by its name, and builds the stone. Prints notes and
     /// warnings about it.
     pub fn load(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
-        let name = file.display().to_string();
-        match library::cut(&name).filter(|_| !file.is_file()) {
-            Some(text) => Self::parse(&name, text),
-            None => Self::read(file, mesh),
-        }
-    }
-
-    /// Reads a design from a file. A mesh is read with the options `mesh`.
-    pub fn read(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
-        let refused = |e: FileError| Failure::Input(format!("{e}{}", hint(file)));
-        Self::of(file.display().to_string(), design_file::read_with(file, mesh).map_err(refused)?)
-    }
-
-    /// Builds a stone from the text of a cut file. Error messages call the file `path`.
-    pub fn parse(path: &str, text: &str) -> Result<Self, Failure> {
-        let design = cut_file::parse(text, path)?;
-        Self::of(path.to_owned(), ImportedDesign::of(design))
-    }
-
-    fn of(
-        path: String,
-        ImportedDesign { design, notes, warnings, .. }: ImportedDesign,
-    ) -> Result<Self, Failure> {
-        let refused = |e| Failure::Input(format!("{path}: {e}"));
-        let made = scene::Specimen::new(design).map_err(refused)?;
-        let specimen = Self { path, made };
-        notes.iter().for_each(|note| say(&format!("note: {}: {note}", specimen.path)));
-        warnings.iter().for_each(|w| specimen.say(w));
-        specimen.unusual.iter().for_each(|w| specimen.say(&w.to_string()));
-        specimen.warnings.iter().for_each(|w| specimen.say(w));
-        Ok(specimen)
+        let BuiltDesign { path, made, remarks } = BuiltDesign::load(file, mesh)?;
+        remarks.iter().for_each(|remark| say(remark));
+        Ok(Self { path, made })
     }
 
     /// Returns the same stone with another material (a name or an index) and size, where they are given.
@@ -88,6 +59,20 @@ impl LoadedSpecimen {
     pub fn say(&self, what: &str) {
         say(&format!("warning: {}: {what}", self.path));
     }
+}
+
+/// Loads the stones and the metal of a file or a name, with the value of `--material` and a size for every stone, and prints
+/// notes and warnings about them.
+pub fn load_assembly(
+    file: &Path,
+    material: Option<&str>,
+    size: Option<Size>,
+    mesh: MeshOptions,
+) -> Result<Assembly, Failure> {
+    let material = material.map(|text| asked_material(text).map(|(named, _)| named)).transpose()?;
+    let assembly = Assembly::load(file, material.as_ref(), size, mesh)?;
+    assembly.remarks.iter().for_each(|remark| say(remark));
+    Ok(assembly)
 }
 
 /// Parses the value of `--material`: a material's name or a refractive index.

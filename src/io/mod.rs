@@ -3,8 +3,12 @@
 mod animation;
 #[cfg(feature = "interchange")]
 pub mod asc;
+#[cfg(feature = "interchange")]
+pub mod assembly;
 mod atomic;
 pub mod background;
+#[cfg(feature = "interchange")]
+pub mod built_design;
 pub mod cut_file;
 #[cfg(feature = "interchange")]
 mod cutters;

@@ -9,11 +9,11 @@ use super::toml_format::check_format;
 use super::toml_text::TomlText;
 use crate::cut::{MaterialRef, Size};
 use crate::optics::Metal;
-use crate::scene::{LIGHTS, Layout, MOST_STONES, light};
+use crate::scene::{LIGHTS, Layout, MOST_STONES, Pose, light};
 use form::SceneForm;
 use glam::{DQuat, DVec3};
 pub use ring_entry::RingEntry;
-use shared::{leaning, likely, shown};
+use shared::{Angles, leaning, likely, shown};
 use std::path::{Path, PathBuf};
 use toml::de::DeTable;
 
@@ -137,21 +137,9 @@ impl SceneFile {
 impl Entry {
     /// Makes an entry of one stone: a cut as its file says, with this rotation, in this place, in mm.
     pub fn placed(cut: &str, turned: DQuat, at_mm: DVec3) -> Self {
-        let axis = turned * DVec3::Z;
-        let leaning = Self {
-            cut: cut.to_owned(),
-            material: None,
-            size: None,
-            count: 1,
-            turn: 0.0,
-            tilt: axis.truncate().length().atan2(axis.z).to_degrees(),
-            azimuth: axis.y.atan2(axis.x).to_degrees(),
-            at_mm,
-            line: 0,
-        };
-        // The rest of the rotation is about the stone's axis.
-        let about = leaning.turned(0.0).inverse() * turned;
-        Self { turn: 2.0 * about.z.atan2(about.w).to_degrees(), ..leaning }
+        let Angles { turn, tilt, azimuth } = Angles::of(turned);
+        let cut = cut.to_owned();
+        Self { cut, material: None, size: None, count: 1, turn, tilt, azimuth, at_mm, line: 0 }
     }
 
     /// Returns the rotation from the cut's frame to the world's: first about the stone's axis, by `more` degrees beyond its
@@ -162,6 +150,13 @@ impl Entry {
 }
 
 impl MetalEntry {
+    /// Makes an entry of a mesh that a pose carries from its file's unit to its place, in mm.
+    pub fn placed(mesh: &str, (metal, roughness): (Metal, f64), pose: &Pose) -> Self {
+        let Angles { turn, tilt, azimuth } = Angles::of(pose.turn);
+        let (mesh, scale, at_mm) = (mesh.to_owned(), pose.scale, pose.at);
+        Self { mesh, metal, roughness, scale, turn, tilt, azimuth, at_mm, line: 0 }
+    }
+
     /// Returns the rotation from the mesh's frame to the world's.
     pub fn turned(&self) -> DQuat {
         leaning(self.turn, self.tilt, self.azimuth)

@@ -111,16 +111,6 @@ impl Copies {
     }
 }
 
-/// Returns the middle of the box that holds bodies of these corners in these poses; the origin for a single one that lies
-/// there.
-pub fn middle(poses: &[Pose], corners: &[DVec3]) -> DVec3 {
-    if matches!(poses, [alone] if alone.at == DVec3::ZERO) {
-        return DVec3::ZERO;
-    }
-    let all = || poses.iter().flat_map(|pose| corners.iter().map(|c| pose.place(*c)));
-    0.5 * (all().reduce(DVec3::min).unwrap_or_default() + all().reduce(DVec3::max).unwrap_or_default())
-}
-
 /// Returns how far the copy of a number has turned after some seconds: not at all at first, and no two copies alike.
 fn tumbled(number: usize, seconds: f64) -> DQuat {
     let way = scattered(number as u64) * std::f64::consts::TAU;

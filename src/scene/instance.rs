@@ -1,7 +1,7 @@
 //! Stones and metal in one world: bodies that are built once, each carried by its pose, and each of its own material.
 
 use super::{Body, Medium, MetalInstance, Specimen};
-use crate::math::{Pose, PosedSolid};
+use crate::math::{Pose, PosedSolid, bounds};
 use crate::optics::Material;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -51,6 +51,24 @@ impl Scene {
     pub fn reach(&self) -> f64 {
         let stones = self.instances.iter().map(|stone| stone.solid().reach());
         stones.chain(self.metals.iter().map(MetalInstance::reach)).fold(0.0, f64::max)
+    }
+
+    /// Returns the corners of the box along the axes that holds all bodies: the least and the greatest coordinates. Of a scene
+    /// without bodies they are infinite.
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        let stones = self.instances.iter().map(|stone| stone.solid().bounds());
+        let boxes = stones.chain(self.metals.iter().map(|metal| bounds(metal.vertices())));
+        let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        boxes.fold(none, |(low, high), (a, b)| (low.min(a), high.max(b)))
+    }
+
+    /// Returns the same scene, carried on by a pose.
+    pub fn moved(self, pose: &Pose) -> Self {
+        Self {
+            instances: self.instances.into_iter().map(|stone| stone.moved(pose)).collect(),
+            metals: self.metals.into_iter().map(|metal| metal.moved(pose)).collect(),
+            ..self
+        }
     }
 
     /// Returns points between which all bodies lie.

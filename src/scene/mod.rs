@@ -2,6 +2,7 @@
 
 mod body;
 mod body_data;
+mod companions;
 mod copies;
 mod dome_light;
 mod film;
@@ -24,7 +25,8 @@ mod worlds;
 
 pub use crate::math::Pose;
 pub use body::Body;
-pub use copies::{Copies, MOST_COPIES, middle};
+pub use companions::{Companion, Companions};
+pub use copies::{Copies, MOST_COPIES};
 pub use dome_light::{DomeLight, NoDome};
 pub use film::Film;
 pub use instance::{Instance, MOST_STONES, Scene};

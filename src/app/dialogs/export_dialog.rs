@@ -144,9 +144,9 @@ fn settings(ui: &mut Ui, export: &ExportForm, selection: &mut Selection, actions
                 everything that is seen through it at once. One map is written for each band and place.";
             let places = DragValue::new(&mut selection.places).range(1..=MOST_PLACES).prefix("places ");
             ui.add_enabled(selection.map, places).on_hover_text(meaning);
-            let meaning = "Writes a scene file and its cut file, with all copies in their present places, their \
-                light and their background. The editor opens the scene again.";
-            ui.checkbox(&mut selection.scene, "Scene file and its cut").on_hover_text(meaning);
+            let meaning = "Writes a scene file and a cut file of each design, with all stones and metal in their present places, \
+                their light and their background. The editor opens the scene again.";
+            ui.checkbox(&mut selection.scene, "Scene file and its cuts").on_hover_text(meaning);
         });
         ui.end_row();
         let label = ui.label("Size");

@@ -109,6 +109,10 @@ pub enum Edit {
     LayOut(usize),
     /// The number of a copy, and its pose.
     Copy(usize, Pose),
+    /// The number of a stone of another design that stands beside the copies, and its pose in mm.
+    Companion(usize, Pose),
+    /// Edits the design of such a stone: all stones of its kind become the copies, and the copies stand beside them.
+    TakeUp(usize),
 }
 
 /// A change of how the views look, and of what is beside them. `usize` is the number of a view.

@@ -10,7 +10,7 @@ use crate::cut::{Cut, Design, Tiers};
 use crate::io::design_file::{self, ImportedDesign};
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{Failure, FileError, cut_file, library};
-use crate::scene::{Copies, Specimen, SpecimenError};
+use crate::scene::{Companions, Copies, Specimen, SpecimenError};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
@@ -21,8 +21,8 @@ pub struct Document {
     pub work: Work,
     history: History<Work>,
     saved: Design,
-    /// The copies as they were at first, or as they were last written as a scene.
-    laid: Copies,
+    /// The copies and what stands beside them as they were at first, or as they were last written as a scene.
+    laid: (Copies, Companions),
     path: Option<PathBuf>,
     stamp: Stamp,
     /// Whether the file no longer exists.
@@ -72,6 +72,7 @@ impl Document {
         let work = Work {
             design: design.clone(),
             copies: Copies::default(),
+            companions: Companions::default(),
             light: FIRST_LIGHT.to_owned(),
             exposure: 0.0,
             head: 0.0,
@@ -84,7 +85,7 @@ impl Document {
             work,
             history,
             saved: design.clone(),
-            laid: Copies::default(),
+            laid: Default::default(),
             path,
             stamp,
             is_lost: false,
@@ -163,20 +164,34 @@ impl Document {
         self.history = History::new(self.work.clone());
     }
 
-    /// Takes over the copies of another document, and whether they count as kept.
+    /// Takes over the copies of another document with what stands beside them, and whether they count as kept.
     pub fn take_copies(&mut self, other: &Self) {
         self.work.copies.clone_from(&other.work.copies);
+        self.work.companions.clone_from(&other.work.companions);
         self.laid.clone_from(&other.laid);
     }
 
-    /// Marks the present places of the copies as saved.
-    pub fn keep_copies(&mut self) {
-        self.laid.clone_from(&self.work.copies);
+    /// Takes up the design of another stone of the scene, as a step that can be undone. It lies in no file.
+    pub fn take_up(&mut self, design: Design, copies: Copies, companions: Companions) {
+        let was_laid = !self.has_moved_copies() && !self.is_changed();
+        self.saved.clone_from(&design);
+        self.work = Work { design, copies, companions, mesh: None, ..self.work.clone() };
+        (self.path, self.stamp, self.is_lost) = (None, Stamp::default(), false);
+        if was_laid {
+            self.keep_copies();
+        }
+        self.update();
+        self.settle();
     }
 
-    /// Whether copies have been moved since they were read or last saved.
+    /// Marks the present places of the copies and of what stands beside them as saved.
+    pub fn keep_copies(&mut self) {
+        self.laid = (self.work.copies.clone(), self.work.companions.clone());
+    }
+
+    /// Whether copies or their companions have been moved since they were read or last saved.
     pub fn has_moved_copies(&self) -> bool {
-        self.laid != self.work.copies
+        (&self.laid.0, &self.laid.1) != (&self.work.copies, &self.work.companions)
     }
 
     /// Builds the stone after a change, or notes why there is none.

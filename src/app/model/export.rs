@@ -10,7 +10,8 @@ use crate::measure::STANDARD_ERROR;
 use crate::optics::line;
 use crate::picture::named;
 use crate::render::{Renderer, Wanted};
-use crate::scene::{Copies, Glare, Pose, Side, Specimen, View, Viewpoint};
+use crate::scene::{Companions, Copies, Glare, Pose, Side, Specimen, View, Viewpoint};
+use glam::DVec3;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -39,6 +40,17 @@ impl Default for Selection {
         let formats = vec![OutputFormat::Png];
         Self { views, formats, map: false, bands: 1, places: 1, scene: false, size: 1024, caption: false }
     }
+}
+
+/// Returns the different stones among companions, in the order in which they first stand there.
+pub fn kinds(companions: &Companions) -> Vec<&Arc<Specimen>> {
+    let mut kinds: Vec<&Arc<Specimen>> = vec![];
+    for stone in &companions.stones {
+        if !kinds.iter().any(|kind| Arc::ptr_eq(kind, &stone.specimen)) {
+            kinds.push(&stone.specimen);
+        }
+    }
+    kinds
 }
 
 /// How a picture sees the stone.
@@ -150,9 +162,14 @@ impl ExportPlan {
         self.selection.map.then_some((maps, others))
     }
 
-    /// Returns the paths of the scene file and of the cut file of its stones.
-    pub fn scene_paths(&self) -> [PathBuf; 2] {
-        ["scene", "cut"].map(|part| self.folder.join(format!("{}-{part}.toml", self.stem)))
+    /// Returns the paths of the scene file, of the cut file of each of its designs, that of the copies first, and of its
+    /// metal.
+    pub fn scene_paths(&self) -> Vec<PathBuf> {
+        let companions = &self.shot.companions;
+        let more = (2..2 + kinds(companions).len()).map(|number| format!("cut-{number}.toml"));
+        let metals = (1..=companions.metals.len()).map(|number| format!("metal-{number}.obj"));
+        let parts = ["scene.toml", "cut.toml"].into_iter().map(str::to_owned).chain(more).chain(metals);
+        parts.map(|part| self.folder.join(format!("{}-{part}", self.stem))).collect()
     }
 
     /// Returns the file of the render, if it is selected.
@@ -208,13 +225,17 @@ impl ExportPlan {
         let specimen = Arc::clone(&self.upright);
         let fit = Framing::new(&specimen).fit(&shot.view);
         let (film, whole) = (fit.film(size), fit.whole(size));
-        Shot { film, whole, specimen, copies: vec![Pose::STILL], ..shot }
+        let (copies, companions) = (vec![Pose::STILL], Companions::default());
+        Shot { film, whole, specimen, copies, companions, ..shot }
     }
 
-    /// Returns how far the copies reach where a view turns them, girdle radii, so that no copy is left out.
+    /// Returns how far the copies and what stands beside them reach where a view turns them, girdle radii, so that nothing is
+    /// left out.
     fn copies_reach(&self, view: &View) -> f64 {
         let turned = Pose::turned(view.turn);
         let poses = self.shot.copies.iter().map(|pose| turned.after(pose)).collect();
-        Copies::at(poses, self.shot.specimen.solid().vertices()).reach(0.0)
+        let across = |at: DVec3| (view.turn * at).truncate().abs().max_element();
+        let beside = self.shot.companions.vertices().map(across).fold(0.0, f64::max);
+        Copies::at(poses, self.shot.specimen.solid().vertices()).reach(0.0).max(beside)
     }
 }

@@ -47,12 +47,13 @@ pub use update::update;
 use crate::app::shows::Shows;
 use crate::app::studio::Which;
 use crate::io::Failure;
-use crate::scene::{Copies, Pose, Specimen, View};
+use crate::scene::{Companions, Copies, Pose, Specimen, View};
 use document::Document;
 use framing::FramingFit;
 use motion::WaveCache;
 use session::Session;
 use std::sync::Arc;
+use work::Work;
 use workspace::Workspace;
 
 /// The whole state of an editor.
@@ -97,15 +98,29 @@ impl Model {
     /// Returns what a render shows: the stone as it is now, and the poses of its copies.
     pub fn copies(&self, which: Which, waves: &mut WaveCache) -> Option<(Arc<Specimen>, Vec<Pose>)> {
         let stone = self.stone(which)?;
-        match self.is_alone() {
-            true => Some((stone, vec![Pose::STILL])),
-            false => Some(self.session.motion.now(waves, &stone, &self.document.work.copies)),
+        let Work { copies, companions, .. } = &self.document.work;
+        match (self.is_alone(), companions.is_empty()) {
+            (true, _) => Some((stone, vec![Pose::STILL])),
+            (false, true) => Some(self.session.motion.now(waves, &stone, copies)),
+            // Among other bodies each copy lies where it is put, and at rest.
+            (false, false) => Some((stone, copies.poses.clone())),
         }
+    }
+
+    /// Returns what stands beside the copies in renders, in girdle radii of the design.
+    pub fn companions(&self) -> Companions {
+        self.document.work.companions.in_unit(1.0 / self.document.specimen().unit_mm())
     }
 
     /// Whether renders show the stone alone and at rest.
     pub fn is_alone(&self) -> bool {
-        self.document.work.copies == Copies::default() && self.session.motion.seconds == 0.0
+        let Work { copies, companions, .. } = &self.document.work;
+        *copies == Copies::default() && companions.is_empty() && self.session.motion.seconds == 0.0
+    }
+
+    /// Whether time can go on in renders: copies tumble only where nothing else is in their way.
+    pub fn can_move(&self) -> bool {
+        self.document.work.companions.is_empty()
     }
 
     /// Returns what a view takes in: the stone that views are fitted to, or all copies.

@@ -4,7 +4,7 @@ use super::Model;
 use super::motion::WaveCache;
 use crate::app::shows::Shows;
 use crate::app::studio::{BEHIND, FiguresOrder, Order, Paper, Shot, Smoothing, SweepOrder, Which};
-use crate::scene::{Pose, Side, Specimen, View};
+use crate::scene::{Companions, Pose, Side, Specimen, View};
 use std::sync::Arc;
 
 /// A view in sight, and the size of its picture in pixels.
@@ -82,6 +82,7 @@ impl Orders<'_> {
             true => self.model.copies(which, self.waves)?,
             false => (specimen, vec![Pose::STILL]),
         };
+        let companions = if shows.has_copies() { self.model.companions() } else { Companions::default() };
         Some(Shot {
             film: eye.film(size, &fit),
             whole: fit.whole(size),
@@ -92,6 +93,7 @@ impl Orders<'_> {
             overlay: workspace.overlay().filter(|_| shows.takes_overlay()),
             paper: self.paper,
             copies,
+            companions,
             ..self.plain(shows, view, specimen)
         })
     }
@@ -102,7 +104,8 @@ impl Orders<'_> {
         let (specimen, copies) = self.model.copies(Which::Present, self.waves).unwrap_or(alone);
         let fit = self.model.fit(Shows::Render, &view);
         let plain = self.plain(Shows::Render, view, specimen);
-        Shot { film: fit.film([1, 1]), whole: fit.whole([1, 1]), copies, ..plain }
+        let companions = self.model.companions();
+        Shot { film: fit.film([1, 1]), whole: fit.whole([1, 1]), copies, companions, ..plain }
     }
 
     /// Returns a shot of one stone at rest, with the light and the backplate of the model.
@@ -130,6 +133,7 @@ impl Orders<'_> {
             light_turn: workspace.light_turn,
             light_upright: workspace.light_upright,
             copies: vec![Pose::STILL],
+            companions: Companions::default(),
             smoothing: Smoothing::None,
             head: document.work.head,
             overlay: None,

@@ -1,12 +1,12 @@
-//! Scenes that the editor can work on: copies of one design, their light, and what lies behind them.
+//! Scenes that the editor can work on: copies of one design, what stands beside them, their light, and what lies behind them.
 
-use crate::cut::Design;
-use crate::io::scene_file::{self, Entry, SceneFile};
-use crate::io::{Failure, FileError, cut_file, design_file, library};
-use crate::scene::{Copies, MOST_COPIES, Pose, Specimen, middle};
-use glam::{DQuat, DVec3};
-use std::fmt::Display;
+use crate::cut::{Design, MaterialRef};
+use crate::io::assembly::{Assembly, StonePlace};
+use crate::io::scene_file::{self, SceneFile};
+use crate::io::{Failure, FileError, library};
+use crate::scene::{Companion, Companions, Copies, Pose, Specimen};
 use std::path::Path;
+use std::sync::Arc;
 
 /// A scene of glass that comes with the program.
 pub struct Known {
@@ -32,11 +32,16 @@ pub const PRESETS: [Known; 5] = [
 /// A scene that the editor can work on.
 #[derive(Debug, Clone)]
 pub struct Preset {
-    /// The design, with its material and size.
+    /// The design of the first stone, with its material and size.
     pub design: Design,
+    /// The stones of that design.
     pub copies: Copies,
+    /// All other stones and the metal, in mm.
+    pub companions: Companions,
     /// The number of bands of wavelengths that the scene is seen in, if it is known.
     pub wavelengths: Option<u32>,
+    /// Notes and warnings about the files that were read.
+    pub remarks: Vec<String>,
     /// The scene file, which holds the rest.
     pub scene: SceneFile,
 }
@@ -45,84 +50,92 @@ impl Preset {
     /// Returns a scene that comes with the program.
     ///
     /// # Errors
-    /// Fails where no scene of that name comes with the program, or where it is of several designs.
-    pub fn of_library(name: &str) -> Result<Self, FileError> {
+    /// Fails where no scene of that name comes with the program.
+    pub fn of_library(name: &str) -> Result<Self, Failure> {
         let text = library::scene(name)
             .ok_or_else(|| FileError::new(name, "no scene of this name comes with the program"))?;
         let wavelengths = PRESETS.iter().find(|known| known.name == name).map(|known| known.wavelengths);
-        Ok(Self { wavelengths, ..Self::new(scene_file::parse(text, name, None)?, name, None)? })
+        let scene = scene_file::parse(text, name, None)?;
+        Ok(Self { wavelengths, ..Self::new(Path::new(name), scene)? })
     }
 
     /// Reads a scene file.
     ///
     /// # Errors
-    /// Fails where the file cannot be read, is no scene, or is one of several designs.
-    pub fn read(path: &Path) -> Result<Self, FileError> {
-        Self::new(scene_file::read(path)?, &path.display().to_string(), path.parent())
+    /// Fails where the file cannot be read, is no scene, or has no stone.
+    pub fn read(path: &Path) -> Result<Self, Failure> {
+        Self::new(path, scene_file::read(path)?)
     }
 
-    fn new(scene: SceneFile, label: &str, folder: Option<&Path>) -> Result<Self, FileError> {
-        let has_metal = scene.ring.is_some() || !scene.metals.is_empty();
-        let Some(first) = scene.stones.first().filter(|_| !has_metal) else {
+    fn new(file: &Path, scene: SceneFile) -> Result<Self, Failure> {
+        let Assembly { setting, places, remarks, .. } = Assembly::of(file, scene.clone())?;
+        let Some(first) = places.first() else {
+            let label = file.display().to_string();
             let problem = format!(
-                "the editor opens only scenes without metal; draw this one by `brillianteer render {label}`"
+                "the editor needs a stone to work on; draw this scene by `brillianteer render {label}`"
             );
-            return Err(FileError::new(label, problem));
+            return Err(FileError::new(&label, problem).into());
         };
-        let kind = |e: &Entry| (e.cut.clone(), e.material.clone(), e.size);
-        let count: usize = scene.stones.iter().map(|e| e.count).sum();
-        if scene.stones.iter().any(|e| kind(e) != kind(first)) || count > MOST_COPIES {
-            let problem = format!(
-                "the editor opens only scenes of up to {MOST_COPIES} stones that share one cut, material and size; \
-                    draw this one by `brillianteer render {label}`"
-            );
-            return Err(FileError::new(label, problem));
+        let design = design_of(first);
+        let unit_mm = 0.5 * design.diameter_mm;
+        let is_first = |place: &StonePlace| Kind::of(place) == Kind::of(first);
+        let in_mm = |pose: &Pose| Pose { scale: setting.unit_mm, ..Pose::STILL }.after(pose);
+        let (mut poses, mut stones, mut made) = (vec![], vec![], vec![]);
+        for (instance, place) in setting.instances.iter().zip(&places) {
+            let pose = in_mm(&instance.pose);
+            match is_first(place) {
+                true => poses.push(Pose { at: pose.at / unit_mm, scale: 1.0, ..pose }),
+                false => stones.push(Companion { specimen: specimen_of(place, &mut made)?, pose }),
+            }
         }
-        let refused = |error: &dyn Display| FileError::new(label, error);
-        let mut design = design(&first.cut, folder).map_err(|error| refused(&error))?;
-        if let Some(material) = &first.material {
-            design.material = material.clone();
+        let metals = setting.metals.into_iter();
+        let larger = Pose { scale: setting.unit_mm, ..Pose::STILL };
+        let metals = metals.map(|metal| metal.moved(&larger)).collect();
+        let mut copies = Copies::at(poses, first.specimen.solid().vertices());
+        let companions = Companions { stones, metals };
+        if !companions.is_empty() {
+            let across = companions.across() / unit_mm;
+            copies.room = Some(copies.reach(first.specimen.reach).max(across));
         }
-        let specimen = Specimen::new(design.clone()).map_err(|error| refused(&error))?;
-        let corners = specimen.solid().vertices();
-        if let Some(size) = first.size {
-            let volume = specimen.solid().volume();
-            let diameter = size.diameter_mm(volume, &specimen.material);
-            design.diameter_mm = diameter.map_err(|error| refused(&format_args!("size: {error}")))?;
-        }
-        let poses = poses(&scene, corners, 0.5 * design.diameter_mm);
-        Ok(Self { copies: Copies::at(poses, corners), design, scene, wavelengths: None })
+        Ok(Self { copies, companions, design, scene, remarks, wavelengths: None })
     }
 }
 
-/// Reads a cut that lies beside the scene, or else one that comes with the program.
-fn design(cut: &str, folder: Option<&Path>) -> Result<Design, Failure> {
-    let beside = folder.map(|folder| folder.join(cut)).filter(|path| path.is_file());
-    match (beside, library::cut(cut)) {
-        (Some(path), _) => Ok(design_file::read(&path)?.design),
-        (None, Some(text)) => Ok(cut_file::parse(text, cut)?),
-        (None, None) => Err(Failure::Input(format!(
-            "there is no file '{cut}', and no cut of that name comes with the program"
-        ))),
+/// What stones of one kind have in common: their cut, material and size.
+#[derive(PartialEq)]
+struct Kind<'a>(*const Specimen, &'a MaterialRef, f64);
+
+impl<'a> Kind<'a> {
+    fn of(place: &'a StonePlace) -> Self {
+        Self(Arc::as_ptr(&place.specimen), &place.material, place.diameter_mm)
     }
 }
 
-/// Returns the poses of the stones, in girdle radii around the middle of all.
-fn poses(scene: &SceneFile, corners: &[DVec3], unit_mm: f64) -> Vec<Pose> {
-    let turns: Vec<_> = scene.turns().into_iter().map(|(_, turn)| turn).collect();
-    let across = |turn: &DQuat| corners.iter().map(|c| (*turn * *c).truncate().length()).fold(0.0, f64::max);
-    let radii: Vec<f64> = turns.iter().map(|turn| across(turn) * unit_mm).collect();
-    let places = scene.places_mm(&radii).into_iter().map(|at| at / unit_mm);
-    let mut poses: Vec<Pose> =
-        places.zip(turns).map(|(at, turn)| Pose { at, ..Pose::turned(turn) }).collect();
-    let middle = middle(&poses, corners);
-    poses.iter_mut().for_each(|pose| pose.at -= middle);
-    poses
+/// Returns the design of a stone, in the material and the size that the scene gives it.
+fn design_of(place: &StonePlace) -> Design {
+    let StonePlace { specimen, material, diameter_mm, .. } = place;
+    Design { material: material.clone(), diameter_mm: *diameter_mm, ..specimen.design.clone() }
+}
+
+/// Returns the stone of a place; stones of one kind share it.
+fn specimen_of<'a>(
+    place: &'a StonePlace,
+    made: &mut Vec<(Kind<'a>, Arc<Specimen>)>,
+) -> Result<Arc<Specimen>, Failure> {
+    let kind = Kind::of(place);
+    if let Some((_, specimen)) = made.iter().find(|(other, _)| *other == kind) {
+        return Ok(Arc::clone(specimen));
+    }
+    let specimen = place.specimen.remade(design_of(place));
+    let specimen = Arc::new(specimen.map_err(|error| Failure::Input(error.to_string()))?);
+    made.push((kind, Arc::clone(&specimen)));
+    Ok(specimen)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DVec3;
 
     #[test]
     fn the_presets_are_as_their_files_say_and_no_copy_is_put_behind_another() {
@@ -140,10 +153,57 @@ mod tests {
     }
 
     #[test]
-    fn scenes_of_several_designs_are_refused_with_what_draws_them() {
-        for name in ["trilogy", "ring", "parcel"] {
-            let why = Preset::of_library(name).err().unwrap();
-            assert!(why.to_string().contains("brillianteer render"), "{why}");
+    fn of_a_scene_of_several_designs_the_first_is_edited_and_all_stands_where_the_file_says() {
+        for (name, copies, stones, metals) in [
+            ("trilogy", 1, 2, 0),
+            ("ring", 1, 7, 0),
+            ("parcel", 3, 9, 0),
+            ("halo-ring", 1, 16, 1),
+            ("eternity", 27, 0, 1),
+        ] {
+            let preset = Preset::of_library(name).unwrap();
+            let Companions { stones: beside, metals: metal } = &preset.companions;
+            assert_eq!(
+                (preset.copies.poses.len(), beside.len(), metal.len()),
+                (copies, stones, metals),
+                "{name}"
+            );
+            let unit_mm = 0.5 * preset.design.diameter_mm;
+            let assembly = Assembly::of(Path::new(name), preset.scene.clone()).unwrap();
+            let (mut own, mut others) = (preset.copies.poses.iter(), beside.iter());
+            for (instance, place) in assembly.setting.instances.iter().zip(&assembly.places) {
+                let corner = instance.pose.place(DVec3::new(0.3, -0.2, 0.1)) * assembly.setting.unit_mm;
+                let is_first = Kind::of(place) == Kind::of(&assembly.places[0]);
+                let at = match is_first {
+                    true => own.next().unwrap().place(DVec3::new(0.3, -0.2, 0.1)) * unit_mm,
+                    false => others.next().unwrap().pose.place(DVec3::new(0.3, -0.2, 0.1)),
+                };
+                assert!(at.distance(corner) < 1e-9, "{name}: {at} instead of {corner}");
+            }
+            assert!(own.next().is_none() && others.next().is_none());
+            let highest = |scene: f64, metals: &[crate::scene::MetalInstance]| {
+                metals.iter().flat_map(|m| m.vertices().map(|v| v.z * scene)).fold(0.0, f64::max)
+            };
+            let was = highest(assembly.setting.unit_mm, &assembly.setting.metals);
+            assert!((highest(1.0, metal) - was).abs() < 1e-9, "{name}");
         }
+        let trilogy = Preset::of_library("trilogy").unwrap();
+        let names: Vec<&str> =
+            trilogy.companions.stones.iter().map(|s| s.specimen.material.name.as_str()).collect();
+        assert_eq!(names, ["diamond", "emerald"]);
+    }
+
+    #[test]
+    fn a_scene_of_metal_alone_is_refused_with_what_draws_it() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("plate.obj"), "v 0 0 0\nv 4 0 0\nv 0 8 0\nf 1 2 3\n").unwrap();
+        let path = folder.path().join("x.toml");
+        std::fs::write(
+            &path,
+            "format = 1\nname = \"x\"\n[[metal]]\nmesh = \"plate.obj\"\nmetal = \"gold\"\n",
+        )
+        .unwrap();
+        let why = Preset::read(&path).err().unwrap();
+        assert!(why.to_string().contains("brillianteer render"), "{why}");
     }
 }

@@ -2,10 +2,54 @@
 
 use super::work::{ReadMesh, Work};
 use crate::cut::Design;
-use crate::scene::Copies;
+use crate::io::{Failure, cut_file};
+use crate::scene::{Companion, Companions, Copies, MetalInstance, Pose, Specimen};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::SystemTime;
+
+/// What stands beside the copies, as an autosave keeps it, in mm.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct KeptCompanions {
+    /// The text of each stone's cut file, and the stone's place.
+    stones: Vec<(String, Pose)>,
+    metals: Vec<MetalInstance>,
+}
+
+impl KeptCompanions {
+    /// Takes down what stands beside the copies.
+    pub fn of(companions: &Companions) -> Self {
+        let stone = |stone: &Companion| (cut_file::write(&stone.specimen.design), stone.pose);
+        Self { stones: companions.stones.iter().map(stone).collect(), metals: companions.metals.clone() }
+    }
+
+    /// Builds the bodies again. Stones whose texts are alike are one specimen.
+    ///
+    /// # Errors
+    /// Fails where a stone cannot be read or built.
+    pub fn built(&self) -> Result<Companions, Failure> {
+        let mut made: Vec<(&str, Arc<Specimen>)> = vec![];
+        let mut stones = vec![];
+        for (text, pose) in &self.stones {
+            let known =
+                made.iter().find(|(other, _)| other == text).map(|(_, specimen)| Arc::clone(specimen));
+            let specimen = match known {
+                Some(specimen) => specimen,
+                None => {
+                    let design = cut_file::parse(text, "unsaved work")?;
+                    let specimen =
+                        Specimen::new(design).map_err(|error| Failure::Input(error.to_string()))?;
+                    let specimen = Arc::new(specimen);
+                    made.push((text, Arc::clone(&specimen)));
+                    specimen
+                }
+            };
+            stones.push(Companion { specimen, pose: *pose });
+        }
+        Ok(Companions { stones, metals: self.metals.clone() })
+    }
+}
 
 /// The part of the scene that an autosave keeps.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -13,6 +57,9 @@ pub struct KeptScene {
     // Autosaves of earlier versions name the copies so.
     #[serde(alias = "company")]
     pub copies: Copies,
+    /// What stands beside the copies; autosaves of earlier versions have none.
+    #[serde(default)]
+    pub companions: KeptCompanions,
     /// The backplate: `light`, the name of a pattern, or the file of a picture.
     #[serde(default)]
     pub behind: Option<String>,

@@ -2,7 +2,7 @@
 
 use crate::cut::Design;
 use crate::io::mesh_options::MeshOptions;
-use crate::scene::Copies;
+use crate::scene::{Companions, Copies};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -12,6 +12,8 @@ pub struct Work {
     pub design: Design,
     /// The copies of the stone in renders.
     pub copies: Copies,
+    /// The stones of other designs and the metal in renders, in mm.
+    pub companions: Companions,
     /// The name of the light, or its file.
     pub light: String,
     /// The exposure of renders, in stops.

@@ -37,9 +37,17 @@ pub fn presets(actions: &mut Actions, ui: &mut Ui) {
 
 /// Draws the rows for copies, motion, smoothing and the angle of view.
 pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
-    let count = model.document.work.copies.poses.len();
-    copies(count, actions, ui);
-    motion(model.session.motion, actions, ui);
+    if model.can_move() {
+        let count = model.document.work.copies.poses.len();
+        copies(count, actions, ui);
+        motion(model.session.motion, actions, ui);
+        scatter(count, actions, ui);
+    }
+    smoothing(model.workspace.smoothing, actions, ui);
+    view_angle(model, actions, ui);
+}
+
+fn scatter(count: usize, actions: &mut Actions, ui: &mut Ui) {
     ui.horizontal(|ui| {
         skip_name(ui);
         let size = vec2(field_width(ui), ui.spacing().interact_size.y);
@@ -49,8 +57,6 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
             actions.push(Edit::LayOut(count));
         }
     });
-    smoothing(model.workspace.smoothing, actions, ui);
-    view_angle(model, actions, ui);
 }
 
 fn motion(motion: Motion, actions: &mut Actions, ui: &mut Ui) {

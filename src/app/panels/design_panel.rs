@@ -7,7 +7,7 @@ use crate::app::model::document::Document;
 use crate::app::model::impossible::{self, RowMessage};
 use crate::app::model::workspace::PanelSide;
 use crate::app::panels::rows::{ANY, Row, explain, field_width, named};
-use crate::app::panels::{copy_rows, light_rows, mesh_rows, side_panels, stone_rows, tier_rows};
+use crate::app::panels::{copy_rows, light_rows, mesh_rows, scene_rows, side_panels, stone_rows, tier_rows};
 use crate::app::theme;
 use crate::cut::{Cut, Design, DesignError, MaterialRef, Proportion, Unit, Warning};
 use crate::scene::{Copies, SpecimenError};
@@ -24,7 +24,8 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui, widths: RangeIncl
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             identity(&model.document, actions, ui);
             let work = &model.document.work;
-            if matches!(work.design.cut, Cut::Glass(_)) || work.copies != Copies::default() {
+            let is_scene = !work.companions.is_empty();
+            if !is_scene && (matches!(work.design.cut, Cut::Glass(_)) || work.copies != Copies::default()) {
                 copy_rows::presets(actions, ui);
             }
             let meaning = match is_graded(&work.design) {
@@ -40,7 +41,16 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui, widths: RangeIncl
             stone_rows::show(model, actions, ui);
             heading(ui, "Light", "The light of renders. Scopes have a light of their own.");
             light_rows::show(model, actions, ui);
-            heading(ui, "Copies", "Renders can show several copies, and move them.");
+            if is_scene {
+                heading(
+                    ui,
+                    "Scene",
+                    "Renders show all stones of the scene; every other view shows the one that is edited.",
+                );
+                scene_rows::show(model, actions, ui);
+            } else {
+                heading(ui, "Copies", "Renders can show several copies, and move them.");
+            }
             copy_rows::show(model, actions, ui);
         });
     });

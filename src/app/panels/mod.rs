@@ -17,6 +17,7 @@ pub mod mesh_rows;
 pub mod pane_rows;
 pub mod rows;
 mod scale_fields;
+pub mod scene_rows;
 mod search_plot;
 mod search_table;
 pub mod search_window;

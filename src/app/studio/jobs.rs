@@ -50,7 +50,7 @@ pub fn coarser(film: &Film, factor: f64) -> Film {
 /// they are turned.
 pub fn hung(shot: &Shot) -> f64 {
     let farthest = shot.copies.iter().map(|pose| pose.at.length()).fold(0.0, f64::max);
-    shot.distance.max(farthest + shot.specimen.radius)
+    shot.distance.max(farthest + shot.specimen.radius).max(shot.companions.reach())
 }
 
 /// Returns the quality of pictures in scopes at an effort, to which beams are shared between pictures and figures.
@@ -61,12 +61,13 @@ fn scope_quality(effort: &Effort, samples: u32) -> Quality {
 }
 
 impl Shot {
-    /// Returns the scene that a shot shows.
-    fn scene(&self) -> Arc<Scene> {
+    /// Returns the scene that a shot shows, in girdle radii of its stone.
+    pub fn scene(&self) -> Arc<Scene> {
         let placed =
             |pose: &Pose| Instance::of(&self.specimen.body, self.specimen.material.clone(), "").moved(pose);
-        let instances = self.copies.iter().map(placed).collect();
-        Arc::new(Scene { instances, metals: vec![], unit_mm: self.specimen.unit_mm() })
+        let instances = self.copies.iter().map(placed).chain(self.companions.instances()).collect();
+        let metals = self.companions.metals.clone();
+        Arc::new(Scene { instances, metals, unit_mm: self.specimen.unit_mm() })
     }
 
     fn surroundings(&self, behind: Option<Arc<Mipmap>>) -> Surroundings {

@@ -4,7 +4,7 @@ use super::order::{Shot, Slot};
 use crate::cut::{Cut, Glass};
 use crate::io::background::BackgroundRef;
 use crate::picture::{Linear, MotionVector, TemporalHistory};
-use crate::scene::{Body, Film, Pose, Specimen, View};
+use crate::scene::{Body, Companions, Film, Pose, Specimen, View};
 use crate::trace::ray;
 use crate::trace::sampling::LitScene;
 use glam::{DMat2, DVec2, DVec3};
@@ -21,6 +21,7 @@ const MOST_POINTS: f64 = 40_000.0;
 pub struct Moment {
     specimen: Arc<Specimen>,
     copies: Vec<Pose>,
+    companions: Companions,
     view: View,
     film: Film,
     behind: Option<BackgroundRef>,
@@ -33,7 +34,8 @@ impl Moment {
     /// Returns the moment of a shot that is traced on a film.
     pub fn of(shot: &Shot, film: Film) -> Self {
         let (specimen, copies) = (Arc::clone(&shot.specimen), shot.copies.clone());
-        Self { specimen, copies, view: shot.view, film, behind: shot.behind.clone() }
+        let (companions, behind) = (shot.companions.clone(), shot.behind.clone());
+        Self { specimen, copies, companions, view: shot.view, film, behind }
     }
 
     /// Blends the picture of this moment with the history of its slot, and returns the blend. `newest` is the share of the
@@ -60,7 +62,8 @@ impl Moment {
     /// Whether another moment shows the same bodies before the same background, moved or changed in their dimensions.
     fn goes_on_in(&self, other: &Self) -> bool {
         let kind = |moment: &Self| (std::mem::discriminant(&moment.specimen.design.cut), moment.form());
-        kind(self) == kind(other) && self.copies.len() == other.copies.len() && self.behind == other.behind
+        let count = |moment: &Self| (moment.copies.len(), moment.companions.stones.len());
+        kind(self) == kind(other) && count(self) == count(other) && self.behind == other.behind
     }
 
     /// Finds which body each pixel shows, and where that point was seen at the moment `before`.
@@ -105,7 +108,11 @@ impl Moment {
 
     /// Returns where a point of a body was before; `None` where the body is a different one or has a different form.
     fn was(&self, before: &Self, number: usize, point: DVec3) -> Option<DVec3> {
-        let own = self.copies[number].unplace(point);
+        let Some(pose) = self.copies.get(number) else {
+            let [now, then] = [self, before].map(|at| at.companions.stones.get(number - self.copies.len()));
+            return Some(then?.pose.place(now?.pose.unplace(point)));
+        };
+        let own = pose.unplace(point);
         let was = match (&*self.specimen.body, &*before.specimen.body) {
             (Body::Glass(now), Body::Glass(then)) if self.form() == before.form() => {
                 now.field().carried(own, then.field())
@@ -159,6 +166,7 @@ mod tests {
             light_turn: 0.0,
             light_upright: false,
             copies,
+            companions: Companions::default(),
             smoothing: Smoothing::None,
             exposure: 0.0,
             head: 0.0,

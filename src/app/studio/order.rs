@@ -7,7 +7,7 @@ use crate::io::lighting::Lighting;
 use crate::measure::Figures;
 use crate::picture::{Inks, Overlay, RefractionMap};
 use crate::render::{Sweep, SweepError, SweptStone};
-use crate::scene::{Film, Glare, Pose, Specimen, View};
+use crate::scene::{Companions, Film, Glare, Pose, Specimen, View};
 use egui::ColorImage;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -78,6 +78,8 @@ pub struct Shot {
     pub light_upright: bool,
     /// The poses of the copies of the stone in a render, at least one. Other pictures show a single stone.
     pub copies: Vec<Pose>,
+    /// What stands beside the copies in a render, in girdle radii.
+    pub companions: Companions,
     /// How a render's edges are smoothed.
     pub smoothing: Smoothing,
     /// The half angle of the observer's head in scopes, in degrees; 0 for no head.
@@ -128,21 +130,22 @@ impl PartialEq for Shot {
             && (!has_glare || self.glare == other.glare)
             && (seen || self.title == other.title)
             && (!by_light || (Arc::ptr_eq(&self.light, &other.light) && self.manner() == other.manner()))
+            && (!by_light || (&self.copies, &self.companions) == (&other.copies, &other.companions))
     }
 }
 
 impl Shot {
     /// The settings that only renders and refraction maps depend on, with fixed values for those that maps ignore.
-    fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 6], &[Pose], Smoothing) {
+    fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 6], Smoothing) {
         let bounces = f64::from(self.bounces);
         let upright = f64::from(u8::from(self.light_upright));
         let numbers = [self.distance, self.whole.pixel, self.light_turn, upright, self.strength, bounces];
         if self.shows == Shows::Refraction {
             let numbers = [numbers[0], numbers[1], numbers[2], upright, 1.0, 0.0];
-            return (self.exposure, 0, false, None, numbers, &self.copies, Smoothing::None);
+            return (self.exposure, 0, false, None, numbers, Smoothing::None);
         }
         let Self { exposure, bands, jitter, smoothing, .. } = *self;
-        (exposure, bands, jitter, self.behind.as_ref(), numbers, &self.copies, smoothing)
+        (exposure, bands, jitter, self.behind.as_ref(), numbers, smoothing)
     }
 }
 

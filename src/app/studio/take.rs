@@ -147,7 +147,7 @@ mod tests {
     use crate::io::lighting::Lighting;
     use crate::picture::{Background, Bloom, Develop, develop, fxaa};
     use crate::render::{Quality, Steps};
-    use crate::scene::{Glare, Pose, Projection, View};
+    use crate::scene::{Companions, Glare, Pose, Projection, View};
     use crate::trace::gpu::Gpu;
     use crate::trace::unwatched;
     use glam::DVec2;
@@ -176,6 +176,7 @@ mod tests {
             light_turn: 0.0,
             light_upright: false,
             copies: vec![Pose::STILL],
+            companions: Companions::default(),
             distance: BEHIND,
             smoothing: Smoothing::None,
             exposure: 0.0,

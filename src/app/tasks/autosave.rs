@@ -7,7 +7,7 @@ use crate::cut::{Cut, Design};
 use crate::io::mesh_options::{MeshForm, MeshOptions};
 use crate::io::{WriteError, cut_file, design_file, write};
 use crate::math::Plane;
-use crate::scene::{Copies, MOST_COPIES};
+use crate::scene::{Copies, MOST_STONES};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -150,7 +150,7 @@ fn orphan(path: PathBuf) -> Option<RecoveredWork> {
     let file = File::open(&path).ok()?;
     file.try_lock().ok()?;
     let mut kept: Kept = serde_json::from_reader(BufReader::new(&file)).ok()?;
-    if !(1..=MOST_COPIES).contains(&kept.around.copies.poses.len()) {
+    if !(1..=MOST_STONES).contains(&kept.around.copies.poses.len()) {
         kept.around.copies = Copies::default();
     }
     let mut design = cut_file::parse(&kept.design, "unsaved work").ok()?;
@@ -196,8 +196,13 @@ mod tests {
         let mut safe = Autosave::new(folder.path().to_owned());
         let corners = [DVec3::ONE, -DVec3::ONE];
         let copies = Copies::scattered(3, &corners, 2);
-        let around =
-            KeptScene { copies, behind: Some("page".into()), behind_mm: Some(12.5), strength: Some(0.2) };
+        let around = KeptScene {
+            copies,
+            behind: Some("page".into()),
+            behind_mm: Some(12.5),
+            strength: Some(0.2),
+            ..KeptScene::default()
+        };
         let path = Some("/x/mine.toml".into());
         let unsaved = UnsavedWork { work: work.clone(), around: around.clone(), path, replaces: None };
         safe.keep(&unsaved).unwrap();

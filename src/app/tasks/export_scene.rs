@@ -1,20 +1,21 @@
-//! Writes the copies in renders as a scene file and its cut file.
+//! Writes what renders show as a scene file, with the cut files of its designs and the meshes of its metal.
 
-use crate::app::model::export::ExportPlan;
+use crate::app::model::export::{ExportPlan, kinds};
 use crate::app::studio::Shot;
 use crate::app::studio::hung;
 use crate::io::background::BackgroundRef;
-use crate::io::scene_file::{self, DEFAULT_GAP_MM, Entry, SceneFile};
+use crate::io::mesh::write_shaded;
+use crate::io::scene_file::{self, DEFAULT_GAP_MM, Entry, MetalEntry, SceneFile};
 use crate::io::{Failure, WriteError, cut_file, write};
-use crate::scene::{Pose, Projection, middle};
+use crate::scene::{Companion, Companions, MetalInstance, Pose, Projection, Scene};
 use glam::DVec3;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-/// The text of a scene file and of the cut file of its stones.
+/// The files of a scene: the scene file, the cut file of each design, and the meshes of its metal.
 pub struct SceneOut {
-    paths: [PathBuf; 2],
-    scene: String,
-    cut: String,
+    /// Each file and its text; the scene file is the first.
+    files: Vec<(PathBuf, String)>,
 }
 
 impl SceneOut {
@@ -22,16 +23,30 @@ impl SceneOut {
     pub fn of(plan: &ExportPlan) -> Self {
         let shot = &plan.shot;
         let paths = plan.scene_paths();
-        let cut = format!("{}-cut.toml", plan.stem);
-        let design = &shot.specimen.design;
+        let unit_mm = shot.specimen.unit_mm();
         let turned = Pose::turned(shot.view.turn);
         let poses: Vec<Pose> = shot.copies.iter().map(|pose| turned.after(pose)).collect();
-        let unit_mm = 0.5 * design.diameter_mm;
-        // Scenes are seen around their middle.
-        let middle = middle(&poses, shot.specimen.solid().vertices());
+        let companions = shot.companions.carried(&turned);
+        let (low, high) = Scene::clone(&shot.scene()).moved(&turned).bounds();
+        // Scenes are seen around their middle; that of a stone alone at the origin stays there.
+        let is_alone = companions.is_empty() && matches!(poses[..], [alone] if alone.at == DVec3::ZERO);
+        let middle = if is_alone { DVec3::ZERO } else { 0.5 * (low + high) };
+        let kinds = kinds(&companions);
+        let names: Vec<String> = paths.iter().map(|path| file_name(path)).collect();
+        let (cuts, metals) = names[1..].split_at(1 + kinds.len());
+        let at_mm = |pose: &Pose| (pose.at - middle) * unit_mm;
+        let own = poses.iter().map(|pose| Entry::placed(&cuts[0], pose.turn, at_mm(pose)));
+        let others = companions.stones.iter().map(|Companion { specimen, pose }| {
+            let kind = kinds.iter().position(|kind| Arc::ptr_eq(kind, specimen)).unwrap_or_default();
+            Entry::placed(&cuts[1 + kind], pose.turn, at_mm(pose))
+        });
+        let placed = |(metal, name): (&MetalInstance, &String)| {
+            let pose = Pose { at: at_mm(&metal.pose), scale: metal.pose.scale * unit_mm, ..metal.pose };
+            MetalEntry::placed(name, (metal.metal, metal.roughness), &pose)
+        };
         let is_picture = shot.behind.as_ref().is_some_and(BackgroundRef::is_picture);
         let scene = SceneFile {
-            name: design.name.clone(),
+            name: shot.specimen.design.name.clone(),
             light: Some(plan.light.clone()),
             light_turn: shot.light_turn,
             light_upright: shot.light_upright,
@@ -40,37 +55,47 @@ impl SceneOut {
             background: shot.behind.clone(),
             background_distance_mm: is_picture.then(|| (hung(shot) + middle.z) * unit_mm),
             strength: shot.strength,
-            angle_of_view: angle_of_view(shot, &poses, middle),
+            angle_of_view: angle_of_view(shot, corners(shot, &poses, &companions), middle),
             exposure: shot.exposure,
-            stones: poses
-                .iter()
-                .map(|pose| Entry::placed(&cut, pose.turn, (pose.at - middle) * unit_mm))
-                .collect(),
-            metals: vec![],
+            stones: own.chain(others).collect(),
+            metals: companions.metals.iter().zip(metals).map(placed).collect(),
             ring: None,
         };
-        Self { paths, scene: scene_file::write(&scene), cut: cut_file::write(design) }
+        let designs = std::iter::once(&shot.specimen).chain(kinds).map(|kind| cut_file::write(&kind.design));
+        let meshes = companions.metals.iter().map(|metal| write_shaded(metal.mesh.surface()));
+        let texts = std::iter::once(scene_file::write(&scene)).chain(designs).chain(meshes);
+        Self { files: paths.into_iter().zip(texts).collect() }
     }
 
-    /// Writes both files, each whole or not at all.
+    /// Writes all files, each whole or not at all.
     pub fn write(&self) -> Result<(), Failure> {
-        let [scene, cut] = &self.paths;
-        let folder = scene.parent();
+        let (scene, text) = &self.files[0];
         // A scene that reaches farther than scenes may is refused before anything is written.
-        scene_file::parse(&self.scene, &scene.display().to_string(), folder)?;
-        for (path, text) in [(cut, &self.cut), (scene, &self.scene)] {
+        scene_file::parse(text, &scene.display().to_string(), scene.parent())?;
+        // The scene file is the last, so that it names no file that is not there.
+        for (path, text) in self.files.iter().rev() {
             write(path, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(path, e)))?;
         }
         Ok(())
     }
 }
 
-/// Returns the angle of view of a shot in perspective, in degrees, across the longer extent of the stones seen face up.
-fn angle_of_view(shot: &Shot, poses: &[Pose], middle: DVec3) -> Option<f64> {
+/// Returns the name of a file without its folder.
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// Returns points between which all bodies of a scene lie.
+fn corners(shot: &Shot, poses: &[Pose], companions: &Companions) -> impl Iterator<Item = DVec3> {
+    let own = shot.specimen.solid().vertices();
+    let copies = poses.iter().flat_map(move |pose| own.iter().map(move |&corner| pose.place(corner)));
+    copies.chain(companions.vertices())
+}
+
+/// Returns the angle of view of a shot in perspective, in degrees, across the longer extent of all bodies seen face up.
+fn angle_of_view(shot: &Shot, corners: impl Iterator<Item = DVec3>, middle: DVec3) -> Option<f64> {
     let Projection::Perspective { distance } = shot.view.projection else { return None };
-    let corners = shot.specimen.solid().vertices();
-    let placed = poses.iter().flat_map(|pose| corners.iter().map(move |&corner| pose.place(corner) - middle));
-    let reach = placed.map(|at| at.truncate().abs().max_element()).fold(0.0, f64::max);
+    let reach = corners.map(|at| (at - middle).truncate().abs().max_element()).fold(0.0, f64::max);
     // The scene is moved so that its middle lies at the origin.
     let distance = (distance - middle.z).max(f64::MIN_POSITIVE);
     Some((2.0 * (reach / distance).atan()).to_degrees().clamp(1.0, 120.0))

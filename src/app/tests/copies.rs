@@ -21,7 +21,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Opens a scene, of the program's own or from a file, in a single render view.
-fn bench(scene: &str) -> Bench {
+pub(super) fn bench(scene: &str) -> Bench {
     let pane = Pane { shows: Shows::Render, own: None, is_near: false };
     let workspace =
         Workspace { layout: PaneLayout::One, panes: [pane; 4], wavelengths: 3, ..Workspace::default() };
@@ -36,14 +36,14 @@ fn poses(editor: &Editor) -> Vec<crate::scene::Pose> {
 }
 
 /// Returns the place in the window of a point of the film.
-fn at(bench: &Bench, x: f64, y: f64) -> Pos2 {
+pub(super) fn at(bench: &Bench, x: f64, y: f64) -> Pos2 {
     let body = bench.harness.get_by_label("Render picture").rect();
     let film = bench.editor().model.session.ordered.shots[0].1.film;
     let pixel = film.pixels_from_image(glam::DMat2::IDENTITY).transform_point2(glam::DVec2::new(x, y));
     body.min + egui::vec2(pixel.x as f32, pixel.y as f32)
 }
 
-fn drag(bench: &mut Bench, from: Pos2, by: egui::Vec2) {
+pub(super) fn drag(bench: &mut Bench, from: Pos2, by: egui::Vec2) {
     let (button, modifiers) = (egui::PointerButton::Primary, egui::Modifiers::NONE);
     bench.harness.hover_at(from);
     bench.harness.step();
@@ -128,23 +128,6 @@ fn what_moves_is_shown_moving_and_stands_still_when_stopped() {
     bench.harness.key_press(Key::H);
     bench.harness.run_steps(3);
     assert!(bench.harness.query_by_label("Copies").is_none(), "views alone");
-}
-
-#[test]
-fn scene_files_open_and_those_of_several_designs_are_refused_in_words() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("mine.toml");
-    let text = "format = 1\nname = \"Mine\"\nlayout = \"row\"\n[[stone]]\ncut = \"cube\"\nsize = \"12mm\"\ncount = 3\n";
-    std::fs::write(&path, text).unwrap();
-    let mut bench = bench(&path.to_string_lossy());
-    bench.wait(|editor| editor.model.document.work.copies.poses.len() == 3);
-    assert_eq!(bench.editor().model.document.work.design.diameter_mm, 12.0);
-    std::fs::write(&path, format!("{text}[[stone]]\ncut = \"pill\"\n")).unwrap();
-    bench.choices.lock().unwrap().push(path);
-    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::O);
-    bench.wait(|editor| !editor.model.session.notes.troubles().is_empty());
-    assert!(bench.editor().model.session.notes.troubles()[0].text.contains("brillianteer render"));
-    assert_eq!(poses(bench.editor()).len(), 3);
 }
 
 /// Returns the place of each copy relative to the first, in mm, and its rotation.

@@ -20,6 +20,7 @@ mod looks;
 mod maps;
 mod reading;
 mod recorder;
+mod scenes;
 mod searching;
 mod tier_hand;
 mod tiers;

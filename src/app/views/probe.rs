@@ -13,15 +13,25 @@ pub struct Probe {
     tracer: StoneTracer,
 }
 
-/// Keeps the probe of the stone that was asked about last.
+/// Keeps the probes of the stones that were asked about last.
 #[derive(Default)]
-pub struct ProbeCache(Option<Probe>);
+pub struct ProbeCache(Vec<Probe>);
+
+/// The number of probes that are kept.
+const KEPT: usize = 16;
 
 impl ProbeCache {
     /// Returns the probe that answers questions about a stone.
     pub fn of(&mut self, specimen: &Arc<Specimen>) -> &Probe {
-        let known = self.0.take().filter(|probe| Arc::ptr_eq(&probe.specimen, specimen));
-        self.0.insert(known.unwrap_or_else(|| Probe::new(Arc::clone(specimen))))
+        let known = self.0.iter().position(|probe| Arc::ptr_eq(&probe.specimen, specimen));
+        let place = known.unwrap_or_else(|| {
+            if self.0.len() == KEPT {
+                self.0.remove(0);
+            }
+            self.0.push(Probe::new(Arc::clone(specimen)));
+            self.0.len() - 1
+        });
+        &self.0[place]
     }
 }
 
@@ -105,19 +115,15 @@ impl Probe {
         Some(self.found((facet as u32, origin + direction * distance), light))
     }
 
-    /// Returns which copy lies first at a point of a film, in its pixels, and which of its facets; `None` beside all
-    /// copies.
-    pub fn among(&self, copies: &[Pose], view: &View, film: &Film, at: DVec2) -> Option<(usize, u32)> {
-        let farthest = copies.iter().map(|pose| pose.at.length()).fold(0.0, f64::max);
-        let eye = Camera::reaching(view, farthest + self.specimen.radius);
-        let (origin, direction) = eye.ray(film.image_from_pixels(at));
-        let meet = |(copy, pose): (usize, &Pose)| {
+    /// Returns which stone in these poses a ray meets first, which of its facets, and at what distance; `None` where it meets
+    /// none.
+    pub fn among(&self, poses: &[Pose], (origin, direction): (DVec3, DVec3)) -> Option<(usize, u32, f64)> {
+        let meet = |(number, pose): (usize, &Pose)| {
             let (facet, distance) =
                 self.tracer.meet(pose.unplace(origin), pose.turn.inverse() * direction)?;
-            Some((copy, facet as u32, distance))
+            Some((number, facet as u32, distance * pose.scale))
         };
-        let first = copies.iter().enumerate().filter_map(meet).min_by(|a, b| a.2.total_cmp(&b.2));
-        first.map(|(copy, facet, _)| (copy, facet))
+        poses.iter().enumerate().filter_map(meet).min_by(|a, b| a.2.total_cmp(&b.2))
     }
 
     fn found(&self, (facet, point): (u32, DVec3), light: Option<LightAtPoint>) -> ProbeHit {
@@ -209,7 +215,8 @@ mod tests {
             let found = |place: DVec3| {
                 let at = Camera::reaching(&view, 1.0).project(place).unwrap().0;
                 let pixels = film.pixels_from_image(glam::DMat2::IDENTITY).transform_point2(at);
-                let (copy, facet) = probe.among(&copies, &view, &film, pixels)?;
+                let ray = Camera::reaching(&view, 6.0).ray(film.image_from_pixels(pixels));
+                let (copy, facet, _) = probe.among(&copies, ray)?;
                 Some((copy, probe.specimen.body.name(facet)))
             };
             // Of the copy that lies face down the culet is nearest to the eye, and beside the culet a pavilion main.

@@ -5,6 +5,7 @@ use crate::io::file_error::FileError;
 use crate::io::text;
 use crate::math::{ShadedMesh, ShadedSurface};
 use glam::DVec3;
+use std::fmt::Write;
 use std::path::Path;
 
 /// The angle between neighbouring triangles, in degrees, from which on an edge is sharp where a file gives no normals.
@@ -31,6 +32,27 @@ pub fn read_shaded(path: &Path) -> Result<(ShadedMesh, Vec<String>), FileError> 
     }
     let mesh = ShadedMesh::new(made).map_err(|error| FileError::new(&label, error))?;
     Ok((mesh, warnings))
+}
+
+/// Returns the text of an OBJ file of an opaque surface with its normals, which [`read_shaded`] reads as the same surface.
+pub fn write_shaded(surface: &ShadedSurface) -> String {
+    let ShadedSurface { points, corners, normals } = surface;
+    let mut text =
+        String::from("# A surface of metal; lengths are in the unit of the scene that names this file.\n");
+    for (key, vectors) in [("v", points), ("vn", normals)] {
+        for DVec3 { x, y, z } in vectors {
+            let _ = writeln!(text, "{key} {x} {y} {z}");
+        }
+    }
+    let has_normals = !normals.is_empty();
+    for corners in corners {
+        let [a, b, c] = corners.map(|corner| match (corner + 1, has_normals) {
+            (corner, true) => format!("{corner}//{corner}"),
+            (corner, false) => corner.to_string(),
+        });
+        let _ = writeln!(text, "f {a} {b} {c}");
+    }
+    text
 }
 
 #[cfg(test)]
@@ -63,6 +85,16 @@ mod tests {
         assert_eq!(read("a.obj", &broken).unwrap().surface().corners.len(), 1);
         let error = read("a.obj", &format!("{ROOF}f 1 2 9\n")).unwrap_err().to_string();
         assert!(error.contains("a.obj:5: the face refers to corner 9, and the file has 4"), "{error}");
+    }
+
+    #[test]
+    fn a_surface_that_is_written_is_read_as_it_was() {
+        let given = format!("{ROOF}vn 0 -0.6 0.8\nvn 0 0 1\nf 1//1 2//1 3//2\nf 2//1 1//1 4//1\n");
+        let mesh = read("a.obj", &given).unwrap();
+        let again = read("b.obj", &write_shaded(mesh.surface())).unwrap();
+        let (before, after) = (mesh.surface(), again.surface());
+        assert_eq!((&after.points, &after.corners), (&before.points, &before.corners));
+        assert!(after.normals.iter().zip(&before.normals).all(|(a, b)| a.distance(*b) < 1e-15));
     }
 
     #[test]

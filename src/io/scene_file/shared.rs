@@ -112,3 +112,22 @@ pub(super) fn leaning(turn: f64, tilt: f64, azimuth: f64) -> DQuat {
     let axis = DVec3::new(-azimuth.sin(), azimuth.cos(), 0.0);
     DQuat::from_axis_angle(axis, tilt.to_radians()) * DQuat::from_rotation_z(turn.to_radians())
 }
+
+/// A rotation as scene files say it: first a turn about z, then a lean of z toward an azimuth, in degrees.
+pub(super) struct Angles {
+    pub turn: f64,
+    pub tilt: f64,
+    pub azimuth: f64,
+}
+
+impl Angles {
+    /// Returns the angles of a rotation.
+    pub fn of(turned: DQuat) -> Self {
+        let axis = turned * DVec3::Z;
+        let tilt = axis.truncate().length().atan2(axis.z).to_degrees();
+        let azimuth = axis.y.atan2(axis.x).to_degrees();
+        // The rest of the rotation is about the body's own axis.
+        let about = leaning(0.0, tilt, azimuth).inverse() * turned;
+        Self { turn: 2.0 * about.z.atan2(about.w).to_degrees(), tilt, azimuth }
+    }
+}

@@ -97,6 +97,7 @@ const ROOMS: [Room; 8] = [
             "parse",
             "read",
             "read_shaded",
+            "write_shaded",
             "stated_in_stl",
             "write_glb",
             "write_obj",

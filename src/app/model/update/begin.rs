@@ -75,12 +75,18 @@ pub fn begin_preset(model: &mut Model, tasks: &mut Vec<Task>, name: &str) {
 
 /// Begins to work on a scene: its design, which is not saved anywhere yet, its copies, its light and its backplate.
 pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset) {
-    let Preset { design, copies, scene, wavelengths } = preset;
+    let Preset { design, copies, companions, scene, wavelengths, remarks } = preset;
     let document = Document::new(design, None);
     let Some(mut document) = model.session.notes.ok_or_report(document) else { return };
     let laid = copies.poses(document.specimen().solid().vertices(), None);
-    let layers = if laid == copies.poses { "" } else { ", some of them farther back so that none overlap" };
-    document.work.copies = copies;
+    let is_laid = !companions.is_empty() || laid == copies.poses;
+    let layers = if is_laid { "" } else { ", some of them farther back so that none overlap" };
+    let shown = match companions.is_empty() {
+        true => format!("renders show all copies{layers}; other views show one"),
+        false => "renders show the whole scene; other views show the stone that is edited".to_owned(),
+    };
+    (document.work.copies, document.work.companions) = (copies, companions);
+    document.work.remarks = remarks.into();
     document.keep_copies();
     model.workspace.last = None;
     let work = &model.document.work;
@@ -103,7 +109,7 @@ pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset) {
     (workspace.light_turn, workspace.light_upright) = (scene.light_turn, scene.light_upright);
     workspace.see_under(scene.angle_of_view.map(|angle| reach / (0.5 * angle).to_radians().tan()));
     (workspace.behind_mm, workspace.strength) = (scene.background_distance_mm, scene.strength);
-    session.notes.say(&format!("{}: renders show all copies{layers}; other views show one", scene.name));
+    session.notes.say(&format!("{}: {shown}", scene.name));
 }
 
 /// Ends the comparison: forgets the design compared with, and its figures.

@@ -27,7 +27,8 @@ impl Model {
             Command::IntoTiers => !self.has_tiers() && self.document.specimen().stone().is_ok(),
             Command::Retarget | Command::Yield => self.document.specimen().stone().is_ok(),
             Command::Tiers | Command::BenchMode => self.has_tiers(),
-            Command::LayOut => self.document.work.copies.poses.len() > 1,
+            Command::LayOut => self.document.work.copies.poses.len() > 1 && self.can_move(),
+            Command::Play => self.can_move(),
             Command::Split | Command::NoCompare => self.session.compared.is_some(),
             _ => true,
         }
@@ -129,6 +130,7 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
         Command::Search => searching::toggle(model, tasks),
         Command::Undo | Command::Redo => {
             searching::interrupt(model, tasks);
+            let beside = model.document.work.companions.clone();
             if command == Command::Undo {
                 model.document.undo()
             } else {
@@ -138,6 +140,10 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
             edits::note_meet_faults(model);
             // The tiers may stand in other places now.
             model.session.picking = None;
+            if model.document.work.companions != beside {
+                // Another stone of the scene may be edited now.
+                model.session.framing.renew(model.document.specimen());
+            }
         }
         other => look(model, other),
     }

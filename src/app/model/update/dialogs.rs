@@ -100,8 +100,9 @@ fn keep(model: &mut Model, tasks: &mut Vec<Task>) {
 fn recover(model: &mut Model, tasks: &mut Vec<Task>, found: &RecoveredWork) {
     let document = Document::recovered(found);
     let Some(mut document) = model.session.notes.ok_or_report(document) else { return };
-    let KeptScene { copies, behind, behind_mm, strength } = found.around.clone();
-    document.work.copies = copies;
+    let KeptScene { copies, companions, behind, behind_mm, strength } = found.around.clone();
+    let companions = model.session.notes.ok_or_report(companions.built());
+    (document.work.copies, document.work.companions) = (copies, companions.unwrap_or_default());
     // The work is kept anew before the file that the crash left is removed.
     model.session.safe.replaces = Some(found.file.clone());
     begin(model, tasks, document);

@@ -1,5 +1,6 @@
 //! Changes of the work.
 
+use super::companions::{self, MovedStone};
 use crate::app::model::Model;
 use crate::app::model::action::Edit;
 use crate::app::model::extent;
@@ -13,6 +14,7 @@ use std::sync::Arc;
 pub fn edit(model: &mut Model, edit: Edit) {
     // A pick ends with its edit, and after any other the tiers may stand in other places.
     model.session.picking = None;
+    let before_mm = model.document.work.design.diameter_mm;
     let work = &mut model.document.work;
     match edit {
         Edit::Name(name) => work.design.rename(name),
@@ -47,11 +49,14 @@ pub fn edit(model: &mut Model, edit: Edit) {
         Edit::Head(degrees) => work.head = degrees,
         Edit::LayOut(count) => lay_out(model, count),
         Edit::Copy(copy, pose) => {
-            if let Some(at) = work.copies.poses.get_mut(copy) {
-                *at = pose;
-            }
+            companions::move_to(&mut model.document, MovedStone::Copy(copy), pose);
         }
+        Edit::Companion(number, pose) => {
+            companions::move_to(&mut model.document, MovedStone::Companion(number), pose);
+        }
+        Edit::TakeUp(number) => return companions::take_up(model, number),
     }
+    companions::stay_in_place(&mut model.document.work, before_mm);
     model.document.update();
 }
 

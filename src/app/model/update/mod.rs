@@ -2,6 +2,7 @@
 
 mod begin;
 mod commands;
+mod companions;
 mod dialogs;
 mod edits;
 mod files;

@@ -1,7 +1,7 @@
 //! Keeps the autosave up to date.
 
 use crate::app::model::Model;
-use crate::app::model::recovery::{KeptScene, UnsavedWork};
+use crate::app::model::recovery::{KeptCompanions, KeptScene, UnsavedWork};
 use crate::app::model::task::Task;
 
 /// Writes the present work to the autosave, and stores its exposure and head in the workspace.
@@ -20,6 +20,7 @@ pub fn note(model: &mut Model, tasks: &mut Vec<Task>) {
     session.safe.is_kept = true;
     let around = KeptScene {
         copies: document.work.copies.clone(),
+        companions: KeptCompanions::of(&document.work.companions),
         behind: workspace.behind.clone(),
         behind_mm: workspace.behind_mm,
         strength: Some(workspace.strength),

@@ -1,17 +1,16 @@
 //! The bodies that a picture under light shows: a single stone, or the stones and the metal of a scene in their places.
 
-use super::console::say;
-use super::specimen::{LoadedSpecimen, asked_material};
+use super::background::BackgroundRef;
+use super::built_design::BuiltDesign;
+use super::mesh::read_shaded;
+use super::mesh_options::MeshOptions;
+use super::scene_file::{self, Entry, MetalEntry, SceneFile};
+use super::{Failure, is_standard, library};
 use crate::cut::{Design, MaterialRef, Size};
-use crate::io::background::BackgroundRef;
-use crate::io::mesh::read_shaded;
-use crate::io::mesh_options::MeshOptions;
-use crate::io::scene_file::{self, Entry, MetalEntry, SceneFile};
-use crate::io::{Failure, is_standard, library};
 use crate::math::{ShadedMesh, bounds};
 use crate::optics::{Material, Metal};
 use crate::scene::{
-    Instance, MOST_STONES, MetalInstance, Mounting, Pose, Projection, Scene, Viewpoint, overlapping,
+    Instance, MOST_STONES, MetalInstance, Mounting, Pose, Projection, Scene, Specimen, Viewpoint, overlapping,
 };
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
@@ -26,7 +25,7 @@ mod tests;
 /// A single stone or the stones of a scene, with the light and the background that the scene names.
 #[derive(Debug)]
 pub struct Assembly {
-    /// The path or name as given on the command line.
+    /// The path of the file, or the name of the cut or scene that comes with the program.
     pub path: String,
     /// The name of the design, or of the scene.
     pub name: String,
@@ -34,7 +33,7 @@ pub struct Assembly {
     pub design: Option<Design>,
     /// The stones in one world. A single stone lies unmoved in its own frame.
     pub setting: Scene,
-    /// The size and place of each stone, in the order of the instances of `setting`.
+    /// What each stone is and where it lies, in the order of the instances of `setting`.
     pub places: Vec<StonePlace>,
     /// The light that the scene names: one that comes with the program, or a file.
     pub light: Option<PathBuf>,
@@ -54,6 +53,8 @@ pub struct Assembly {
     pub light_upright: bool,
     /// The scene's ring.
     pub ring: Option<MadeRing>,
+    /// Notes and warnings about the files that were read, each with its path, as they are printed.
+    pub remarks: Vec<String>,
 }
 
 /// A ring that was made for a scene.
@@ -65,20 +66,27 @@ pub struct MadeRing {
     pub mounting: Mounting,
 }
 
-/// The size and place of a stone.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// What a stone is, and where it lies.
+#[derive(Debug, Clone)]
 pub struct StonePlace {
+    /// The stone as its own file has it: it may be of another material and size. Stones of one cut share it.
+    pub specimen: Arc<Specimen>,
+    /// The material.
+    pub material: MaterialRef,
     /// The girdle diameter, in mm.
     pub diameter_mm: f64,
     /// The middle of the girdle, in mm.
     pub at_mm: DVec3,
 }
 
+/// A material by its name in files, and what that name stands for.
+type NamedMaterial = (MaterialRef, Material);
+
 /// A stone of a scene, in mm: the world's unit is not known yet.
 #[derive(Clone)]
 struct Member<'a> {
-    specimen: &'a LoadedSpecimen,
-    material: Material,
+    specimen: &'a Arc<Specimen>,
+    material: NamedMaterial,
     diameter_mm: f64,
     turn: DQuat,
     at_mm: DVec3,
@@ -87,43 +95,51 @@ struct Member<'a> {
 }
 
 impl Assembly {
-    /// Reads a cut file or a scene file, or takes a cut or a scene that comes with the program by its name, and prints
-    /// warnings about unusual stones.
+    /// Reads a cut file or a scene file, or takes a cut or a scene that comes with the program by its name.
     ///
-    /// `material` (a name or an index) and `size` replace those of every stone. Every mesh is read with the options `mesh`.
+    /// `material` and `size` replace those of every stone. Every mesh is read with the options `mesh`.
+    ///
+    /// # Errors
+    /// When a file cannot be read or makes no stone, when there is no such material, and when stones overlap.
     pub fn load(
         file: &Path,
-        material: Option<&str>,
+        material: Option<&MaterialRef>,
         size: Option<Size>,
         mesh: MeshOptions,
     ) -> Result<Self, Failure> {
-        let material = material.map(|text| asked_material(text).map(|(_, material)| material)).transpose()?;
         match scene(file)? {
-            Some(scene) => Self::of_scene(file, scene, material.as_ref(), (size, mesh)),
-            None => Self::of_stone(LoadedSpecimen::load(file, mesh)?, material, size),
+            Some(scene) => Self::of_scene(file, scene, material, (size, mesh)),
+            None => Self::of_stone(BuiltDesign::load(file, mesh)?, material, size),
         }
     }
 
-    /// Assembles a scene that comes with the program.
-    pub fn of_library(name: &str, scene: SceneFile) -> Result<Self, Failure> {
-        Self::of_scene(Path::new(name), scene, None, (None, MeshOptions::default()))
+    /// Assembles a scene that was read from a file, or that comes with the program; `file` is its path or name.
+    ///
+    /// # Errors
+    /// As for [`load`](Self::load).
+    pub fn of(file: &Path, scene: SceneFile) -> Result<Self, Failure> {
+        Self::of_scene(file, scene, None, (None, MeshOptions::default()))
     }
 
     fn of_stone(
-        specimen: LoadedSpecimen,
-        material: Option<Material>,
+        stone: BuiltDesign,
+        material: Option<&MaterialRef>,
         size: Option<Size>,
     ) -> Result<Self, Failure> {
-        let material = material.unwrap_or_else(|| specimen.material.clone());
-        let refused = |message| Failure::Input(format!("{}: {message}", specimen.path));
-        let diameter_mm = diameter_mm(&specimen, &material, size).map_err(refused)?;
-        let stone = Instance::of(&specimen.body, material, &specimen.design.name);
+        let BuiltDesign { path, made, remarks } = stone;
+        let refused = |message| Failure::Input(format!("{path}: {message}"));
+        let named = named_material(&made, material, None).map_err(refused)?;
+        let diameter_mm = diameter_mm(&made, &named.1, size).map_err(refused)?;
+        let made = Arc::new(made);
+        let stone = Instance::of(&made.body, named.1, &made.design.name);
+        let place =
+            StonePlace { specimen: Arc::clone(&made), material: named.0, diameter_mm, at_mm: DVec3::ZERO };
         Ok(Self {
-            path: specimen.path,
-            name: specimen.made.design.name.clone(),
-            design: Some(Design { diameter_mm, ..specimen.made.design }),
+            path,
+            name: made.design.name.clone(),
+            design: Some(Design { diameter_mm, ..made.design.clone() }),
             setting: Scene { instances: vec![stone], metals: vec![], unit_mm: 0.5 * diameter_mm },
-            places: vec![StonePlace { diameter_mm, at_mm: DVec3::ZERO }],
+            places: vec![place],
             light: None,
             background: None,
             background_distance_mm: None,
@@ -133,17 +149,19 @@ impl Assembly {
             light_turn: 0.0,
             light_upright: false,
             ring: None,
+            remarks,
         })
     }
 
     fn of_scene(
         file: &Path,
         scene: SceneFile,
-        material: Option<&Material>,
+        material: Option<&MaterialRef>,
         (size, mesh): (Option<Size>, MeshOptions),
     ) -> Result<Self, Failure> {
         let path = file.display().to_string();
-        let specimens = specimens(file, &scene, mesh)?;
+        let mut remarks = vec![];
+        let specimens = specimens(file, &scene, mesh, &mut remarks)?;
         let member = |(number, entry): (usize, &Entry)| {
             let specimen = &specimens[&entry.cut];
             let description = format!("stone {} ({})", number + 1, entry.cut);
@@ -155,7 +173,7 @@ impl Assembly {
         let mut members: Vec<Member> = scene.turns().into_iter().map(turned).collect();
         let radii: Vec<f64> = members.iter().map(Member::radius_mm).collect();
         members.iter_mut().zip(scene.places_mm(&radii)).for_each(|(member, at)| member.at_mm = at);
-        let mut metals = metals(file, &scene)?;
+        let mut metals = metals(file, &scene, &mut remarks)?;
         let ring = match &scene.ring {
             Some(entry) => {
                 let parts = ring::ring(file, entry, &specimens, (material, size))?;
@@ -176,8 +194,7 @@ impl Assembly {
             let (a, b) = (&members[a].description, &members[b].description);
             return Err(Failure::Input(format!("{path}: {a} and {b} overlap; move one of them away")));
         }
-        let places =
-            members.iter().map(|m| StonePlace { diameter_mm: m.diameter_mm, at_mm: m.at_mm }).collect();
+        let places = members.iter().map(Member::place).collect();
         Ok(Self {
             path,
             name: scene.name,
@@ -193,6 +210,7 @@ impl Assembly {
             light_turn: scene.light_turn,
             light_upright: scene.light_upright,
             ring,
+            remarks,
         })
     }
 
@@ -229,7 +247,8 @@ fn specimens(
     file: &Path,
     scene: &SceneFile,
     mesh: MeshOptions,
-) -> Result<BTreeMap<String, LoadedSpecimen>, Failure> {
+    remarks: &mut Vec<String>,
+) -> Result<BTreeMap<String, Arc<Specimen>>, Failure> {
     let mut specimens = BTreeMap::new();
     let failed = |failure: Failure, place: &dyn Fn(&str) -> Failure| match failure {
         Failure::Input(message) => place(&message),
@@ -238,15 +257,17 @@ fn specimens(
     for (number, entry) in scene.stones.iter().enumerate() {
         if !specimens.contains_key(&entry.cut) {
             let at = |message: &str| at_entry(file, number, entry, &format!("cut: {message}"));
-            let specimen = specimen(file, &entry.cut, mesh).map_err(|failure| failed(failure, &at))?;
-            specimens.insert(entry.cut.clone(), specimen);
+            let read = built(file, &entry.cut, mesh).map_err(|failure| failed(failure, &at))?;
+            remarks.extend(read.remarks);
+            specimens.insert(entry.cut.clone(), Arc::new(read.made));
         }
     }
     for (key, cut, line) in scene.ring.iter().flat_map(ring::cuts) {
         if !specimens.contains_key(cut) {
             let at = |message: &str| ring::at_ring(file, line, &format!("{key}: {message}"));
-            let specimen = specimen(file, cut, mesh).map_err(|failure| failed(failure, &at))?;
-            specimens.insert(cut.to_owned(), specimen);
+            let read = built(file, cut, mesh).map_err(|failure| failed(failure, &at))?;
+            remarks.extend(read.remarks);
+            specimens.insert(cut.to_owned(), Arc::new(read.made));
         }
     }
     Ok(specimens)
@@ -254,11 +275,11 @@ fn specimens(
 
 /// Reads one cut of a scene: a cut that comes with the program, or a file relative to the scene's folder. Where both exist,
 /// a scene read from a file takes the file, and any other scene takes the program's cut.
-fn specimen(scene: &Path, cut: &str, mesh: MeshOptions) -> Result<LoadedSpecimen, Failure> {
+fn built(scene: &Path, cut: &str, mesh: MeshOptions) -> Result<BuiltDesign, Failure> {
     let beside = scene.parent().unwrap_or(Path::new("")).join(cut);
     match library::cut(cut).filter(|_| !scene.is_file() || !beside.is_file()) {
-        Some(text) => LoadedSpecimen::parse(cut, text),
-        None => LoadedSpecimen::read(&beside, mesh),
+        Some(text) => BuiltDesign::parse(cut, text),
+        None => BuiltDesign::read(&beside, mesh),
     }
 }
 
@@ -266,25 +287,45 @@ fn at_entry(file: &Path, number: usize, entry: &Entry, message: &str) -> Failure
     Failure::Input(format!("{}:{}: stone {}: {message}", file.display(), entry.line, number + 1))
 }
 
-fn diameter_mm(specimen: &LoadedSpecimen, material: &Material, size: Option<Size>) -> Result<f64, String> {
+/// Returns the material that is asked for, else the scene's own, else that of the stone's file.
+fn named_material(
+    specimen: &Specimen,
+    asked: Option<&MaterialRef>,
+    own: Option<&MaterialRef>,
+) -> Result<NamedMaterial, String> {
+    match asked.or(own) {
+        Some(named) => Ok((named.clone(), named.material().map_err(|error| error.to_string())?)),
+        None => Ok((specimen.design.material.clone(), specimen.material.clone())),
+    }
+}
+
+fn diameter_mm(specimen: &Specimen, material: &Material, size: Option<Size>) -> Result<f64, String> {
     let diameter = |size: Size| size.diameter_mm(specimen.solid().volume(), material);
     size.map_or(Ok(specimen.design.diameter_mm), diameter).map_err(|error| format!("size: {error}"))
 }
 
 fn member<'a>(
-    specimen: &'a LoadedSpecimen,
+    specimen: &'a Arc<Specimen>,
     entry: &Entry,
-    material: Option<&Material>,
+    material: Option<&MaterialRef>,
     size: Option<Size>,
     description: String,
 ) -> Result<Member<'a>, String> {
-    let own = || entry.material.as_ref().map_or(Ok(specimen.material.clone()), MaterialRef::material);
-    let material = material.cloned().map_or_else(own, Ok).map_err(|error| error.to_string())?;
-    let diameter_mm = diameter_mm(specimen, &material, size)?;
+    let material = named_material(specimen, material, entry.material.as_ref())?;
+    let diameter_mm = diameter_mm(specimen, &material.1, size)?;
     Ok(Member { specimen, material, diameter_mm, turn: DQuat::IDENTITY, at_mm: entry.at_mm, description })
 }
 
 impl Member<'_> {
+    fn place(&self) -> StonePlace {
+        StonePlace {
+            specimen: Arc::clone(self.specimen),
+            material: self.material.0.clone(),
+            diameter_mm: self.diameter_mm,
+            at_mm: self.at_mm,
+        }
+    }
+
     /// Returns the radius, in mm, of the circle around the axis that holds the turned stone, seen from above.
     fn radius_mm(&self) -> f64 {
         let across = |v: &DVec3| (self.turn * *v).truncate().length();
@@ -294,9 +335,9 @@ impl Member<'_> {
 }
 
 /// Reads the metal of a scene, each file once, and places it in mm.
-fn metals(file: &Path, scene: &SceneFile) -> Result<Vec<MetalInstance>, Failure> {
+fn metals(file: &Path, scene: &SceneFile, remarks: &mut Vec<String>) -> Result<Vec<MetalInstance>, Failure> {
     let mut meshes: BTreeMap<String, Arc<ShadedMesh>> = BTreeMap::new();
-    let metal = |(number, entry): (usize, &MetalEntry)| {
+    let mut metal = |(number, entry): (usize, &MetalEntry)| {
         let mesh = match meshes.get(&entry.mesh) {
             Some(mesh) => Arc::clone(mesh),
             None => {
@@ -305,7 +346,7 @@ fn metals(file: &Path, scene: &SceneFile) -> Result<Vec<MetalInstance>, Failure>
                     let place = format!("{}:{}: metal {}", file.display(), entry.line, number + 1);
                     Failure::Input(format!("{place}: mesh: {error}"))
                 })?;
-                warnings.iter().for_each(|w| say(&format!("warning: {}: {w}", path.display())));
+                remarks.extend(warnings.iter().map(|w| format!("warning: {}: {w}", path.display())));
                 let mesh = Arc::new(mesh);
                 meshes.insert(entry.mesh.clone(), Arc::clone(&mesh));
                 mesh
@@ -315,7 +356,7 @@ fn metals(file: &Path, scene: &SceneFile) -> Result<Vec<MetalInstance>, Failure>
         let label = entry.mesh.clone();
         Ok(MetalInstance { mesh, pose, metal: entry.metal, roughness: entry.roughness, label })
     };
-    scene.metals.iter().enumerate().map(metal).collect()
+    scene.metals.iter().enumerate().map(&mut metal).collect()
 }
 
 /// Builds the world's scene of stones and of metal, whose poses are in mm. The largest girdle has the radius 1; without stones,
@@ -331,7 +372,7 @@ fn placed(members: &[Member], metals: Vec<MetalInstance>) -> Scene {
         false => 0.5 * diameters.fold(0.0, f64::max),
     };
     let place = |m: &Member| {
-        let stone = Instance::of(&m.specimen.body, m.material.clone(), &m.specimen.design.name);
+        let stone = Instance::of(&m.specimen.body, m.material.1.clone(), &m.specimen.design.name);
         let scale = 0.5 * m.diameter_mm / unit_mm;
         stone.moved(&Pose { at: m.at_mm / unit_mm, turn: m.turn, scale })
     };
@@ -343,16 +384,8 @@ fn placed(members: &[Member], metals: Vec<MetalInstance>) -> Scene {
         unit_mm,
     };
     // Pictures are centred on the origin.
-    let boxes = scene.instances.iter().map(|stone| stone.solid().bounds());
-    let boxes = boxes.chain(scene.metals.iter().map(|metal| bounds(metal.vertices())));
-    let (low, high) =
-        boxes.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), (a, b)| (l.min(a), h.max(b)));
+    let (low, high) = scene.bounds();
     let stays = scene.metals.is_empty() && members.len() == 1 && members[0].at_mm == DVec3::ZERO;
     let shift = if stays { DVec3::ZERO } else { -(low + high) / 2.0 };
-    let centred = Pose { at: shift, ..Pose::STILL };
-    Scene {
-        instances: scene.instances.into_iter().map(|stone| stone.moved(&centred)).collect(),
-        metals: scene.metals.into_iter().map(|metal| metal.moved(&centred)).collect(),
-        unit_mm,
-    }
+    scene.moved(&Pose { at: shift, ..Pose::STILL })
 }

@@ -1,4 +1,4 @@
-//! Tests of how commands load stones and scenes.
+//! Tests of how stones and scenes are loaded.
 
 use super::*;
 use crate::optics::material;
@@ -21,27 +21,35 @@ fn refused(stones: &str) -> String {
 #[test]
 fn a_stone_alone_lies_as_its_file_has_it_and_takes_another_material_and_size() {
     let stone = load("modern-ideal");
-    let specimen = LoadedSpecimen::load(Path::new("modern-ideal"), MeshOptions::default()).unwrap();
+    let specimen = BuiltDesign::load(Path::new("modern-ideal"), MeshOptions::default()).unwrap();
     assert_eq!(*stone.setting.instances[0].body.stone().unwrap(), *specimen.stone().unwrap());
     assert_eq!((stone.setting.unit_mm, stone.name.as_str()), (3.25, "Modern ideal"));
     assert_eq!(stone.setting.instances[0].pose, Pose::STILL);
     // In the trade a brilliant of 6.5 mm weighs about one carat; proportions change it a little.
     assert!(stone.carats().is_some_and(|carats| (0.97..1.03).contains(&carats)), "{:?}", stone.carats());
-    let ruby =
-        Assembly::load(Path::new("modern-ideal"), Some("Ruby"), "2ct".parse().ok(), MeshOptions::default())
-            .unwrap();
+    let ruby = Assembly::load(
+        Path::new("modern-ideal"),
+        Some(&MaterialRef::Name("Ruby".into())),
+        "2ct".parse().ok(),
+        MeshOptions::default(),
+    )
+    .unwrap();
     assert_eq!(&ruby.setting.instances[0].material, material("ruby").unwrap());
     assert!((ruby.carats().unwrap() - 2.0).abs() < 1e-9);
-    let index =
-        Assembly::load(Path::new("modern-ideal"), Some("2.42"), "8mm".parse().ok(), MeshOptions::default())
-            .unwrap();
+    let index = Assembly::load(
+        Path::new("modern-ideal"),
+        Some(&MaterialRef::Index(2.42)),
+        "8mm".parse().ok(),
+        MeshOptions::default(),
+    )
+    .unwrap();
     assert_eq!((index.setting.unit_mm, index.carats()), (4.0, None));
-    assert!(matches!(
-        Assembly::load(Path::new("trilogy"), Some("rubby"), None, MeshOptions::default()),
-        Err(Failure::Usage(_))
-    ));
-    let heavy =
-        Assembly::load(Path::new("modern-ideal"), Some("2.42"), "1ct".parse().ok(), MeshOptions::default());
+    let heavy = Assembly::load(
+        Path::new("modern-ideal"),
+        Some(&MaterialRef::Index(2.42)),
+        "1ct".parse().ok(),
+        MeshOptions::default(),
+    );
     assert!(matches!(heavy, Err(Failure::Input(_))));
 }
 
@@ -84,9 +92,13 @@ fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for(
             assert!((wide - 40.0).abs() < 0.02, "{wide}");
         }
     }
-    let small =
-        Assembly::load(Path::new("ring"), Some("diamond"), "3mm".parse().ok(), MeshOptions::default())
-            .unwrap();
+    let small = Assembly::load(
+        Path::new("ring"),
+        Some(&MaterialRef::Name("diamond".into())),
+        "3mm".parse().ok(),
+        MeshOptions::default(),
+    )
+    .unwrap();
     assert!(small.places.iter().all(|p| p.diameter_mm == 3.0));
     assert!(small.setting.instances.iter().all(|s| s.material.name == "diamond"));
 }

@@ -1,13 +1,11 @@
 //! The stones and the metal of a scene's ring.
 
-use super::{Member, diameter_mm};
-use crate::cli::specimen::LoadedSpecimen;
+use super::{Member, NamedMaterial, diameter_mm, named_material};
 use crate::cut::{MaterialRef, Size};
 use crate::io::Failure;
 use crate::io::scene_file::RingEntry;
 use crate::math::{NotConvex, ShadedMesh};
-use crate::optics::Material;
-use crate::scene::{MetalInstance, Mounting, Pose, RingSeat, SeatKind, SetStone};
+use crate::scene::{MetalInstance, Mounting, Pose, RingSeat, SeatKind, SetStone, Specimen};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -24,8 +22,8 @@ pub(super) struct RingParts<'a> {
 
 /// A stone that a ring holds: its specimen, material and diameter in mm.
 struct Gem<'a> {
-    specimen: &'a LoadedSpecimen,
-    material: Material,
+    specimen: &'a Arc<Specimen>,
+    material: NamedMaterial,
     diameter_mm: f64,
 }
 
@@ -39,8 +37,8 @@ pub(super) fn cuts(entry: &RingEntry) -> impl Iterator<Item = (&'static str, &st
 pub(super) fn ring<'a>(
     file: &Path,
     entry: &RingEntry,
-    specimens: &'a BTreeMap<String, LoadedSpecimen>,
-    (material, size): (Option<&Material>, Option<Size>),
+    specimens: &'a BTreeMap<String, Arc<Specimen>>,
+    (material, size): (Option<&MaterialRef>, Option<Size>),
 ) -> Result<RingParts<'a>, Failure> {
     let refused = |message: String| at_ring(file, entry.line, &message);
     let gem = |cut: &Option<String>, own: &Option<MaterialRef>, size: Option<Size>| {
@@ -80,14 +78,13 @@ pub(super) fn ring<'a>(
 impl<'a> Gem<'a> {
     /// Takes the material that is asked for, else the ring's own, else the cut file's.
     fn new(
-        specimen: &'a LoadedSpecimen,
-        asked: Option<&Material>,
+        specimen: &'a Arc<Specimen>,
+        asked: Option<&MaterialRef>,
         own: Option<&MaterialRef>,
         size: Option<Size>,
     ) -> Result<Self, String> {
-        let of_ring = || own.map_or(Ok(specimen.material.clone()), MaterialRef::material);
-        let material = asked.cloned().map_or_else(of_ring, Ok).map_err(|error| error.to_string())?;
-        let diameter_mm = diameter_mm(specimen, &material, size)?;
+        let material = named_material(specimen, asked, own)?;
+        let diameter_mm = diameter_mm(specimen, &material.1, size)?;
         Ok(Self { specimen, material, diameter_mm })
     }
 
@@ -144,8 +141,9 @@ mod tests {
 
     #[test]
     fn a_ring_takes_another_material_and_size_and_says_what_does_not_fit() {
+        let ruby = MaterialRef::Name("ruby".to_owned());
         let ruby =
-            Assembly::load(Path::new("halo-ring"), Some("ruby"), "7mm".parse().ok(), MeshOptions::default());
+            Assembly::load(Path::new("halo-ring"), Some(&ruby), "7mm".parse().ok(), MeshOptions::default());
         let ruby = ruby.unwrap();
         assert!(ruby.setting.instances.iter().all(|stone| stone.material.name == "ruby"));
         assert_eq!((ruby.places[0].diameter_mm, ruby.places[1].diameter_mm), (7.0, 1.5));

@@ -1,0 +1,190 @@
+//! Tests of scenes of several designs and metal, worked on as a person does.
+
+use super::Bench;
+use super::copies::{at, bench, drag};
+use crate::app::model::Model;
+use crate::app::model::action::{Edit, FileAction};
+use crate::app::model::dialog::Then;
+use crate::app::model::plan::export_plan;
+use crate::app::model::preset::Preset;
+use crate::app::model::recovery::KeptCompanions;
+use crate::app::model::update;
+use crate::app::model::work::Work;
+use crate::app::model::workspace::Workspace;
+use crate::app::studio::Which;
+use crate::app::tasks::export_scene::SceneOut;
+use crate::scene::MetalInstance;
+use egui::Key;
+use egui_kittest::kittest::Queryable;
+use glam::DVec3;
+
+/// A row of three cubes of 12 mm and a pill of 20 mm.
+const ROW: &str = "format = 1\nname = \"Mine\"\nlayout = \"row\"\n[[stone]]\ncut = \"cube\"\nsize = \"12mm\"\ncount = 3\n\
+    [[stone]]\ncut = \"pill\"\nsize = \"20mm\"\n";
+
+fn work(bench: &Bench) -> &Work {
+    &bench.editor().model.document.work
+}
+
+/// Returns a model that has begun a scene of the program.
+fn begun(scene: &str) -> Model {
+    let mut model = Model::new(Workspace::default()).unwrap();
+    update(&mut model, FileAction::Ask(Then::Preset(scene.to_owned())).into());
+    model
+}
+
+/// Returns where each stone and each corner of metal is, in mm: the name and the material of its design, and a point of it.
+fn places(work: &Work, unit_mm: f64) -> Vec<(String, DVec3)> {
+    let point = DVec3::new(0.4, -0.2, 0.1);
+    let of = |design: &crate::cut::Design| {
+        format!("{} {:?} {:.6}", design.name, design.material, design.diameter_mm)
+    };
+    let own = work.copies.poses.iter().map(|pose| (of(&work.design), pose.place(point) * unit_mm));
+    let beside = work.companions.stones.iter().map(|s| (of(&s.specimen.design), s.pose.place(point)));
+    // A file may list the points in another order, but the triangles stay as they are.
+    let metals = work.companions.metals.iter().flat_map(|metal| {
+        let surface = metal.mesh.surface();
+        let corners = surface.corners.iter().flatten();
+        corners.map(move |&corner| ("metal".to_owned(), metal.pose.place(surface.points[corner as usize])))
+    });
+    let mut stones: Vec<_> = own.chain(beside).collect();
+    stones.sort_by(|(a, p), (b, q)| {
+        // Coarser than rounding, and finer than the distance of two stones.
+        let order = |p: &DVec3| (p * 1e2).round().to_array();
+        a.cmp(b).then(order(p).partial_cmp(&order(q)).unwrap())
+    });
+    stones.extend(metals);
+    stones
+}
+
+fn assert_same_places(now: &[(String, DVec3)], before: &[(String, DVec3)]) {
+    assert_eq!(now.len(), before.len());
+    for ((name, at), (was, from)) in now.iter().zip(before) {
+        assert!(name == was && at.distance(*from) < 1e-6, "{name} at {at}, and before {was} at {from}");
+    }
+}
+
+fn unit_mm(model: &Model) -> f64 {
+    model.document.specimen().unit_mm()
+}
+
+#[test]
+fn a_stone_of_another_design_is_shown_and_dragged_and_stops_before_the_next() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    std::fs::write(&path, ROW).unwrap();
+    let mut bench = bench(&path.to_string_lossy());
+    bench.wait(|editor| editor.model.document.work.copies.poses.len() == 3);
+    assert_eq!(work(&bench).design.diameter_mm, 12.0);
+    let shown = bench.editor().model.session.ordered.shots[0].1.companions.clone();
+    let before = shown.stones[0].pose;
+    assert!(shown.stones.len() == 1 && (before.scale - 20.0 / 12.0).abs() < 1e-12);
+    bench.wait(|editor| editor.views.gallery.traced.contains_key(&(0, Which::Present)));
+    let (from, pixel) =
+        (at(&bench, before.at.x, before.at.y), bench.editor().model.session.ordered.shots[0].1.film.pixel);
+    drag(&mut bench, from, egui::vec2(0.0, -30.0));
+    let moved = bench.editor().model.companions().stones[0].pose;
+    assert!((moved.at - before.at - DVec3::Y * 30.0 * pixel).length() < 1e-5, "{} {}", moved.at, before.at);
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::Z);
+    bench.harness.run_steps(3);
+    assert!(
+        bench.editor().model.companions().stones[0].pose.at.distance(before.at) < 1e-12,
+        "a drag is one step"
+    );
+    // The cube beside it is in its way; a drag on the empty side is free.
+    let toward = work(&bench).copies.poses.iter().map(|pose| pose.at.x).fold(0.0, f64::max) - before.at.x;
+    drag(&mut bench, from, egui::vec2((toward / pixel) as f32, 0.0));
+    let stopped = bench.editor().model.companions().stones[0].pose.at;
+    assert!((stopped.x - before.at.x).abs() < 0.7 * toward.abs(), "{stopped} from {}", before.at);
+    assert!(!bench.editor().model.session.motion.is_on);
+    bench.harness.key_press(Key::M);
+    bench.harness.run_steps(2);
+    assert!(!bench.editor().model.session.motion.is_on, "what stands among others does not tumble");
+}
+
+#[test]
+fn another_stone_of_the_scene_is_edited_by_its_button_and_nothing_moves() {
+    let mut bench = bench("trilogy");
+    let before = places(work(&bench), unit_mm(&bench.editor().model));
+    let title = work(&bench).design.material.clone();
+    bench.click("Edit Modern ideal, diamond, 6.46 mm");
+    assert_ne!(work(&bench).design.material, title);
+    assert_same_places(&places(work(&bench), unit_mm(&bench.editor().model)), &before);
+    assert!(!bench.editor().model.document.is_changed() && !bench.editor().model.document.has_moved_copies());
+    // Its numbers are in the panel now: a wider stone stays in its place, and so do the others.
+    let at_mm = work(&bench).copies.poses[0].at * unit_mm(&bench.editor().model);
+    let wider = work(&bench).design.diameter_mm - 1.0;
+    bench.harness.state_mut().act(Edit::Diameter(wider));
+    bench.harness.run_steps(3);
+    let now_mm = work(&bench).copies.poses[0].at * unit_mm(&bench.editor().model);
+    assert!(now_mm.distance(at_mm) < 1e-9, "{now_mm} {at_mm}");
+    for _ in 0..2 {
+        bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::Z);
+        bench.harness.run_steps(3);
+    }
+    assert_eq!(work(&bench).design.material, title);
+    assert_same_places(&places(work(&bench), unit_mm(&bench.editor().model)), &before);
+    assert!(bench.editor().model.session.notes.troubles().is_empty());
+}
+
+#[test]
+fn a_ring_is_begun_from_the_menu_and_drawn_with_its_metal() {
+    let mut bench = bench("trilogy");
+    bench.click("File");
+    bench.click("Scene of gems");
+    bench.click("Four prong");
+    bench.wait(|editor| editor.model.document.work.companions.metals.len() == 1);
+    bench.wait(|editor| {
+        let shown = editor.views.gallery.traced.get(&(0, Which::Present));
+        shown.is_some_and(|shown| shown.shot.companions.metals.len() == 1)
+    });
+    assert!(bench.harness.query_by_label_contains("four-prong ring, ").is_some());
+    assert!(bench.editor().model.session.notes.troubles().is_empty());
+}
+
+#[test]
+fn a_scene_that_is_exported_opens_as_it_was() {
+    for scene in ["trilogy", "halo-ring", "parcel"] {
+        let folder = tempfile::tempdir().unwrap();
+        let model = begun(scene);
+        let mut plan = export_plan(&model);
+        (plan.folder, plan.stem) = (folder.path().to_owned(), "mine".to_owned());
+        SceneOut::of(&plan).write().unwrap();
+        assert!(plan.scene_paths().iter().all(|path| path.exists()), "{scene}");
+        let again = Preset::read(&folder.path().join("mine-scene.toml")).unwrap();
+        let Preset { design, copies, companions, scene: file, .. } = again;
+        let unit = 0.5 * design.diameter_mm;
+        let read = Work { design, copies, companions, ..model.document.work.clone() };
+        assert_same_places(&places(&read, unit), &places(&model.document.work, unit_mm(&model)));
+        let shot = &plan.shot;
+        assert_eq!(
+            (file.exposure, file.light_turn, file.strength),
+            (shot.exposure, shot.light_turn, shot.strength)
+        );
+        let metals = read.companions.metals.iter().zip(&model.document.work.companions.metals);
+        for (now, before) in metals {
+            assert_eq!((now.metal, now.roughness), (before.metal, before.roughness));
+            let normals = |metal: &MetalInstance| {
+                let surface = metal.mesh.surface();
+                let corners = surface.corners.iter().flatten();
+                corners.map(|&corner| metal.pose.turn * surface.normals[corner as usize]).collect::<Vec<_>>()
+            };
+            assert!(normals(now).iter().zip(&normals(before)).all(|(a, b)| a.distance(*b) < 1e-9));
+        }
+    }
+}
+
+#[test]
+fn what_stands_beside_a_stone_is_found_after_a_crash() {
+    let model = begun("halo-ring");
+    let companions = &model.document.work.companions;
+    let text = serde_json::to_string(&KeptCompanions::of(companions)).unwrap();
+    let built = serde_json::from_str::<KeptCompanions>(&text).unwrap().built().unwrap();
+    let again = Work { companions: built, ..model.document.work.clone() };
+    assert_same_places(&places(&again, unit_mm(&model)), &places(&model.document.work, unit_mm(&model)));
+    let first = &again.companions.stones[0].specimen;
+    assert!(
+        again.companions.stones.iter().all(|s| std::sync::Arc::ptr_eq(&s.specimen, first)),
+        "one for all"
+    );
+}

@@ -1,0 +1,99 @@
+//! A design that was read, and the stone that was built from it.
+
+use super::cut_file;
+use super::design_file::{self, ImportedDesign};
+use super::library::{self, CUTS, SCENES};
+use super::mesh_options::MeshOptions;
+use super::{Failure, FileError, is_standard, nearest, scene_file};
+use crate::scene::Specimen;
+use std::ops::Deref;
+use std::path::Path;
+
+/// A stone, the file that its design was read from, and what a person should know about both.
+#[derive(Debug)]
+pub struct BuiltDesign {
+    /// The path of the file, or the name of the cut.
+    pub path: String,
+    /// The stone, built from its design.
+    pub made: Specimen,
+    /// Notes and warnings, each with the path, as they are printed.
+    pub remarks: Vec<String>,
+}
+
+impl Deref for BuiltDesign {
+    type Target = Specimen;
+
+    fn deref(&self) -> &Specimen {
+        &self.made
+    }
+}
+
+impl BuiltDesign {
+    /// Reads a design, or takes a cut that comes with the program by its name, and builds the stone. A mesh is read with the
+    /// options `mesh`. Where a file and a cut have the same name, the file is taken.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is no design, or makes no stone.
+    pub fn load(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
+        let name = file.display().to_string();
+        match library::cut(&name).filter(|_| !file.is_file()) {
+            Some(text) => Self::parse(&name, text),
+            None => Self::read(file, mesh),
+        }
+    }
+
+    /// Reads a design from a file. A mesh is read with the options `mesh`.
+    ///
+    /// # Errors
+    /// As for [`load`](Self::load).
+    pub fn read(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
+        let refused = |e: FileError| Failure::Input(format!("{e}{}", hint(file)));
+        Self::of(file.display().to_string(), design_file::read_with(file, mesh).map_err(refused)?)
+    }
+
+    /// Builds a stone from the text of a cut file. Error messages call the file `path`.
+    ///
+    /// # Errors
+    /// When the text is no design, or makes no stone.
+    pub fn parse(path: &str, text: &str) -> Result<Self, Failure> {
+        let design = cut_file::parse(text, path)?;
+        Self::of(path.to_owned(), ImportedDesign::of(design))
+    }
+
+    fn of(
+        path: String,
+        ImportedDesign { design, notes, warnings, .. }: ImportedDesign,
+    ) -> Result<Self, Failure> {
+        let made = Specimen::new(design).map_err(|e| Failure::Input(format!("{path}: {e}")))?;
+        let notes = notes.iter().map(|note| format!("note: {path}: {note}"));
+        let unusual = made.unusual.iter().map(ToString::to_string);
+        let warnings = warnings.into_iter().chain(unusual).chain(made.warnings.iter().cloned());
+        let remarks = notes.chain(warnings.map(|w| format!("warning: {path}: {w}"))).collect();
+        Ok(Self { path, made, remarks })
+    }
+}
+
+/// Returns whether a path means a scene: a scene file, or the name of a scene that comes with the program.
+pub fn is_scene(file: &Path) -> bool {
+    match file.is_file() || is_standard(file) {
+        true => scene_file::is_scene(file),
+        false => library::scene(&file.to_string_lossy()).is_some(),
+    }
+}
+
+/// Returns the end of an error message about a file that cannot be read as a design: that it is a scene, or the most similar
+/// name of a cut or a scene that comes with the program. Empty where neither applies.
+pub fn hint(file: &Path) -> String {
+    if is_scene(file) {
+        return "; this is a scene, where the file or the name of a cut is expected".to_owned();
+    }
+    let asked = file.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+    let known: Vec<&str> = CUTS.iter().chain(&SCENES).map(|(name, _)| *name).collect();
+    match nearest(&asked, &known).filter(|_| !file.exists()) {
+        Some(name) => {
+            let kind = if library::cut(name).is_some() { "cut" } else { "scene" };
+            format!("; did you mean the {kind} '{name}'?")
+        }
+        None => String::new(),
+    }
+}

@@ -1,0 +1,97 @@
+//! What stands beside a design and its copies: stones of other designs, and metal.
+
+use super::{Instance, MetalInstance, Specimen};
+use crate::math::Pose;
+use glam::DVec3;
+use std::sync::Arc;
+
+/// A stone of another design.
+#[derive(Debug, Clone)]
+pub struct Companion {
+    /// The stone.
+    pub specimen: Arc<Specimen>,
+    /// The pose that carries the stone, from its own unit, to its place.
+    pub pose: Pose,
+}
+
+/// The stones of other designs and the bodies of metal in a scene. Lengths of all poses are in one unit.
+#[derive(Debug, Clone, Default)]
+pub struct Companions {
+    /// The stones of other designs.
+    pub stones: Vec<Companion>,
+    /// The bodies of metal.
+    pub metals: Vec<MetalInstance>,
+}
+
+impl PartialEq for Companion {
+    /// Stones are compared by pointer, because they are replaced and never changed.
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.specimen, &other.specimen) && self.pose == other.pose
+    }
+}
+
+impl PartialEq for Companions {
+    /// Meshes are compared by pointer, because they are replaced and never changed.
+    fn eq(&self, other: &Self) -> bool {
+        let is_same = |(a, b): (&MetalInstance, &MetalInstance)| {
+            Arc::ptr_eq(&a.mesh, &b.mesh) && (a.pose, a.metal, a.roughness) == (b.pose, b.metal, b.roughness)
+        };
+        self.stones == other.stones
+            && self.metals.len() == other.metals.len()
+            && self.metals.iter().zip(&other.metals).all(is_same)
+    }
+}
+
+impl Companions {
+    /// Whether nothing stands beside the design.
+    pub fn is_empty(&self) -> bool {
+        self.stones.is_empty() && self.metals.is_empty()
+    }
+
+    /// Returns the same bodies with their lengths in another unit: `factor` of it are one of the present unit.
+    pub fn in_unit(&self, factor: f64) -> Self {
+        self.carried(&Pose { scale: factor, ..Pose::STILL })
+    }
+
+    /// Returns the same bodies, carried on from where they lie by a pose.
+    pub fn carried(&self, pose: &Pose) -> Self {
+        let stone = |stone: &Companion| Companion { pose: pose.after(&stone.pose), ..stone.clone() };
+        Self {
+            stones: self.stones.iter().map(stone).collect(),
+            metals: self.metals.iter().map(|metal| metal.clone().moved(pose)).collect(),
+        }
+    }
+
+    /// Returns the stones as instances.
+    pub fn instances(&self) -> impl Iterator<Item = Instance> + '_ {
+        self.stones.iter().map(|Companion { specimen, pose }| {
+            Instance::of(&specimen.body, specimen.material.clone(), &specimen.design.name).moved(pose)
+        })
+    }
+
+    /// Returns points between which all bodies lie.
+    pub fn vertices(&self) -> impl Iterator<Item = DVec3> + '_ {
+        let corners = |stone: &'_ Companion| {
+            let pose = stone.pose;
+            stone
+                .specimen
+                .solid()
+                .vertices()
+                .iter()
+                .map(move |corner| pose.place(*corner))
+                .collect::<Vec<_>>()
+        };
+        self.stones.iter().flat_map(corners).chain(self.metals.iter().flat_map(MetalInstance::vertices))
+    }
+
+    /// Returns half the side of the square about the origin that holds all bodies, seen from above.
+    pub fn across(&self) -> f64 {
+        self.vertices().map(|at| at.truncate().abs().max_element()).fold(0.0, f64::max)
+    }
+
+    /// Returns a distance from the origin that no body exceeds.
+    pub fn reach(&self) -> f64 {
+        let stones = self.stones.iter().map(|s| s.pose.at.length() + s.specimen.radius * s.pose.scale);
+        stones.chain(self.metals.iter().map(MetalInstance::reach)).fold(0.0, f64::max)
+    }
+}
