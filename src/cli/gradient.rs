@@ -5,8 +5,8 @@ use super::measure_taking::MeasureTaking;
 use super::progress::WorkProgress;
 use crate::cut::{Cut, ScaledSide, Unit};
 use crate::io::Failure;
-use crate::measure::MeasureName;
-use crate::render::{MeasureGradient, RenderError, Sweep, SweepError, SweepKey};
+use crate::measure::{Interval, MeasureName};
+use crate::render::{GradedStone, LEAST_TIER_DEG, MeasureGradient, RenderError, Sweep, SweepError, SweepKey};
 use clap::Args;
 use serde_json::{Map, Value};
 use std::fmt::Write;
@@ -72,7 +72,7 @@ fn all_keys(cut: &Cut) -> Vec<SweepKey> {
     let mut keys: Vec<SweepKey> = inside.map(|row| SweepKey::Proportion(row.key.to_owned())).collect();
     for setting in cut.settings() {
         // The angle of a table says nothing.
-        if setting.angle.abs() > 0.0 && setting.angle.abs() < 90.0 {
+        if setting.angle.abs() > LEAST_TIER_DEG && setting.angle.abs() < 90.0 {
             keys.push(SweepKey::Tier(setting.name));
         }
     }
@@ -84,18 +84,20 @@ fn all_keys(cut: &Cut) -> Vec<SweepKey> {
 }
 
 /// Returns a gradient as docs/formats.md describes it.
-fn value(file: &str, keys: &[SweepKey], found: &[MeasureGradient]) -> Value {
+fn value(file: &str, keys: &[SweepKey], found: &GradedStone) -> Value {
     let of = |each: &MeasureGradient| {
+        let interval = each.name.of(&found.stone.measures);
         let per: Map<String, Value> =
             keys.iter().zip(&each.per).map(|(key, per)| (key.to_string(), (*per).into())).collect();
-        (each.name.to_string(), serde_json::json!({ "value": each.value, "per": per }))
+        (each.name.to_string(), serde_json::json!({ "value": interval, "per": per }))
     };
-    let measures: Map<String, Value> = found.iter().map(of).collect();
+    let measures: Map<String, Value> = found.gradients.iter().map(of).collect();
     serde_json::json!({ "file": file, "measures": measures })
 }
 
 /// Formats a gradient as a table: a row for each number, a column for each measure.
-fn table(sweep: &Sweep, keys: &[SweepKey], found: &[MeasureGradient]) -> String {
+fn table(sweep: &Sweep, keys: &[SweepKey], found: &GradedStone) -> String {
+    let GradedStone { stone, gradients: found } = found;
     let mut text = format!("{}: percent per unit\n\n", sweep.design.name);
     let widths: Vec<usize> = found.iter().map(|each| each.name.to_string().len().max(9) + 2).collect();
     let mut row = |name: String, cells: Vec<String>| {
@@ -106,7 +108,14 @@ fn table(sweep: &Sweep, keys: &[SweepKey], found: &[MeasureGradient]) -> String 
         text.push('\n');
     };
     row(String::new(), found.iter().map(|each| each.name.to_string()).collect());
-    row("value".to_owned(), found.iter().map(|each| format!("{:.3}", 100.0 * each.value)).collect());
+    let intervals: Vec<_> = found.iter().map(|each| each.name.of(&stone.measures)).collect();
+    let shown = |of: fn(&Interval) -> f64| -> Vec<String> {
+        let percent =
+            |value: &Option<Interval>| value.map_or("-".to_owned(), |v| format!("{:.3}", 100.0 * of(&v)));
+        intervals.iter().map(percent).collect()
+    };
+    row("value".to_owned(), shown(|value| value.middle()));
+    row("±".to_owned(), shown(|value| value.error()));
     for (k, key) in keys.iter().enumerate() {
         let unit = match key {
             SweepKey::Proportion(name) => sweep.design.cut.proportion(name).map_or("", |row| row.unit.name()),

@@ -2,12 +2,12 @@
 
 use super::mesh_options::MeshArguments;
 use super::options::{ViewOptions, number};
-use super::specimen::LoadedSpecimen;
+use super::specimen::{LoadedSpecimen, note_no_fire};
 use crate::cut::Size;
 use crate::io::Failure;
 use crate::measure::{MEASURES_HEAD_DEG, MeasureName, MeasureSettings};
 use crate::optics::line;
-use crate::render::{Sweep, SweepAxis};
+use crate::render::{Sweep, SweepAxis, SweepKey};
 use clap::Args;
 use std::path::Path;
 
@@ -59,6 +59,8 @@ impl MeasureTaking {
     ) -> Result<Sweep, Failure> {
         let specimen = LoadedSpecimen::load(file, self.mesh.options())?;
         let specimen = specimen.made_of(self.material.as_deref(), self.stone)?;
+        let is_varied = axes.iter().any(|axis| axis.key == SweepKey::Material);
+        note_no_fire(&specimen.material, measures.iter().copied().filter(|_| !is_varied));
         Ok(Sweep {
             design: specimen.design.clone(),
             viewpoint: self.view.viewpoint()?,

@@ -5,11 +5,11 @@ use super::optimise_text::{json_value, text};
 use super::options::number;
 use super::plot_file::PlotFile;
 use super::progress::{WorkProgress, finish_on_signals, is_asked_to_finish};
-use super::specimen::LoadedSpecimen;
+use super::specimen::{LoadedSpecimen, note_no_fire};
 use crate::cut::{Design, Size};
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::plot::{PLOT_SIZE, PlotAxis, PlotCurve, curves};
-use crate::io::{Failure, goal_file};
+use crate::io::{Failure, check_writable, goal_file};
 use crate::measure::{MeasureName, NoMeasure};
 use crate::scene::Specimen;
 use crate::search::{
@@ -127,6 +127,7 @@ impl OptimiseArguments {
         let goal = self.goal()?;
         let format = self.format()?;
         let plot = self.plot.as_deref().map(PlotFile::new).transpose()?;
+        self.out.iter().chain(&self.plot).try_for_each(|path| check_writable(path))?;
         let specimen = LoadedSpecimen::load(&self.file, crate::io::mesh_options::MeshOptions::default())?;
         let specimen = specimen.made_of(self.material.as_deref(), self.stone)?;
         let path = specimen.path.clone();
@@ -136,6 +137,13 @@ impl OptimiseArguments {
         };
         let search = DesignSearch::new(&specimen.design, &goal, self.options(), &crate::trace::unwatched);
         let search = search.map_err(refused)?;
+        if self.goal.is_none() && self.raise.is_empty() && self.lower.is_empty() {
+            say(
+                "note: no goal is given, so return-cos2=0.5, return-cos2@10=0.5 and fire=1 are raised; --raise names another",
+            );
+        }
+        let own = goal.measure.iter().filter(|measure| measure.material.is_none() && measure.weight != 0.0);
+        note_no_fire(&specimen.material, own.map(|measure| measure.of));
         for held in search.objective().held() {
             say(&format!(
                 "note: {path}: {} is held: no meet that is known would be kept if it changed",
@@ -157,13 +165,14 @@ impl OptimiseArguments {
                 "warning: {path}: no design was found that keeps all limits; the design stays as it is"
             ));
         }
-        // What was found is kept first, whatever fails behind it.
-        self.write(format, renamed(&outcome, search.objective().design()))?;
+        // What was found is kept first, whatever fails behind it, and is printed even where it cannot be written.
+        let kept = self.write(format, renamed(&outcome, search.objective().design()));
         let others = OtherMeasure::all(&search, &outcome, &unwatched).map_err(refused)?;
         match self.json {
             true => print(&super::console::json(&json_value(&path, &search, &outcome, &others)))?,
             false => print(&text(&goal, &search, &outcome, &others))?,
         }
+        kept?;
         self.draw(plot.as_ref(), &specimen.design.name, &outcome)?;
         match &self.out {
             Some(out) if !self.json => written(out),
@@ -199,9 +208,6 @@ impl OptimiseArguments {
         if goal.measure.is_empty() {
             let Goal { name, measure, .. } = Goal::usual();
             goal = Goal { name, measure, ..goal };
-            say(
-                "note: no goal is given, so return-cos2=0.5, return-cos2@10=0.5 and fire=1 are raised; --raise names another",
-            );
         }
         if self.angle_step.is_some_and(|step| !(1e-3..=10.0).contains(&step)) {
             return Err(Failure::Usage("--angle-step: give 0.001 to 10 degrees".to_owned()));

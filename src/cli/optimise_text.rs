@@ -5,6 +5,7 @@ use crate::cut::Cut;
 use crate::measure::Interval;
 use crate::search::{
     DesignSearch, Goal, GoalValue, MeasureChange, OtherMeasure, SearchOutcome, VariedNumber,
+    estimated_classes,
 };
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -27,6 +28,13 @@ pub fn text(goal: &Goal, search: &DesignSearch, outcome: &SearchOutcome, others:
     for (group, changes) in MeasureChange::grouped(start, outcome, others) {
         let _ = writeln!(text, "{}", group.title());
         changes.iter().for_each(|change| text.push_str(&line(change)));
+    }
+    if let Some([before, after]) = estimated_classes(search, outcome) {
+        let _ = writeln!(
+            text,
+            "Class, estimated after GIA's published ranges; not a grade, and no part of the goal"
+        );
+        let _ = writeln!(text, "  {:<38}{before:>12}{after:>18}", "");
     }
     let _ = writeln!(text, "Numbers");
     for (number, value) in search.objective().numbers().iter().zip(&outcome.values) {
@@ -113,6 +121,7 @@ pub fn json_value(
         "file": file,
         "total": { "before": start.total, "after": outcome.best.total },
         "measures": values,
+        "estimate_after_gia": estimated_classes(search, outcome).map(|[before, after]| json!({ "before": before, "after": after })),
         "others": others.iter().map(other).collect::<Vec<Value>>(),
         "numbers": numbers,
         "held": search.objective().held().iter().map(|number| number.key.to_string()).collect::<Vec<String>>(),

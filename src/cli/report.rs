@@ -6,7 +6,7 @@ use super::options::{LightOptions, SideName, ViewOptions};
 use super::progress::WorkProgress;
 use crate::cut::Size;
 use crate::io::report::{PICTURE_SIDE, ReportFormat, ReportOrigin, check_count, report, write};
-use crate::io::{Failure, is_standard};
+use crate::io::{Failure, check_writable, is_standard};
 use crate::picture::PaperSize;
 use crate::render::{Card, Renderer, Wanted};
 use clap::Args;
@@ -49,6 +49,7 @@ impl ReportArguments {
             ))
         })?;
         check_count(self.files.len())?;
+        check_writable(&self.out)?;
         let light = self.light();
         // A card would leave other last digits than the processor.
         let mut renderer = Renderer::new(Card::None);

@@ -6,7 +6,8 @@ use crate::io::assembly::Assembly;
 use crate::io::built_design::BuiltDesign;
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{Failure, is_standard};
-use crate::optics::Material;
+use crate::measure::MeasureName;
+use crate::optics::{Dispersion, Material};
 use crate::scene;
 use std::collections::BTreeSet;
 use std::ops::Deref;
@@ -94,6 +95,15 @@ pub fn note_colour(material: &Material) {
             "note: the colour of {} is illustrative: chosen to look like the gem's, and not measured",
             material.name
         ));
+    }
+}
+
+/// Prints a note where fire is measured of a material that is known by its index alone.
+pub fn note_no_fire(material: &Material, measures: impl IntoIterator<Item = MeasureName>) {
+    let mut measures = measures.into_iter();
+    let is_of_colours = |name: &MeasureName| matches!(name, MeasureName::Fire | MeasureName::FireSeen);
+    if matches!(material.dispersion, Dispersion::Constant(_)) && measures.any(|name| is_of_colours(&name)) {
+        say(&format!("note: {} has one index for all colours, so that it has no fire", material.name));
     }
 }
 

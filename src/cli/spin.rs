@@ -4,13 +4,15 @@ use super::console::{say, written};
 use super::options::{ViewOptions, number};
 use super::picture_options::{FinishOptions, PictureOptions};
 use super::progress::WorkProgress;
-use super::specimen::stem;
+use super::specimen::{note_no_fire, stem};
 use super::spin_motion::{SpinMotion, SpinPose, StoneMotion};
 use super::spin_panel::{CurveSettings, LEAST_PLOTTED, ONLY_TILTS, SpinCurves, SpinPanel};
 use super::spin_pictures::{LitPictures, ScopeSetup, SpinPictures};
 use crate::io::export::LEAST_CAPTIONED;
 use crate::io::plot::COLOURS_OF_CURVES;
-use crate::io::{AnimationFormat, Failure, Frames, is_standard, write_animation, write_rgba_png};
+use crate::io::{
+    AnimationFormat, Failure, Frames, check_writable, is_standard, write_animation, write_rgba_png,
+};
 use crate::measure::{MEASURES_HEAD_DEG, MeasureName};
 use crate::scene::Viewpoint;
 use clap::Args;
@@ -129,6 +131,7 @@ impl Spin {
         let panel = SpinPanel::new((pictures, width), poses, self.caption, curves)?;
         let size = (width, height + panel.height());
         let output = self.output(format, &asked, scope);
+        check_writable(&output.path)?;
         let (count, exact) = (self.frames, pictures.exact_colours());
         let animation = Frames { count, size, delay_ms, transparent, exact };
         let title = pictures.title();
@@ -174,6 +177,9 @@ impl Spin {
         let Some(design) = pictures.design()? else {
             return Err(Failure::Usage("--of: measures are of one stone, and this is a scene".into()));
         };
+        if let Ok(material) = design.material.material() {
+            note_no_fire(&material, self.measures.iter().copied());
+        }
         let settings = CurveSettings {
             measures: &self.measures,
             head_deg: self.picture.head.unwrap_or(MEASURES_HEAD_DEG),

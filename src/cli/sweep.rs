@@ -126,6 +126,10 @@ struct SweepOutputs<'a> {
     plot: Option<SweepPlot<'a>>,
     /// The number of points without measures.
     failed: usize,
+    /// The number of files that make no sweep.
+    failed_files: usize,
+    /// Why the first of these points has none.
+    first_reason: Option<String>,
 }
 
 impl SweepArguments {
@@ -153,22 +157,14 @@ impl SweepArguments {
         }
         drop(progress);
         // A plot that cannot be drawn loses no row.
-        if let Some(table) = outputs.table {
+        if let Some(table) = outputs.table.take() {
             table.finish()?;
         }
-        if let Some(plot) = &outputs.plot {
-            plot.write(&stem(&files[0]))?;
+        match &outputs.plot {
+            Some(plot) if outputs.failed < files.len() * points => plot.write(&stem(&files[0]))?,
+            _ => {}
         }
-        match (outputs.failed, files.len() * points) {
-            (0, _) => Ok(()),
-            (failed, all) if failed == all => {
-                Err(Failure::Input("no point has measures; the column error says why".into()))
-            }
-            (failed, all) => {
-                say(&format!("note: {failed} of {all} points have no measures; the column error says why"));
-                Ok(())
-            }
-        }
+        outputs.end(files.len() * points)
     }
 
     fn check(&self) -> Result<(), Failure> {
@@ -201,7 +197,15 @@ impl SweepArguments {
         };
         let is_wanted = plot.is_none() || self.out.is_some() || self.json;
         let table = is_wanted.then(|| self.table(files, measures)).transpose()?;
-        Ok(SweepOutputs { measures, files: files.len(), table, plot, failed: 0 })
+        Ok(SweepOutputs {
+            measures,
+            files: files.len(),
+            table,
+            plot,
+            failed: 0,
+            failed_files: 0,
+            first_reason: None,
+        })
     }
 
     fn measures(&self) -> Vec<MeasureName> {
@@ -219,11 +223,8 @@ impl SweepArguments {
         let is_name = |value: &SweepValue| matches!(value, SweepValue::Name(_));
         let axes: Vec<bool> = self.over.iter().map(|axis| axis.0.values.iter().any(is_name)).collect();
         let table = SweepTable::open(columns, &axes, (self.out.as_deref(), self.json, self.resume))?;
-        if let Some(last) = table.kept().checked_sub(1) {
-            let (number, point) = (last / self.points(), last % self.points());
-            let out = self.out.as_deref().unwrap_or(Path::new("-"));
-            let file = files.get(number).ok_or_else(|| another_sweep(out))?;
-            table.follows(&file.display().to_string(), &self.labels(point))?;
+        if table.kept() >= files.len() * self.points() {
+            return Err(another_sweep(self.out.as_deref().unwrap_or(Path::new("-"))));
         }
         Ok(table)
     }
@@ -247,6 +248,7 @@ impl SweepArguments {
             Ok(sweep) => sweep,
             Err(Failure::Input(message) | Failure::Usage(message)) if outputs.files > 1 => {
                 say(&format!("error: {message}"));
+                outputs.failed_files += 1;
                 return points
                     .into_iter()
                     .try_for_each(|point| outputs.put(&name, &self.labels(point), (None, &message)));
@@ -278,13 +280,38 @@ impl SweepOutputs<'_> {
         point: &[String],
         found: (Option<&SweptStone>, &str),
     ) -> Result<(), Failure> {
-        self.failed += usize::from(found.0.is_none());
+        if found.0.is_none() {
+            self.failed += 1;
+            self.first_reason.get_or_insert_with(|| found.1.to_owned());
+        }
         if let Some(plot) = &mut self.plot {
             plot.take_in(found.0);
         }
         match &mut self.table {
             Some(table) => table.write((file, point), self.measures, found),
             None => Ok(()),
+        }
+    }
+}
+
+impl SweepOutputs<'_> {
+    /// Says how many of all points have no measures.
+    ///
+    /// # Errors
+    /// [`Failure::Input`]: no point has measures, or a file makes no sweep.
+    fn end(&self, all: usize) -> Result<(), Failure> {
+        let Self { failed, failed_files, files, .. } = *self;
+        let reason = self.first_reason.as_deref().unwrap_or_default();
+        if failed == 0 {
+            return Ok(());
+        }
+        if failed == all {
+            return Err(Failure::Input(format!("no point has measures; the first: {reason}")));
+        }
+        say(&format!("note: {failed} of {all} points have no measures; the first: {reason}"));
+        match failed_files {
+            0 => Ok(()),
+            _ => Err(Failure::Input(format!("{failed_files} of {files} designs could not be measured"))),
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use super::console::print;
 use super::sweep_parquet::ParquetTable;
-use crate::io::Failure;
+use crate::io::{Failure, check_writable};
 use crate::measure::{Interval, MeasureName};
-use crate::render::{SweepValue, SweptStone};
+use crate::render::SweptStone;
 use serde_json::{Map, Value, json};
 use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Seek, SeekFrom, Write};
@@ -53,7 +53,7 @@ impl SweepTable {
         (out, is_json, resume): (Option<&Path>, bool, bool),
     ) -> Result<Self, Failure> {
         let Some(path) = out.filter(|path| path.extension().is_some_and(|ending| ending == "parquet")) else {
-            return RowTable::open(columns, axes.len(), (out, is_json, resume)).map(Self::ByRow);
+            return RowTable::open(columns, (out, is_json, resume)).map(Self::ByRow);
         };
         if resume {
             let text = format!("--out {}: only .csv and .jsonl can be resumed", path.display());
@@ -65,19 +65,12 @@ impl SweepTable {
         Ok(Self::Parquet(Box::new(ParquetTable::begin(path, &columns, is_text)?)))
     }
 
-    /// Returns the number of rows that the file held already.
+    /// Returns the number of rows that the file held already and that need not be taken again. The last row that it held is
+    /// taken again: it must be the same, or the file is of another sweep.
     pub fn kept(&self) -> usize {
         match self {
-            Self::ByRow(table) => table.kept,
+            Self::ByRow(table) => table.kept.saturating_sub(1),
             Self::Parquet(_) => 0,
-        }
-    }
-
-    /// Checks that the last row of a file that is resumed is that of this file and point.
-    pub fn follows(&self, file: &str, point: &[String]) -> Result<(), Failure> {
-        match self {
-            Self::ByRow(table) => table.follows(file, point),
-            Self::Parquet(_) => Ok(()),
         }
     }
 
@@ -111,8 +104,8 @@ pub struct RowTable {
     file: Option<(PathBuf, File)>,
     /// The number of rows that the file held already.
     kept: usize,
-    /// The last of these rows: what it holds in the columns of file and axes.
-    last_kept: Vec<String>,
+    /// The last of these rows, with its line break, until it has been taken again.
+    last_kept: Option<String>,
     /// Where the rows of a file that is resumed end. What comes after them was not written to its end; it is dropped before the
     /// next row is written.
     end: Option<u64>,
@@ -122,11 +115,10 @@ impl RowTable {
     /// Opens the file of a table, or standard output where there is none, and writes the names of the columns.
     fn open(
         columns: Vec<String>,
-        axes: usize,
         (out, is_json, resume): (Option<&Path>, bool, bool),
     ) -> Result<Self, Failure> {
         let Some(path) = out else {
-            let mut table = Self { columns, is_json, file: None, kept: 0, last_kept: vec![], end: None };
+            let mut table = Self { columns, is_json, file: None, kept: 0, last_kept: None, end: None };
             table.write_columns()?;
             return Ok(table);
         };
@@ -139,6 +131,8 @@ impl RowTable {
                 return Err(Failure::Usage(text));
             }
         };
+        // Makes missing folders, and says the same as other commands where nothing can be written.
+        check_writable(path)?;
         let refused = |error: std::io::Error| Failure::Output(format!("{}: {error}", path.display()));
         let is_resumed = resume && path.exists();
         let mut options = OpenOptions::new();
@@ -149,11 +143,11 @@ impl RowTable {
             is_json,
             file: Some((path.to_owned(), file)),
             kept: 0,
-            last_kept: vec![],
+            last_kept: None,
             end: None,
         };
         if is_resumed {
-            table.take_up(axes).map_err(refused)?
+            table.take_up().map_err(refused)?
         } else {
             table.write_columns()?
         }
@@ -161,7 +155,7 @@ impl RowTable {
     }
 
     /// Counts the rows of a file that is resumed, up to the last whole one.
-    fn take_up(&mut self, axes: usize) -> std::io::Result<()> {
+    fn take_up(&mut self) -> std::io::Result<()> {
         let Some((_, file)) = &mut self.file else { return Ok(()) };
         let (mut end, mut lines, mut header, mut last) = (0, 0_usize, String::new(), String::new());
         let mut reader = BufReader::new(&*file);
@@ -186,33 +180,8 @@ impl RowTable {
             return Err(std::io::Error::other("its columns are of another sweep; give another --out"));
         }
         self.kept = lines - usize::from(!self.is_json);
-        self.last_kept = self.labels_of(&last, 1 + axes);
+        self.last_kept = Some(last).filter(|_| self.kept > 0);
         Ok(())
-    }
-
-    /// Returns the first fields of a row that was read.
-    fn labels_of(&self, row: &str, count: usize) -> Vec<String> {
-        if !self.is_json {
-            let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(row.as_bytes());
-            let row = reader.records().next().and_then(Result::ok).unwrap_or_default();
-            return row.iter().take(count).map(str::to_owned).collect();
-        }
-        let row: Map<String, Value> = serde_json::from_str(row).unwrap_or_default();
-        let text = |key: &String| match row.get(key) {
-            Some(Value::String(text)) => text.clone(),
-            Some(Value::Number(number)) => {
-                number.as_f64().map_or(SweepValue::Name(String::new()), SweepValue::Number).to_string()
-            }
-            _ => String::new(),
-        };
-        self.columns[..count].iter().map(text).collect()
-    }
-
-    fn follows(&self, file: &str, point: &[String]) -> Result<(), Failure> {
-        let is_same =
-            self.last_kept.split_first().is_some_and(|(first, rest)| first == file && rest == point);
-        let path = self.file.as_ref().map_or(Path::new("-"), |(path, _)| path);
-        if is_same { Ok(()) } else { Err(another_sweep(path)) }
     }
 
     fn write_columns(&mut self) -> Result<(), Failure> {
@@ -236,7 +205,11 @@ impl RowTable {
             let row: Vec<String> = texts.chain(numbers).chain([(*error).to_owned()]).collect();
             csv_line(&row)
         };
-        self.put(&line)
+        match self.last_kept.take() {
+            None => self.put(&line),
+            Some(last) if last == line => Ok(()),
+            Some(_) => Err(another_sweep(self.file.as_ref().map_or(Path::new("-"), |(path, _)| path))),
+        }
     }
 
     fn put(&mut self, line: &str) -> Result<(), Failure> {
@@ -265,7 +238,7 @@ fn csv_line(fields: &[String]) -> String {
 /// Returns the error of a file whose rows are of another sweep.
 pub fn another_sweep(path: &Path) -> Failure {
     Failure::Usage(format!(
-        "{}: its rows are of another sweep; give another --out, or leave --resume out to replace it",
+        "{}: its rows are of another sweep, or were made with other options; give another --out, or leave --resume out to replace it",
         path.display()
     ))
 }

@@ -1,8 +1,8 @@
 //! The facets of a cut while a family makes them: planes through points where facets meet, and the check that each of them
 //! has its place on the stone.
 
+use super::facet_zones::EXACT;
 use super::names;
-use super::outline::LEVEL;
 use crate::math::{Facet, Plane, Polytope, Surface, span, triangulate};
 use glam::DVec3;
 use std::collections::BTreeSet;
@@ -153,7 +153,7 @@ impl FacetNet {
     fn check_room(&self, solid: &Polytope) -> Result<(), NoRoom> {
         let least = |facet: &Facet| match facet.plane.normal {
             normal if normal.z == 0.0 => 0.0,
-            normal if normal.truncate().length() < LEVEL => NARROWEST_LEVEL,
+            normal if normal.truncate().length() < EXACT => NARROWEST_LEVEL,
             _ => NARROWEST,
         };
         let narrow = || {

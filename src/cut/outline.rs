@@ -1,15 +1,9 @@
 //! The measures of a stone of any cut: length, width, the girdle's edges, depths and table.
 
+use super::facet_zones::FacetZones;
 use crate::math::{Calipers, Edge, Facet, Polytope, SolidRef, bounds, hull};
 use glam::{DVec2, DVec3};
 use serde::Serialize;
-
-/// A facet whose normal leans less than this from the girdle plane (sine) is part of the girdle. Upright facets of a
-/// cutter's file of six digits lean by no more.
-pub(super) const UPRIGHT: f64 = 1e-5;
-
-/// A facet whose normal leans less than this from the axis (sine) is a table or a culet.
-pub(super) const LEVEL: f64 = 1e-5;
 
 /// A round outline's corners lie at least this part of the largest radius from its middle.
 const ON_CIRCLE: f64 = 0.99;
@@ -130,18 +124,11 @@ impl AlongAxes {
     }
 }
 
-/// Returns whether a facet stands upright and so is part of the girdle.
-pub fn is_girdle(facet: &Facet) -> bool {
-    facet.plane.normal.z.abs() < UPRIGHT
-}
-
-/// Returns whether a facet lies flat on top and so is the table.
-pub fn is_table(facet: &Facet) -> bool {
-    facet.plane.normal.z > 0.0 && facet.plane.normal.truncate().length() < LEVEL
-}
-
+/// Returns the table, the largest where a measured stone has several.
 fn table(stone: &Polytope) -> Option<&Facet> {
-    stone.facets().iter().find(|facet| is_table(facet))
+    let zones = FacetZones::of(stone);
+    let tables = stone.facets().iter().filter(|facet| zones.is_table(facet));
+    tables.max_by(|a, b| farthest_apart(stone, a).total_cmp(&farthest_apart(stone, b)))
 }
 
 /// Returns the diameter of an outline of this middle and width, as defined at [`Outline::diameter`].
@@ -167,7 +154,8 @@ fn farthest_apart(stone: &Polytope, facet: &Facet) -> f64 {
 
 /// Returns the heights z of the girdle's edges, the lower first. Corners nearer to one another than `nearest` count once.
 fn girdle(stone: &Polytope, nearest: f64) -> (f64, f64) {
-    let upright = stone.facets().iter().filter(|facet| is_girdle(facet));
+    let zones = FacetZones::of(stone);
+    let upright = stone.facets().iter().filter(|facet| zones.is_girdle(facet));
     let mut levels: Vec<f64> = upright.flat_map(|facet| corner_levels(stone, facet, nearest)).collect();
     if levels.is_empty() {
         levels = knife_edge(stone);

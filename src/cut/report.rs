@@ -1,6 +1,7 @@
 //! A report of a stone's facets: its tiers with the spread of their slopes, as laboratories report scanned stones.
 
-use super::outline::{AlongAxes, Outline, is_girdle, is_table};
+use super::facet_zones::{EXACT, FacetZones};
+use super::outline::{AlongAxes, Outline};
 use super::{TierZone, tier_stem};
 use crate::math::{Facet, Plane, Polytope, TriangleMesh, grouped, span};
 use glam::DVec3;
@@ -104,7 +105,7 @@ impl MeshHeights {
         let surface = mesh.surface();
         let upright = surface.triangles.iter().zip(mesh.facets()).filter(|(_, facet)| {
             let normal = mesh.planes()[**facet as usize].normal;
-            normal.z.abs() < super::outline::UPRIGHT
+            normal.z.abs() < EXACT
         });
         let height = |corner: &u32| surface.vertices[*corner as usize].z;
         let (low, high) = span(upright.flat_map(|(corners, _)| corners).map(height));
@@ -121,33 +122,23 @@ impl MeshHeights {
 
 /// Returns the lengths of the edges between two facets of the girdle, each as `percent` says.
 fn girdle_edges(stone: &Polytope, percent: impl Fn(f64) -> f64) -> Option<Spread> {
-    let facets = stone.facets();
-    let upright = (0..).zip(facets).filter(|(_, facet)| is_girdle(facet));
+    let (facets, zones) = (stone.facets(), FacetZones::of(stone));
+    let upright = (0..).zip(facets).filter(|(_, facet)| zones.is_girdle(facet));
     let edges = upright.flat_map(|(k, facet): (u32, &Facet)| {
         let corners: Vec<DVec3> = stone.corners(facet).collect();
         let across = facet.neighbours.clone().into_iter().enumerate();
         across
-            .filter(move |&(_, other)| other > k && is_girdle(&facets[other as usize]))
+            .filter(move |&(_, other)| other > k && zones.is_girdle(&facets[other as usize]))
             .map(move |(i, _)| corners[i].distance(corners[(i + 1) % corners.len()]))
     });
     let lengths: Vec<f64> = edges.map(percent).collect();
     (!lengths.is_empty()).then(|| Spread::of(lengths.iter().copied()))
 }
 
-/// Returns the zone of the stone where a facet lies.
-pub(super) fn zone(facet: &Facet) -> TierZone {
-    match facet.plane.normal.z > 0.0 {
-        _ if is_girdle(facet) => TierZone::Girdle,
-        true if is_table(facet) => TierZone::Table,
-        true => TierZone::Crown,
-        false if facet.plane.normal.truncate().length() < super::outline::LEVEL => TierZone::Culet,
-        false => TierZone::Pavilion,
-    }
-}
-
 fn tiers(stone: &Polytope, names: &[String]) -> Vec<TierReport> {
+    let zones = FacetZones::of(stone);
     let named = stone.facets().iter().zip(names);
-    let facets = named.map(|(facet, name)| ((tier_stem(name), zone(facet)), facet.plane));
+    let facets = named.map(|(facet, name)| ((tier_stem(name), zones.zone(facet)), facet.plane));
     let report = |tier: Vec<((&str, TierZone), Plane)>| {
         let (name, zone) = tier[0].0;
         let slope = |normal: DVec3| normal.truncate().length().atan2(normal.z.abs()).to_degrees();

@@ -3,7 +3,8 @@
 //! Source: the sheets that GemCad prints (R. Strickland, gemcad.com/lesson4.htm). GemCad adds 0.02 W to P and C for the
 //! height, as if every girdle were that thick; here the girdle is measured.
 
-use super::outline::{AlongAxes, Outline, is_girdle};
+use super::facet_zones::FacetZones;
+use super::outline::{AlongAxes, Outline};
 use crate::math::Polytope;
 use serde::Serialize;
 
@@ -52,8 +53,10 @@ impl SheetFigures {
         let width = (high - low).truncate().min_element();
         let height = outline.top - outline.bottom;
         let [table, table_across] = along.table.map(|percent| percent / 100.0);
+        let zones = FacetZones::of(stone);
         let count = |wanted: bool| {
-            let kinds = stone.facets().iter().enumerate().filter(|(_, facet)| is_girdle(facet) == wanted);
+            let all = stone.facets().iter().enumerate();
+            let kinds = all.filter(|(_, facet)| zones.is_girdle(facet) == wanted);
             kinds.filter(|(k, _)| names.get(*k).is_none_or(|name| !is_of_block(name))).count()
         };
         Self {

@@ -4,7 +4,7 @@
 //! That is a stretch of the side, so every point in which its facets meet stays one, the plan view stays, and the girdle keeps its
 //! outline and its thickness. Source: the tangent ratio of R. Long and N. Steele, *Facet Design*, vol. 1.
 
-use super::outline::UPRIGHT;
+use super::facet_zones::EXACT;
 use super::{Cut, Design, DesignError, Meet, Outline, Tier, Tiers};
 use crate::math::{Plane, Polytope, PolytopeError};
 use glam::DVec3;
@@ -50,7 +50,7 @@ impl ScaledSide {
 
     /// Whether a facet of this normal belongs to the side; an upright one belongs to the girdle.
     fn has(self, normal: DVec3) -> bool {
-        normal.z.abs() >= UPRIGHT && normal.z.signum() == self.sign()
+        normal.z.abs() >= EXACT && normal.z.signum() == self.sign()
     }
 }
 
@@ -139,7 +139,7 @@ impl Cut {
 /// Returns the tangent of the slope of a facet of a side; `None` for level facets and those of other sides.
 fn leaning(side: ScaledSide, normal: DVec3) -> Option<f64> {
     let run = normal.truncate().length();
-    (side.has(normal) && run >= UPRIGHT).then(|| run / normal.z.abs())
+    (side.has(normal) && run >= EXACT).then(|| run / normal.z.abs())
 }
 
 /// Returns the cut of a design with one side scaled along the axis by a factor, 0.1 to 10.
@@ -190,7 +190,7 @@ impl SideSlope {
         if !self.side.has(plane.normal) {
             return (DVec3::ZERO, 0.0);
         }
-        if run < UPRIGHT {
+        if run < EXACT {
             return (DVec3::ZERO, plane.offset - self.level * rise);
         }
         let turn = run * rise.abs();
@@ -227,7 +227,7 @@ impl AngleChange {
         if !self.side.has(plane.normal) {
             return Ok(None);
         }
-        if run < UPRIGHT {
+        if run < EXACT {
             let height = plane.offset / rise;
             let moved = self.level + self.factor * (height - self.level);
             return Ok(Some(Plane::new(plane.normal, moved * rise)));

@@ -139,6 +139,14 @@ impl WholeFile {
     }
 }
 
+/// Checks that a file can be written, before long work begins. Missing folders are made, and nothing else is left.
+///
+/// # Errors
+/// When the file system refuses.
+pub fn check_writable(path: &Path) -> Result<(), WriteError> {
+    WholeFile::begin(path).map(drop)
+}
+
 impl Write for WholeFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.sink().write(bytes)
@@ -217,7 +225,10 @@ impl Temporary {
             _ => WriteError::io(folder, e),
         })?;
         let mut files = under_way();
-        let file = new_file(folder).map_err(|e| WriteError::io(path, e.kind()))?;
+        let file = new_file(folder).map_err(|e| {
+            let why = format!("no file can be made in its folder ({})", e.kind());
+            WriteError::io(path, io::Error::new(e.kind(), why))
+        })?;
         let entry = Entry(file.path().to_path_buf());
         files.insert(entry.0.clone());
         Ok(Self { buffer: BufWriter::with_capacity(1 << 16, file), entry })

@@ -9,7 +9,7 @@ use super::eye_grid::{EyeGrid, rms_contrast};
 use super::interval::Interval;
 use super::light_measures::MeasureSettings;
 use super::virtual_facets::VirtualFacets;
-use crate::cut::{is_girdle, is_table};
+use crate::cut::FacetZones;
 use crate::math::Polytope;
 use crate::trace::beam::{Beam, Beams};
 use serde::{Deserialize, Serialize};
@@ -118,19 +118,21 @@ fn fire_seen(
 
 /// Returns the part of the table through which one sees the girdle by one reflection in the pavilion; `None` without a table.
 fn fish_eye(beams: &Beams, polytope: &Polytope) -> Option<Interval> {
-    let facets = polytope.facets();
-    let under_table = |beam: &Beam| beam.is_surface() && is_table(&facets[beam.facet as usize]);
+    let (facets, zones) = (polytope.facets(), FacetZones::of(polytope));
+    let under_table = |beam: &Beam| beam.is_surface() && zones.is_table(&facets[beam.facet as usize]);
     let in_pavilion = |beam: &Beam| {
         let facet = &facets[beam.facet as usize];
         let before = beam.parent.map(|parent| beams.get(parent));
-        !is_girdle(facet) && facet.plane.normal.z < 0.0 && before.is_some_and(|before| under_table(&before))
+        !zones.is_girdle(facet)
+            && facet.plane.normal.z < 0.0
+            && before.is_some_and(|before| under_table(&before))
     };
     let [mut table, mut girdle, mut open] = [0.0; 3];
     for beam in beams.iter() {
         let after_pavilion = || beam.parent.is_some_and(|parent| in_pavilion(&beams.get(parent)));
         if under_table(&beam) {
             table += beam.area;
-        } else if is_girdle(&facets[beam.facet as usize]) && after_pavilion() {
+        } else if zones.is_girdle(&facets[beam.facet as usize]) && after_pavilion() {
             girdle += beam.area;
         }
         // The next facet of what was not followed may be the pavilion's or the girdle's.

@@ -36,7 +36,9 @@ fn dome_name(dome: DomeLight) -> String {
     let light = match dome.power {
         0.0 => "even light".to_owned(),
         1.0 => "light by cosine".to_owned(),
-        power => format!("light by cosine^{power}"),
+        2.0 => "light by cosine²".to_owned(),
+        3.0 => "light by cosine³".to_owned(),
+        power => format!("light by cosine to the power {power}"),
     };
     match dome.head_deg {
         0.0 => light,

@@ -14,6 +14,9 @@ use std::collections::HashMap;
 /// fourth order, the planes' changes are then right to about 1e-11.
 const STEP: f64 = 0.01;
 
+/// The least angle of a tier, in degrees, whose changes have a side. A table that was measured may lean by less.
+pub const LEAST_TIER_DEG: f64 = 2.0 * STEP;
+
 /// The same for ratios, which are near 1.
 const RATIO_STEP: f64 = 1e-4;
 
@@ -56,7 +59,7 @@ impl PlaneChanges {
 }
 
 impl Sweep {
-    /// Returns how measures of the design, which stands at no point of the axes, change with numbers of it.
+    /// Returns the measures of the design, which stands at no point of the axes, and how they change with numbers of it.
     ///
     /// The derivatives of the light are exact ([`MeasureName::derivatives`]), and so are those of the planes by the scale of a side. How
     /// the planes follow from other numbers is taken from central differences of fourth order of the planes alone.
@@ -69,8 +72,8 @@ impl Sweep {
         keys: &[SweepKey],
         names: &[MeasureName],
         watch: Watch,
-    ) -> Result<Vec<MeasureGradient>, SweepError> {
-        Ok(self.graded(&self.plane_changes(keys)?, names, watch)?.gradients)
+    ) -> Result<GradedStone, SweepError> {
+        self.graded(&self.plane_changes(keys)?, names, watch)
     }
 
     /// Measures the design, which stands at no point of the axes, and returns how some measures change as the planes change.
@@ -109,7 +112,8 @@ impl Sweep {
     pub fn plane_changes(&self, keys: &[SweepKey]) -> Result<PlaneChanges, SweepError> {
         let start = self.start();
         let specimen = Specimen::new(self.design.clone())?;
-        let stone = specimen.stone().map_err(|why| SweepError::NoDerivative(why.to_string()))?;
+        let why = "only convex stones between planes have derivatives of their light, and this is none";
+        let stone = specimen.stone().map_err(|_| SweepError::NoDerivative(why.to_owned()))?;
         let facets: Vec<String> =
             (0..stone.polytope.facets().len() as u32).map(|facet| stone.name(facet).into_owned()).collect();
         let of_key = |key: &SweepKey| match key {
@@ -146,7 +150,12 @@ impl Sweep {
         facets: &[String],
     ) -> Result<Option<Vec<(DVec3, f64)>>, SweepError> {
         if let SweepKey::Tier(name) = key
-            && start.design.cut.settings().iter().any(|own| own.name == *name && own.angle.abs() < 2.0 * STEP)
+            && start
+                .design
+                .cut
+                .settings()
+                .iter()
+                .any(|own| own.name == *name && own.angle.abs() < LEAST_TIER_DEG)
         {
             let why = format!("{key} has no derivatives: the tier lies level, and its angle has no side");
             return Err(SweepError::NoDerivative(why));

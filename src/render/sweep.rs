@@ -4,7 +4,7 @@ use super::job::{Job, MeasuresProduct, Product, Quality};
 use super::renderer::{RenderError, Renderer, TakenMeasures};
 use super::sweep_key::{PERCENT_OF_SIDE, SweepKey};
 use super::{Card, Wanted};
-use crate::cut::{Cut, Design, MachineSetting, MaterialRef, MeetError, ScaleError, scaled};
+use crate::cut::{Cut, Design, MachineSetting, MaterialError, MaterialRef, MeetError, ScaleError, scaled};
 use crate::measure::{Bounds, LightMeasures, MeasureName, MeasureSettings};
 use crate::optics::{DispersionError, Material, line};
 use crate::scene::{Film, Medium, Scene, Specimen, SpecimenError, Viewpoint};
@@ -135,6 +135,9 @@ pub enum SweepError {
         /// What is expected.
         expected: &'static str,
     },
+    /// There is no such material.
+    #[error(transparent)]
+    Material(#[from] MaterialError),
     /// Something has no derivatives; the text says what, and what to give.
     #[error("{0}")]
     NoDerivative(String),
@@ -371,7 +374,7 @@ impl VariedDesign {
                     SweepValue::Name(name) => MaterialRef::Name(name.clone()),
                     SweepValue::Number(index) => MaterialRef::Index(*index),
                 };
-                self.design.material.material().map(drop).map_err(|_| wrong("material; see `materials`"))?;
+                self.design.material.material().map(drop)?;
             }
             SweepKey::Index => self.index = Some(number?).filter(|n| (1.0..=5.0).contains(n)),
             SweepKey::Tilt => self.viewpoint.tilt_deg = number?,

@@ -50,8 +50,8 @@ pub enum SearchError {
     #[error(transparent)]
     Specimen(#[from] SpecimenError),
     /// The stone is not convex.
-    #[error("{0}")]
-    NotConvex(String),
+    #[error("a search measures convex stones between planes, and this design makes none")]
+    NotConvex,
     /// The design cannot be set or measured.
     #[error(transparent)]
     Sweep(#[from] SweepError),

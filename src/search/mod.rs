@@ -24,6 +24,6 @@ pub use goal::{AtLeastAtMost, Goal, GoalFault, GoalMaterial, GoalMeasure, OneOrM
 pub use limits::LIMIT_NAMES;
 pub use numbers::VariedNumber;
 pub use objective::Objective;
-pub use others::OtherMeasure;
+pub use others::{OtherMeasure, estimated_classes};
 pub use outcome::{ProgressPoint, SearchOutcome, SearchProgress};
 pub use run::{DesignSearch, SearchOptions};

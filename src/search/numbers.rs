@@ -26,6 +26,9 @@ const UPRIGHT: f64 = 1e-6;
 /// A value this near to a multiple of a step, in steps, is one.
 const ROUNDING: f64 = 1e-9;
 
+/// Numbers are multiples of one part of this: ten decimals.
+const WRITTEN: f64 = 1e10;
+
 /// A number of a design that a search may change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VariedNumber {
@@ -133,7 +136,9 @@ impl VariedNumber {
 
     /// Returns the value at a place from 0, the least, to 1, the greatest.
     pub(super) fn at(&self, place: f64) -> f64 {
-        (self.least + place * (self.most - self.least)).clamp(self.least, self.most)
+        let value = self.least + place * (self.most - self.least);
+        // A number ends as people write it, without the last digits of rounding.
+        ((value * WRITTEN).round() / WRITTEN).clamp(self.least, self.most)
     }
 
     /// Returns the place of the design as it was given, 0 to 1.

@@ -60,7 +60,7 @@ impl Objective {
         }
         let numbers = VariedNumber::all(goal, &design)?;
         let specimen = Specimen::new(design.clone())?;
-        let stone = specimen.stone().map_err(|why| SearchError::NotConvex(why.to_string()))?;
+        let stone = specimen.stone().map_err(|_| SearchError::NotConvex)?;
         let corners = KeptCorners::of(stone);
         let limits = GeometryLimit::all(goal, &design, stone)?;
         let (views, terms) = views_and_terms(goal);
@@ -183,7 +183,7 @@ impl Objective {
     /// Returns the figures that are limited, of a design that keeps its meets.
     fn figures(&self, design: &Design) -> Result<Vec<(String, f64)>, SearchError> {
         let specimen = Specimen::new(design.clone())?;
-        let stone = specimen.stone().map_err(|why| SearchError::NotConvex(why.to_string()))?;
+        let stone = specimen.stone().map_err(|_| SearchError::NotConvex)?;
         if !self.corners.has_all_facets(stone) {
             return Err(SearchError::Vanished);
         }

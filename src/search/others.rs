@@ -3,11 +3,11 @@
 use super::appraisal::{GoalValue, SearchError};
 use super::outcome::SearchOutcome;
 use super::run::DesignSearch;
-use crate::cut::Design;
-use crate::measure::{Interval, MeasureName, MeasureSettings};
+use crate::cut::{ClassEstimate, CutClass, Design};
+use crate::measure::{Interval, MeasureName, MeasureSettings, brilliant_proportions};
 use crate::optics::line;
 use crate::render::Sweep;
-use crate::scene::Viewpoint;
+use crate::scene::{Specimen, Viewpoint};
 use crate::trace::Watch;
 use std::cmp::Ordering;
 
@@ -67,4 +67,16 @@ impl OtherMeasure {
             None => 0.0,
         }
     }
+}
+
+/// Returns the classes of the design as it was given and of the one that was found, estimated after the ranges that GIA publishes of
+/// round brilliants of diamond; `None` where one of them is none.
+pub fn estimated_classes(search: &DesignSearch, outcome: &SearchOutcome) -> Option<[CutClass; 2]> {
+    let class = |design: &Design| {
+        let specimen = Specimen::new(design.clone()).ok()?;
+        let is_diamond = specimen.material.name.eq_ignore_ascii_case("diamond");
+        let proportions = brilliant_proportions(specimen.stone().ok().filter(|_| is_diamond)?).ok()?;
+        Some(ClassEstimate::after_gia(&proportions).class)
+    };
+    Some([class(search.objective().design())?, class(&outcome.design)?])
 }

@@ -114,7 +114,7 @@ fn slopes_of_an_appraisal_are_the_weighed_gradients_of_its_measures() {
             unresolved: 0.01,
             polarised: true,
         };
-        sweep.gradient(&keys, &[name.parse().unwrap()], &unwatched).unwrap().remove(0).per
+        sweep.gradient(&keys, &[name.parse().unwrap()], &unwatched).unwrap().gradients.remove(0).per
     };
     let (flat, tilted) = (gradient("return-cos2", 0.0), gradient("return-cos2", 5.0));
     let glare = gradient("return-cos3+glare", 0.0);

@@ -4,7 +4,7 @@
 
 use crate::common::meshes::{moved, stripped, turned};
 use brillianteer::cut::from_mesh::Up;
-use brillianteer::cut::{Cut, Design, Outline, is_table};
+use brillianteer::cut::{Cut, Design, FacetZones, Outline};
 use brillianteer::io::design_file::{self, DesignFormat, written};
 use brillianteer::io::mesh_options::MeshOptions;
 use brillianteer::io::{asc, cut_file, library, mesh};
@@ -51,7 +51,7 @@ impl Figures {
         Self {
             volume_mm3: stone.volume() * specimen.unit_mm().powi(3),
             carats: specimen.carats(),
-            table: if stone.facets().iter().any(is_table) {
+            table: if stone.facets().iter().any(|facet| FacetZones::of(stone).is_table(facet)) {
                 outline.table.map(|t| t / outline.width)
             } else {
                 [0.0; 2]

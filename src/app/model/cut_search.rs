@@ -4,7 +4,7 @@
 //! there, until the search ends: so the whole search is one step of undo.
 
 use super::goal_form::{GoalForm, GoalFormFault};
-use crate::cut::{Cut, Design};
+use crate::cut::{Cut, CutClass, Design};
 use crate::io::Failure;
 use crate::search::{
     Appraisal, Goal, OtherMeasure, ProgressPoint, SearchOptions, SearchOutcome, SearchProgress, VariedNumber,
@@ -46,6 +46,8 @@ pub struct SearchReport {
     pub numbers: Vec<VariedNumber>,
     /// The numbers that were held, because a change of them alone breaks a meet.
     pub held: Vec<VariedNumber>,
+    /// The classes before and after, estimated after what GIA publishes; `None` where the design is no round brilliant of diamond.
+    pub classes: Option<[CutClass; 2]>,
     /// The usual measures that the goal does not weigh.
     pub others: Vec<OtherMeasure>,
 }

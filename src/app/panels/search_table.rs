@@ -28,6 +28,13 @@ pub fn show(model: &Model, report: &SearchReport, ui: &mut Ui) {
             };
             group(ui, (found.title(), colour), changes);
         }
+        if let Some([before, after]) = report.classes {
+            let name = ui.label("Estimate after GIA's ranges");
+            name.on_hover_text("The class that the proportions would have after what GIA publishes of round brilliants of diamond. \
+                It is not a grade, and no part of the goal.");
+            [before, after].into_iter().for_each(|class| drop(right(ui, class.to_string().into())));
+            ui.end_row();
+        }
         numbers(model, report, ui);
     });
     if !report.held.is_empty() {

@@ -3,7 +3,7 @@
 use crate::app::model::cut_search::{SearchEvent, SearchReport, SearchRequest};
 use crate::app::urgency;
 use crate::io::Failure;
-use crate::search::{DesignSearch, OtherMeasure, SearchError, SearchProgress};
+use crate::search::{DesignSearch, OtherMeasure, SearchError, SearchProgress, estimated_classes};
 use rayon::ThreadPoolBuilder;
 use std::ops::ControlFlow;
 use std::sync::{Mutex, PoisonError};
@@ -61,6 +61,7 @@ fn found(
         start: objective.start().clone(),
         numbers: objective.numbers().to_vec(),
         held: objective.held().to_vec(),
+        classes: estimated_classes(&search, &outcome),
         others,
         outcome,
     }))

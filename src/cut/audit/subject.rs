@@ -1,6 +1,6 @@
 //! What an audit looks at.
 
-use crate::cut::report::zone;
+use crate::cut::FacetZones;
 use crate::cut::{Outline, TierZone, Tiers, tier_stem};
 use crate::math::{Facet, Polytope};
 use glam::DVec3;
@@ -31,7 +31,7 @@ pub(super) struct Subject<'a> {
 
 impl<'a> Subject<'a> {
     pub fn new(given: &'a AuditSubject<'a>) -> Self {
-        let facets = given.stone.facets();
+        let (facets, in_zones) = (given.stone.facets(), FacetZones::of(given.stone));
         let name = |place: usize| match given.names.get(place) {
             Some(name) => name.clone(),
             None => format!("facet {}", place + 1),
@@ -39,7 +39,7 @@ impl<'a> Subject<'a> {
         Self {
             given,
             outline: Outline::of(given.stone),
-            zones: facets.iter().map(zone).collect(),
+            zones: facets.iter().map(|facet| in_zones.zone(facet)).collect(),
             names: (0..facets.len()).map(name).collect(),
         }
     }

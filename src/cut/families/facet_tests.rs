@@ -2,7 +2,7 @@
 
 use super::tests::{made, on_random_cuts, stone};
 use super::*;
-use crate::cut::report::zone;
+use crate::cut::FacetZones;
 use crate::cut::{Audit, AuditSubject, Finding, FindingKind, TierZone, audit::THIN_FACET};
 use crate::math::{Facet, Polytope, span};
 use glam::DVec3;
@@ -17,6 +17,7 @@ const LEAST: f64 = THIN_FACET / 100.0;
 struct Solid {
     solid: Polytope,
     tiers: Vec<&'static str>,
+    zones: FacetZones,
     is_half: bool,
 }
 
@@ -26,7 +27,7 @@ impl Solid {
         cut.check().ok()?;
         let (net, solid) = family_cut.settled().ok()?;
         let tiers = net.facets().map(|(tier, _)| tier).collect();
-        Some(Self { solid, tiers, is_half: net.is_half() })
+        Some(Self { zones: FacetZones::of(&solid), solid, tiers, is_half: net.is_half() })
     }
 
     /// Returns the facets with their tiers, without the plane in which both halves meet.
@@ -44,7 +45,7 @@ impl Solid {
     /// Returns whether a facet is a thin sliver. An upright one may be as low as the girdle is thin, and then as short.
     fn is_thin(&self, facet: &Facet) -> bool {
         let least = 2.0 * LEAST;
-        if zone(facet) != TierZone::Girdle {
+        if self.zones.zone(facet) != TierZone::Girdle {
             return self.solid.facet_width(facet) < least;
         }
         let extent = |along: DVec3| {
@@ -58,11 +59,13 @@ impl Solid {
     fn faults(&self) -> Vec<(&'static str, &'static str, f64)> {
         let mut faults = vec![];
         let mut areas: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
-        self.facets()
-            .for_each(|(_, facet)| areas.entry(zone(facet).name()).or_default().push(self.area(facet)));
+        self.facets().for_each(|(_, facet)| {
+            areas.entry(self.zones.zone(facet).name()).or_default().push(self.area(facet))
+        });
         areas.values_mut().for_each(|areas| areas.sort_by(f64::total_cmp));
         for (tier, facet) in self.facets() {
-            let area = self.area(facet) / areas[zone(facet).name()][areas[zone(facet).name()].len() / 2];
+            let area = self.area(facet)
+                / areas[self.zones.zone(facet).name()][areas[self.zones.zone(facet).name()].len() / 2];
             if area < LEAST {
                 faults.push(("small", tier, 100.0 * area));
             }

@@ -6,7 +6,7 @@ use super::fault::{MeetError, MeetFault};
 use super::meet::{Meet, MeetPoint};
 use super::names::TierNames;
 use super::stone::{FARTHEST, PartStone, StoneCorner, StoneSide};
-use crate::cut::outline::UPRIGHT;
+use crate::cut::facet_zones::EXACT;
 use crate::math::Plane;
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -379,7 +379,7 @@ impl<'a> Bench<'a> {
         let normal = if normal.dot(before) < 0.0 { -normal } else { normal };
         let level = normal.truncate().length();
         // Rounding has no side: of an upright facet the sign stays.
-        let side = if normal.z.abs() < UPRIGHT { tier.angle } else { normal.z };
+        let side = if normal.z.abs() < EXACT { tier.angle } else { normal.z };
         let angle = level.atan2(normal.z.abs()).to_degrees().copysign(side);
         let teeth = f64::from(self.design.gear);
         let exact = normal.x.atan2(-normal.y) / TAU * teeth + self.design.offset;

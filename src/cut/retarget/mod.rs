@@ -6,7 +6,7 @@
 //! N. Steele, *Facet Design*, vol. 1: tan(new angle) = factor · tan(old angle) for all tiers of one side, which keeps the plan
 //! view. It is a stretch of that side along the axis, so it keeps every meet.
 
-use super::outline::UPRIGHT;
+use super::facet_zones::EXACT;
 use super::side_scale::{
     ANGLES_DEG, AngleChange, FACTORS, ScaleError, ScaledSide, changed_planes, changed_tiers, in_block, solid,
 };
@@ -206,7 +206,7 @@ fn main_tier(solid: &Polytope, facets: &[(String, Plane)]) -> Option<(String, f6
     let angle = |normal: glam::DVec3| normal.truncate().length().atan2(-normal.z);
     let reaching = solid.facets().iter().filter(|facet| {
         let normal = facet.plane.normal;
-        let leans = normal.z < -UPRIGHT && normal.truncate().length() >= UPRIGHT;
+        let leans = normal.z < -EXACT && normal.truncate().length() >= EXACT;
         leans && solid.corners(facet).any(|corner| corner.z <= floor)
     });
     let main = reaching.min_by(|a, b| angle(a.plane.normal).total_cmp(&angle(b.plane.normal)))?;

@@ -37,7 +37,7 @@ fn assert_stretched(old: &Polytope, new: &Polytope, level: f64, factor: f64) {
     let nearest = |point: DVec3| {
         new.vertices().iter().map(|corner| corner.distance(point)).fold(f64::INFINITY, f64::min)
     };
-    let pavilion = old.facets().iter().filter(|facet| facet.plane.normal.z < -UPRIGHT);
+    let pavilion = old.facets().iter().filter(|facet| facet.plane.normal.z < -EXACT);
     let moved: Vec<u32> = pavilion.flat_map(|facet| facet.outline.clone()).collect();
     for (place, corner) in (0..).zip(old.vertices()) {
         let z = if moved.contains(&place) { level + factor * (corner.z - level) } else { corner.z };

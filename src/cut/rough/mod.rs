@@ -1,7 +1,8 @@
 //! A piece of rough, and the largest stone that can be cut from it, table up.
 
 use super::design::DIAMETERS_MM;
-use super::outline::{UPRIGHT, diameter};
+use super::facet_zones::EXACT;
+use super::outline::diameter;
 use super::{Outline, Size, SizeError};
 use crate::math::{Calipers, Plane, Polytope, PolytopeError, SolidRef, hull, span};
 use crate::optics::Material;
@@ -308,7 +309,7 @@ impl<'a> Shape<'a> {
 
 /// Returns the stone whose facets below the girdle are moved down by a length, so that its girdle is thicker by it.
 fn thickened(stone: &Polytope, by: f64) -> Result<Polytope, PolytopeError> {
-    let moved = |plane: Plane| match plane.normal.z < -UPRIGHT {
+    let moved = |plane: Plane| match plane.normal.z < -EXACT {
         true => Plane { offset: plane.offset - plane.normal.z * by, ..plane },
         false => plane,
     };

@@ -75,7 +75,10 @@ impl<'a> PageContent<'a> {
             return Ok(());
         }
         let transform = self.base.pre_concat(path.abs_transform());
-        let paints = (path.fill(), path.stroke());
+        // A line has no inside, but viewers draw what is filled at least a pixel wide.
+        let bounds = path.data().bounds();
+        let has_inside = bounds.width() > 0.0 && bounds.height() > 0.0;
+        let paints = (path.fill().filter(|_| has_inside || path.stroke().is_none()), path.stroke());
         let strokes_first = path.paint_order() == PaintOrder::StrokeAndFill;
         if let (true, (Some(_), Some(_))) = (strokes_first, paints) {
             self.painted(path, transform, (None, paints.1))?;

@@ -94,7 +94,7 @@ pub(super) fn draw_curves(
         .configure_mesh()
         .x_label_formatter(&number)
         .y_label_formatter(&number)
-        .light_line_style(WHITE)
+        .max_light_lines(0)
         .bold_line_style(RGBColor(215, 215, 215))
         .x_desc(&axis.label)
         .y_desc(unit)
