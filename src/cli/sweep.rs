@@ -11,6 +11,7 @@ use crate::io::design_file::DesignFormat;
 use crate::io::{Failure, library};
 use crate::measure::{MeasureName, PatternSettings, ROCK_DEG, pupil_deg};
 use crate::render::{Sweep, SweepAxis, SweepError, SweepKey, SweepValue, SweptStone};
+use crate::scene::Specimen;
 use crate::trace::Watch;
 use clap::Args;
 use std::ops::Range;
@@ -130,6 +131,9 @@ struct SweepOutputs<'a> {
     failed_files: usize,
     /// Why the first of these points has none.
     first_reason: Option<String>,
+    /// The number of points where something is odd that is not in the design as it is given, and what is odd at the first.
+    odd: usize,
+    first_odd: Option<String>,
 }
 
 impl SweepArguments {
@@ -205,6 +209,8 @@ impl SweepArguments {
             failed: 0,
             failed_files: 0,
             first_reason: None,
+            odd: 0,
+            first_odd: None,
         })
     }
 
@@ -255,7 +261,13 @@ impl SweepArguments {
             }
             Err(failure) => return Err(failure),
         };
+        let usual = Specimen::new(sweep.design.clone()).map(|given| given.warnings).unwrap_or_default();
         sweep.run(points, watch, |point, found| {
+            let warnings = found.iter().flat_map(|stone| &stone.warnings);
+            if let Some(odd) = warnings.into_iter().find(|warning| !usual.contains(warning)) {
+                outputs.odd += 1;
+                outputs.first_odd.get_or_insert_with(|| format!("{}: {odd}", self.labels(point).join(", ")));
+            }
             let error = found.as_ref().err().map_or(String::new(), SweepError::to_string);
             outputs.put(&name, &self.labels(point), (found.as_ref().ok(), &error))
         })
@@ -302,6 +314,9 @@ impl SweepOutputs<'_> {
     fn end(&self, all: usize) -> Result<(), Failure> {
         let Self { failed, failed_files, files, .. } = *self;
         let reason = self.first_reason.as_deref().unwrap_or_default();
+        if let Some(first) = &self.first_odd {
+            say(&format!("warning: at {} of {all} points the stone is odd; the first, {first}", self.odd));
+        }
         if failed == 0 {
             return Ok(());
         }

@@ -130,7 +130,11 @@ impl<'a> SweepPlot<'a> {
                 let rows = (0..y.values.len()).flat_map(|j| (0..x.values.len()).map(move |i| at(i, j)));
                 let values: Vec<Option<f64>> = rows.map(|value| Some(100.0 * value?.middle())).collect();
                 let measure = self.measures[0];
-                heat_map(&format!("{title}: {measure}"), (x, y), UNIT, &values)
+                let error = self.points.iter().filter_map(|of| of[0]).map(|interval| interval.error());
+                let most = 100.0 * error.fold(0.0, f64::max);
+                // Rounded up, so that it stays a bound.
+                let bound = (100.0 * most).ceil() / 100.0;
+                heat_map(&format!("{title}: {measure}, each ± {bound:.2} or less"), (x, y), UNIT, &values)
             }
             PlotShape::Curves(axis) => {
                 let bands = |k: usize| (0..axis.values.len()).map(|point| band(point, k)).collect();

@@ -9,6 +9,9 @@ use crate::scene::Specimen;
 use std::ops::Deref;
 use std::path::Path;
 
+/// What is said of a scene in the place of a design.
+const IS_SCENE: &str = "this is a scene, where the file or the name of a cut is expected";
+
 /// A stone, the file that its design was read from, and what a person should know about both.
 #[derive(Debug)]
 pub struct BuiltDesign {
@@ -38,6 +41,9 @@ impl BuiltDesign {
         let name = file.display().to_string();
         match library::cut(&name).filter(|_| !file.is_file()) {
             Some(text) => Self::parse(&name, text),
+            None if !file.exists() && library::scene(&name).is_some() => {
+                Err(Failure::Input(format!("{name}: {IS_SCENE}")))
+            }
             None => Self::read(file, mesh),
         }
     }
@@ -85,7 +91,7 @@ pub fn is_scene(file: &Path) -> bool {
 /// name of a cut or a scene that comes with the program. Empty where neither applies.
 pub fn hint(file: &Path) -> String {
     if is_scene(file) {
-        return "; this is a scene, where the file or the name of a cut is expected".to_owned();
+        return format!("; {IS_SCENE}");
     }
     let asked = file.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
     let known: Vec<&str> = CUTS.iter().chain(&SCENES).map(|(name, _)| *name).collect();

@@ -10,18 +10,24 @@ pub fn area(corners: &[DVec2]) -> f64 {
     rest.windows(2).map(|w| (w[0] - first).perp_dot(w[1] - first)).sum::<f64>() / 2.0
 }
 
+/// A polygon whose area is below this part of the square of its length is a line, but for rounding.
+const THINNEST: f64 = 1e-13;
+
 /// Returns the centre of area. Where the area vanishes, it is the mean of the corners; without corners, the origin.
 pub fn centroid(corners: &[DVec2]) -> DVec2 {
     let Some((&first, rest)) = corners.split_first() else { return DVec2::ZERO };
-    let (mut moment, mut twice) = (DVec2::ZERO, 0.0);
+    let (mut moment, mut twice, mut square) = (DVec2::ZERO, 0.0, 0.0_f64);
     for w in rest.windows(2) {
         let (a, b) = (w[0] - first, w[1] - first);
         let cross = a.perp_dot(b);
         moment += (a + b) * cross;
         twice += cross;
+        square = square.max(a.length_squared()).max(b.length_squared());
     }
     let mean = corners.iter().sum::<DVec2>() / corners.len() as f64;
-    if twice.abs() > f64::MIN_POSITIVE { first + moment / (3.0 * twice) } else { mean }
+    // Below this the area is rounding, whose centre may lie anywhere.
+    let is_area = twice.abs() > f64::MIN_POSITIVE && twice.abs() > THINNEST * square;
+    if is_area { first + moment / (3.0 * twice) } else { mean }
 }
 
 /// Returns the point of a convex polygon, of this area, for a place of the unit square: places that are spread evenly give
@@ -104,6 +110,10 @@ mod tests {
         assert_eq!(centroid(&SQUARE), DVec2::ONE);
         assert_eq!(area(&[]), 0.0);
         assert_eq!(centroid(&SQUARE[..1]), SQUARE[0]);
+        // Four corners in one line, but for rounding.
+        let line =
+            [DVec2::ZERO, DVec2::new(0.3, 0.1), DVec2::new(0.6, 0.2 + 3e-17), DVec2::new(0.3, 0.1 - 2e-17)];
+        assert!(centroid(&line).distance(DVec2::new(0.3, 0.1)) < 1e-12, "{}", centroid(&line));
     }
 
     #[test]

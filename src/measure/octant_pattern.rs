@@ -16,6 +16,9 @@ const ON_LINE: f64 = 1e-9;
 /// shaft and head of an arrow do, stay apart, also where small pieces lie at the point.
 const JOINED: f64 = 2e-2;
 
+/// Areas that differ by less than this part are the same but for rounding.
+const ALIKE: f64 = 1e-7;
+
 /// Where the octants of a stone lie, seen along its axis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OctantFrame {
@@ -141,7 +144,8 @@ impl OctantPattern {
         (self.area() + other.area() - 2.0 * both).max(0.0)
     }
 
-    /// Returns the regions of one layer, the largest first.
+    /// Returns the regions of one layer, the largest first. Of several that are largest but for rounding, as mirror images are, the
+    /// first is the one that lies farthest to the counter-clockwise side, so that octants that are alike name the same.
     pub fn regions(&self, layer: u8) -> Vec<Region<'_>> {
         let pieces: Vec<&PatternPiece> = self.pieces.iter().filter(|piece| piece.layer == layer).collect();
         let mut open: Vec<usize> = (0..pieces.len()).collect();
@@ -162,6 +166,9 @@ impl OctantPattern {
             regions.push(Region { pieces: region.into_iter().map(|k| pieces[k]).collect() });
         }
         regions.sort_by(|a, b| b.area().total_cmp(&a.area()));
+        let largest = regions.first().map_or(0.0, Region::area);
+        let alike = regions.iter().take_while(|region| region.area() > (1.0 - ALIKE) * largest).count();
+        regions[..alike].sort_by(|a, b| b.azimuth().total_cmp(&a.azimuth()));
         regions
     }
 }

@@ -8,8 +8,8 @@ pub(crate) mod brilliant;
 pub(crate) use super::drawing::{degrees, percent};
 
 use super::drawing::{Align, DIMENSION, DrawnAspect, Inks, ROOM_FOR_ARROWS, Sheet, text_width};
-use crate::cut::{Outline, RoundBrilliant};
-use crate::math::{Basis, Calipers, Facet, hull, span};
+use crate::cut::{FacetZones, Outline, RoundBrilliant, TierZone};
+use crate::math::{Basis, Calipers, hull, span};
 use crate::scene::Stone;
 use glam::{DVec2, DVec3};
 use svg::Document;
@@ -25,9 +25,6 @@ const BESIDE: f64 = 10.0;
 /// The least distance between the middles of two lines of text.
 const LINE: f64 = 20.0;
 
-/// Facets this close to upright make up the girdle, and facets this close to level the table. It is the sine of the
-/// angle.
-const UPRIGHT: f64 = 1e-6;
 /// Lengths shorter than this part of the width count as zero.
 const NOTHING: f64 = 1e-6;
 /// The x or y axis is taken as the direction of the width if the stone along it is wider than at its narrowest by no
@@ -86,12 +83,12 @@ impl Dimensions {
         let diameter = Outline::of(polytope).diameter;
         let span = |from: f64, to: f64| Span::new(from, to, 100.0 * (to - from).abs() / diameter);
         let something = |s: &Span| s.percent > 100.0 * NOTHING;
-        let corners = |is: fn(&Facet) -> bool| {
-            let found: Vec<_> = polytope.facets().iter().filter(|f| is(f)).collect();
+        let zones = FacetZones::of(polytope);
+        let corners = |zone: TierZone| {
+            let found: Vec<_> = polytope.facets().iter().filter(|f| zones.zone(f) == zone).collect();
             found.into_iter().flat_map(|f| polytope.corners(f)).collect::<Vec<_>>()
         };
-        let table = corners(|f| f.plane.normal.truncate().length() < UPRIGHT && f.plane.normal.z > 0.0);
-        let upright = corners(|f| f.plane.normal.z.abs() < UPRIGHT);
+        let (table, upright) = (corners(TierZone::Table), corners(TierZone::Girdle));
         let girdle = (!upright.is_empty()).then(|| extent(upright.into_iter(), DVec3::Z));
         let table = (!table.is_empty()).then(|| extent(table.into_iter(), basis.right));
         let lowest = polytope.vertices().iter().copied().filter(|v| v.z - low <= NOTHING * diameter);
@@ -130,7 +127,9 @@ fn measured_profile(stone: &Stone, title: &str) -> Document {
     drawing.heights();
     drawing.width("width", 1.0);
     let remarks = [format!("Length / width {:.2}", (far - near) / dimensions.width.length())];
-    drawing.sheet.document(title, "profile · percent of the width, measured on the planes", &remarks)
+    let Outline { diameter, width, .. } = Outline::of(&stone.polytope);
+    let of = if diameter > width { "diameter" } else { "width" };
+    drawing.sheet.document(title, &format!("profile · percent of the {of}, measured on the planes"), &remarks)
 }
 
 /// Returns the side view that shows the stone's width: along x or y if the stone is nearly narrowest that way, otherwise

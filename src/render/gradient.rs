@@ -86,7 +86,7 @@ impl Sweep {
         names: &[MeasureName],
         watch: Watch,
     ) -> Result<GradedStone, SweepError> {
-        let (taken, carats) = self.taken(self.start(), names.to_vec(), watch)?;
+        let (taken, specimen) = self.taken(self.start(), names.to_vec(), watch)?;
         let of_name = |(name, found): (&MeasureName, Option<MeasureDerivatives>)| {
             let found = found.ok_or_else(|| {
                 SweepError::NoDerivative(format!(
@@ -102,7 +102,7 @@ impl Sweep {
             Ok(MeasureGradient { name: *name, value: found.value, per })
         };
         let gradients: Result<_, SweepError> = names.iter().zip(taken.derivatives).map(of_name).collect();
-        Ok(GradedStone { stone: SweptStone { measures: taken.measures, carats }, gradients: gradients? })
+        Ok(GradedStone { stone: SweptStone::of(taken.measures, specimen), gradients: gradients? })
     }
 
     /// Returns how the planes of the design, which stands at no point of the axes, change with some numbers.

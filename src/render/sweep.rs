@@ -89,6 +89,14 @@ pub struct SweptStone {
     pub measures: LightMeasures,
     /// The weight in carats; `None` where the material's density is not known.
     pub carats: Option<f64>,
+    /// What is odd about the stone, such as a facet that no longer touches it, each in a sentence.
+    pub warnings: Vec<String>,
+}
+
+impl SweptStone {
+    pub(super) fn of(measures: LightMeasures, specimen: Specimen) -> Self {
+        Self { measures, carats: specimen.carats(), warnings: specimen.warnings }
+    }
 }
 
 /// Why a point of a sweep has no measures.
@@ -261,17 +269,17 @@ impl Sweep {
     /// # Errors
     /// A [`SweepError`]: no stone, no index there, or a stone that exact beams do not trace.
     pub fn point(&self, point: usize, watch: Watch) -> Result<SweptStone, SweepError> {
-        let (taken, carats) = self.taken(self.varied(point)?, vec![], watch)?;
-        Ok(SweptStone { measures: taken.measures, carats })
+        let (taken, specimen) = self.taken(self.varied(point)?, vec![], watch)?;
+        Ok(SweptStone::of(taken.measures, specimen))
     }
 
-    /// Takes the measures of a varied design, with the derivatives of some, and its weight in carats.
+    /// Takes the measures of a varied design, with the derivatives of some; returns them with its stone.
     pub(super) fn taken(
         &self,
         varied: VariedDesign,
         derivatives: Vec<MeasureName>,
         watch: Watch,
-    ) -> Result<(TakenMeasures, Option<f64>), SweepError> {
+    ) -> Result<(TakenMeasures, Specimen), SweepError> {
         let VariedDesign { design, viewpoint, index, .. } = varied;
         let specimen = Specimen::new(design)?;
         let (medium, indices) = self.optics(&specimen.material, index, specimen.unit_mm())?;
@@ -285,7 +293,7 @@ impl Sweep {
             quality: Quality::of_figures(&Bounds { polarised: self.polarised, ..bounds }, Wanted::Quickest),
         };
         let rendered = Renderer::new(Card::None).run(&job, watch, &mut |_| Ok::<_, RenderError>(()))?;
-        Ok((rendered.measures()?, specimen.carats()))
+        Ok((rendered.measures()?, specimen))
     }
 
     /// Returns the design and the view at a point.

@@ -484,7 +484,7 @@ fn a_stone_weighs_its_density_times_its_volume_and_a_scene_is_told_stone_by_ston
     for (line, named) in [("measure scene.toml", "scene.toml"), ("export parcel", "parcel")] {
         let stderr = desk.refused(line, 1);
         assert!(
-            stderr.starts_with(&format!("error: {named}")) && stderr.contains("; this is a scene, where"),
+            stderr.starts_with(&format!("error: {named}")) && stderr.contains("this is a scene, where"),
             "{stderr}"
         );
     }

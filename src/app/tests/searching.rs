@@ -82,7 +82,7 @@ fn a_search_shows_its_best_in_the_design_says_what_it_won_and_is_one_step_of_und
     assert_eq!(after, ended(&bench).after);
     assert!(after != before && bench.editor().model.document.fault().is_none());
     assert_eq!(bench.editor().model.document.specimen().design, after, "the views show it");
-    for label in ["Won", "Pavilion angle", "Return, light by cosine^2", "Keep"] {
+    for label in ["Won", "Pavilion angle", "Return, light by cosine²", "Keep"] {
         assert!(bench.harness.query_all_by_label(label).next().is_some(), "{label}");
     }
     assert!(bench.harness.query_by_label_contains("Progress of the search: ").is_some());

@@ -26,6 +26,7 @@ pub(super) fn report(stones: &[ReportedStone], origin: &ReportOrigin) -> Result<
     if !light.rows.is_empty() {
         parts.push(heading("Light, in percent of the face; the best is marked where no interval reaches it"));
         parts.push(ReportPart::Table(light));
+        parts.extend(without_measures(stones).map(ReportPart::Text));
     }
     for (name, of) in [
         ("Proportions of the designs", designed as fn(&ReportedStone) -> Vec<[String; 2]>),
@@ -98,6 +99,19 @@ fn pairs(stones: &[ReportedStone], of: fn(&ReportedStone) -> Vec<[String; 2]>) -
         table.rows.push(std::iter::once(name.as_str().into()).chain(all.iter().map(value)).collect());
     }
     table
+}
+
+/// Says which stones have no measures, and why; `None` where all have some.
+fn without_measures(stones: &[ReportedStone]) -> Option<String> {
+    let names: Vec<&str> =
+        stones.iter().filter(|stone| stone.measures().is_empty()).map(ReportedStone::name).collect();
+    (!names.is_empty()).then(|| {
+        let (names, have) = (names.join(", "), if names.len() == 1 { "has" } else { "have" });
+        format!(
+            "{names} {have} no such measures, which are of exact beams in convex stones between planes. A report on one such stone \
+             alone gives its zones by single rays."
+        )
+    })
 }
 
 /// Returns the measures of all stones; stones whose light was sampled have none.

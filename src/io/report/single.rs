@@ -3,6 +3,7 @@
 use super::stone::ReportedStone;
 use super::tilts::{TiltCurves, tilt_plot};
 use super::{ReportOrigin, figures, provenance};
+use crate::cut::Cut;
 use crate::io::Failure;
 use crate::measure::MeasureName;
 use crate::picture::{FigureRow, Report, ReportFigure, ReportPart, ReportTable};
@@ -36,6 +37,11 @@ pub(super) fn report(stone: &ReportedStone, origin: &ReportOrigin) -> Result<Rep
         if !pairs.is_empty() {
             parts.extend([heading(name), ReportPart::Table(ReportTable::of_pairs(pairs, 3))]);
         }
+    }
+    if matches!(stone.viewing.specimen.design.cut, Cut::RoundBrilliant(_)) {
+        let text = "Crown, girdle and pavilion of the design are taken at the mains, where the girdle is thickest; those measured \
+            are taken between the girdle's edges, beyond which a tenth of its corners lie.";
+        parts.push(ReportPart::Text(text.to_owned()));
     }
     let (table, how) = figures::light(stone);
     parts.extend([heading("Light, in percent of the face"), ReportPart::Table(table), ReportPart::Text(how)]);

@@ -61,6 +61,20 @@ fn figure<'a>(pattern: &'a EightfoldPattern, name: &str) -> &'a OctantFigure {
 }
 
 #[test]
+fn octants_that_are_alike_have_the_same_figures_also_where_regions_are_mirror_images() {
+    let stone = changed(UNCHANGED);
+    // In these a heart falls into two mirror images.
+    for index in [1.54, 1.76, 1.9] {
+        let medium = Medium::grey(index, 0.0);
+        let found = hearts_and_arrows(&stone, medium, VIEWER_CONES_DEG, &rough(), &unwatched).unwrap();
+        for figure in patterns(&found).into_iter().flat_map(|pattern| &pattern.figures) {
+            let spread = figure.spread.unwrap_or(0.0);
+            assert!(spread < 1e-6, "{index}: {} differs by {spread}: {:?}", figure.name, figure.octants);
+        }
+    }
+}
+
+#[test]
 fn an_ideal_cut_departs_from_eightfold_by_nothing_however_it_is_turned_moved_or_scaled() {
     let whole = measured(UNCHANGED);
     let elsewhere = measured(Change { whole: 17.3, scale: 2.5, moved: DVec2::new(0.4, -0.7), ..UNCHANGED });

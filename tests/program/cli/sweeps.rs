@@ -180,9 +180,28 @@ fn a_sweep_that_was_stopped_goes_on_and_gives_the_same_file() {
         let cut = whole.match_indices('\n').nth(2).unwrap().0 + 1;
         desk.write(&format!("all.{ending}"), &whole[..cut]);
         let other = line.replace("50:90:20", "52:92:20");
-        assert!(desk.refused(&format!("{other} --resume"), 2).contains("another sweep"));
+        for other in [other, format!("{line} --material ruby"), format!("{line} --unresolved 0.03")] {
+            assert!(desk.refused(&format!("{other} --resume"), 2).contains("another sweep"), "{other}");
+        }
         assert_eq!(desk.read(&format!("all.{ending}")), whole[..cut], "a refused file is left as it was");
     }
+}
+
+#[test]
+fn what_is_odd_at_some_points_and_files_that_cannot_be_read_are_said() {
+    let desk = Desk::new();
+    assert_eq!(desk.run("convert tolkowsky tolkowsky.asc").0, 0);
+    let line = "sweep tolkowsky.asc --over tier:star=22,40,45 --of leakage --unresolved 0.05";
+    let (code, _, stderr) = desk.run(line);
+    assert!(code == 0 && stderr.contains("points the stone is odd; the first, "), "{stderr}");
+    desk.write("spoilt.asc", "GemCad 5.0\ng x\n");
+    let (code, printed, stderr) = desk.run("sweep tolkowsky spoilt.asc --of leakage --unresolved 0.05");
+    assert!(code == 1 && printed.lines().count() == 3, "{code}: {printed}");
+    assert!(stderr.contains("1 of 2 designs could not be measured"), "{stderr}");
+    let (code, _, stderr) = desk.run("sweep tolkowsky --over crown_angle=89,90 --of leakage --plot none.png");
+    assert!(code == 1 && stderr.contains("the first: ") && !desk.at("none.png").exists(), "{stderr}");
+    let (_, _, stderr) = desk.run("sweep tolkowsky --material 2.4 --of fire --unresolved 0.05");
+    assert!(stderr.contains("has no fire"), "{stderr}");
 }
 
 #[test]
@@ -194,7 +213,7 @@ fn what_a_sweep_cannot_do_is_refused_before_a_file_is_replaced() {
         ("tolkowsky --over tier:P=1:2:1", 2, "vary its proportions"),
         ("tolkowsky --over table=a,b", 2, "'a' is no number"),
         ("tolkowsky --over table=1:2", 2, "is no range"),
-        ("tolkowsky --over material=diamant", 2, "is no material"),
+        ("tolkowsky --over material=diamant", 2, "did you mean 'diamond'?"),
         ("tolkowsky --over tilt=100", 2, "from -90 to 90"),
         ("tolkowsky --of brightness", 2, "is no measure"),
         ("tolkowsky --unresolved 2", 2, "between 0 and 1"),
@@ -311,6 +330,17 @@ fn a_gradient_is_the_slope_of_the_measures_beside_the_design() {
         }
     }
     assert!(desk.done("gradient tolkowsky").contains("lower_half_length"), "numbers that are given");
+    // The value is the measure's, with its bound.
+    let value =
+        desk.json("gradient tolkowsky --by table --of leakage --json")["measures"]["leakage"]["value"]
+            .clone();
+    let (_, rows) = table(&desk.done("sweep tolkowsky --of leakage"));
+    let [middle, error] = [2, 3].map(|column: usize| rows[0][column].parse::<f64>().unwrap());
+    near(at(&value, "least"), middle - error, 2e-7, "least");
+    near(at(&value, "most"), middle + error, 2e-7, "most");
+    // The table of a mesh is level but for rounding, and is left out.
+    assert_eq!(desk.run("convert oval oval.stl").0, 0);
+    assert!(desk.done("gradient oval.stl --of leakage").contains("index"));
     let tiers = desk.run("convert oval oval.asc");
     assert_eq!(tiers.0, 0);
     let listed = desk.done("gradient oval.asc --of leakage");
