@@ -6,6 +6,7 @@ use crate::io::{Failure, check_writable};
 use crate::measure::{Interval, MeasureName};
 use crate::render::SweptStone;
 use serde_json::{Map, Value, json};
+use std::collections::VecDeque;
 use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -65,11 +66,11 @@ impl SweepTable {
         Ok(Self::Parquet(Box::new(ParquetTable::begin(path, &columns, is_text)?)))
     }
 
-    /// Returns the number of rows that the file held already and that need not be taken again. The last row that it held is
-    /// taken again: it must be the same, or the file is of another sweep.
+    /// Returns the number of rows that the file held already and that need not be taken again. The last row with measures that it
+    /// held and those after it are taken again: they must be the same, or the file is of another sweep.
     pub fn kept(&self) -> usize {
         match self {
-            Self::ByRow(table) => table.kept.saturating_sub(1),
+            Self::ByRow(table) => table.kept - table.checked.len(),
             Self::Parquet(_) => 0,
         }
     }
@@ -104,8 +105,8 @@ pub struct RowTable {
     file: Option<(PathBuf, File)>,
     /// The number of rows that the file held already.
     kept: usize,
-    /// The last of these rows, with its line break, until it has been taken again.
-    last_kept: Option<String>,
+    /// The last of these rows, from the last one with measures on, until they have been taken again.
+    checked: VecDeque<String>,
     /// Where the rows of a file that is resumed end. What comes after them was not written to its end; it is dropped before the
     /// next row is written.
     end: Option<u64>,
@@ -118,7 +119,8 @@ impl RowTable {
         (out, is_json, resume): (Option<&Path>, bool, bool),
     ) -> Result<Self, Failure> {
         let Some(path) = out else {
-            let mut table = Self { columns, is_json, file: None, kept: 0, last_kept: None, end: None };
+            let mut table =
+                Self { columns, is_json, file: None, kept: 0, checked: VecDeque::new(), end: None };
             table.write_columns()?;
             return Ok(table);
         };
@@ -143,7 +145,7 @@ impl RowTable {
             is_json,
             file: Some((path.to_owned(), file)),
             kept: 0,
-            last_kept: None,
+            checked: VecDeque::new(),
             end: None,
         };
         if is_resumed {
@@ -157,7 +159,8 @@ impl RowTable {
     /// Counts the rows of a file that is resumed, up to the last whole one.
     fn take_up(&mut self) -> std::io::Result<()> {
         let Some((_, file)) = &mut self.file else { return Ok(()) };
-        let (mut end, mut lines, mut header, mut last) = (0, 0_usize, String::new(), String::new());
+        let (mut end, mut lines, mut header) = (0, 0_usize, String::new());
+        let mut checked = VecDeque::new();
         let mut reader = BufReader::new(&*file);
         loop {
             let mut line = String::new();
@@ -170,7 +173,12 @@ impl RowTable {
             }
             end += length as u64;
             lines += 1;
-            last = line;
+            if self.is_json || lines > 1 {
+                if has_measures(&line, self.is_json) {
+                    checked.clear();
+                }
+                checked.push_back(line);
+            }
         }
         self.end = Some(end);
         if lines == 0 {
@@ -180,7 +188,7 @@ impl RowTable {
             return Err(std::io::Error::other("its columns are of another sweep; give another --out"));
         }
         self.kept = lines - usize::from(!self.is_json);
-        self.last_kept = Some(last).filter(|_| self.kept > 0);
+        self.checked = checked;
         Ok(())
     }
 
@@ -205,7 +213,7 @@ impl RowTable {
             let row: Vec<String> = texts.chain(numbers).chain([(*error).to_owned()]).collect();
             csv_line(&row)
         };
-        match self.last_kept.take() {
+        match self.checked.pop_front() {
             None => self.put(&line),
             Some(last) if last == line => Ok(()),
             Some(_) => Err(another_sweep(self.file.as_ref().map_or(Path::new("-"), |(path, _)| path))),
@@ -225,6 +233,11 @@ impl RowTable {
             }
         }
     }
+}
+
+/// Whether a row has measures: its last column, the error, is empty.
+fn has_measures(row: &str, is_json: bool) -> bool {
+    row.trim_end().ends_with(if is_json { "\"error\":\"\"}" } else { "," })
 }
 
 /// Returns the line of a row, with its line break.

@@ -51,7 +51,7 @@ impl Layout {
 }
 
 /// Returns a number from 0 to below 1 that looks random (Steele et al., SplitMix64, OOPSLA 2014).
-pub(super) fn scattered(number: u64) -> f64 {
+pub fn scattered(number: u64) -> f64 {
     let z = (number + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

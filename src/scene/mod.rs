@@ -30,7 +30,7 @@ pub use copies::{Copies, MOST_COPIES};
 pub use dome_light::{DomeLight, NoDome};
 pub use film::Film;
 pub use instance::{Instance, MOST_STONES, Scene};
-pub use layout::Layout;
+pub use layout::{Layout, scattered};
 pub use light::{Dome, Lamp, LampField, Light, LightError, MOST_LAMPS, PanoramaRef, SoftBox, toward};
 pub use lights::{LIGHTS, light};
 pub use medium::Medium;

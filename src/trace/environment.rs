@@ -13,7 +13,7 @@ use crate::math::Basis;
 use crate::scene::{Light, LightError, Panorama, World, toward};
 pub(in crate::trace) use backplate::{ALONG, Photographed};
 pub use backplate::{Backplate, backplate_point};
-use drawing::{channels, shine};
+pub use drawing::{channels, shine};
 use glam::{DVec2, DVec3, DVec4, IVec2, Vec2Swizzles as _, Vec4Swizzles as _};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

@@ -160,6 +160,8 @@ pub enum ViewAction {
     BehindMm(f64),
     /// The strength of refraction in renders: 0 goes straight on, 1 is physics.
     Strength(f64),
+    /// The part of the light of sparkles that spreads around them in renders, 0 to 1.
+    Glow(f64),
     /// The greatest number of bounces of light in renders.
     Bounces(u32),
     /// The angle by which the light of renders is turned about its axis, degrees.

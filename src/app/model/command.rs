@@ -54,6 +54,7 @@ pub enum Command by keys {
     Play: "M", "Motion", "Starts or stops the motion in renders: copies tumble and plates wave.";
     LayOut: "Space", "Scatter copies", "Scatters the copies in renders anew.";
     NextBehind: "G", "Next background", "Puts the next world or pattern behind renders.";
+    AnotherLight: "Shift+G", "Another light", "Lights renders by another light and turns it, both at random.";
     Tiers: "Shift+T", "Table of tiers",
         "Opens a table below the views, in which tiers are added, placed and named.";
     BenchMode: "Shift+B", "Bench mode",
@@ -103,7 +104,7 @@ pub const MENUS: [Menu; 6] = [
             &[One, Two, Four],
             &[Wireframe, Facets, Bounces, Unresolved, Total, Strongest, Glare],
             &[LightPath],
-            &[Play, LayOut, NextBehind],
+            &[Play, LayOut, NextBehind, AnotherLight],
             &[Tiers, BenchMode, Audit, Map, Search],
             &[Panels, FullScreen],
             &[ResetView, ResetLayout],

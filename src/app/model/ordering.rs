@@ -129,6 +129,7 @@ impl Orders<'_> {
             behind: workspace.background(),
             distance: workspace.behind_mm.map_or(BEHIND, |mm| mm / document.specimen().unit_mm()),
             strength: workspace.strength(),
+            glow: workspace.glow,
             bounces: workspace.bounces,
             light_turn: workspace.light_turn,
             light_upright: workspace.light_upright,

@@ -135,6 +135,8 @@ pub struct Session {
     pub sweeps: u64,
     /// How often copies were laid out; this seeds the next layout.
     pub layings: u64,
+    /// How often a light was chosen at random; this seeds the next choice.
+    pub lights_drawn: u64,
     /// The text of the status line while the pointer is over a picture.
     pub message: String,
     pub notes: Notes,
@@ -191,6 +193,7 @@ impl Session {
             search: CutSearch::default(),
             sweeps: 0,
             layings: 0,
+            lights_drawn: 0,
             message: String::new(),
             notes: Notes::default(),
             dialog: None,

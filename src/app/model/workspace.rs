@@ -6,7 +6,7 @@ use crate::app::model::eye::Eye;
 use crate::app::shows::Shows;
 use crate::app::studio::Smoothing;
 use crate::io::background::BackgroundRef;
-use crate::picture::Overlay;
+use crate::picture::{Bloom, Overlay};
 use crate::render::USUAL_BOUNCES;
 use crate::scene::{Glare, Projection, View};
 use serde::{Deserialize, Serialize};
@@ -145,6 +145,8 @@ pub struct Workspace {
     /// The strength of refraction: how much of the way that refraction turns light is followed before the backplate; 1 is
     /// physics.
     pub strength: f64,
+    /// The part of the light of sparkles that spreads around them in renders, 0 to 1.
+    pub glow: f64,
     /// The greatest number of bounces inside a stone through which renders follow light.
     pub bounces: u32,
     /// The angle by which the light is turned about its axis, degrees.
@@ -216,6 +218,7 @@ impl Default for Workspace {
             of_scene: None,
             behind_mm: None,
             strength: 1.0,
+            glow: Bloom::default().strength,
             bounces: USUAL_BOUNCES,
             light_turn: 0.0,
             light_upright: false,

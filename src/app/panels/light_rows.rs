@@ -3,13 +3,15 @@
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit, FileAction, ViewAction};
 use crate::app::model::choosing::Purpose;
+use crate::app::model::command::Command;
 use crate::app::model::workspace::{WAVELENGTHS, Workspace};
 use crate::app::panels::rows::{Row, choice_row};
 use crate::app::studio::BEHIND;
 use crate::io::background::BackgroundRef;
+use crate::picture::light_picture;
 use crate::render::USUAL_BOUNCES;
 use crate::scene::{LIGHTS, light};
-use egui::Ui;
+use egui::{Button, ColorImage, Id, Image, TextureHandle, TextureOptions, Ui, Vec2, vec2};
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -25,6 +27,9 @@ const STRENGTHS: RangeInclusive<f64> = 0.0..=1.0;
 
 /// The range of the turn of the light, degrees.
 const TURNS: RangeInclusive<f64> = -180.0..=180.0;
+
+/// The range of the glow.
+const GLOWS: RangeInclusive<f64> = 0.0..=1.0;
 
 /// The range of the greatest number of bounces.
 const BOUNCES: RangeInclusive<f64> = 1.0..=USUAL_BOUNCES as f64;
@@ -56,6 +61,10 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
         WAVELENGTHS.into_iter().for_each(|n| drop(ui.selectable_value(&mut count, n, n.to_string())));
     });
     actions.push_changed(&workspace.wavelengths, count, ViewAction::Wavelengths);
+    let meaning = "How much of the light of sparkles spreads around them in renders, as in an eye or a lens; 0 for none. A rough \
+        picture has none.";
+    let glow = Row { step: 0.01, decimals: 2, ..Row::new("Glow", meaning, GLOWS) };
+    glow.edit(ui, actions, workspace.glow, ViewAction::Glow);
     let meaning = "The number of bounces inside the stone after which renders follow light no farther. Raise it from 1 to \
         see what each bounce adds; light that is left is dark.";
     let bounces = Row { step: 1.0, decimals: 0, ..Row::new("Most bounces", meaning, BOUNCES) };
@@ -76,12 +85,36 @@ fn short(name: &str) -> Cow<'_, str> {
     Path::new(name).file_name().map_or(name.into(), |file| file.to_string_lossy())
 }
 
+/// The size of a light's picture in the list, points.
+const THUMBNAIL: Vec2 = vec2(48.0, 24.0);
+
+/// Returns the picture of a light of the program; drawn when it is first shown.
+fn light_thumbnail(ui: &Ui, name: &str) -> Image<'static> {
+    let id = Id::unique(("light thumbnail", name));
+    let known = ui.data(|data| data.get_temp::<TextureHandle>(id));
+    let texture = known.unwrap_or_else(|| {
+        let size = [2 * THUMBNAIL.x as u32, 2 * THUMBNAIL.y as u32];
+        let rgb = light(name)
+            .map_or_else(|| vec![0; 3 * (size[0] * size[1]) as usize], |light| light_picture(&light, size));
+        let image = ColorImage::from_rgb(size.map(|side| side as usize), &rgb);
+        let texture = ui.ctx().load_texture(format!("light {name}"), image, TextureOptions::LINEAR);
+        ui.data_mut(|data| data.insert_temp(id, texture.clone()));
+        texture
+    });
+    Image::new((texture.id(), THUMBNAIL))
+}
+
 /// Draws the row of lights.
 fn light_row(present: &str, actions: &mut Actions, ui: &mut Ui) {
     choice_row(ui, "Light", "The light around the stone in renders.", &short(present), |ui| {
+        if ui.button("Another at random").on_hover_text(Command::AnotherLight.meaning()).clicked() {
+            actions.push(Command::AnotherLight);
+        }
         for name in LIGHTS {
             let about = light(name).map_or(String::new(), |light| light.description);
-            if ui.selectable_label(present == name, name).on_hover_text(about).clicked() {
+            let picture = light_thumbnail(ui, name);
+            let entry = ui.add(Button::selectable(present == name, (picture, name)));
+            if entry.on_hover_text(about).clicked() {
                 actions.push(Edit::Light(name.to_owned()));
             }
         }

@@ -12,7 +12,8 @@ use std::sync::Arc;
 /// Returns how the render of a shot is developed; `fine` where there is time for glow.
 pub(super) fn manner(shot: &Shot, fine: bool) -> Develop {
     // Glow would stand out around an overlay, and it takes longer than the rest of a rough picture.
-    let bloom = (fine && shot.overlay.is_none()).then(Bloom::default);
+    let has_glow = fine && shot.overlay.is_none() && shot.glow > 0.0;
+    let bloom = has_glow.then(|| Bloom { strength: shot.glow, ..Bloom::default() });
     let background = match &shot.behind {
         Some(BackgroundRef::Plain(background)) => *background,
         _ => Background::Transparent,

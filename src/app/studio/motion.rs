@@ -162,6 +162,7 @@ mod tests {
             behind: None,
             distance: 3.0,
             strength: 1.0,
+            glow: crate::picture::Bloom::default().strength,
             bounces: 64,
             light_turn: 0.0,
             light_upright: false,

@@ -70,6 +70,8 @@ pub struct Shot {
     pub whole: Film,
     /// How much of the way refraction is followed: 1 is physics.
     pub strength: f64,
+    /// The part of the light of sparkles that spreads around them in a render, 0 to 1.
+    pub glow: f64,
     /// The greatest number of bounces of light in a render.
     pub bounces: u32,
     /// The angle by which the light is turned about its axis, degrees.
@@ -136,12 +138,13 @@ impl PartialEq for Shot {
 
 impl Shot {
     /// The settings that only renders and refraction maps depend on, with fixed values for those that maps ignore.
-    fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 6], Smoothing) {
+    fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 7], Smoothing) {
         let bounces = f64::from(self.bounces);
         let upright = f64::from(u8::from(self.light_upright));
-        let numbers = [self.distance, self.whole.pixel, self.light_turn, upright, self.strength, bounces];
+        let numbers =
+            [self.distance, self.whole.pixel, self.light_turn, upright, self.strength, bounces, self.glow];
         if self.shows == Shows::Refraction {
-            let numbers = [numbers[0], numbers[1], numbers[2], upright, 1.0, 0.0];
+            let numbers = [numbers[0], numbers[1], numbers[2], upright, 1.0, 0.0, 0.0];
             return (self.exposure, 0, false, None, numbers, Smoothing::None);
         }
         let Self { exposure, bands, jitter, smoothing, .. } = *self;

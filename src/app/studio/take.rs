@@ -172,6 +172,7 @@ mod tests {
             jitter: true,
             behind: None,
             strength: 1.0,
+            glow: crate::picture::Bloom::default().strength,
             bounces: 64,
             light_turn: 0.0,
             light_upright: false,

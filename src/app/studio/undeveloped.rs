@@ -27,6 +27,8 @@ impl Shot {
     /// Whether the light of this shot is that of another: the two may differ in exposure and overlay alone.
     pub fn has_light_of(&self, other: &Self) -> bool {
         let is_kept = matches!(self.shows, Shows::Render | Shows::Refraction);
-        is_kept && Self { exposure: other.exposure, overlay: other.overlay, ..self.clone() } == *other
+        is_kept
+            && Self { exposure: other.exposure, overlay: other.overlay, glow: other.glow, ..self.clone() }
+                == *other
     }
 }

@@ -16,6 +16,7 @@ mod guide;
 mod handed_out;
 mod keeping;
 mod layout;
+mod light_and_glass;
 mod looks;
 mod maps;
 mod reading;

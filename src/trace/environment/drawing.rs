@@ -5,14 +5,14 @@ use crate::scene::{Dome, Light, Panorama, SoftBox, toward};
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 
 /// Returns a radiance of 1 by channel: of the key illuminant, or of a colour in encoded sRGB.
-pub(super) fn channels(colour: Option<[u8; 3]>) -> DVec4 {
+pub fn channels(colour: Option<[u8; 3]>) -> DVec4 {
     colour.map_or(DVec4::X, |rgb| {
         DVec3::from_array(rgb.map(|c| linear_from_encoded(f64::from(c) / 255.0))).extend(0.0).wxyz()
     })
 }
 
 /// Returns the radiance of the broad light, which is all but the lamps, from a direction of the light's own frame.
-pub(super) fn shine(light: &Light, panorama: Option<&Panorama>, d: DVec3) -> DVec4 {
+pub fn shine(light: &Light, panorama: Option<&Panorama>, d: DVec3) -> DVec4 {
     let domes = light.dome.iter().map(|dome| channels(dome.colour) * belt(dome, d));
     let boxes = light.boxes.iter().map(|b| channels(b.colour) * b.radiance * box_cover(b, d));
     let picture = light.panorama.as_ref().zip(panorama).map(|(how, picture)| {

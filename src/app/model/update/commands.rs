@@ -12,6 +12,7 @@ use crate::app::model::eye::Eye;
 use crate::app::model::task::{Task, WindowTask};
 use crate::app::model::workspace::PaneLayout;
 use crate::cut::Cut;
+use crate::scene::{LIGHTS, scattered};
 
 impl Model {
     /// Whether a command can be carried out now.
@@ -126,6 +127,7 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
         }
         Command::Retarget => fitting::open_retarget(model, tasks),
         Command::Yield => fitting::open_yield(model),
+        Command::AnotherLight => another_light(model),
         Command::LayOut => edits::edit(model, Edit::LayOut(model.document.work.copies.poses.len())),
         Command::Search => searching::toggle(model, tasks),
         Command::Undo | Command::Redo => {
@@ -147,6 +149,17 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
         }
         other => look(model, other),
     }
+}
+
+/// Lights renders by a light of the program that is not the present one, turned to another side. The light is a step of undo.
+fn another_light(model: &mut Model) {
+    model.session.lights_drawn += 1;
+    let [place, turn] = [0, 1].map(|k| scattered(2 * model.session.lights_drawn + k));
+    let present = &model.document.work.light;
+    let others: Vec<&str> = LIGHTS.into_iter().filter(|name| *name != present).collect();
+    let name = others[(place * others.len() as f64) as usize % others.len()];
+    model.workspace.light_turn = (360.0 * turn - 180.0).round();
+    edits::edit(model, Edit::Light(name.to_owned()));
 }
 
 /// Carries out a command that changes the views alone.

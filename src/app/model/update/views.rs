@@ -27,6 +27,7 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: ViewAction) {
         ViewAction::Behind(behind) => workspace.behind = behind,
         ViewAction::BehindMm(mm) => workspace.behind_mm = Some(mm),
         ViewAction::Strength(strength) => workspace.strength = strength,
+        ViewAction::Glow(glow) => workspace.glow = glow,
         ViewAction::Bounces(bounces) => workspace.bounces = bounces,
         ViewAction::LightTurn(degrees) => workspace.light_turn = degrees,
         ViewAction::LightUpright(is_upright) => workspace.light_upright = is_upright,

@@ -1,0 +1,108 @@
+//! Tests of the rows for light, material and motion, found by their accessible names as a person with a screen reader finds them.
+
+use super::Bench;
+use super::copies::bench;
+use crate::app::model::workspace::Workspace;
+use crate::app::studio::{Shot, Smoothing};
+use crate::cut::MaterialRef;
+use crate::optics::{Absorption, line};
+use crate::picture::Bloom;
+use crate::scene::LIGHTS;
+use egui::{Key, Modifiers, Role};
+use egui_kittest::kittest::Queryable;
+
+fn workspace(bench: &Bench) -> &Workspace {
+    &bench.editor().model.workspace
+}
+
+/// Returns what the render was last ordered to show.
+fn shot(bench: &Bench) -> &Shot {
+    &bench.editor().model.session.ordered.shots[0].1
+}
+
+/// Chooses an entry of the list of this name.
+fn pick(bench: &mut Bench, name: &str, entry: &str) {
+    bench.harness.get_by_role_and_label(Role::ComboBox, name).scroll_to_me();
+    bench.harness.run_steps(super::SCROLLED);
+    bench.harness.get_by_role_and_label(Role::ComboBox, name).click();
+    bench.harness.run_steps(4);
+    bench.harness.get_by_label(entry).scroll_to_me();
+    bench.harness.run_steps(super::SCROLLED);
+    bench.click(entry);
+}
+
+#[test]
+fn rows_of_light_change_what_renders_are_ordered_to_show() {
+    let mut bench = bench("subtle-pill");
+    bench.type_number("Light turn", "35");
+    bench.type_number("Most bounces", "4");
+    bench.type_number("Glow", "0.4");
+    bench.type_number("Distance", "80");
+    assert_eq!((shot(&bench).light_turn, shot(&bench).bounces, shot(&bench).glow), (35.0, 4, 0.4));
+    assert_eq!(workspace(&bench).behind_mm, Some(80.0));
+    let near = shot(&bench).view.projection;
+    bench.type_number("View angle", "30");
+    assert_ne!(shot(&bench).view.projection, near);
+    pick(&mut bench, "Light axis", "up");
+    assert!(shot(&bench).light_upright);
+    pick(&mut bench, "Smoothing", "temporal");
+    bench.type_number("Newest part", "0.25");
+    assert_eq!(shot(&bench).smoothing, Smoothing::Temporal { newest: 0.25 });
+    assert_ne!(Workspace::default().glow, 0.4);
+    assert_eq!(Workspace::default().glow, Bloom::default().strength);
+}
+
+#[test]
+fn rows_of_the_material_make_one_of_the_users_own() {
+    let mut bench = bench("subtle-pill");
+    let material = |bench: &Bench| match &bench.editor().model.document.work.design.material {
+        MaterialRef::Custom(own) => own.clone(),
+        other => panic!("{other:?} is no material of one's own"),
+    };
+    bench.type_number("Index", "1.7");
+    let index = material(&bench).index(line::HELIUM_D);
+    assert!((index - 1.7).abs() < 1e-5, "{index}");
+    bench.type_number("Abbe number", "20");
+    assert!((material(&bench).dispersion.abbe_number().unwrap() - 20.0).abs() < 1e-6);
+    bench.type_number("Dispersion B-G", "0.05");
+    assert!((material(&bench).dispersion.dispersion_b_g() - 0.05).abs() < 1e-6);
+    // The picker of the colour is there by its name; a coloured glass has a length in which half of the light is lost.
+    let picker = bench.harness.query_all_by_label("Body colour").count();
+    assert!(
+        picker > 0 && bench.harness.query_by_role_and_label(Role::SpinButton, "Half-light path").is_none()
+    );
+    let colour = Absorption::of_colour(glam::DVec3::new(0.2, 0.5, 0.9), 40.0).unwrap();
+    let mut own = material(&bench);
+    own.absorption = [colour.clone(), colour];
+    bench.harness.state_mut().act(crate::app::model::action::Edit::Material(MaterialRef::Custom(own)));
+    bench.harness.run_steps(3);
+    bench.type_number("Half-light path", "12");
+    assert!((material(&bench).half_length().unwrap() - 12.0).abs() < 1e-6);
+    for _ in 0..5 {
+        bench.harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+        bench.harness.run_steps(3);
+    }
+    assert!(!matches!(bench.editor().model.document.work.design.material, MaterialRef::Custom(_)), "undone");
+}
+
+#[test]
+fn another_light_is_drawn_at_random_and_undone_and_each_light_of_the_list_has_a_picture() {
+    let mut bench = bench("subtle-pill");
+    let before = bench.editor().model.document.work.light.clone();
+    let mut seen = vec![before.clone()];
+    for _ in 0..4 {
+        pick(&mut bench, "Light", "Another at random");
+        let now = bench.editor().model.document.work.light.clone();
+        assert!(LIGHTS.contains(&now.as_str()) && Some(&now) != seen.last(), "{now} after {seen:?}");
+        seen.push(now);
+    }
+    for _ in 0..4 {
+        bench.harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+        bench.harness.run_steps(3);
+    }
+    assert_eq!(bench.editor().model.document.work.light, before);
+    bench.choose("View", "Another light");
+    assert_ne!(bench.editor().model.document.work.light, before);
+    pick(&mut bench, "Light", "office");
+    assert_eq!(bench.editor().model.document.work.light, "office");
+}
