@@ -61,7 +61,8 @@ fn rows_of_the_material_make_one_of_the_users_own() {
     };
     bench.type_number("Index", "1.7");
     let index = material(&bench).index(line::HELIUM_D);
-    assert!((index - 1.7).abs() < 1e-5, "{index}");
+    // The law of an Abbe number has its index at 587.6 nm to four decimals.
+    assert!((index - 1.7).abs() < 1e-4, "{index}");
     bench.type_number("Abbe number", "20");
     assert!((material(&bench).dispersion.abbe_number().unwrap() - 20.0).abs() < 1e-6);
     bench.type_number("Dispersion B-G", "0.05");
