@@ -3,12 +3,15 @@
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit};
 use crate::app::model::export::kinds;
-use crate::app::panels::rows::{NUMBER, named};
+use crate::app::panels::rows::{field_width, named};
 use crate::cut::{Design, MaterialRef};
 use crate::scene::MetalInstance;
 use egui::{Align, Button, Label, Layout, Role, Ui, WidgetInfo, vec2};
 use std::collections::BTreeMap;
 use std::sync::Arc;
+
+/// The width of the buttons that edit a stone, points.
+const EDIT: f32 = 44.0;
 
 /// Draws a row for each kind of stone, the one that is edited first, and for each metal.
 pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
@@ -22,7 +25,7 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
         let meaning = "A stone of the scene. Drag it in a render to move it; it stops before others.";
         let text = counted(places.len(), &kind.design);
         row(ui, "Beside it", meaning, &text, |ui| {
-            let size = vec2(NUMBER, ui.spacing().interact_size.y);
+            let size = vec2(EDIT, ui.spacing().interact_size.y);
             let button = ui.add_sized(size, Button::new("Edit"));
             button.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Edit {text}")));
             let meaning = "Shows this stone in all views, and its numbers in this panel.";
@@ -45,7 +48,8 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
 fn row(ui: &mut Ui, name: &str, meaning: &str, text: &str, end: impl FnOnce(&mut Ui)) {
     ui.horizontal(|ui| {
         named(ui, name, meaning);
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        let size = vec2(field_width(ui), ui.spacing().interact_size.y);
+        ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
             end(ui);
             let rest = Layout::left_to_right(Align::Center);
             ui.with_layout(rest, |ui| ui.add(Label::new(text).truncate()));
@@ -59,7 +63,7 @@ fn counted(count: usize, design: &Design) -> String {
         MaterialRef::Name(name) => name.clone(),
         other => other.material().map_or_else(|_| "own material".to_owned(), |material| material.name),
     };
-    format!("{}{}, {material}, {:.2} mm", times(count), design.name, design.diameter_mm)
+    format!("{}{material}, {:.2} mm, {}", times(count), design.diameter_mm, design.name)
 }
 
 fn times(count: usize) -> String {

@@ -107,7 +107,7 @@ fn another_stone_of_the_scene_is_edited_by_its_button_and_nothing_moves() {
     let mut bench = bench("trilogy");
     let before = places(work(&bench), unit_mm(&bench.editor().model));
     let title = work(&bench).design.material.clone();
-    bench.click("Edit Modern ideal, diamond, 6.46 mm");
+    bench.click("Edit diamond, 6.46 mm, Modern ideal");
     assert_ne!(work(&bench).design.material, title);
     assert_same_places(&places(work(&bench), unit_mm(&bench.editor().model)), &before);
     assert!(!bench.editor().model.document.is_changed() && !bench.editor().model.document.has_moved_copies());
