@@ -86,7 +86,7 @@ mod tests {
     fn measured(planes: &[Plane], degrees: f64) -> Polytope {
         let lean = |(k, plane): (usize, &Plane)| {
             let way = k as f64 * 2.4;
-            let axis = DVec3::new(way.cos(), way.sin(), 0.3 * way.sin()).normalize();
+            let axis = DVec3::new(way.cos(), way.sin(), 0.0);
             let turn = DQuat::from_axis_angle(
                 axis,
                 (degrees * (0.4 + 0.6 * (k as f64 * 1.7).sin().abs())).to_radians(),
