@@ -45,7 +45,7 @@ fn a_family_becomes_tiers_with_meets_in_one_step() {
     let (code, _, stderr) = desk.run("convert --meets oval oval.toml");
     assert!(code == 0 && stderr.contains("turned into ") && stderr.contains("between the teeth"), "{stderr}");
     let text = desk.read("oval.toml");
-    for said in ["[index]", "name = \"P1\"", "name = \"G1\"", "name = \"C1\"", "name = \"T\"", "meet = "] {
+    for said in ["[index]", "[\"P1\"]", "[\"G1\"]", "[\"C1\"]", "[\"T\"]", "meet = "] {
         assert!(text.contains(said), "{said} is missing: {text}");
     }
     assert!(!text.contains("bezel"));
