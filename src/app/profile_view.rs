@@ -18,6 +18,7 @@ mod sight;
 mod tests;
 
 use crate::cut::{Cut, ProfileHandle};
+use crate::picture::DrawnMarks;
 use crate::scene::Stone;
 use egui::accesskit::Role;
 use egui::{CursorIcon, Key, PointerButton, Rect, RectAlign, Sense, Tooltip, Ui, WidgetInfo};
@@ -39,11 +40,11 @@ pub struct ProfileView {
 }
 
 impl ProfileView {
-    /// Draws `stone` within `rect`; where its family has handles, they change the proportions of `cut`.
+    /// Draws `stone` within `rect`, with what `marks` marks; where its family has handles, they change the proportions of `cut`.
     ///
     /// A [`Ui`] can hold one such drawing, whose state goes by the identity of that `Ui`. Of a cut without proportions, or
     /// with impossible ones, the drawing shows what can be measured and has no handles.
-    pub fn show(&mut self, ui: &mut Ui, rect: Rect, stone: &Stone, cut: &mut Cut) {
+    pub fn show(&mut self, ui: &mut Ui, rect: Rect, (stone, marks): (&Stone, &DrawnMarks), cut: &mut Cut) {
         let id = ui.make_persistent_id("profile");
         let response = ui.interact(rect, id, Sense::hover());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, ui.is_enabled(), "Profile of the stone"));
@@ -51,7 +52,7 @@ impl ProfileView {
         let extent = self.extent(ui, &measured);
         let frame = ProfileFrame::new(ui, id, rect, &measured, extent);
         let offered = frame.offer(ui);
-        let labels = frame.paint(ui, &offered, self.active(&offered));
+        let labels = frame.paint(ui, &offered, self.active(&offered), marks);
         if measured.cut.is_none() {
             self.grab = None;
             return;

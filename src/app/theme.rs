@@ -4,6 +4,9 @@ use crate::app::studio::Paper;
 use crate::picture::Inks;
 use egui::{Color32, Context, CornerRadius, FontId, Stroke, Style, TextStyle, Theme, Visuals, vec2};
 
+/// The colour in which a finding of the audit is shown: bright on any picture, and not that of a tier that is selected.
+pub const FOUND: Color32 = Color32::from_rgb(255, 176, 40);
+
 /// Returns the colour that marks what is chosen.
 pub fn accent(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { Color32::from_rgb(96, 165, 230) } else { Color32::from_rgb(26, 102, 184) }

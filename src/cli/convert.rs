@@ -20,8 +20,8 @@ pub struct Convert {
     /// The format to write, whatever the ending
     #[arg(long, value_enum)]
     format: Option<DesignFormat>,
-    /// For a cutter's design, follow its meets: keep those that the file gives, that its instructions state and that the
-    /// geometry shows, and move each tier to the distance that follows
+    /// Follow the meets of tiers: keep those that the file gives, that its instructions state and that the geometry shows, and
+    /// move each tier to the distance that follows. A cut by proportions is turned into tiers first, named P1, G1, C1, T
     #[arg(long)]
     meets: bool,
     #[command(flatten)]
@@ -54,10 +54,12 @@ impl Convert {
 /// Returns the stone whose tiers lie where their meets say.
 fn followed(specimen: LoadedSpecimen) -> Result<LoadedSpecimen, Failure> {
     let LoadedSpecimen { path, made } = specimen;
-    let Some(meets) = KnownMeets::of(&made.design.cut) else {
-        let problem = "--meets follows the meets of tiers, and this design has none; leave the option out";
+    let Some(meets) = KnownMeets::of(&made) else {
+        let problem = "--meets follows the meets of tiers, which cut convex stones between planes, and this body is none; leave the \
+                       option out";
         return Err(Failure::Input(format!("{path}: {problem}")));
     };
+    meets.say_turned(&path);
     let cut = Cut::Tiers(meets.followed(&path));
     let design = made.design.clone();
     let made = made.remade(Design { cut, ..design });

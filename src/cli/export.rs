@@ -36,6 +36,9 @@ pub struct ExportArguments {
     /// Draw a caption under pictures in scopes: what each colour means, view, error, stone and program
     #[arg(long)]
     caption: bool,
+    /// Mark the findings of the audit, as `info --audit` lists them, in facet diagrams
+    #[arg(long)]
+    mark_audit: bool,
     /// Add to the figures how long they took, which differs from run to run
     #[arg(long)]
     timing: bool,
@@ -86,6 +89,7 @@ impl ExportArguments {
             size: self.size,
             formats: self.format.clone(),
             caption: self.caption,
+            mark_audit: self.mark_audit,
             // Standard output takes a single file: the picture of energy.
             strongest: !is_standard(&self.out),
             timing: self.timing,

@@ -40,8 +40,8 @@ pub struct Info {
     /// List every facet as well
     #[arg(long)]
     facets: bool,
-    /// For a cutter's design, list instead where each tier goes: the meet that the file gives, that its instruction states or
-    /// that the geometry shows, and the distance that follows from it
+    /// List instead where each tier goes: the meet that the file gives, that its instruction states or that the geometry shows,
+    /// and the distance that follows from it. A cut by proportions is turned into tiers first
     #[arg(long)]
     meets: bool,
     /// List instead what may not be meant: near misses, split meets, slivers, tiers below the critical angle, departures from
@@ -70,10 +70,12 @@ impl Info {
             }
             let specimen = LoadedSpecimen::load(file, mesh)?.made_of(material, None)?;
             let mut value = described(&specimen)?;
-            let meets = self.meets.then(|| KnownMeets::of(&specimen.design.cut)).flatten();
+            let meets = self.meets.then(|| KnownMeets::of(&specimen)).flatten();
             if self.meets && meets.is_none() {
-                specimen.say("meets are those of tiers, and this design has none");
+                specimen
+                    .say("tiers cut convex stones between planes, and this body is none, so it has no meets");
             }
+            meets.iter().for_each(|meets| meets.say_turned(&specimen.path));
             if let Some(meets) = &meets {
                 value["meets"] = meets.json();
             }

@@ -2,7 +2,10 @@
 
 use super::console::say;
 use crate::cut::{Cut, Meet, SolvedTiers, TierOutcome, Tiers};
+use crate::io::as_tiers;
+use crate::scene::Specimen;
 use serde_json::{Value, json};
+use std::borrow::Cow;
 use std::fmt::Write;
 
 /// The largest change of a distance, in the design's unit, that is not worth a note: the last digit of most files.
@@ -13,7 +16,7 @@ const NOTED_DEG: f64 = 1e-3;
 
 /// A design with all meets that are known of it.
 pub struct KnownMeets<'a> {
-    design: &'a Tiers,
+    design: Cow<'a, Tiers>,
     /// Where the meet of each tier comes from; empty where it has none.
     sources: Vec<&'static str>,
     met: Tiers,
@@ -21,15 +24,18 @@ pub struct KnownMeets<'a> {
 }
 
 impl<'a> KnownMeets<'a> {
-    /// Takes the meets that the file gives, that instructions state, and that the geometry shows, in this order; `None` for a
-    /// design without tiers.
-    pub fn of(cut: &'a Cut) -> Option<Self> {
-        let Cut::Tiers(design) = cut else { return None };
+    /// Takes the meets that the file gives, that instructions state, and that the geometry shows, in this order. A stone that
+    /// is not cut by tiers is turned into tiers first; `None` for a body that is no convex stone between planes.
+    pub fn of(specimen: &'a Specimen) -> Option<Self> {
+        let design = match &specimen.design.cut {
+            Cut::Tiers(tiers) => Cow::Borrowed(tiers),
+            _ => Cow::Owned(as_tiers(specimen)?),
+        };
         let stated = design.with_stated_meets();
         let met = stated.with_found_meets();
         let has = |tiers: &Tiers, place: usize| tiers.tiers[place].meet.is_some();
         let source = |place| match () {
-            () if has(design, place) => "file",
+            () if has(&design, place) => "file",
             () if has(&stated, place) => "stated",
             () if has(&met, place) => "found",
             () => "",
@@ -37,6 +43,29 @@ impl<'a> KnownMeets<'a> {
         let sources = (0..design.tiers.len()).map(source).collect();
         let solved = met.solved();
         Some(Self { design, sources, met, solved })
+    }
+
+    /// Whether the stone was turned into tiers.
+    fn is_turned(&self) -> bool {
+        matches!(self.design, Cow::Owned(_))
+    }
+
+    /// Says that the stone was turned into tiers, how many have a meet, and which have indices between teeth; nothing for a
+    /// stone that tiers cut.
+    pub fn say_turned(&self, path: &str) {
+        if !self.is_turned() {
+            return;
+        }
+        let (all, met) =
+            (self.sources.len(), self.sources.iter().filter(|source| !source.is_empty()).count());
+        say(&format!(
+            "note: {path}: turned into {all} tiers; {met} have a meet, the others keep their distance"
+        ));
+        let between: Vec<&str> = self.design.between_teeth().collect();
+        if !between.is_empty() {
+            let (gear, names) = (self.design.gear.abs(), between.join(", "));
+            say(&format!("note: {path}: indices lie between the teeth of the gear of {gear}: {names}"));
+        }
     }
 
     /// Returns the solved design with its meets, each also as an instruction where there was none. Prints a note for each tier

@@ -58,7 +58,7 @@ impl SheetArguments {
                 true => self.out.join(format!("{}-sheet.{}", stem(file), format.ending())),
                 false => self.out.clone(),
             };
-            write(&specimen, &sheet, self.paper, (format, &path))?.iter().try_for_each(|file| written(file))
+            write(&sheet, self.paper, (format, &path))?.iter().try_for_each(|file| written(file))
         })
     }
 

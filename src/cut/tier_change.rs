@@ -8,6 +8,9 @@ use glam::DVec3;
 /// Half of the last decimal to which indices are shown, teeth.
 const SHOWN: f64 = 0.5e-4;
 
+/// Half of the last decimal to which sheets print indices, teeth.
+const PRINTED: f64 = 0.5e-3;
+
 /// A tier that is added is flatter by this than the one before it, degrees.
 const FLATTER: f64 = 3.0;
 
@@ -158,6 +161,15 @@ impl Tiers {
         let letters = like.trim_end_matches(|c: char| c.is_ascii_digit());
         let is_free = |name: &String| self.tiers.iter().all(|tier| tier.name() != name);
         (1..).map(|number| format!("{letters}{number}")).find(is_free).unwrap_or_default()
+    }
+
+    /// Returns the names of the tiers with an index between two teeth of the gear, by more than the three decimals show to
+    /// which sheets print indices. Flat tiers have no direction, and are left out.
+    pub fn between_teeth(&self) -> impl Iterator<Item = &str> {
+        let is_flat = |tier: &Tier| matches!(tier.zone(), TierZone::Table | TierZone::Culet);
+        let leaning = self.tiers.iter().filter(move |tier| !is_flat(tier));
+        let is_between = |facet: &Indexed| (facet.index - facet.index.round()).abs() >= PRINTED;
+        leaning.filter(move |tier| tier.facets.iter().any(is_between)).map(Tier::name)
     }
 
     /// Returns the place in the list of the tier that is the one at `number`, from 0, among those that are cut; the length of the

@@ -19,8 +19,8 @@ pub(super) mod sample;
 #[cfg(test)]
 mod slopes_of_tiers;
 
-pub use outward::as_tiers;
 pub(super) use outward::{FacetOutline, outlines, refractive_index, tiers_of, untold};
+pub use outward::{NoTiers, as_tiers, in_tiers};
 
 /// Two facets of one tier are cut at one setting if their angles (degrees) and their distances (relative) differ by no more
 /// than this. A number this near to one that a cutter would write is taken for that one. The value is above the noise of

@@ -1,9 +1,11 @@
 //! Writes cutters' sheets as SVG, PDF and PNG.
 
-use super::cutters::tiers_of;
-use super::{DrawingError, Failure, WriteError, pdf, rasterize, write as write_whole, write_png};
+use super::{DrawingError, Failure, WriteError, in_tiers, pdf, rasterize, write as write_whole, write_png};
+use crate::cut::{Cut, TierZone, Tiers};
 use crate::picture::{CuttingSheet, PaperSize, sheet_pages};
-use crate::scene::{Body, Specimen};
+use crate::scene::{Specimen, Stone};
+use glam::DVec3;
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 #[cfg(test)]
@@ -37,6 +39,15 @@ impl SheetFormat {
         }
     }
 
+    /// Returns the name of the format.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pdf => "PDF",
+            Self::Svg => "SVG",
+            Self::Png => "PNG",
+        }
+    }
+
     /// Returns the format that the ending of a file's name stands for.
     pub fn of_name(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_string_lossy().to_lowercase();
@@ -44,28 +55,54 @@ impl SheetFormat {
     }
 }
 
-/// Describes the sheet of a stone. A stone that is not cut by tiers is given those that its planes make; see
-/// [`asc`](super::asc), which writes the same.
+/// Describes the sheet of a stone. A stone that is not cut by tiers gets those that the editor turns it into: pavilion,
+/// girdle, crown and table with cutters' names, and the meets that its geometry shows as instructions; see [`in_tiers`]. The
+/// instruction of a tier without a meet is its depth.
 ///
 /// # Errors
 /// [`Failure::Input`] for a solid without facets that can be cut: a mesh that is not convex, a smooth glass shape.
 pub fn cutting_sheet(specimen: &Specimen, left_handed: bool) -> Result<CuttingSheet, Failure> {
-    let name = &specimen.design.name;
-    let refused = |why: &str| Failure::Input(format!("{name}: {why}"));
-    let stone = match &*specimen.body {
-        Body::Stone(stone) => stone,
-        Body::Mesh(_) => {
-            return Err(refused(
-                "a cutter's sheet needs a convex stone between planes, and this mesh is not convex",
-            ));
-        }
-        Body::Glass(_) => {
-            return Err(refused("a cutter's sheet needs flat facets, and this glass shape is smooth"));
-        }
+    let refused = |why: String| Failure::Input(format!("{}: no cutter's sheet: {why}", specimen.design.name));
+    let by_tiers = in_tiers(specimen).map_err(|why| refused(why.to_string()))?;
+    let stone = by_tiers.stone().map_err(|why| refused(why.to_string()))?;
+    let Cut::Tiers(tiers) = &by_tiers.design.cut else { return Err(refused("it has no tiers".to_owned())) };
+    let tiers = match &by_tiers {
+        Cow::Borrowed(_) => Cow::Borrowed(tiers),
+        Cow::Owned(turned) => Cow::Owned(with_depths(turned, stone, tiers)),
     };
-    // What the tiers do not hold (proportions, a shift along the axis) does not change the settings of the machine.
-    let tiers = tiers_of(specimen, &mut Vec::new());
     Ok(CuttingSheet::new(specimen, stone, &tiers, left_handed))
+}
+
+/// Returns tiers of which those without a meet have their depth as instruction, and a footer that says what depth is. A depth is
+/// the distance of a facet's plane from the origin of the tiers, in widths of the stone.
+fn with_depths(turned: &Specimen, stone: &Stone, tiers: &Tiers) -> Tiers {
+    let mut tiers = tiers.clone();
+    let (low, high) = stone.polytope.bounds();
+    let width = (high - low).truncate().min_element();
+    let free = tiers.tiers.iter_mut().filter(|tier| tier.meet.is_none());
+    let mut count = 0;
+    for tier in free {
+        let table = if tier.zone() == TierZone::Table { "Table, depth" } else { "Depth" };
+        tier.instructions = format!("{table} {:.4} W", tier.distance * turned.frame.scale / width);
+        count += 1;
+    }
+    if count > 0 {
+        let origin = (turned.frame.place(DVec3::ZERO).z - low.z) / width;
+        tiers.footers.push(format!(
+            "Depth is the distance of the facet from the point of the axis that lies {origin:.4} W above the lowest point of \
+             the stone. Tiers that have one meet no earlier facets in a point that places them."
+        ));
+    }
+    tiers
+}
+
+/// Returns the files that [`write`] makes of a sheet, in that order.
+pub fn files(sheet: &CuttingSheet, paper: PaperSize, (format, path): (SheetFormat, &Path)) -> Vec<PathBuf> {
+    let count = match format {
+        SheetFormat::Pdf => 1,
+        SheetFormat::Svg | SheetFormat::Png => sheet_pages(sheet, paper).len(),
+    };
+    (0..count).map(|page| page_file(path, page)).collect()
 }
 
 /// Writes a sheet to a file, or with formats of one page a file, to several, whose names get the page's number from 2.
@@ -74,14 +111,11 @@ pub fn cutting_sheet(specimen: &Specimen, left_handed: bool) -> Result<CuttingSh
 /// # Errors
 /// [`Failure::Usage`] for several pages to standard output, [`Failure::Output`] where the file system refuses.
 pub fn write(
-    specimen: &Specimen,
     sheet: &CuttingSheet,
     paper: PaperSize,
     (format, path): (SheetFormat, &Path),
 ) -> Result<Vec<PathBuf>, Failure> {
-    let drawn = specimen.stone().map(|stone| sheet_pages(sheet, stone, paper));
-    let pages = drawn.map_err(|e| Failure::Input(format!("{}: {e}", sheet.title)))?;
-    let pages: Vec<String> = pages.iter().map(|page| page.to_string()).collect();
+    let pages: Vec<String> = sheet_pages(sheet, paper).iter().map(|page| page.to_string()).collect();
     let drawing = |e: DrawingError| Failure::Output(format!("{}: {e}", path.display()));
     if format == SheetFormat::Pdf {
         let bytes = pdf(&pages, &sheet.title).map_err(drawing)?;

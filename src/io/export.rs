@@ -86,6 +86,8 @@ pub struct Outputs {
     pub formats: Vec<OutputFormat>,
     /// Whether pictures in scopes are written by strongest exits as well as by energy.
     pub strongest: bool,
+    /// Whether facet diagrams mark the findings of the stone's audit.
+    pub mark_audit: bool,
     /// Whether PNG and SVG pictures in scopes have a caption with the legend of the scope's zones under them.
     pub caption: bool,
     /// Whether the figures include the time that they took, which makes files differ from run to run.

@@ -57,7 +57,7 @@ mod toml_text;
 pub use animation::{Animation, AnimationFormat, Frames, write_animation};
 pub use atomic::{Abandoned, Sink, WholeFile, WriteError, abandon_writes, check_writable, write};
 #[cfg(feature = "interchange")]
-pub use cutters::as_tiers;
+pub use cutters::{NoTiers, as_tiers, in_tiers};
 pub use drawing_png::{DrawingError, rasterize, rasterize_clear, rasterize_within};
 #[cfg(feature = "exr")]
 pub use exr::write_exr;

@@ -5,8 +5,10 @@
 //! about its y axis, so azimuths run clockwise from the left there.
 
 mod labels;
+mod marks;
 mod style;
 
+pub use marks::DrawnMarks;
 pub use style::DiagramStyle;
 
 use super::drawing::{Align, DrawnAspect, Ink, REMARK, Sheet, Type, degrees, shortened, text_width};
@@ -31,6 +33,9 @@ const INDEX: Type = Type { size: 11.0, colour: Ink::Quiet };
 /// Distance from one line of the list to the next.
 const LIST_LINE: f64 = 20.0;
 
+/// The legend of marks.
+const MARKED: &str = "Marked are candidates of the audit: places that may not be what the designer meant.";
+
 /// Two facets belong to one tier if their slopes (as cosines) and their distances (in radii) agree to this. It is a
 /// hundred times finer than machines cut and far above rounding.
 const SAME_TIER: f64 = 1e-6;
@@ -40,6 +45,11 @@ const SAME_TIER: f64 = 1e-6;
 /// Every facet is a polygon with its name in `data-name` and as its title. Upright facets, which are seen edge on, are
 /// drawn with the crown.
 pub fn diagram(stone: &Stone, title: &str, style: &DiagramStyle) -> Document {
+    marked_diagram(stone, title, style, &DrawnMarks::default())
+}
+
+/// Draws the facet diagram as [`diagram`] does, and marks facets and corners in it.
+pub fn marked_diagram(stone: &Stone, title: &str, style: &DiagramStyle, marks: &DrawnMarks) -> Document {
     let tiers = tiers(stone);
     let mut sheet = Sheet::new(style.inks);
     for view in [Basis::FACE_UP, Basis::FACE_DOWN].map(|basis| View::new(stone, basis, style)) {
@@ -50,6 +60,7 @@ pub fn diagram(stone: &Stone, title: &str, style: &DiagramStyle) -> Document {
             view.list(&mut sheet, &shown);
         }
         labels::Labels::new(&view, stone).write(&mut sheet, &shown);
+        marks.draw(&mut sheet, stone, &view.aspect, |facet| view.holds(facet));
     }
     if !style.is_sheet {
         return sheet.bare(title, style::SMALL_MARGIN);
@@ -60,7 +71,8 @@ pub fn diagram(stone: &Stone, title: &str, style: &DiagramStyle) -> Document {
         counted(facets, "facet"),
         counted(tiers.len(), "tier"),
     );
-    sheet.document(title, &subtitle, &[])
+    let legend = (!marks.is_empty()).then(|| MARKED.to_owned());
+    sheet.document(title, &subtitle, legend.as_slice())
 }
 
 fn counted(count: usize, noun: &str) -> String {
@@ -312,6 +324,24 @@ mod tests {
             assert!(stone.names().iter().all(|name| found.get(name.as_str()) == Some(&1)));
             assert_eq!(found.len(), stone.names().len());
         }
+    }
+
+    #[test]
+    fn marked_facets_and_corners_are_marked_where_they_are_seen() {
+        let stone = brilliant();
+        let of = |names: &[&str]| {
+            let place = |name: &&str| stone.names().iter().position(|own| own == name).unwrap();
+            names.iter().map(place).collect::<Vec<_>>()
+        };
+        let table = of(&["table"])[0];
+        let corner = stone.polytope.corners(&stone.polytope.facets()[table]).next().unwrap();
+        let marks = DrawnMarks { facets: of(&["table", "bezel 1", "main 3"]), corners: vec![corner] };
+        let svg = marked_diagram(&stone, "Test", &DiagramStyle::SHEET, &marks).to_string();
+        let count = |class: &str| svg.matches(&format!("class=\"{class}\"")).count();
+        assert_eq!((count("marked-facet"), count("marked-corner")), (3, 1));
+        assert!(svg.contains(MARKED));
+        let plain = diagram(&stone, "Test", &DiagramStyle::SHEET).to_string();
+        assert!(!plain.contains("marked-") && !plain.contains(MARKED));
     }
 
     #[test]

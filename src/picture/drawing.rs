@@ -40,6 +40,9 @@ const ARROW: DVec2 = DVec2::new(9.0, 2.6);
 /// Length below which a dimension has its arrows outside.
 pub(super) const ROOM_FOR_ARROWS: f64 = 26.0;
 
+/// The colour of marks: amber, which is seen on white paper and on a dark screen.
+const MARK: [u8; 3] = [0xe0, 0x8a, 0x00];
+
 /// Cosine below which a facet counts as seen edge on: the rounding of a unit normal.
 const EDGE_ON: f64 = 1e-9;
 
@@ -209,6 +212,24 @@ impl Sheet {
         let data = format!("M{}L{}L{}Z", point(tip), point(back + side), point(back - side));
         self.dimensions
             .append(Path::new().set("d", data).set("fill", self.inks.of(Ink::Accent)).set("stroke", "none"));
+    }
+
+    /// Outlines a facet that is to be noticed.
+    pub fn mark_outline(&mut self, corners: &[DVec2]) {
+        let mut data = String::new();
+        for (k, &corner) in corners.iter().enumerate() {
+            // Writing to a string cannot fail.
+            let _ = write!(data, "{}{}", if k == 0 { "M" } else { "L" }, point(corner));
+        }
+        let outline = Path::new().set("class", "marked-facet").set("d", data + "Z").set("fill", "none");
+        self.dimensions.append(outline.set("stroke", hex(MARK)).set("stroke-width", 2.2));
+    }
+
+    /// Draws a ring around a corner that is to be noticed.
+    pub fn mark_corner(&mut self, at: DVec2) {
+        let ring = Circle::new().set("cx", coordinate(at.x)).set("cy", coordinate(at.y)).set("r", 5);
+        let ring = ring.set("class", "marked-corner").set("fill", "none");
+        self.dimensions.append(ring.set("stroke", hex(MARK)).set("stroke-width", 2.2));
     }
 
     /// Draws a small disc, for where a leader ends on a facet or two short dimensions meet.

@@ -42,7 +42,7 @@ pub use bloom::Bloom;
 pub use by_beams::ByBeams;
 pub use caption::Caption;
 pub use develop::{Develop, develop, develop_rows};
-pub use diagram::{DiagramStyle, diagram};
+pub use diagram::{DiagramStyle, DrawnMarks, diagram, marked_diagram};
 pub use drawing::Inks;
 pub use enlarged::enlarged;
 pub use filling::filling;

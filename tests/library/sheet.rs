@@ -4,7 +4,7 @@
 
 use brillianteer::io::cutting_sheet::cutting_sheet;
 use brillianteer::io::design_file;
-use brillianteer::picture::{BlockKind, PaperSize, SheetRow, sheet_pages};
+use brillianteer::picture::{BlockKind, CuttingSheet, PaperSize, SheetRow, sheet_pages};
 use brillianteer::scene::Specimen;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -113,9 +113,50 @@ fn sheets_of_real_designs_say_what_their_files_say() {
             }
         }
         assert_eq!(seen.len(), tiers.len(), "{name}: tiers are missing");
-        assert!(!sheet_pages(&sheet, specimen.stone().unwrap(), PaperSize::A4).is_empty());
+        assert!(!sheet_pages(&sheet, PaperSize::A4).is_empty());
         compared += tiers.len();
     }
     println!("{} designs, {compared} tiers agree", DESIGNS.len());
     assert!(compared > 100);
+}
+
+/// A design of the library with a ratio that its file prints, and the unit of the last digit printed.
+const PRINTED: [(&str, &str, f64, f64); 11] = [
+    ("PC01521", "L/W", 1.0, 0.001),
+    ("PC02036A", "L/W", 1.5, 0.1),
+    ("PC02159", "L/W", 2.0, 0.001),
+    ("PC02260", "L/W", 1.2, 0.1),
+    ("PC04131", "L/W", 1.2, 0.01),
+    ("PC04132", "L/W", 1.25, 0.01),
+    ("PC05085", "L/W", 1.594, 0.001),
+    ("PC12001", "L/W", 2.0, 0.1),
+    ("PC41029", "L/W", 1.0, 0.01),
+    ("PC41058", "L/W", 1.818, 0.001),
+    ("PC42044", "H/W", 1.039, 0.001),
+];
+
+fn sheet_of(name: &str) -> (String, CuttingSheet) {
+    let path = Path::new(LIBRARY).join(format!("{name}.ASC"));
+    let bytes = std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let specimen = Specimen::new(design_file::read(&path).unwrap().design).unwrap();
+    (bytes.iter().map(|&byte| char::from(byte)).collect(), cutting_sheet(&specimen, false).unwrap())
+}
+
+fn ratio(sheet: &CuttingSheet, symbol: &str) -> f64 {
+    sheet.figures.ratios().into_iter().find(|(own, _)| *own == symbol).unwrap().1
+}
+
+#[test]
+fn ratios_of_real_sheets_are_those_that_their_files_print() {
+    if !Path::new(LIBRARY).is_dir() {
+        return println!("SKIPPED: {LIBRARY} is not there, so no ratio is compared with a printed one");
+    }
+    for (name, symbol, printed, digit) in PRINTED {
+        let (text, sheet) = sheet_of(name);
+        let decimals = (-digit.log10()).round() as usize;
+        let figure = format!("{printed:.decimals$}");
+        assert!(text.contains(symbol) && text.contains(&figure), "{name} does not print {symbol} {figure}");
+        let found = ratio(&sheet, symbol);
+        assert!((found - printed).abs() <= 0.5 * digit + 1e-9, "{name}: {symbol} {found} for {printed}");
+    }
 }

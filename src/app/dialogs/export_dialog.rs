@@ -1,5 +1,6 @@
 //! The export dialog, which writes files.
 
+use super::export_sheet::sheet_row;
 use crate::app::model::action::{Actions, DialogAction, FileAction};
 use crate::app::model::choosing::Purpose;
 use crate::app::model::export::Selection;
@@ -131,6 +132,10 @@ fn settings(ui: &mut Ui, export: &ExportForm, selection: &mut Selection, actions
             much light is unresolved, and the names of the stone and the program.";
         ui.checkbox(&mut selection.caption, "Caption and legend").on_hover_text(meaning);
         ui.end_row();
+        ui.label("Diagram");
+        let meaning = "Marks in the facet diagram what the audit lists: places that may not be what the designer meant.";
+        ui.checkbox(&mut selection.mark_audit, "Findings of the audit").on_hover_text(meaning);
+        ui.end_row();
         ui.label("Also");
         let meaning = "Writes a picture that says where on the background the light of each pixel comes from, a \
             picture of all other light, and a web page that refracts a moving background by both.";
@@ -148,6 +153,9 @@ fn settings(ui: &mut Ui, export: &ExportForm, selection: &mut Selection, actions
                 their light and their background. The editor opens the scene again.";
             ui.checkbox(&mut selection.scene, "Scene file and its cuts").on_hover_text(meaning);
         });
+        ui.end_row();
+        ui.label("Sheet");
+        sheet_row(&mut selection.sheet, export.plan.can_have_sheet(), ui);
         ui.end_row();
         let label = ui.label("Size");
         ui.add(DragValue::new(&mut selection.size).range(SIZES).speed(8.0).suffix(" pixels"))

@@ -5,6 +5,7 @@ mod answers;
 pub mod asked_path;
 mod cut_chooser;
 pub mod export_dialog;
+mod export_sheet;
 mod retarget_dialog;
 mod yield_dialog;
 

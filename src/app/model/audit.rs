@@ -1,6 +1,7 @@
 //! The audit of the stone in sight: what was found, and which finding is selected.
 
 use crate::cut::{Audit, Finding};
+use crate::picture::DrawnMarks;
 use crate::scene::{Specimen, Stone};
 use std::sync::Arc;
 
@@ -46,8 +47,7 @@ impl SessionAudit {
 
 /// Returns the places of the facets that a finding is about, by their names.
 pub fn finding_facets(stone: &Stone, finding: &Finding) -> Vec<usize> {
-    let is_meant = |place: &usize| finding.facets.contains(&stone.names()[*place]);
-    (0..stone.names().len()).filter(is_meant).collect()
+    DrawnMarks::of(stone, [finding]).facets
 }
 
 #[cfg(test)]

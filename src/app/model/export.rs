@@ -1,5 +1,6 @@
 //! What is exported: the files, and how each picture sees the stone.
 
+use super::export_sheet::SheetChoice;
 use super::framing::{Framing, FramingFit};
 use crate::app::shows::Shows;
 use crate::app::studio::Shot;
@@ -28,6 +29,10 @@ pub struct Selection {
     pub places: u32,
     /// Whether the copies are written as a scene file, with their cut file.
     pub scene: bool,
+    /// The cutter's sheet.
+    pub sheet: SheetChoice,
+    /// Whether facet diagrams mark the findings of the audit.
+    pub mark_audit: bool,
     /// The number of pixels along each side.
     pub size: u32,
     /// Whether pictures in scopes have a caption with a legend under them.
@@ -38,7 +43,18 @@ impl Default for Selection {
     fn default() -> Self {
         let views = vec![Shows::Render, Shows::Aset, Shows::Hearts, Shows::Arrows];
         let formats = vec![OutputFormat::Png];
-        Self { views, formats, map: false, bands: 1, places: 1, scene: false, size: 1024, caption: false }
+        Self {
+            views,
+            formats,
+            map: false,
+            bands: 1,
+            places: 1,
+            scene: false,
+            sheet: SheetChoice::default(),
+            mark_audit: false,
+            size: 1024,
+            caption: false,
+        }
     }
 }
 
@@ -80,6 +96,8 @@ pub struct ExportPlan {
     /// The light, as scene files name it.
     pub light: PathBuf,
     pub folder: PathBuf,
+    /// The files of the cutter's sheet, as [`list_sheet`](Self::list_sheet) found them; none where none is written.
+    pub sheet_files: Vec<PathBuf>,
     /// The beginning of the files' names.
     pub stem: String,
 }
@@ -129,6 +147,7 @@ impl ExportPlan {
             size: self.selection.size,
             formats,
             caption: self.selection.caption,
+            mark_audit: self.selection.mark_audit,
             strongest: true,
             timing: false,
         }
@@ -208,6 +227,7 @@ impl ExportPlan {
         }
         files.extend(self.render_path());
         files.extend(self.map_paths().into_iter().flat_map(|(maps, others)| maps.into_iter().chain(others)));
+        files.extend(self.sheet_files.iter().cloned());
         files.extend(self.selection.scene.then(|| self.scene_paths()).into_iter().flatten());
         Ok(files)
     }

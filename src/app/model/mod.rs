@@ -13,6 +13,7 @@ pub mod cutting;
 pub mod dialog;
 pub mod document;
 pub mod export;
+pub mod export_sheet;
 pub mod exporting;
 pub mod extent;
 pub mod eye;

@@ -4,6 +4,7 @@ use super::Model;
 use super::motion::WaveCache;
 use crate::app::shows::Shows;
 use crate::app::studio::{BEHIND, FiguresOrder, Order, Paper, Shot, Smoothing, SweepOrder, Which};
+use crate::picture::DrawnMarks;
 use crate::scene::{Companions, Pose, Side, Specimen, View};
 use std::sync::Arc;
 
@@ -92,6 +93,10 @@ impl Orders<'_> {
             smoothing: workspace.smoothing,
             overlay: workspace.overlay().filter(|_| shows.takes_overlay()),
             paper: self.paper,
+            marks: match (shows, which) {
+                (Shows::Diagram, Which::Present) => self.model.found_marks(),
+                _ => DrawnMarks::default(),
+            },
             copies,
             companions,
             ..self.plain(shows, view, specimen)
@@ -114,6 +119,7 @@ impl Orders<'_> {
         let fit = super::framing::FramingFit::reaching(1.0);
         Shot {
             document: session.begun,
+            marks: DrawnMarks::default(),
             specimen,
             title: document.work.design.name.clone(),
             shows,

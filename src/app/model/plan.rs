@@ -26,9 +26,12 @@ pub fn export_plan(model: &Model) -> ExportPlan {
     let reach = (!model.is_alone()).then(|| model.reach(Shows::Render));
     let selection = session.selection.clone();
     let (folder, stem) = (document.folder().join("out"), document.stem());
-    let mut plan = ExportPlan { shot, upright, linked, own, reach, selection, light, folder, stem };
+    let sheet_files = vec![];
+    let mut plan =
+        ExportPlan { shot, upright, linked, own, reach, selection, light, folder, sheet_files, stem };
     let can_be_shown: Vec<Shows> = plan.can_be_shown().collect();
     plan.selection.views.retain(|shows| can_be_shown.contains(shows));
+    plan.list_sheet();
     plan
 }
 

@@ -2,7 +2,9 @@
 
 use super::ink::ProfileInks;
 use super::sight::ProfileProjection;
+use crate::app::theme::FOUND;
 use crate::math::{Basis, Facet, hull};
+use crate::picture::DrawnMarks;
 use crate::scene::Stone;
 use egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke};
 
@@ -13,6 +15,10 @@ const EDGE_ON: f64 = 1e-9;
 const OUTLINE: f32 = 1.8;
 const EDGE: f32 = 0.9;
 const GIRDLE: f32 = 0.5;
+/// Widths of the outlines of marked facets, before and behind the stone, and radius of the ring around a marked corner, points.
+const MARK: f32 = 2.0;
+const MARK_BEHIND: f32 = 1.0;
+const RING: f32 = 5.0;
 
 /// The stone as it is seen from one side.
 pub struct ProfileBody<'a> {
@@ -40,6 +46,19 @@ impl<'a> ProfileBody<'a> {
         painter.add(self.faces(&corners, inks));
         painter.extend(self.edges(&corners, inks));
         painter.extend(rounded_line(outline, Stroke::new(OUTLINE, inks.outline)));
+    }
+
+    /// Outlines marked facets, those that face away by a thinner line, and rings marked corners.
+    pub fn mark(&self, painter: &Painter, marks: &DrawnMarks) {
+        let place = |corner| self.sight.at(self.basis.project(corner));
+        for facet in marks.facets.iter().filter_map(|place| self.stone.polytope.facets().get(*place)) {
+            let corners: Vec<Pos2> = self.stone.polytope.corners(facet).map(place).collect();
+            let width = if self.shows(facet) { MARK } else { MARK_BEHIND };
+            painter.add(Shape::closed_line(corners, Stroke::new(width, FOUND)));
+        }
+        for &corner in &marks.corners {
+            painter.circle_stroke(place(corner), RING, Stroke::new(MARK, FOUND));
+        }
     }
 
     /// Returns the facets as triangles without softened borders: those of slivers would stick out as long spikes. Lines

@@ -9,6 +9,7 @@ use super::sheet::{About, Label, ProfileSheet, SheetLine, Weight};
 use super::sight::{ProfileBox, ProfileProjection, room};
 use crate::cut::Cut;
 use crate::math::Basis;
+use crate::picture::DrawnMarks;
 use crate::picture::profile::brilliant::BRILLIANT_BASIS;
 use crate::picture::profile::{Dimensions, across_the_width};
 use crate::scene::Stone;
@@ -97,7 +98,13 @@ impl<'a> ProfileFrame<'a> {
 
     /// Paints everything, with the lines and numbers of the active handle in the accent colour. Returns the numbers for
     /// which there was room.
-    pub fn paint(&self, ui: &Ui, offered: &[Offered], active: Option<Handle>) -> Vec<Label> {
+    pub fn paint(
+        &self,
+        ui: &Ui,
+        offered: &[Offered],
+        active: Option<Handle>,
+        marks: &DrawnMarks,
+    ) -> Vec<Label> {
         let painter = ui.painter_at(self.rect);
         let body = ProfileBody::new(self.measured.stone, self.measured.basis, &self.sight);
         let outline = body.outline();
@@ -105,6 +112,7 @@ impl<'a> ProfileFrame<'a> {
         let active = active.map(|handle| handle.row);
         lines.into_iter().for_each(|line| self.draw(&painter, line, active));
         body.paint(&painter, &self.inks, &outline);
+        body.mark(&painter, marks);
         labels.iter().for_each(|label| self.write(&painter, label, active));
         self.paint_grips(ui, &painter, offered);
         labels

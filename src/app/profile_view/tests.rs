@@ -2,6 +2,7 @@
 
 use super::ProfileView;
 use crate::cut::{Cut, Pavilion, ProfileHandle, RoundBrilliant, TOLKOWSKY};
+use crate::picture::DrawnMarks;
 use crate::scene::Stone;
 use egui::{Event, Key, Modifiers, Pos2, Rect, Vec2, vec2};
 use egui_kittest::Harness;
@@ -32,7 +33,7 @@ impl Bench {
         let brilliant = Cut::RoundBrilliant(self.given);
         let shown = if self.with_proportions { brilliant } else { Cut::Planes(vec![]) };
         let mut cut = shown.clone();
-        self.view.show(ui, rect, &self.stone, &mut cut);
+        self.view.show(ui, rect, (&self.stone, &DrawnMarks::default()), &mut cut);
         if cut != shown {
             self.given = *cut.brilliant().unwrap();
             self.changes += 1;

@@ -150,6 +150,7 @@ mod tests {
             document: 0,
             specimen,
             title: String::new(),
+            marks: crate::picture::DrawnMarks::default(),
             shows: Shows::Render,
             strongest: false,
             glare: Glare::LeftOut,

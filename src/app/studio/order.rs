@@ -5,6 +5,7 @@ use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::io::lighting::Lighting;
 use crate::measure::Figures;
+use crate::picture::DrawnMarks;
 use crate::picture::{Inks, Overlay, RefractionMap};
 use crate::render::{Sweep, SweepError, SweptStone};
 use crate::scene::{Companions, Film, Glare, Pose, Specimen, View};
@@ -92,6 +93,8 @@ pub struct Shot {
     pub liquid: Liquid,
     /// The colours and the scale of a drawing.
     pub paper: Paper,
+    /// What a drawing marks of the stone.
+    pub marks: DrawnMarks,
 }
 
 /// The colours and the scale of a drawing.
@@ -125,7 +128,7 @@ impl PartialEq for Shot {
         let has_glare = scoped.is_some() && !self.strongest;
         Arc::ptr_eq(&self.specimen, &other.specimen)
             && (self.shows, self.overlay, self.film.size) == (other.shows, other.overlay, other.film.size)
-            && (seen || self.paper == other.paper)
+            && (seen || (self.paper == other.paper && self.marks == other.marks))
             && (!seen || (self.view, self.film) == (other.view, other.film))
             && (scoped.is_none() || self.strongest == other.strongest)
             && (!takes_head || self.head == other.head)

@@ -9,7 +9,7 @@ use super::undeveloped::{Kept, TracedLight};
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::io::{Failure, rasterize_within};
-use crate::picture::{DiagramStyle, Palette, diagram};
+use crate::picture::{DiagramStyle, Palette, marked_diagram};
 use crate::render::{Card, Partial, RenderError, Renderer};
 use crate::scene::Mipmap;
 use crate::trace::Watch;
@@ -127,7 +127,7 @@ fn drawing(shot: &Shot) -> Result<TakenPicture, Failure> {
         }
         None => DiagramStyle::sheet(shot.paper.inks),
     };
-    let text = diagram(stone, &shot.title, &style).to_string();
+    let text = marked_diagram(stone, &shot.title, &style, &shot.marks).to_string();
     let (width, height, rgba) =
         rasterize_within(&text, shot.film.size).map_err(|e| Failure::Input(e.to_string()))?;
     let image = ColorImage::from_rgba_unmultiplied([width as usize, height as usize], &rgba);
@@ -161,6 +161,7 @@ mod tests {
             document: 0,
             specimen: Arc::clone(Document::first().unwrap().specimen()),
             title: String::new(),
+            marks: crate::picture::DrawnMarks::default(),
             shows,
             strongest: false,
             glare: Glare::Included,

@@ -82,6 +82,9 @@ impl ExportPlan {
             self.write_map(&maps, &others, &|done| progress.at((begun + done * RENDER) / all))?;
             maps.iter().chain(&others).for_each(|path| progress.hear(&Event::Written(path)));
         }
+        if self.writes_sheet() {
+            self.write_sheet()?.iter().for_each(|path| progress.hear(&Event::Written(path)));
+        }
         if self.selection.scene {
             SceneOut::of(self).write()?;
             self.scene_paths().iter().for_each(|path| progress.hear(&Event::Written(path)));

@@ -1,7 +1,9 @@
 //! Tests of dialogs: what they ask, what Return and Escape do in them, and what an export reports of itself.
 
+use super::fitting::pick;
 use super::*;
-use crate::app::model::dialog::Dialog;
+use crate::app::model::action::FileAction;
+use crate::app::model::dialog::{Dialog, Then};
 use crate::app::model::export::Selection;
 use crate::app::model::exporting::{ExportEvent, ExportRun};
 use crate::app::model::plan::export_plan;
@@ -209,4 +211,35 @@ fn what_was_recovered_says_when_it_was_changed_and_not_when_the_program_ended() 
     next.harness.run_steps(2);
     assert!(next.editor().model.session.dialog.is_none(), "it is offered again at the next start");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn the_sheet_of_an_oval_is_exported_with_the_names_that_its_tiers_get() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bench = Bench::sized(Setup::default(), egui::vec2(1000.0, 900.0));
+    bench.harness.state_mut().act(FileAction::Ask(Then::Library("oval".to_owned())));
+    bench.settle();
+    export(&mut bench, folder.path(), 64);
+    let Some(Dialog::Export(form)) = &mut bench.harness.state_mut().model.session.dialog else { panic!() };
+    form.plan.selection.views.clear();
+    bench.harness.run_steps(2);
+    bench.click("Cutter's sheet");
+    bench.settle();
+    assert!(bench.harness.query_by_label("oval-1.40-sheet.pdf").is_some());
+    pick(&mut bench, "Format of the sheet", "SVG");
+    pick(&mut bench, "Paper of the sheet", "US letter");
+    bench.click("Left-handed gear");
+    bench.settle();
+    // The list names every page before any is written.
+    assert!(bench.harness.query_by_label("oval-1.40-sheet.svg").is_some());
+    bench.click("Write files");
+    bench.wait(|editor| job(editor).is_some_and(|job| job.end.is_some()));
+    let run = job(bench.editor()).unwrap();
+    assert_eq!((run.end.clone(), run.written), (Some(Ok(())), run.files.len()));
+    let pages: Vec<String> = run.files.iter().map(|file| std::fs::read_to_string(file).unwrap()).collect();
+    let text = pages.concat();
+    for said in ["width=\"215.9mm\"", "P1", "G1", "C1", "Meet ", "between teeth", "clockwise"] {
+        assert!(text.contains(said), "{said} is missing");
+    }
+    assert!(!text.contains("bezel"));
 }

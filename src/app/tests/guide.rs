@@ -200,7 +200,7 @@ fn an_emerald_cut_from_a_block_its_sheet_and_a_step_at_the_bench() {
     let specimen = bench.editor().model.document.named(bench.editor().model.document.specimen());
     let sheet = cutting_sheet(&specimen, false).unwrap();
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/images/emerald-sheet.svg");
-    let pages = write(&specimen, &sheet, PaperSize::A4, (SheetFormat::Svg, &file)).unwrap();
+    let pages = write(&sheet, PaperSize::A4, (SheetFormat::Svg, &file)).unwrap();
     assert_eq!(pages.len(), 1);
     bench.choose("View", "Bench mode");
     (0..6).for_each(|_| bench.click("Next step"));

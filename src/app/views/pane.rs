@@ -40,7 +40,9 @@ fn profile(cx: &mut PaneContext, ui: &mut Ui, body: Rect) {
     let under = ui.interact(body, ui.scope_id().with("profile"), Sense::click());
     under.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Profile view"));
     match cx.model.document.specimen().stone() {
-        Ok(stone) => cx.tools.profiles[cx.pane].show(ui, body, stone, &mut changed),
+        Ok(stone) => {
+            cx.tools.profiles[cx.pane].show(ui, body, (stone, &cx.model.found_marks()), &mut changed)
+        }
         Err(_) => absent(ui, body, "A profile"),
     }
     cx.actions.push_changed(cut, changed, Edit::Cut);

@@ -8,15 +8,13 @@ use crate::app::model::action::ViewAction;
 use crate::app::model::audit::finding_facets;
 use crate::app::shows::Shows;
 use crate::app::studio::Which;
+use crate::app::theme::FOUND;
 use crate::cut::Cut;
 use crate::picture::Scoped;
 use crate::scene::Scope;
 use egui::{
     Align2, Color32, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, vec2,
 };
-
-/// The colour in which a finding is shown: bright on any picture, and not that of a tier that is selected.
-const FOUND: Color32 = Color32::from_rgb(255, 176, 40);
 
 /// Draws the view; `size` is that of its picture in pixels.
 pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect, size: [u32; 2]) {

@@ -14,6 +14,14 @@ pub const OFF_SYMMETRY: f64 = 0.1;
 /// A symmetry that the file does not state counts as meant where at least this part of the facets keeps it.
 const NEARLY_ALL: f64 = 0.9;
 
+/// Planes are near an image if they may lie this many slacks from it.
+const FAR: f64 = 20.0;
+
+/// Where the symmetry is not stated, a facet departs from it if it lies further off than this many times what
+/// [`NEARLY_ALL`] of the facets lie off. In a stone whose length is nearly its width, all facets lie a little off a symmetry
+/// that it has not, and none far more than the others.
+const BEYOND_OTHERS: f64 = 3.0;
+
 /// The part of the facets of crown and pavilion that must keep a stated symmetry for the others to count as departures from
 /// it, in percent.
 pub const MOST_KEEP: f64 = 60.0;
@@ -87,6 +95,22 @@ impl Planes {
         2 * kept < maps.len()
     }
 
+    /// Returns how far the nearest plane of the stone lies from an image, in percent of the width; infinite where none is near.
+    fn to_nearest(&self, image: &Plane) -> f64 {
+        let reach = 2.0 * FAR * self.slack / 100.0;
+        let first = self.sorted.partition_point(|plane| plane.normal.z < image.normal.z - reach);
+        let near = self.sorted[first..].iter().take_while(|plane| plane.normal.z <= image.normal.z + reach);
+        near.map(|plane| self.apart(plane, image)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns how far half of the images of a plane, the nearer ones, lie from planes of the stone at most, in percent of the
+    /// width: above the slack where the plane [`departs`](Self::departs).
+    fn usual_departure(&self, plane: &Plane, maps: &[Map]) -> f64 {
+        let mut all: Vec<f64> = maps.iter().map(|map| self.to_nearest(&map.image(plane))).collect();
+        all.sort_by(f64::total_cmp);
+        all[(all.len() - 1) / 2]
+    }
+
     /// Returns how far, at most, an image of a plane lies from the nearest plane of the stone, in percent of the width.
     fn departure(&self, plane: &Plane, maps: &[Map]) -> f64 {
         let nearest = |image: Plane| {
@@ -132,8 +156,15 @@ pub(super) fn departures(subject: &Subject) -> Vec<Finding> {
         let middle = outline.middle.extend(0.5 * (outline.girdle_bottom + outline.girdle_top));
         Plane { normal, offset: offset - normal.dot(middle) }
     };
-    let off: Vec<usize> =
+    let mut off: Vec<usize> =
         (0..subject.facets().len()).filter(|&facet| planes.departs(&seen(facet), &maps)).collect();
+    let mut threshold = planes.slack;
+    if stated.is_none() && !off.is_empty() {
+        let usual: Vec<f64> =
+            (0..subject.facets().len()).map(|facet| planes.usual_departure(&seen(facet), &maps)).collect();
+        threshold = threshold.max(BEYOND_OTHERS * most_of_nearly_all(&usual));
+        off.retain(|&facet| usual[facet] > threshold);
+    }
     let kept = kept_percent(subject, &off);
     if stated.is_some() && kept < MOST_KEEP {
         return vec![not_found(kept, subject.names(&off))];
@@ -143,10 +174,18 @@ pub(super) fn departures(subject: &Subject) -> Vec<Finding> {
         points: tier.iter().map(|&facet| subject.middle(facet)).collect::<Vec<DVec3>>(),
         facets: subject.names(&tier),
         size: tier.iter().map(|&facet| planes.departure(&seen(facet), &maps)).fold(0.0, f64::max),
-        threshold: planes.slack,
+        threshold,
         unit: FindingUnit::PercentOfWidth,
     };
     grouped(off, |&a, &b| subject.tier(a) == subject.tier(b)).into_iter().map(finding).collect()
+}
+
+/// Returns the greatest of these values once the greatest ones that are not nearly all are left out.
+fn most_of_nearly_all(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let nearly_all = (NEARLY_ALL * sorted.len() as f64).ceil() as usize;
+    sorted.get(nearly_all.saturating_sub(1)).copied().unwrap_or(0.0)
 }
 
 /// Returns the part of the facets of crown and pavilion that are not among those `off` the symmetry, in percent. A girdle

@@ -105,6 +105,42 @@ fn an_outline_off_its_symmetry_is_told_from_a_facet() {
 }
 
 #[test]
+fn a_stone_that_is_nearly_as_long_as_wide_keeps_its_own_symmetry() {
+    let mut nearly = 0;
+    for family in crate::cut::FAMILIES {
+        let Some(row) = family.proportion("length_to_width").filter(|row| row.give.is_some()) else {
+            continue;
+        };
+        for thousandths in 1..=12 {
+            let mut cut = family.first.clone();
+            row.set(&mut cut, 1.0 + 0.5e-3 * f64::from(thousandths));
+            let crate::cut::Cut::Family(made) = &cut else { continue };
+            let Ok(facets) = made.facets() else { continue };
+            let audit = audited(&facets, None, None);
+            let off = [FindingKind::Outline, FindingKind::Symmetry]
+                .into_iter()
+                .flat_map(|kind| audit.of_kind(kind));
+            assert_eq!(off.count(), 0, "{} {thousandths}: {audit:?}", family.key);
+            nearly += 1;
+        }
+    }
+    assert!(nearly > 100, "{nearly}");
+}
+
+#[test]
+fn a_facet_off_the_symmetry_of_a_nearly_square_stone_is_found() {
+    let family = crate::cut::Family::of_key("cushion").unwrap();
+    let mut cut = family.first.clone();
+    family.proportion("length_to_width").unwrap().set(&mut cut, 1.001);
+    let crate::cut::Cut::Family(made) = &cut else { panic!() };
+    let mut facets = made.facets().unwrap();
+    plane(&mut facets, "bezel 3").offset -= 0.02;
+    let audit = audited(&facets, None, None);
+    let off: Vec<&Finding> = audit.of_kind(FindingKind::Symmetry).collect();
+    assert!(off.len() == 1 && off[0].facets == ["bezel 3"], "{audit:?}");
+}
+
+#[test]
 fn a_plane_that_never_touches_the_stone_is_named_and_one_that_closes_it_is_not() {
     let mut facets = brilliant();
     facets.push(("spare 1".to_owned(), Plane::new(DVec3::X, 1.5)));

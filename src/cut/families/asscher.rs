@@ -40,6 +40,7 @@ pub static ASSCHER: Family = Family {
         step_rows::pavilion_step::<PAVILION_STEP>(),
         step_rows::keel::<KEEL>(),
         rows::girdle_thickness::<GIRDLE>(),
+        rows::total_depth(),
     ],
 };
 

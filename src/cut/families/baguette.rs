@@ -37,6 +37,7 @@ pub static BAGUETTE: Family = Family {
         step_rows::pavilion_step::<PAVILION_STEP>(),
         step_rows::keel::<KEEL>(),
         rows::girdle_thickness::<GIRDLE>(),
+        rows::total_depth(),
     ],
 };
 

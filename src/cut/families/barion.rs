@@ -13,7 +13,7 @@ use super::super::family_cut::FamilyCut;
 use super::chevrons::Quarters;
 use super::steps::{self, Rectangle, StepRows};
 use super::{rows, step_rows};
-use glam::{DVec2, DVec3, Vec2Swizzles};
+use glam::{DVec2, DVec3};
 
 const LENGTH: usize = 0;
 const CORNER: usize = 1;
@@ -40,27 +40,39 @@ pub static BARION: Family = Family {
         step_rows::crown_rows::<CROWN_ROWS>(),
         step_rows::crown::<CROWN>([28.0, 42.0]),
         step_rows::crown_step::<CROWN_STEP>(),
-        Proportion {
-            meaning: "How steep the half-moons stand, the facets that run along the sides below the girdle.",
-            ..rows::slope::<HALF_MOON>("half_moon_angle", "Half-moons", [62.0, 82.0])
-        },
-        Proportion {
-            meaning: "How steep the mains below the sides stand, those of the brilliant pavilion.",
-            ..rows::slope::<PAVILION>("pavilion_angle", "Pavilion angle", [38.0, 44.0])
-        },
-        Proportion {
-            meaning: "How far the lower halves reach from the girdle to the middle, seen from below.",
-            ..rows::part::<LOWER_HALF>(
-                "lower_half_length",
-                "Lower halves",
-                "of the way from the girdle to the middle",
-                [60.0, 85.0],
-            )
-        },
+        half_moons::<HALF_MOON>(),
+        pavilion::<PAVILION>(),
+        lower_halves::<LOWER_HALF>(),
         rows::girdle_thickness::<GIRDLE>(),
         rows::culet::<CULET>(),
+        rows::total_depth(),
     ],
 };
+
+/// How steep the half-moons stand.
+pub(super) const fn half_moons<const PLACE: usize>() -> Proportion {
+    Proportion {
+        meaning: "How steep the half-moons stand, the facets that run along the sides below the girdle.",
+        ..rows::slope::<PLACE>("half_moon_angle", "Half-moons", [62.0, 82.0])
+    }
+}
+
+/// How steep the brilliant pavilion is.
+pub(super) const fn pavilion<const PLACE: usize>() -> Proportion {
+    Proportion {
+        meaning: "How steep the mains below the sides stand, those of the brilliant pavilion.",
+        ..rows::slope::<PLACE>("pavilion_angle", "Pavilion angle", [38.0, 44.0])
+    }
+}
+
+/// How far the halves of the brilliant pavilion reach.
+pub(super) const fn lower_halves<const PLACE: usize>() -> Proportion {
+    let of = "of the way from the girdle to the middle";
+    Proportion {
+        meaning: "How far the lower halves reach from the girdle to the middle, seen from below.",
+        ..rows::part::<PLACE>("lower_half_length", "Lower halves", of, [60.0, 85.0])
+    }
+}
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let outline = Rectangle { length: cut[LENGTH], corner: cut[CORNER] / 50.0, keel: 1.0 };
@@ -69,22 +81,17 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let mut net = FacetNet::default();
     crown.add_crown(&mut net, &outline.sides())?;
     steps::add_girdle(&mut net, &outline.sides(), thickness);
-    let cone = Cone::through(&outline, cut[PAVILION].to_radians().tan());
-    let pavilion = Pavilion {
-        cone,
-        thickness,
-        cotangent: 1.0 / cut[HALF_MOON].to_radians().tan(),
-        reach: 1.0 - cut[LOWER_HALF] / 100.0,
-    };
-    let mut quarters = Quarters { net: &mut net, inside: -0.5 * thickness };
     let sizes = DVec2::new(1.0, cut[LENGTH]);
-    pavilion.add_side(&mut quarters, DVec2::X, sizes, outline.corner)?;
-    pavilion.add_side(&mut quarters, DVec2::Y, sizes, outline.corner)?;
-    let [a, b, _] = pavilion.corner_main(sizes, outline.corner);
-    quarters.through("main", [a, b, pavilion.point()])?;
-    if cut[CULET] > 0.0 {
-        net.plane("culet", DVec3::NEG_Z, pavilion.point() + DVec3::Z * cone.depth * cut[CULET] / 100.0);
+    let corner = [DVec2::X, DVec2::Y].map(|way| sizes - way * outline.corner);
+    let pavilion = BarionPavilion::of(cut, [PAVILION, HALF_MOON, LOWER_HALF, GIRDLE], corner);
+    let mut quarters = Quarters { net: &mut net, inside: -0.5 * thickness };
+    for (way, end) in [DVec2::X, DVec2::Y].into_iter().zip([corner[1], corner[0]]) {
+        pavilion.add_half_moon(&mut quarters, way, sizes);
+        let between = pavilion.down(0.5 * (way * way.dot(sizes) + end), -way * pavilion.cotangent);
+        pavilion.add_brilliant_side(&mut quarters, way, sizes, (between, end))?;
     }
+    pavilion.add_corner_main(&mut quarters)?;
+    pavilion.add_culet(&mut net, cut[CULET]);
     Ok(net)
 }
 
@@ -98,78 +105,113 @@ struct Cone {
 }
 
 impl Cone {
-    /// Returns the cone through all corners of an outline; `slope` is its tangent along the width.
-    fn through(outline: &Rectangle, slope: f64) -> Self {
-        let [wide, long] = [1.0, outline.length];
-        let [short, less] = [wide - outline.corner, long - outline.corner];
-        let determinant = (wide * long).powi(2) - (short * less).powi(2);
-        let inverse = DVec2::new(long * long - less * less, wide * wide - short * short) / determinant;
+    /// Returns the cone through two points of the girdle in its first quarter and their mirror images; `slope` is its tangent
+    /// along the width.
+    fn through([a, b]: [DVec2; 2], slope: f64) -> Self {
+        let (a, b) = (a * a, b * b);
+        let inverse = DVec2::new(a.y - b.y, b.x - a.x) / (b.x * a.y - a.x * b.y);
         Self { inverse, depth: slope / inverse.x.sqrt() }
     }
 }
 
-/// The pavilion of a barion.
+/// The pavilion of a barion: half-moons that a cone cuts, and a brilliant's pavilion inside the cone.
 #[derive(Debug, Clone, Copy)]
-struct Pavilion {
+pub(super) struct BarionPavilion {
     cone: Cone,
     thickness: f64,
+    /// Both ends of the girdle's edge at the corner of the first quarter, on the cone; the first is the one toward the end of the
+    /// length.
+    corner: [DVec2; 2],
     /// The cotangent of the half-moons' angle.
-    cotangent: f64,
+    pub cotangent: f64,
     /// The part of the way from the middle to the girdle at which the halves' tips lie.
     reach: f64,
 }
 
-impl Pavilion {
+impl BarionPavilion {
+    /// Takes pavilion angle, half-moons' angle, length of the halves and girdle from four places of a table. `corner` holds both
+    /// ends of the girdle's edge at the corner of the first quarter, the one nearer to +y first.
+    pub fn of(cut: &FamilyCut, [slope, half_moon, half, girdle]: [usize; 4], corner: [DVec2; 2]) -> Self {
+        Self {
+            cone: Cone::through(corner, cut[slope].to_radians().tan()),
+            thickness: cut[girdle] / 50.0,
+            corner,
+            cotangent: 1.0 / cut[half_moon].to_radians().tan(),
+            reach: 1.0 - cut[half] / 100.0,
+        }
+    }
+
     /// Returns the culet's point.
     fn point(&self) -> DVec3 {
         DVec3::NEG_Z * (self.thickness + self.cone.depth)
     }
 
-    /// Returns three points of the main of the first quarter's corner: both ends of the cut corner, and the culet.
-    fn corner_main(&self, size: DVec2, corner: f64) -> [DVec3; 3] {
-        let [x, y] = [DVec2::X, DVec2::Y].map(|way| (size - way * corner).extend(-self.thickness));
-        [x, y, self.point()]
+    /// Returns a point of the girdle's lower edge.
+    fn on_girdle(&self, at: DVec2) -> DVec3 {
+        at.extend(-self.thickness)
     }
 
-    /// Returns the point where the cone crosses the half-moon of the side toward `way`, at the distance `along` from the
-    /// side's middle.
-    fn on_half_moon(&self, way: DVec2, size: DVec2, along: f64) -> Option<DVec3> {
-        let Self { cone: Cone { inverse, depth }, cotangent, .. } = *self;
-        let [p, q] = [way.dot(inverse), way.yx().dot(inverse)];
-        let size = way.dot(size);
-        // (1 - z/D)² = p (size - z cot)² + q along², for the depth z.
-        let square = 1.0 / (depth * depth) - p * cotangent * cotangent;
-        let linear = 2.0 * (p * size * cotangent - 1.0 / depth);
-        let free = 1.0 - p * size * size - q * along * along;
+    /// Returns the point where a line from the girdle's lower edge, which moves inward by `inward` for each unit that it goes
+    /// down, meets the cone; `None` where it does not.
+    pub fn down(&self, from: DVec2, inward: DVec2) -> Option<DVec3> {
+        let Cone { inverse, depth } = self.cone;
+        // (1 - z/D)² = p x² + q y² at from + z inward, for the depth z.
+        let square = 1.0 / (depth * depth) - inverse.dot(inward * inward);
+        let linear = -2.0 * (inverse.dot(from * inward) + 1.0 / depth);
+        let free = 1.0 - inverse.dot(from * from);
         let root = (linear * linear - 4.0 * square * free).sqrt();
         let z = 2.0 * free / (root - linear);
-        let at = way * (size - z * cotangent) + way.yx() * along;
-        z.is_finite().then_some(at.extend(-self.thickness - z))
+        z.is_finite().then_some(self.on_girdle(from + inward * z) - DVec3::Z * z)
     }
 
-    /// Adds half-moon, main and halves of the side toward `way`, +x or +y.
-    fn add_side(&self, net: &mut Quarters<'_>, way: DVec2, size: DVec2, corner: f64) -> Result<(), NoRoom> {
-        let edge = way * way.dot(size);
-        net.pair("half_moon", way.extend(-self.cotangent), edge.extend(-self.thickness));
+    /// Adds the half-moon in the middle of the side toward `way`, +x or +y; `size` are half of width and length.
+    pub fn add_half_moon(&self, net: &mut Quarters<'_>, way: DVec2, size: DVec2) {
+        net.pair("half_moon", way.extend(-self.cotangent), self.on_girdle(way * way.dot(size)));
+    }
+
+    /// Adds the main below the middle of the side toward `way`, +x or +y, and the halves beside it. The halves meet the cone in the
+    /// middle of the side, in the point `between` and at the end of the side.
+    ///
+    /// # Errors
+    /// The tier that has no room.
+    pub fn add_brilliant_side(
+        &self,
+        net: &mut Quarters<'_>,
+        way: DVec2,
+        size: DVec2,
+        (between, end): (Option<DVec3>, DVec2),
+    ) -> Result<(), NoRoom> {
         let unfit = NoRoom { tier: "half_moon" };
-        let along = way.yx().dot(size) - corner;
-        let middle = self.on_half_moon(way, size, 0.0).ok_or(unfit)?;
-        let between = self.on_half_moon(way, size, 0.5 * along).ok_or(unfit)?;
-        let end = (edge + way.yx() * along).extend(-self.thickness);
-        let point = self.point();
+        let middle = self.down(way * way.dot(size), -way * self.cotangent).ok_or(unfit)?;
+        let (between, end, point) = (between.ok_or(unfit)?, self.on_girdle(end), self.point());
         let rise = middle - point;
         let main = (way * rise.z).extend(-way.dot(rise.truncate()));
         net.pair("main", main, point);
-        let [a, b, _] = self.corner_main(size, corner);
+        let [a, b] = self.corner.map(|at| self.on_girdle(at) - point);
         // The line in which side main and corner main meet, upward from the culet.
-        let line = main.cross((a - point).cross(b - point));
+        let line = main.cross(a.cross(b));
         let line = line * line.z.signum();
         let tip = point + line * (self.reach * between.truncate().length() / line.truncate().length());
-        let halves = NoRoom { tier: "lower_half" };
         if !tip.is_finite() {
-            return Err(halves);
+            return Err(NoRoom { tier: "lower_half" });
         }
         net.through("lower_half", [tip, middle, between])?;
         net.through("lower_half", [tip, between, end])
+    }
+
+    /// Adds the mains of the corners: each runs from the culet to the girdle's edge at a corner.
+    ///
+    /// # Errors
+    /// The tier that has no room.
+    pub fn add_corner_main(&self, net: &mut Quarters<'_>) -> Result<(), NoRoom> {
+        let [a, b] = self.corner.map(|at| self.on_girdle(at));
+        net.through("main", [a, b, self.point()])
+    }
+
+    /// Adds the culet, if it has a size: a part of the pavilion's depth, in percent.
+    pub fn add_culet(&self, net: &mut FacetNet, percent: f64) {
+        if percent > 0.0 {
+            net.plane("culet", DVec3::NEG_Z, self.point() + DVec3::Z * self.cone.depth * percent / 100.0);
+        }
     }
 }

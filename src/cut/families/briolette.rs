@@ -39,6 +39,7 @@ pub static BRIOLETTE: Family = Family {
         },
         rows::rosette::<UPPER_ROSETTE>("upper_rosette", "Upper rosette", [15.0, 40.0]),
         rows::rosette::<LOWER_ROSETTE>("lower_rosette", "Lower rosette", [25.0, 65.0]),
+        rows::total_depth(),
     ],
 };
 

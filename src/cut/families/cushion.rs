@@ -38,6 +38,7 @@ pub static CUSHION: Family = Family {
         rows::girdle_thickness::<8>(),
         rows::culet::<9>(),
         brilliant_rows::mains_per_quarter::<MAINS>(),
+        rows::total_depth(),
     ],
 };
 

@@ -2,8 +2,9 @@
 //!
 //! `BRILLIANTEER_RECORD=1 cargo test --lib documented` writes the file.
 
+use super::range_sources::range_source;
 use super::tests::{Solid, made};
-use crate::cut::{Bound, BoundAt, Cut, Family, Proportion, Unit};
+use crate::cut::{Bound, BoundAt, Family, Proportion, Unit};
 use std::fmt::Write;
 
 const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/families.md");
@@ -18,7 +19,7 @@ and `[round_brilliant]`.
 W is the [diameter](formats.md#diameter-length-and-width): of a round outline that of the circle through its corners, otherwise
 the shorter extent of the outline along x and y. Lengths are percent of W where nothing else is said, and angles are degrees
 from the girdle plane. The length is measured along y, which is up in pictures. \"Usual\" is the
-range of the editor's slider; \"possible\" is what the program takes if the facets still have room. All keys are required but those
+range of the editor's slider, with its source: \"published\" is a page or a cutter's design that was read, \"ours\" what no source\ngives; \"possible\" is what the program takes if the facets still have room. All keys are required but those
 that have a default.
 
 ![All families of this page: facets, ASET, and a render under the studio light](images/contact-sheet.png)
@@ -106,7 +107,7 @@ fn bound(word: [&str; 2], bound: Option<Bound>) -> Option<String> {
     Some(format!("{} {at} ({reason})", if inclusive { word[0] } else { word[1] }))
 }
 
-fn row(row: &Proportion, first: &Cut) -> String {
+fn row(family: &Family, row: &Proportion) -> String {
     let unit = match row.unit {
         Unit::Count => "whole number".to_owned(),
         _ => row.hint(),
@@ -115,9 +116,10 @@ fn row(row: &Proportion, first: &Cut) -> String {
     let bounds = bounds.into_iter().flatten().collect::<Vec<_>>().join(", ");
     let default = row.default.map_or(String::new(), |value| format!(" Default {value}."));
     let [least, most] = row.usual;
-    let value = (row.get)(first);
+    let value = (row.get)(&family.first);
+    let source = range_source(family, row).unwrap_or_default();
     format!(
-        "| `{}` | {unit} | {least} to {most} | {bounds} | {value} | {}{default} |\n",
+        "| `{}` | {unit} | {least} to {most} | {source} | {bounds} | {value} | {}{default} |\n",
         row.key, row.meaning
     )
 }
@@ -125,8 +127,8 @@ fn row(row: &Proportion, first: &Cut) -> String {
 fn section(family: &'static Family) -> String {
     let mut text = format!("\n## {}\n\n", family.key);
     let _ = write!(text, "{}. The table is `[{}]`.\n\n", family.name, family.key);
-    text.push_str("| key | unit | usual | possible | first | meaning |\n|---|---|---|---|---|---|\n");
-    family.editable().for_each(|given| text.push_str(&row(given, &family.first)));
+    text.push_str("| key | unit | usual | where that comes from | possible | first | meaning |\n|---|---|---|---|---|---|---|\n");
+    family.editable().for_each(|given| text.push_str(&row(family, given)));
     let derived = family.proportions.iter().filter(|row| row.give.is_none());
     let derived: Vec<String> =
         derived.map(|row| format!("`{}` ({}): {}", row.key, row.hint(), row.meaning)).collect();
@@ -155,6 +157,29 @@ fn the_page_of_families_is_current() {
     let found = std::fs::read_to_string(FILE).unwrap_or_default();
     let differs = page.lines().zip(found.lines()).find(|(new, old)| new != old);
     assert!(page == found, "write docs/families.md anew (BRILLIANTEER_RECORD=1); it differs at {differs:?}");
+}
+
+#[test]
+fn every_usual_range_has_a_source() {
+    let missing = made().flat_map(|(family, _)| {
+        let rows = family.editable().filter(|row| range_source(family, row).is_none_or(str::is_empty));
+        rows.map(|row| (family.key, row.key))
+    });
+    assert_eq!(missing.collect::<Vec<_>>(), []);
+    // A name that no family has finds nothing.
+    let (oval, table) =
+        (Family::of_key("oval").unwrap(), Family::of_key("oval").unwrap().proportion("table").unwrap());
+    let unknown = Proportion { key: "no_such_number", ..Proportion::BLANK };
+    assert!(range_source(oval, table).is_some() && range_source(oval, &unknown).is_none());
+}
+
+#[test]
+fn the_total_depth_is_that_of_the_stone() {
+    for (family, _) in made() {
+        let solid = Solid::of(&family.first).unwrap();
+        let depth = family.proportion("total_depth").map_or(f64::NAN, |row| (row.get)(&family.first));
+        assert!((depth - 50.0 * solid.size.z).abs() < 1e-9, "{}: {depth}", family.key);
+    }
 }
 
 #[test]

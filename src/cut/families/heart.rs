@@ -98,6 +98,7 @@ pub static HEART: Family = Family {
             default: Some(4.0),
             ..number::<MAINS>()
         },
+        rows::total_depth(),
     ],
 };
 

@@ -51,6 +51,7 @@ pub static HEXAGON: Family = Family {
         step_rows::pavilion_step::<PAVILION_STEP>(),
         step_rows::keel::<KEEL>(),
         rows::girdle_thickness::<GIRDLE>(),
+        rows::total_depth(),
     ],
 };
 

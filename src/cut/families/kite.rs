@@ -46,6 +46,7 @@ pub static KITE: Family = Family {
         step_rows::pavilion::<PAVILION>([40.0, 52.0]),
         step_rows::pavilion_step::<PAVILION_STEP>(),
         rows::girdle_thickness::<GIRDLE>(),
+        rows::total_depth(),
     ],
 };
 

@@ -34,6 +34,7 @@ pub static MARQUISE: Family = Family {
         rows::girdle_thickness::<7>(),
         rows::culet::<8>(),
         brilliant_rows::mains_per_quarter::<MAINS>(),
+        rows::total_depth(),
     ],
 };
 

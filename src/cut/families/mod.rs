@@ -10,6 +10,7 @@ mod briolette;
 mod chevrons;
 mod curves;
 mod cushion;
+mod cushion_barion;
 mod cushion_chevrons;
 #[cfg(test)]
 mod documented;
@@ -27,6 +28,8 @@ mod pear;
 mod portuguese;
 mod princess;
 mod radiant;
+#[cfg(test)]
+mod range_sources;
 mod rose;
 mod rows;
 mod single_cut;
@@ -50,6 +53,7 @@ use baguette::BAGUETTE;
 use barion::BARION;
 use briolette::BRIOLETTE;
 use cushion::CUSHION;
+use cushion_barion::CUSHION_BARION;
 use emerald::EMERALD;
 use heart::HEART;
 use hexagon::HEXAGON;
@@ -67,7 +71,7 @@ use tapered_baguette::TAPERED_BAGUETTE;
 use trillion::TRILLION;
 
 /// All families that are described by proportions, in the order in which messages list them.
-pub static FAMILIES: [&Family; 25] = [
+pub static FAMILIES: [&Family; 26] = [
     &ROUND_BRILLIANT,
     &SINGLE_CUT,
     &PORTUGUESE,
@@ -89,6 +93,7 @@ pub static FAMILIES: [&Family; 25] = [
     &RADIANT,
     &MODIFIED_CUSHION,
     &BARION,
+    &CUSHION_BARION,
     &PILL,
     &CUBE,
     &PRISM,
@@ -103,7 +108,7 @@ pub const GROUPS: [(&str, &[&str]); 6] = [
     ("Rounds", &["round_brilliant", "single_cut", "portuguese", "rose", "briolette"]),
     ("Fancy brilliant cuts", &["oval", "pear", "marquise", "heart", "cushion", "trillion"]),
     ("Step cuts", &["emerald", "asscher", "baguette", "tapered_baguette", "kite", "hexagon"]),
-    ("Mixed cuts", &["princess", "radiant", "modified_cushion", "barion"]),
+    ("Mixed cuts", &["princess", "radiant", "modified_cushion", "barion", "cushion_barion"]),
     ("By tiers", &[BY_TIERS]),
     ("Glass", &["pill", "cube", "prism", "plate"]),
 ];

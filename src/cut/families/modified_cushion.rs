@@ -70,6 +70,7 @@ pub static MODIFIED_CUSHION: Family = Family {
             most: Bound::at(Fixed(4.0), "the most rows allowed"),
             ..number::<ROWS>()
         },
+        rows::total_depth(),
     ],
 };
 

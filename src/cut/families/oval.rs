@@ -47,6 +47,7 @@ pub static OVAL: Family = Family {
         rows::girdle_thickness::<7>(),
         rows::culet::<8>(),
         brilliant_rows::mains_per_quarter::<9>(),
+        rows::total_depth(),
     ],
 };
 

@@ -56,6 +56,7 @@ pub static PEAR: Family = Family {
         rows::girdle_thickness::<9>(),
         rows::culet::<10>(),
         brilliant_rows::mains_per_quarter::<MAINS>(),
+        rows::total_depth(),
     ],
 };
 

@@ -62,6 +62,7 @@ pub static PORTUGUESE: Family = Family {
             get: |cut| angle(cut, |cut| tangent(cut, PAVILION) / pavilion(cut).last_flattening()),
             ..ANGLE
         },
+        rows::total_depth(),
     ],
 };
 

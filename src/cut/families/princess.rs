@@ -51,6 +51,7 @@ pub static PRINCESS: Family = Family {
         shoulder::<SHOULDER>(),
         rows::girdle_thickness::<GIRDLE>(),
         rows::culet::<CULET>(),
+        rows::total_depth(),
     ],
 };
 

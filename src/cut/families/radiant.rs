@@ -63,6 +63,7 @@ pub static RADIANT: Family = Family {
         },
         rows::girdle_thickness::<GIRDLE>(),
         rows::culet::<CULET>(),
+        rows::total_depth(),
     ],
 };
 

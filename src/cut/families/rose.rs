@@ -65,6 +65,7 @@ pub static ROSE: Family = Family {
             ..rows::slope::<STAR_ANGLE>("star_angle", "Star angle", [10.0, 30.0])
         },
         rows::girdle_thickness::<GIRDLE>(),
+        rows::total_depth(),
     ],
 };
 

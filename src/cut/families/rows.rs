@@ -1,5 +1,6 @@
 //! Rows that the tables of several families have in common. `PLACE` is the place of the number in the table.
 
+use super::super::Cut;
 use super::super::family::BoundAt::Fixed;
 use super::super::family::{Bound, Proportion, Unit};
 use super::super::family_cut::number;
@@ -51,6 +52,25 @@ pub const fn table<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
         least: Bound::at(Fixed(5.0), "the smallest table allowed"),
         most: Bound::at(Fixed(95.0), "the largest table allowed"),
         ..of_width::<PLACE>("table", "Table", usual)
+    }
+}
+
+/// The depth of the whole stone, which follows from the other numbers.
+pub const fn total_depth() -> Proportion {
+    Proportion {
+        key: "total_depth",
+        name: "Total depth",
+        of: "of the width",
+        meaning: "The height of the whole stone, in percent of its width.",
+        get: |cut| match cut {
+            // Half the diameter is 1.
+            Cut::Family(cut) => cut.settled().map_or(f64::NAN, |(_, solid)| {
+                let (low, high) = solid.bounds();
+                50.0 * (high.z - low.z)
+            }),
+            _ => f64::NAN,
+        },
+        ..Proportion::BLANK
     }
 }
 

@@ -46,6 +46,7 @@ pub static SINGLE_CUT: Family = Family {
             ..rows::girdle_thickness::<GIRDLE>()
         },
         rows::culet::<CULET>(),
+        rows::total_depth(),
     ],
 };
 

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
 /// The families of this file's kernels with the number of sides of their outlines.
-const SIDES: [(&str, usize); 9] = [
+const SIDES: [(&str, usize); 10] = [
     ("emerald", 8),
     ("asscher", 8),
     ("baguette", 4),
@@ -17,6 +17,7 @@ const SIDES: [(&str, usize); 9] = [
     ("princess", 8),
     ("radiant", 8),
     ("barion", 8),
+    ("cushion_barion", 16),
 ];
 
 fn sides(family: &Family) -> Option<usize> {
@@ -35,6 +36,7 @@ fn expected(family: &Family, cut: &Cut) -> Option<[usize; 3]> {
         "radiant" if value("crown_rows") == 0.0 => [24, chevrons + 4],
         "radiant" => [rows("crown_rows"), chevrons + 4],
         "barion" => [rows("crown_rows"), 28],
+        "cushion_barion" => [rows("crown_rows"), 36],
         _ => [rows("crown_rows"), rows("pavilion_rows")],
     };
     Some([1 + crown, girdle, pavilion])
@@ -59,8 +61,15 @@ fn every_count_makes_its_facets() {
 #[test]
 fn the_facets_of_the_trade_are_those_of_first_cuts() {
     // Facets with table and girdle, without a culet but the radiant's: see the sources of the families.
-    let trade =
-        [("emerald", 49 + 8), ("baguette", 17), ("princess", 57 + 4), ("radiant", 70), ("barion", 61)];
+    let trade = [
+        ("emerald", 49 + 8),
+        ("baguette", 17),
+        ("princess", 57 + 4),
+        ("radiant", 70),
+        ("barion", 61),
+        // As many as PC 09.083, a barion cushion of 20 sides, has.
+        ("cushion_barion", 101),
+    ];
     for (key, facets) in trade {
         let (family, _) = made().find(|(family, _)| family.key == key).expect("it is a family");
         let (stone, names) = stone(&family.first).expect("the first cut is a stone");
@@ -164,9 +173,10 @@ fn facets_between_points_have_no_other_corners() {
         ("chevron_2", 3),
         ("lower_half", 3),
         ("half_moon", 5),
+        ("end_moon", 3),
     ];
     on_random_cuts(|family, cut| {
-        if !matches!(family.key, "princess" | "radiant" | "barion") {
+        if !matches!(family.key, "princess" | "radiant" | "barion" | "cushion_barion") {
             return Ok(false);
         }
         let Some((stone, names)) = stone(cut) else { return Ok(false) };

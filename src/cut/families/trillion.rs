@@ -66,6 +66,7 @@ pub static TRILLION: Family = Family {
             },
             ..Proportion::BLANK
         },
+        rows::total_depth(),
     ],
 };
 

@@ -4,7 +4,7 @@ use super::{Gear, TierPiece, fourteen_digits, gathered, named_once};
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, Indexed, MaterialRef, Tier, TierZone, Tiers, tier_stem};
 use crate::math::{Basis, Plane, Polytope, Symmetry};
 use crate::optics::line;
-use crate::scene::Specimen;
+use crate::scene::{Body, Specimen, SpecimenError};
 use glam::DVec3;
 use std::borrow::Cow;
 
@@ -74,6 +74,35 @@ pub fn as_tiers(specimen: &Specimen) -> Option<Tiers> {
         tiers.tiers[place].rename(&if is_alone { letter.to_owned() } else { format!("{letter}{number}") });
     }
     Some(tiers)
+}
+
+/// Why a body cannot be cut by tiers.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NoTiers {
+    /// A mesh that is not convex.
+    #[error("tiers cut convex stones between planes, and this mesh is not convex")]
+    NotConvex,
+    /// A glass shape without flat facets.
+    #[error("tiers cut flat facets, and this glass shape is smooth")]
+    Smooth,
+    /// The tiers of the stone make none.
+    #[error("cut by tiers: {0}")]
+    Stone(#[from] SpecimenError),
+}
+
+/// Returns the stone cut by tiers: as it is where tiers cut it, else with the tiers of [`as_tiers`] and the meets that its
+/// geometry shows. No facet moves by more than rounding.
+///
+/// # Errors
+/// The body is no convex stone between planes, or its tiers make none.
+pub fn in_tiers(specimen: &Specimen) -> Result<Cow<'_, Specimen>, NoTiers> {
+    if matches!(specimen.design.cut, Cut::Tiers(_)) {
+        return Ok(Cow::Borrowed(specimen));
+    }
+    let why = if matches!(*specimen.body, Body::Glass(_)) { NoTiers::Smooth } else { NoTiers::NotConvex };
+    let tiers = as_tiers(specimen).ok_or(why)?;
+    let cut = Cut::Tiers(tiers.with_own_meets());
+    Ok(Cow::Owned(specimen.remade(Design { cut, ..specimen.design.clone() })?))
 }
 
 /// Returns the facets of a design, moved where the origin lies outside the stone, since tiers have no place for that.

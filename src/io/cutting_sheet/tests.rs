@@ -1,7 +1,7 @@
 use super::super::drawing_png::legible::{overlapping, texts};
 use super::super::drawing_png::parse;
 use super::*;
-use crate::cut::{Cut, Design, Indexed, MaterialRef, TOLKOWSKY, Tier, Tiers};
+use crate::cut::{Cut, Design, Indexed, MaterialRef, SheetFigures, TOLKOWSKY, Tier, Tiers};
 use proptest::prelude::*;
 use resvg::usvg::{Group, Node, Rect};
 
@@ -116,23 +116,77 @@ fn a_left_handed_sheet_counts_backwards_and_cuts_the_same_stone() {
     assert_eq!((row(sheet_of(offset.clone(), false)), row(sheet_of(offset, true))), (7.0, 3.0));
 }
 
+fn library_cut(name: &str) -> Specimen {
+    let text = crate::io::library::cut(name).unwrap();
+    Specimen::new(crate::io::cut_file::parse(text, name).unwrap()).unwrap()
+}
+
 #[test]
-fn a_brilliant_and_planes_are_given_tiers_and_other_shapes_are_refused() {
+fn a_cut_by_proportions_has_the_sheet_of_the_tiers_that_the_editor_makes_of_it() {
+    for name in ["tolkowsky", "oval", "cushion", "princess", "emerald", "barion"] {
+        let specimen = library_cut(name);
+        let sheet = cutting_sheet(&specimen, false).unwrap();
+        let tiers = crate::io::as_tiers(&specimen).unwrap().with_own_meets();
+        let rows: Vec<_> = sheet.blocks.iter().flat_map(|block| &block.tiers).collect();
+        let named: Vec<(&str, String)> =
+            rows.iter().map(|row| (row.name.as_str(), row.instruction.clone())).collect();
+        let width = specimen.stone().unwrap().polytope.bounds();
+        let width = (width.1 - width.0).truncate().min_element();
+        for ((name, said), tier) in named.iter().zip(&tiers.tiers) {
+            assert_eq!(*name, tier.name());
+            match &tier.meet {
+                Some(meet) => assert_eq!(*said, meet.to_string()),
+                // A family's own unit is half of its diameter, as that of stones.
+                None => assert!(said.ends_with(&format!("epth {:.4} W", tier.distance / width)), "{said}"),
+            }
+        }
+        assert_eq!(named.len(), tiers.tiers.len(), "{name}");
+        // In cutting order: pavilion, girdle, crown, and the table last.
+        let letters: Vec<char> = rows.iter().filter_map(|row| row.name.chars().next()).collect();
+        assert!(letters.is_sorted_by_key(|letter| "PGCT".find(*letter)), "{name}: {letters:?}");
+        assert_eq!(rows.last().map(|row| row.name.as_str()), Some("T"), "{name}");
+        let names: std::collections::BTreeSet<&str> = rows.iter().map(|row| row.name.as_str()).collect();
+        assert_eq!(names.len(), rows.len(), "{name}: a name twice");
+        let led = rows.iter().filter(|row| row.instruction.starts_with("Meet ")).count();
+        assert!(led > 0, "{name}: no meet among the instructions");
+        // The stone of the sheet is the one of the family.
+        let (own, stone) = (&specimen.stone().unwrap().polytope, &sheet.figures);
+        assert!(
+            (stone.volume_to_width_cubed - SheetFigures::of(own, &[]).volume_to_width_cubed).abs() < 1e-7
+        );
+        assert_eq!(stone.facets + stone.girdle_facets, own.facets().len(), "{name}");
+    }
+}
+
+#[test]
+fn a_brilliant_and_its_planes_have_one_sheet_and_other_shapes_are_refused() {
     let round = cutting_sheet(&specimen(Cut::RoundBrilliant(TOLKOWSKY), 2.417), false).unwrap();
     assert_eq!((round.gear, round.symmetry, round.mirror), (96, 8, true));
     let rows: Vec<String> = lines(&round);
-    assert!(
-        rows.iter().any(|row| row.starts_with("PAVILION|main|40.75|96-12-24-36-48-60-72-84")),
-        "{rows:#?}"
-    );
+    assert!(rows.iter().any(|row| row.starts_with("PAVILION|P2|40.75|96-12-24-36-48-60-72-84")), "{rows:#?}");
     let planes = Cut::Planes(TOLKOWSKY.facets().unwrap());
     assert_eq!(lines(&cutting_sheet(&specimen(planes, 2.417), false).unwrap()), rows);
-    let file = |name: &str| {
-        let text = crate::io::library::cut(name).unwrap();
-        Specimen::new(crate::io::cut_file::parse(text, name).unwrap()).unwrap()
-    };
-    let error = cutting_sheet(&file("pill"), false).unwrap_err();
-    assert!(matches!(&error, Failure::Input(text) if text.contains("smooth")), "{error}");
+    for (name, why) in [("pill", "smooth"), ("heart", "not convex")] {
+        let error = cutting_sheet(&library_cut(name), false).unwrap_err();
+        assert!(matches!(&error, Failure::Input(text) if text.contains(why)), "{error}");
+    }
+}
+
+#[test]
+fn indices_between_teeth_are_said() {
+    let oval = cutting_sheet(&library_cut("oval"), false).unwrap();
+    // Along the axes of an oval some facets lie on whole teeth of any gear of an even number.
+    assert!(!oval.between_teeth.is_empty() && !oval.between_teeth.contains(&"T".to_owned()));
+    let said = assert_printable(&oval).join(" ");
+    assert!(said.contains("between teeth of the gear of 96"), "{said}");
+    let mut tiers = step_cut();
+    assert!(sheet_of(tiers.clone(), false).between_teeth.is_empty());
+    assert!(!assert_printable(&sheet_of(tiers.clone(), false)).join(" ").contains("between teeth"));
+    // A fifth of a thousandth of a tooth is not printed, half a tooth is.
+    tiers.tiers[3].facets[1].index += 2e-4;
+    assert!(sheet_of(tiers.clone(), false).between_teeth.is_empty());
+    tiers.tiers[3].facets[1].index += 0.5;
+    assert_eq!(sheet_of(tiers, true).between_teeth, ["1"]);
 }
 
 fn paths(group: &Group) -> Vec<Rect> {
@@ -146,10 +200,10 @@ fn paths(group: &Group) -> Vec<Rect> {
 
 /// Draws a sheet and checks every page: no two texts overlap, and nothing comes near the edge of the paper. Returns the
 /// texts of all pages.
-fn assert_printable(specimen: &Specimen, sheet: &CuttingSheet) -> Vec<String> {
+fn assert_printable(sheet: &CuttingSheet) -> Vec<String> {
     let mut said = vec![];
     for paper in [PaperSize::A4, PaperSize::Letter] {
-        for page in sheet_pages(sheet, specimen.stone().unwrap(), paper) {
+        for page in sheet_pages(sheet, paper) {
             let svg = page.to_string();
             let tree = parse(&svg).unwrap();
             let written = texts(tree.root());
@@ -188,7 +242,7 @@ fn sheets_are_printable_and_every_tier_stands_on_them() {
         for left_handed in [false, true] {
             let specimen = specimen(cut.clone(), index);
             let sheet = cutting_sheet(&specimen, left_handed).unwrap();
-            let said = assert_printable(&specimen, &sheet);
+            let said = assert_printable(&sheet);
             for row in sheet.blocks.iter().flat_map(|block| &block.tiers) {
                 let angle = format!("{:.2}", row.angle_deg);
                 assert!(said.contains(&angle), "{angle} is missing");
@@ -228,9 +282,9 @@ proptest! {
         let design = Design { name: "Random".to_owned(), cut, ..specimen(Cut::RoundBrilliant(TOLKOWSKY), 1.6).design };
         if let Ok(specimen) = Specimen::new(design) {
             let sheet = cutting_sheet(&specimen, left_handed).unwrap();
-            assert_printable(&specimen, &sheet);
+            assert_printable(&sheet);
             // The tiers of the other hand make the same stone.
-            let pages = sheet_pages(&sheet, specimen.stone().unwrap(), PaperSize::A4);
+            let pages = sheet_pages(&sheet, PaperSize::A4);
             prop_assert!(!pages.is_empty());
         }
     }
@@ -246,7 +300,7 @@ fn sheets_are_written_in_every_format_and_a_page_a_file() {
         let sheet = cutting_sheet(&specimen, false).unwrap();
         for format in [SheetFormat::Pdf, SheetFormat::Svg] {
             let path = folder.path().join(format!("step.{}", format.ending()));
-            let files = write(&specimen, &sheet, PaperSize::A4, (format, &path)).unwrap();
+            let files = write(&sheet, PaperSize::A4, (format, &path)).unwrap();
             assert_eq!(files.len() > 1, is_long && format == SheetFormat::Svg, "{files:?}");
             assert!(files.iter().all(|file| file.is_file()), "{files:?}");
             assert_eq!(files.first(), Some(&path));
@@ -254,7 +308,6 @@ fn sheets_are_written_in_every_format_and_a_page_a_file() {
     }
     assert!(folder.path().join("step-2.svg").is_file());
     let error = write(
-        &specimen(Cut::Tiers(Tiers { footers: vec!["a note ".repeat(900)], ..step_cut() }), 1.54),
         &sheet_of(Tiers { footers: vec!["a note ".repeat(900)], ..step_cut() }, false),
         PaperSize::A4,
         (SheetFormat::Svg, Path::new("-")),
@@ -267,7 +320,7 @@ fn every_cut_that_comes_with_the_program_has_a_sheet_or_says_why_not() {
     for (name, text) in crate::io::library::CUTS {
         let specimen = Specimen::new(crate::io::cut_file::parse(text, name).unwrap()).unwrap();
         match cutting_sheet(&specimen, false) {
-            Ok(sheet) => drop(assert_printable(&specimen, &sheet)),
+            Ok(sheet) => drop(assert_printable(&sheet)),
             Err(error) => {
                 let said = error.to_string();
                 assert!(said.contains("smooth") || said.contains("not convex"), "{said}");

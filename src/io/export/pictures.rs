@@ -5,9 +5,11 @@ use super::sheet::{ScopeSheet, SheetFile, UNRESOLVED, how, in_percent, remark};
 use super::viewing::{Viewing, note};
 use super::{Export, OutputFormat, Outputs, write_text};
 use crate::io::{Failure, rasterize, write_exr, write_png};
-use crate::picture::{DiagramStyle, Layer, Palette, Picture, Scoped, diagram, profile, vector};
+use crate::picture::{
+    DiagramStyle, DrawnMarks, Layer, Palette, Picture, Scoped, marked_diagram, profile, vector,
+};
 use crate::render::{Job, Partial, Reading, Rendered, Renderer};
-use crate::scene::{Film, View};
+use crate::scene::{Film, Stone, View};
 use crate::trace::Watch;
 use crate::trace::beam::{self, Beams};
 
@@ -41,14 +43,21 @@ impl<'a> Pictures<'a> {
             (Picture::Profile, Ok(stone)) => {
                 self.drawing(name, &profile(stone, &design.name, design.cut.brilliant()))
             }
-            (Picture::Diagram, Ok(stone)) => {
-                self.drawing(name, &diagram(stone, &design.name, &DiagramStyle::SHEET))
-            }
+            (Picture::Diagram, Ok(stone)) => self.drawing(
+                name,
+                &marked_diagram(stone, &design.name, &DiagramStyle::SHEET, &self.marks(stone)),
+            ),
             (Picture::Profile | Picture::Diagram, Err(why)) => {
                 (self.tell)(Event::Note(&format!("{name}: left out: {why}")))
             }
             (Picture::Scoped(scoped), _) => self.scoped(name, scoped, watch),
         }
+    }
+
+    /// Returns the marks of all findings of the stone's audit, where they are asked for.
+    fn marks(&self, stone: &Stone) -> DrawnMarks {
+        let audit = self.outputs.mark_audit.then(|| self.viewing.specimen.audit().ok()).flatten();
+        audit.map_or_else(DrawnMarks::default, |audit| DrawnMarks::of(stone, &audit.findings))
     }
 
     fn title(&self, name: &str) -> String {

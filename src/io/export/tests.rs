@@ -1,4 +1,5 @@
 use super::*;
+use crate::cut::MaterialRef;
 use crate::io::{cut_file, library};
 use crate::picture::named;
 use crate::render::{Renderer, Wanted};
@@ -38,6 +39,7 @@ fn outputs(folder: &Path, pictures: &[&str], formats: &[OutputFormat]) -> Output
         size: 32,
         formats: formats.into(),
         caption: false,
+        mark_audit: false,
         strongest: true,
         timing: false,
     }
@@ -287,4 +289,23 @@ fn figures_are_written_down_as_they_were_given() {
         .json(false);
     assert_eq!((&json["tracer"], &json["view"]["side"]), (&"ray".into(), &"culet".into()));
     assert!(json["standard_error"].is_number());
+}
+
+#[test]
+fn the_diagram_marks_the_findings_of_an_audit_where_they_are_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut design =
+        Specimen::new(cut_file::parse(library::cut("tolkowsky").unwrap(), "t").unwrap()).unwrap().design;
+    // In glass the mains lie below the critical angle.
+    design.material = MaterialRef::Index(1.5);
+    let specimen = Specimen::new(design).unwrap();
+    let plain = outputs(folder.path(), &["diagram"], &[OutputFormat::Svg]);
+    let drawn = |mark_audit| {
+        let outputs = Outputs { mark_audit, ..plain.clone() };
+        let export = Export { viewing: viewing(&specimen), outputs: &outputs };
+        export.write(&mut Renderer::default(), &|_| ControlFlow::Continue(()), &|_| Ok(())).unwrap();
+        std::fs::read_to_string(folder.path().join("mine-diagram.svg")).unwrap()
+    };
+    assert!(!drawn(false).contains("marked-facet"));
+    assert_eq!(drawn(true).matches("class=\"marked-facet\"").count(), 8);
 }

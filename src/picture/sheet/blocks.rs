@@ -77,7 +77,16 @@ impl SheetRow {
 
 /// Writes an index with up to three decimals.
 pub(super) fn index_text(index: f64) -> String {
-    format!("{}", (index * 1000.0).round() / 1000.0)
+    format!("{}", rounded(index))
+}
+
+/// Whether an index is printed with decimals, because it lies between two teeth.
+pub(super) fn is_between_teeth(index: f64) -> bool {
+    rounded(index).fract() != 0.0
+}
+
+fn rounded(index: f64) -> f64 {
+    (index * 1000.0).round() / 1000.0
 }
 
 /// Returns an index above 0 and up to the number of teeth.

@@ -1,6 +1,6 @@
 //! What stands on a cutter's sheet, as plain data.
 
-use super::blocks::{SheetBlock, blocks, cleaned, tiers_of_planes};
+use super::blocks::{SheetBlock, SheetRow, blocks, cleaned, is_between_teeth, tiers_of_planes};
 use crate::cut::{Cut, MaterialRef, SheetFigures, Tiers};
 use crate::optics::{critical_angle, line};
 use crate::scene::{Specimen, Stone};
@@ -38,8 +38,13 @@ pub struct CuttingSheet {
     pub blocks: Vec<SheetBlock>,
     /// Whether facets of the stone are frosted.
     pub is_frosted: bool,
+    /// The names of the tiers with an index between two teeth of the gear.
+    pub between_teeth: Vec<String>,
     /// What else the design says, and what is unusual about it.
     pub notes: Vec<String>,
+    /// The stone that the tiers make.
+    #[serde(skip)]
+    pub(super) stone: Stone,
     /// The design as tiers, with the gear that the sheet is for.
     #[serde(skip)]
     pub(super) tiers: Tiers,
@@ -80,12 +85,21 @@ impl CuttingSheet {
             critical_angle_deg,
             below_critical: below.map(|row| row.name.clone()).collect(),
             is_frosted: stone.polytope.is_frosted(),
+            between_teeth: between_teeth(&blocks),
             notes: notes(specimen, &tiers, tier_of_facet.contains(&None)),
+            stone: stone.clone(),
             tier_of_facet,
             blocks,
             tiers,
         }
     }
+}
+
+/// Returns the names of the rows with an index that is printed with decimals.
+fn between_teeth(blocks: &[SheetBlock]) -> Vec<String> {
+    let rows = blocks.iter().flat_map(|block| &block.tiers);
+    let is_between = |row: &&SheetRow| row.indices.iter().any(|&index| is_between_teeth(index));
+    rows.filter(is_between).map(|row| row.name.clone()).collect()
 }
 
 /// Returns the same design on a gear that counts clockwise, seen from above.

@@ -52,6 +52,17 @@ pub enum PaperSize {
 }
 
 impl PaperSize {
+    /// All sizes.
+    pub const ALL: [Self; 2] = [Self::A4, Self::Letter];
+
+    /// Returns the name of the size.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::A4 => "A4",
+            Self::Letter => "US letter",
+        }
+    }
+
     /// Returns width and height in mm.
     pub fn size_mm(self) -> DVec2 {
         match self {
@@ -61,8 +72,9 @@ impl PaperSize {
     }
 }
 
-/// Draws a cutter's sheet, page by page; the stone is the one that `data` describes.
-pub fn sheet_pages(data: &CuttingSheet, stone: &Stone, paper: PaperSize) -> Vec<Document> {
+/// Draws a cutter's sheet, page by page.
+pub fn sheet_pages(data: &CuttingSheet, paper: PaperSize) -> Vec<Document> {
+    let stone = &data.stone;
     let size = paper.size_mm() * PER_MM;
     let frame = Frame { low: DVec2::splat(MARGIN), high: size - MARGIN - DVec2::Y * FOOT };
     let layout = Layout { data, stone, frame };
@@ -258,6 +270,7 @@ fn facts(data: &CuttingSheet) -> Vec<String> {
 fn remarks(data: &CuttingSheet) -> Vec<String> {
     let mut remarks =
         vec!["H is P + C and the girdle as it is measured, G; GemCad prints 0.02 W for G.".to_owned()];
+    remarks.extend(between_teeth(data));
     if data.is_frosted {
         remarks.push(HATCHING_LEGEND.to_owned());
     }
@@ -271,4 +284,14 @@ fn remarks(data: &CuttingSheet) -> Vec<String> {
         });
     }
     remarks
+}
+
+/// Says that indices are no whole teeth, and what to do; `None` where all are.
+fn between_teeth(data: &CuttingSheet) -> Option<String> {
+    let said = format!(
+        "Indices with decimals lie between teeth of the gear of {}, rounded to 0.001 tooth: set the tooth, and the rest by the \
+         cheater.",
+        data.gear
+    );
+    Some(said).filter(|_| !data.between_teeth.is_empty())
 }

@@ -40,6 +40,34 @@ fn meets_are_listed_alone_below_what_became_of_them() {
 }
 
 #[test]
+fn a_family_becomes_tiers_with_meets_in_one_step() {
+    let desk = Desk::new();
+    let (code, _, stderr) = desk.run("convert --meets oval oval.toml");
+    assert!(code == 0 && stderr.contains("turned into ") && stderr.contains("between the teeth"), "{stderr}");
+    let text = desk.read("oval.toml");
+    for said in ["[index]", "[\"P1\"]", "[\"G1\"]", "[\"C1\"]", "[\"T\"]", "meet = "] {
+        assert!(text.contains(said), "{said} is missing: {text}");
+    }
+    assert!(!text.contains("bezel"));
+    // It is the same stone, and following it again moves nothing.
+    let [before, after] = ["oval", "oval.toml"].map(|file| desk.json(&format!("info --json {file}")));
+    near(at(&after, "volume"), at(&before, "volume"), 1e-4 * at(&before, "volume"), "volume");
+    let (code, _, stderr) = desk.run("convert --meets oval.toml again.toml");
+    assert!(code == 0 && !stderr.contains("becomes") && !stderr.contains("warning"), "{stderr}");
+    // What cutters' files say of it are instructions, which are read as the same meets.
+    assert_eq!(desk.run("convert --meets emerald emerald.asc").0, 0);
+    assert!(desk.read("emerald.asc").contains(" G Meet "), "{}", desk.read("emerald.asc"));
+    let (code, table, stderr) = desk.run("info --meets emerald");
+    assert!(code == 0 && stderr.contains("turned into ") && table.contains("found   Meet "), "{table}");
+    assert!(!table.contains("ambiguous"), "{table}");
+    for body in ["heart", "pill"] {
+        assert!(
+            desk.refused(&format!("convert --meets {body} out.toml"), 1).contains("leave the option out")
+        );
+    }
+}
+
+#[test]
 fn a_design_is_fitted_to_another_material_written_and_measured_beside_the_old_one() {
     let desk = Desk::new();
     let line = "retarget tolkowsky --material sapphire --rule tangent-ratio --factor 1.02";

@@ -12,6 +12,7 @@ use crate::app::model::eye::Eye;
 use crate::app::model::task::{Task, WindowTask};
 use crate::app::model::workspace::PaneLayout;
 use crate::cut::Cut;
+use crate::picture::DrawnMarks;
 use crate::scene::{LIGHTS, scattered};
 
 impl Model {
@@ -54,6 +55,15 @@ impl Model {
     /// of the tiers, so that a corner means what is seen.
     pub fn picked_tier(&self) -> Option<usize> {
         self.session.picking.filter(|_| self.shows_tiers() && !self.document.shows_last_possible())
+    }
+
+    /// Returns the marks of the finding that is selected in the audit's list, where the list is in sight; none else.
+    pub fn found_marks(&self) -> DrawnMarks {
+        let finding = self.session.audit.selected_finding().filter(|_| self.shows_audit());
+        match (finding, self.document.specimen().stone()) {
+            (Some(finding), Ok(stone)) => DrawnMarks::of(stone, [finding]),
+            _ => DrawnMarks::default(),
+        }
     }
 
     /// Whether the list of the audit is in sight.

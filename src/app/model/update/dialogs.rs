@@ -70,10 +70,15 @@ fn fill_in(model: &mut Model, typed: DialogAction) {
         (Some(Dialog::About(about)), DialogAction::AboutSearch(text)) => about.sought = text,
         (Some(Dialog::Export(export)), DialogAction::Select(selection)) => {
             session.selection = Selection { scene: false, ..selection.clone() };
+            let has_changed = export.plan.selection.sheet != selection.sheet;
             export.plan.selection = selection;
+            if has_changed {
+                export.plan.list_sheet();
+            }
         }
         (Some(Dialog::Export(export)), DialogAction::Folder(folder)) => {
             export.plan.folder = folder;
+            export.plan.list_sheet();
         }
         _ => {}
     }

@@ -211,6 +211,7 @@ pub fn chosen(model: &mut Model, tasks: &mut Vec<Task>, purpose: Purpose, docume
         Purpose::Folder => {
             if let Some(Dialog::Export(export)) = &mut model.session.dialog {
                 export.plan.folder = path;
+                export.plan.list_sheet();
             }
         }
     }

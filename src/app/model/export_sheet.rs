@@ -1,0 +1,67 @@
+//! The cutter's sheet in an export: what is chosen of it, and its files.
+
+use super::export::ExportPlan;
+use crate::io::Failure;
+use crate::io::cutting_sheet::{SheetFormat, cutting_sheet, files, write};
+use crate::picture::PaperSize;
+use std::path::PathBuf;
+
+/// What is chosen of the cutter's sheet in the export dialog.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SheetChoice {
+    /// Whether a sheet is written.
+    pub is_wanted: bool,
+    /// The format of its files.
+    pub format: SheetFormat,
+    /// The size of its paper.
+    pub paper: PaperSize,
+    /// Whether its indices are those of a gear that counts clockwise.
+    pub left_handed: bool,
+}
+
+impl Default for SheetChoice {
+    fn default() -> Self {
+        Self { is_wanted: false, format: SheetFormat::Pdf, paper: PaperSize::A4, left_handed: false }
+    }
+}
+
+impl ExportPlan {
+    /// Whether the stone can have a sheet: it is a convex one between planes.
+    pub fn can_have_sheet(&self) -> bool {
+        self.upright.stone().is_ok()
+    }
+
+    /// Whether a sheet is written.
+    pub fn writes_sheet(&self) -> bool {
+        self.selection.sheet.is_wanted && self.can_have_sheet()
+    }
+
+    /// Lists the files of the sheet, which takes up to some tenths of a second where their number has to be counted.
+    pub fn list_sheet(&mut self) {
+        let SheetChoice { format, paper, left_handed, .. } = self.selection.sheet;
+        let first = self.sheet_path();
+        self.sheet_files = match (self.writes_sheet(), format) {
+            (false, _) => vec![],
+            (true, SheetFormat::Pdf) => vec![first],
+            (true, SheetFormat::Svg | SheetFormat::Png) => match cutting_sheet(&self.upright, left_handed) {
+                Ok(sheet) => files(&sheet, paper, (format, &first)),
+                // Writing says what is wrong.
+                Err(_) => vec![first],
+            },
+        };
+    }
+
+    /// Writes the sheet. Returns its files.
+    ///
+    /// # Errors
+    /// The stone has no sheet, or the file system refuses.
+    pub fn write_sheet(&self) -> Result<Vec<PathBuf>, Failure> {
+        let SheetChoice { format, paper, left_handed, .. } = self.selection.sheet;
+        let sheet = cutting_sheet(&self.upright, left_handed)?;
+        write(&sheet, paper, (format, &self.sheet_path()))
+    }
+
+    fn sheet_path(&self) -> PathBuf {
+        self.folder.join(format!("{}-sheet.{}", self.stem, self.selection.sheet.format.ending()))
+    }
+}
