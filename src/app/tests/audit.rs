@@ -116,6 +116,33 @@ fn a_row_that_is_clicked_selects_the_facets_of_its_split_meet() {
     assert_eq!(bench.editor().model.session.audit.selected, None);
 }
 
+/// Returns the number of pixels of the window in the colour of findings.
+fn marked_pixels(bench: &mut Bench) -> usize {
+    let picture = bench.harness.render().unwrap();
+    let is_amber = |[r, g, b, _]: [u8; 4]| r > 200 && (100..200).contains(&g) && b < 90;
+    picture.pixels().filter(|pixel| is_amber(pixel.0)).count()
+}
+
+#[test]
+fn profile_and_diagram_mark_the_finding_that_is_selected() {
+    for shows in [Shows::Profile, Shows::Diagram] {
+        let folder = tempfile::tempdir().unwrap();
+        let mut bench = opened(&folder);
+        bench.harness.state_mut().model.workspace.panes.iter_mut().for_each(|pane| pane.shows = shows);
+        bench.settle();
+        let before = marked_pixels(&mut bench);
+        let row = first_row(&bench);
+        bench.click(&row);
+        bench.settle();
+        assert_eq!(bench.editor().model.found_marks().facets.len(), 4);
+        let after = marked_pixels(&mut bench);
+        assert!(after > before + 200, "{shows:?}: {before} and {after}");
+        bench.click(&row);
+        bench.settle();
+        assert_eq!(marked_pixels(&mut bench), before, "{shows:?}");
+    }
+}
+
 #[test]
 fn the_list_follows_the_design_and_says_that_there_are_no_candidates() {
     let folder = tempfile::tempdir().unwrap();
