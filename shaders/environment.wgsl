@@ -8,6 +8,8 @@
 
 const STILL: f32 = 1e-14;
 const ALONG: f32 = 1e-6;
+// A least height above the backplate, so that no division is by 0.
+const LEAST_HEIGHT: f32 = 1e-20;
 
 // Returns the place of a direction in the octahedral map, 0 to 1.
 fn octahedral(d: vec3f) -> vec2f {
@@ -73,16 +75,29 @@ fn share_inside(from_middle: vec3f, fan: vec3f, chord_squared: f32) -> f32 {
 // The most look-ups along a stretch of the backplate.
 const MOST_TAPS: f32 = 8.0;
 
+// Returns the pixels across and down of a level of the backplate. They are computed, as Mesa's software driver (22.3) says 0 of
+// all levels but the first.
+fn photo_size(level: i32) -> vec2u {
+    return max(textureDimensions(photo) >> vec2u(u32(level)), vec2u(1u));
+}
+
 // Interpolates one level of the backplate at a place in its pixels.
 fn photo_level(at: vec2f, level: i32) -> vec3f {
     let base = floor(at);
     let part = at - base;
-    let last = vec2i(textureDimensions(photo, level)) - 1;
+    let last = vec2i(photo_size(level)) - 1;
     let low = clamp(vec2i(base), vec2i(0), last);
     let high = clamp(vec2i(base) + 1, vec2i(0), last);
     let above = mix(textureLoad(photo, low, level), textureLoad(photo, vec2i(high.x, low.y), level), part.x);
     let below = mix(textureLoad(photo, vec2i(low.x, high.y), level), textureLoad(photo, high, level), part.x);
     return mix(above, below, part.y).xyz;
+}
+
+// Returns a ray whose fan alone runs over the same stretch of the backplate's plane, to first order, as its fan and its shift
+// together; its height above the plane is given.
+fn fanned_onto_plane(ray: Ray, height: f32) -> Ray {
+    let along = ray.shift * -dot(ray.direction, frame.toward.xyz) + ray.direction * dot(ray.shift, frame.toward.xyz);
+    return Ray(ray.origin, ray.direction, ray.fan + along / max(height, LEAST_HEIGHT), vec3f(0.0));
 }
 
 // How fast a ray runs toward the backplate's plane, at a part of its fan from its middle.
@@ -108,8 +123,9 @@ fn photo_passed(along: f32, speeds: vec2f) -> f32 {
 
 // Returns the light of the backplate behind the stones that a ray sees; a is the part of the ray's fan that meets it. The
 // twin of `Backplate::at` and of `Mipmap::along`.
-fn photo_at(ray: Ray) -> vec4f {
-    let height = dot(ray.origin, frame.toward.xyz) + environment.photo.x;
+fn photo_at(arriving: Ray) -> vec4f {
+    let height = dot(arriving.origin, frame.toward.xyz) + environment.photo.x;
+    let ray = fanned_onto_plane(arriving, height);
     let low = photo_speed(ray, -0.5);
     let high = photo_speed(ray, 0.5);
     if max(low, high) <= ALONG || height <= 0.0 || environment.photo.y <= 0.0 {
@@ -144,7 +160,7 @@ fn photo_at(ray: Ray) -> vec4f {
     let length = length(way) * (leaves - enters);
     let level = clamp(ceil(log2(max(length, 1e-6) / MOST_TAPS)), 0.0, f32(textureNumLevels(photo)) - 1.0);
     let taps = clamp(ceil(length / exp2(level)), 1.0, MOST_TAPS);
-    let scale = vec2f(textureDimensions(photo, i32(level))) / vec2f(textureDimensions(photo));
+    let scale = vec2f(photo_size(i32(level))) / vec2f(textureDimensions(photo));
     var sum = vec3f(0.0);
     for (var k = 0.0; k < taps; k += 1.0) {
         let at = photo_place(ray, height, mix(begin, finish, (k + 0.5) / taps));

@@ -21,14 +21,17 @@ var<private> straight: Ray;
 
 // Returns the ray on which light is looked up: the twin of `SamplePass::mixed` in src/trace/sampling.rs.
 fn mixed(ray: Ray) -> Ray {
-    let strength = frame.strength.x;
+    let strength = frame.sample.x;
     if strength >= 1.0 || dot(ray.direction, straight.direction) <= 0.0 {
         return ray;
     }
-    let beside = straight.origin + straight.direction * dot(ray.origin - straight.origin, straight.direction);
+    let ahead = dot(ray.origin - straight.origin, straight.direction);
+    let beside = straight.origin + straight.direction * ahead;
+    let moved = straight.shift + straight.fan * ahead;
     let between = mix(straight.direction, ray.direction, strength);
     let length = length(between);
-    return Ray(mix(beside, ray.origin, strength), between / length, ray.fan * (strength / length));
+    let fan = mix(straight.fan, ray.fan, strength) / length;
+    return Ray(mix(beside, ray.origin, strength), between / length, fan, mix(moved, ray.shift, strength));
 }
 
 // Adds the light of the environment that arrives along a ray.
@@ -119,8 +122,7 @@ fn light(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: 
     if place.x >= frame.film.x || place.y >= frame.film.w {
         return;
     }
-    let start = pixel_ray(vec2u(place.x, frame.film.z + place.y), frame.limits.zw);
-    straight = Ray(start[0], start[1], vec3f(0.0));
+    straight = pixel_ray(vec2u(place.x, frame.film.z + place.y), frame.limits.zw);
     let eye = Waiting(straight, 1.0, NONE);
     // The ray meets the first stone at the same point in all wavelengths.
     let met = nearest(eye.ray, NONE);

@@ -45,10 +45,11 @@ fn arriving(ray: Ray, met: Meeting, weight: f32) -> Inbound {
     let distance = met.distance / unit();
     let point = polished(unplace(ray.origin) + direction * distance);
     let fan = own_vector(ray.fan);
-    return inbound_of(Ray(point, direction, fan), fan * distance, Meeting(met.facet, 0.0), weight);
+    let shift = own_vector(ray.shift) / unit() + fan * distance;
+    return inbound_of(Ray(point, direction, fan, shift), Meeting(met.facet, 0.0), weight);
 }
 
 // Carries a ray that leaves the body into the world.
 fn outward(ray: Ray) -> Ray {
-    return Ray(place(ray.origin), world_vector(ray.direction), world_vector(ray.fan));
+    return Ray(place(ray.origin), world_vector(ray.direction), world_vector(ray.fan), world_vector(ray.shift) * unit());
 }

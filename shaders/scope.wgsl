@@ -58,9 +58,9 @@ fn scope(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: 
     let turn = frame.turn.x;
     let cell = vec2f(f32(turn % grid), f32(turn / grid));
     let ray = pixel_ray(vec2u(place.x, frame.film.z + place.y), (cell + frame.limits.zw) / f32(grid));
-    let entered = meet(ray[0], ray[1]);
+    let entered = meet(ray.origin, ray.direction);
     if entered.distance >= 0.0 {
-        let rest = follow(Ray(ray[0], ray[1], vec3f(0.0)), entered, 1.0);
+        let rest = follow(ray, entered, 1.0);
         sum.rest = vec4f(rest.absorbed, rest.unresolved, 1.0, 0.0);
         sum.strongest[0] = marked(strongest_band, 0u);
         sum.strongest[1] = marked(strongest_band, 4u);

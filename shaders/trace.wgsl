@@ -20,11 +20,13 @@ struct Meeting {
     distance: f32,
 }
 
-// A ray; `fan` is the change of its direction over the wavelengths that it stands for.
+// A ray; `fan` is the change of its direction, and `shift` that of its origin, over what it stands for: a band of
+// wavelengths and a stretch of its pixel.
 struct Ray {
     origin: vec3f,
     direction: vec3f,
     fan: vec3f,
+    shift: vec3f,
 }
 
 // The part of a ray's light that did not leave the stone, and the number of its bounces.
@@ -44,13 +46,11 @@ fn is_spent() -> bool {
     return turns > frame.most.x;
 }
 
-// Light outside the body, on its way into it or away from it. `shift` is the displacement of the ray's origin as its
-// direction fans; `light` is the light without absorption, along `s` and direction × s, and `left` the share that
+// Light outside the body, on its way into it or away from it. `light` is the light without absorption, along `s` and direction × s, and `left` the share that
 // absorption has left; `path` and `bounce` are the length of its way and the number of bounces inside so far.
 struct Inbound {
     met: Meeting,
     ray: Ray,
-    shift: vec3f,
     light: vec4f,
     s: vec3f,
     left: f32,
@@ -59,10 +59,16 @@ struct Inbound {
 }
 
 // Returns unpolarised light of this weight that meets the body at `met`.
-fn inbound_of(ray: Ray, shift: vec3f, met: Meeting, weight: f32) -> Inbound {
+fn inbound_of(ray: Ray, met: Meeting, weight: f32) -> Inbound {
     let normal = facet_normal(met.facet, ray.origin + ray.direction * met.distance);
     let s = s_axis(ray.direction, normal, frame.right.xyz);
-    return Inbound(met, ray, shift, vec4f(vec2f(0.5 * weight), 0.0, 0.0), s, 1.0, 0.0, 0u);
+    return Inbound(met, ray, vec4f(vec2f(0.5 * weight), 0.0, 0.0), s, 1.0, 0.0, 0u);
+}
+
+// Returns a vector, scaled down until no component exceeds WIDEST_FAN.
+fn limited(v: vec3f) -> vec3f {
+    let size = abs(v);
+    return v * min(WIDEST_FAN / max(max(size.x, size.y), max(size.z, LEAST_GAP)), 1.0);
 }
 
 // Returns a vector, on curved bodies scaled down until no component exceeds WIDEST_FAN.
@@ -70,15 +76,14 @@ fn tamed(v: vec3f) -> vec3f {
     if !IS_CURVED {
         return v;
     }
-    let size = abs(v);
-    return v * min(WIDEST_FAN / max(max(size.x, size.y), max(size.z, LEAST_GAP)), 1.0);
+    return limited(v);
 }
 
 // Returns the displacement along the surface of the point where a ray meets it, when the ray there moves by `by`.
 fn along_surface(by: vec3f, direction: vec3f, normal: vec3f) -> vec3f {
     let speed = dot(normal, direction);
     let divisor = select(min(speed, -LEAST_COS_T), max(speed, LEAST_COS_T), speed > 0.0);
-    return tamed(by - direction * (dot(normal, by) / divisor));
+    return limited(by - direction * (dot(normal, by) / divisor));
 }
 
 // Returns the distance to a plane that a ray inside runs toward.
@@ -92,12 +97,8 @@ fn passage(inbound: Inbound) -> Rest {
     let is_polarised = frame.counts.w == 1u;
     var point = ray.origin + ray.direction * inbound.met.distance;
     var normal = facet_normal(inbound.met.facet, point);
-    var shift = vec3f(0.0);
-    var of_normal = vec3f(0.0);
-    if IS_CURVED {
-        shift = along_surface(inbound.shift + ray.fan * inbound.met.distance, ray.direction, normal);
-        of_normal = turned_normal(point, shift);
-    }
+    var shift = along_surface(ray.shift + ray.fan * inbound.met.distance, ray.direction, normal);
+    var of_normal = turned_normal(point, shift);
     let outside = -dot(ray.direction, normal);
     let surface = fresnel(outside, 1.0 / medium.index);
     var s = s_axis(ray.direction, normal, inbound.s);
@@ -115,8 +116,8 @@ fn passage(inbound: Inbound) -> Rest {
         light = unpolarised(light);
     }
     let turned_back = tamed(reflected_change(ray.direction, normal, ray.fan, of_normal));
-    let back = Ray(point, reflect_ray(ray.direction, normal, outside), turned_back);
-    depart(Inbound(Meeting(NONE, 0.0), back, shift, glare, s, left, path, rest.bounces));
+    let back = Ray(point, reflect_ray(ray.direction, normal, outside), turned_back, shift);
+    depart(Inbound(Meeting(NONE, 0.0), back, glare, s, left, path, rest.bounces));
     let of_eta = -medium.spread / (medium.index * medium.index);
     var direction = refract_ray(ray.direction, normal, 1.0 / medium.index, outside, surface.cos_t);
     let eta = 1.0 / medium.index;
@@ -132,10 +133,8 @@ fn passage(inbound: Inbound) -> Rest {
         path += next.distance;
         normal = facet_normal(next.facet, point);
         let cos_i = dot(direction, normal);
-        if IS_CURVED {
-            shift = along_surface(shift + fan * next.distance, direction, normal);
-            of_normal = turned_normal(point, shift);
-        }
+        shift = along_surface(shift + fan * next.distance, direction, normal);
+        of_normal = turned_normal(point, shift);
         let after = transmittance(path);
         rest.absorbed += (light.x + light.y) * (left - after);
         left = after;
@@ -154,8 +153,8 @@ fn passage(inbound: Inbound) -> Rest {
             if !is_polarised {
                 gone = unpolarised(gone);
             }
-            let out = Ray(point, onward, tamed(fanned));
-            depart(Inbound(Meeting(NONE, 0.0), out, shift, gone, s, left, path, rest.bounces));
+            let out = Ray(point, onward, tamed(fanned), shift);
+            depart(Inbound(Meeting(NONE, 0.0), out, gone, s, left, path, rest.bounces));
         }
         light = reflected(light, f);
         if !is_polarised {

@@ -3,7 +3,7 @@
 
 use super::mesh_options::MeshArguments;
 use super::options::{OptionError, number};
-use crate::picture::{Bloom, Overlay, Tone};
+use crate::picture::{Bloom, Overlay, Smoothing, Tone};
 use crate::render::{USUAL_BOUNCES, Wanted};
 use clap::Args;
 
@@ -87,6 +87,11 @@ pub struct FinishOptions {
     /// Part of the brightest light that is spread as glow and sparkle, 0 to 1
     #[arg(long, allow_negative_numbers = true, value_name = "PART", default_value_t = Bloom::default().strength, value_parser = number)]
     pub bloom: f64,
+    /// Smooth edges beyond what samples do: `none`; `fxaa`, in the finished picture, for few samples; or `temporal`, as the
+    /// editor does while anything moves: samples, and the frames of `spin`, are blended one after the other, the newest by
+    /// half, or by PART with temporal:PART
+    #[arg(long, value_name = "HOW", default_value_t = Smoothing::None)]
+    pub smoothing: Smoothing,
     /// What to draw over the stones, separated by commas: wireframe, facets, bounces, unresolved, total (how often light is
     /// totally reflected before the first light leaves)
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
@@ -102,6 +107,7 @@ impl Default for FinishOptions {
             bounces: USUAL_BOUNCES,
             tracer: Wanted::Rays,
             bloom: 0.0,
+            smoothing: Smoothing::None,
             overlay: vec![],
         }
     }

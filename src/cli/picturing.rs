@@ -9,7 +9,7 @@ use crate::io::background::BackgroundRef;
 use crate::io::export::Event;
 use crate::io::lighting::Lighting;
 use crate::io::{Failure, Finish, StoredLight};
-use crate::picture::{Bloom, Develop, Overlay, Tone};
+use crate::picture::{Bloom, Develop, Overlay, Smoothing, Tone};
 use crate::render::{
     Card, HungPicture, Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings,
     mixture_note,
@@ -22,6 +22,7 @@ use std::cell::RefCell;
 use std::path::Path;
 use std::sync::Arc;
 
+mod over_time;
 mod tracing;
 
 /// The margin around the stones, as a part of their half extent in the picture.
@@ -50,6 +51,8 @@ pub struct PictureSetup<'a> {
     pub strength: f64,
     pub develop: Develop,
     renderer: RefCell<Renderer>,
+    /// With temporal smoothing, what was seen before.
+    trail: RefCell<over_time::Trail>,
     /// The planned tracer, in words.
     tracer: String,
 }
@@ -121,6 +124,7 @@ impl<'a> PictureSetup<'a> {
             strength,
             develop,
             renderer: RefCell::new(Renderer::new(Card::Machine)),
+            trail: RefCell::new(None),
             tracer: String::new(),
         };
         studio.tracer = studio.planned(&studio.viewpoint.view())?;
@@ -197,8 +201,16 @@ impl<'a> PictureSetup<'a> {
         Ok((2.0 * extent * (1.0 + MARGIN) / size).max_element())
     }
 
-    /// Takes a picture. Where the card fails, the processor traces this picture and, if the card is lost, all later ones.
+    /// Takes a picture. Where the card fails, the processor traces this picture and, if the card is lost, all later ones. With
+    /// temporal smoothing its samples are blended one after the other.
     pub fn take(&self, job: &Job, watch: Watch) -> Result<RenderedPicture, Failure> {
+        match self.finish.smoothing {
+            Smoothing::Temporal { newest } => self.take_over_time(job, newest, watch),
+            Smoothing::None | Smoothing::Fxaa => self.take_at_once(job, watch),
+        }
+    }
+
+    fn take_at_once(&self, job: &Job, watch: Watch) -> Result<RenderedPicture, Failure> {
         let mut light = StoredLight::new(job.film.size)?;
         let rendered = self.renderer.borrow_mut().run(job, watch, &mut |part| match part {
             Partial::Note(text) => report(Event::Note(text)),
@@ -210,7 +222,8 @@ impl<'a> PictureSetup<'a> {
 
     /// Returns how a picture is developed, with the chosen overlays.
     pub fn finish<'j>(&'j self, job: &'j Job) -> Finish<'j> {
-        Finish { develop: self.develop, overlays: &self.finish.overlay, lit_scene: job.lit() }
+        let fxaa = self.finish.smoothing == Smoothing::Fxaa;
+        Finish { develop: self.develop, fxaa, overlays: &self.finish.overlay, lit_scene: job.lit() }
     }
 
     /// Returns lines that say what the colours of the overlays mean.
@@ -238,8 +251,11 @@ impl<'a> PictureSetup<'a> {
     /// Returns a note for EXR files where exposure, tone curve or overlays are set: an EXR holds bare light without them.
     pub fn undeveloped(&self) -> Option<&'static str> {
         let Develop { exposure, tone, .. } = self.develop;
-        let is_told = exposure != 0.0 || tone != Tone::default() || !self.finish.overlay.is_empty();
-        is_told.then_some("an EXR holds the bare light: exposure, tone and overlays are for PNG")
+        let is_told = exposure != 0.0
+            || tone != Tone::default()
+            || !self.finish.overlay.is_empty()
+            || self.finish.smoothing == Smoothing::Fxaa;
+        is_told.then_some("an EXR holds the bare light: exposure, tone, FXAA and overlays are for PNG")
     }
 
     /// Describes the facet at a point of a picture, in pixels from its upper left corner; "nothing" beside the stones.

@@ -19,7 +19,7 @@ use clap::Args;
 use std::path::PathBuf;
 
 /// The options that are for pictures under light alone.
-const OF_LIGHT: [&str; 15] = [
+const OF_LIGHT: [&str; 16] = [
     "light",
     "turn",
     "upright",
@@ -34,6 +34,7 @@ const OF_LIGHT: [&str; 15] = [
     "strength",
     "bounces",
     "bloom",
+    "smoothing",
     "overlay",
 ];
 

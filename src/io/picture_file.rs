@@ -5,7 +5,7 @@ use super::atomic::{WriteError, write};
 use super::exr;
 use super::png::{PngFile, encoder};
 use super::stored_light::{MOST_HELD, StoredLight};
-use crate::picture::{Background, Develop, LightRows, Overlay, OverlayDrawing, develop_rows};
+use crate::picture::{Background, Develop, LightRows, Overlay, OverlayDrawing, develop_rows, fxaa};
 use crate::trace::sampling::LitScene;
 use crate::trace::{Stopped, Watch};
 #[cfg(feature = "exr")]
@@ -61,6 +61,8 @@ pub(super) fn without_cover(rgba: &[u8]) -> Vec<u8> {
 pub struct Finish<'a> {
     /// How the light is developed.
     pub develop: Develop,
+    /// Whether [`fxaa`](crate::picture::fxaa()) smooths the developed picture, which is then held as a whole.
+    pub fxaa: bool,
     /// What is drawn over it.
     pub overlays: &'a [Overlay],
     /// The scene that overlays are drawn of; without it there are none.
@@ -82,14 +84,27 @@ impl Finish<'_> {
         let drawing =
             |lit_scene| self.overlays.iter().map(move |&overlay| OverlayDrawing::new(overlay, lit_scene));
         let drawings: Vec<_> = self.lit_scene.as_ref().into_iter().flat_map(drawing).collect();
-        let height = f64::from(light.size()[1]);
-        develop_rows(light, &self.develop, |first, rgba| {
-            if watch(f64::from(first) / height).is_break() {
-                return Err(Stopped.into());
-            }
+        let [width, height] = light.size();
+        let mut whole = vec![];
+        let mut finish = |first, rgba: &mut Vec<u8>| {
             drawings.iter().try_for_each(|drawing| drawing.lay(first, rgba, watch))?;
             each(rgba)
-        })
+        };
+        develop_rows(light, &self.develop, |first, rgba| {
+            if watch(f64::from(first) / f64::from(height)).is_break() {
+                return Err(WriteError::from(Stopped));
+            }
+            if self.fxaa {
+                whole.append(rgba);
+                return Ok(());
+            }
+            finish(first, rgba)
+        })?;
+        if self.fxaa {
+            fxaa(&mut whole, width);
+            finish(0, &mut whole)?;
+        }
+        Ok(())
     }
 
     /// Returns the pixels of a finished picture.
@@ -196,7 +211,7 @@ mod tests {
                 [r, g, b, cover]
             });
             let picture = Linear { width: 4201, height: 1000, pixels: pixels.collect() };
-            let finish = Finish { develop: Develop::default(), overlays: &[], lit_scene: None };
+            let finish = Finish { develop: Develop::default(), fxaa: false, overlays: &[], lit_scene: None };
             finish.write_png(&path, &mut stored(&picture), "", &unwatched).unwrap();
             let file = std::io::BufReader::new(std::fs::File::open(&path).unwrap());
             let mut reader = png::Decoder::new(file).read_info().unwrap();
@@ -250,7 +265,7 @@ mod tests {
         let mut missing = StoredLight::new([3, 2]).unwrap();
         missing.push(0, &[[0.0; 4]; 3]).unwrap();
         assert!(write_linear_exr(&path, &mut missing, "").is_err());
-        let finish = Finish { develop: Develop::default(), overlays: &[], lit_scene: None };
+        let finish = Finish { develop: Develop::default(), fxaa: false, overlays: &[], lit_scene: None };
         assert!(finish.write_png(&path, &mut missing, "", &unwatched).is_err());
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }

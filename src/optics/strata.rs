@@ -110,6 +110,11 @@ impl Strata {
         })
     }
 
+    /// Returns the number of passes after which all shares have been seen once; 1 where every pass sees all.
+    pub fn turns(&self) -> u32 {
+        self.turns.len() as u32
+    }
+
     /// Whether white light has no tint to be seen after this many passes.
     pub fn is_white_after(&self, passes: u32) -> bool {
         self.turns.len() == 1 || self.whole.len() as u64 * u64::from(passes) >= ENOUGH_SHARES

@@ -11,7 +11,7 @@ use self::wireframe::Wires;
 use super::NameError;
 use crate::trace::ray::{Exit, MeetingRay, ProbeRay, SceneProbe};
 use crate::trace::sampling::LitScene;
-use crate::trace::{Stopped, Watch};
+use crate::trace::{DispersedRay, Stopped, Watch};
 use rayon::prelude::*;
 use std::str::FromStr;
 
@@ -134,7 +134,7 @@ impl Fate {
     fn of(sight: &SceneProbe, glance: &ProbeRay) -> Option<Self> {
         let &ProbeRay { origin, direction, stone, facet, distance } = glance;
         let mut first = None;
-        let ray = MeetingRay::from_eye((facet as usize, distance), origin, direction);
+        let ray = MeetingRay::from_eye((facet as usize, distance), DispersedRay::new(origin, direction));
         let leave = |exit: Exit| {
             if exit.bounce > 0 {
                 first.get_or_insert(exit.bounce - 1);

@@ -41,7 +41,7 @@ impl LightProduct {
         each: EachPart<E>,
     ) -> Result<Output, Halt<E>> {
         let by_chance = (CHANCE_OF_ONE_PASS * f64::from(count).sqrt()).min(MOST_CHANCE);
-        let sampling = Sampling { count, strength: self.strength, by_chance };
+        let sampling = Sampling { strength: self.strength, by_chance, ..Sampling::of(count) };
         let (lit_scene, strata) = (job.lit_scene(&self.surroundings), self.strata(count));
         let exposure = Exposure { job, lit_scene, strata, sampling, watch };
         let (picture, rest) = match self.steps {

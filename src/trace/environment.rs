@@ -9,6 +9,7 @@
 mod backplate;
 mod drawing;
 
+use super::DispersedRay;
 use crate::math::Basis;
 use crate::scene::{Light, LightError, Panorama, World, toward};
 pub(in crate::trace) use backplate::{ALONG, Photographed};
@@ -250,29 +251,25 @@ impl EnvironmentMap {
 impl Environment<'_> {
     /// Returns what a ray sees of the photograph behind the stones; `None` where the ray does not meet it at any of the
     /// wavelengths that it stands for.
-    pub(in crate::trace) fn photograph(
-        &self,
-        from: DVec3,
-        direction: DVec3,
-        fan: DVec3,
-    ) -> Option<Photographed> {
-        self.backplate?.at(&self.eye, from, (direction, fan))
+    fn photograph(&self, ray: &DispersedRay) -> Option<Photographed> {
+        self.backplate?.at(&self.eye, ray)
     }
 
     /// Returns the radiance, by channel, that arrives along a ray from outside the stones. The ray begins at `from`; `fan`
     /// is the change of its direction over the wavelengths that it stands for.
     pub fn radiance(&self, from: DVec3, direction: DVec3, fan: DVec3) -> DVec4 {
-        self.radiance_around(from, direction, (fan, 0.0))
+        self.radiance_around(&DispersedRay { origin: from, direction, fan, shift: DVec3::ZERO }, 0.0)
     }
 
-    /// Returns the radiance as [`radiance`](Self::radiance) does, of a ray that stands for a square of directions: `spread` is
-    /// its side, in radians. The light is averaged over the fan or the square, whichever is wider; a photograph is looked
-    /// up along the fan alone.
-    pub fn radiance_around(&self, from: DVec3, direction: DVec3, (fan, spread): (DVec3, f64)) -> DVec4 {
-        match self.photograph(from, direction, fan) {
+    /// Returns the radiance as [`radiance`](Self::radiance) does, of a ray that may stand for a square of directions as well:
+    /// `spread` is its side, in radians. The light is averaged over the fan or the square, whichever is wider; a photograph is
+    /// looked up along the fan and the shift alone.
+    pub fn radiance_around(&self, ray: &DispersedRay, spread: f64) -> DVec4 {
+        let beyond = || self.beyond(ray.direction, ray.fan, spread);
+        match self.photograph(ray) {
             Some(seen) if seen.share >= 1.0 => seen.light,
-            Some(seen) => seen.light + self.beyond(direction, fan, spread) * (1.0 - seen.share),
-            None => self.beyond(direction, fan, spread),
+            Some(seen) => seen.light + beyond() * (1.0 - seen.share),
+            None => beyond(),
         }
     }
 

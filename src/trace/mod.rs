@@ -2,17 +2,20 @@
 //! equations and guesses of the next facet, of which each makes sure in its own way.
 
 pub mod beam;
+mod dispersed_ray;
 pub mod environment;
 mod facet_guess;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod lanes;
 mod packet;
+pub mod places;
 pub mod ray;
 pub mod sampling;
 mod scope_shot;
 pub mod tail;
 
+pub use dispersed_ray::DispersedRay;
 pub use scope_shot::ScopeShot;
 use std::ops::ControlFlow;
 

@@ -24,7 +24,7 @@ mod sight;
 mod tree;
 
 pub use self::camera::Camera;
-use self::dispersed_ray::{Arrival, DispersedRay};
+use self::dispersed_ray::Arrival;
 use self::facets::{FacetSearch, Planes, SmoothFacets, SolidFacets, TriangleFacets, Wavy};
 pub use self::first_bodies::FirstBodies;
 use self::frosted_facets::{Arriving, FrostedFacets, Struck};
@@ -43,6 +43,7 @@ use self::tree::Inbound;
 use crate::math::SolidRef;
 use crate::optics::{cos_transmitted, reflect, reflected_change, refract, refracted_change};
 use crate::scene::Medium;
+use crate::trace::DispersedRay;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -75,8 +76,10 @@ pub struct Exit {
     pub path: f64,
     /// Unit direction in which it leaves.
     pub direction: DVec3,
-    /// The change of that direction over the medium's spread of indices.
+    /// The change of that direction over what the ray stands for: the medium's spread of indices, and a stretch of the pixel.
     pub fan: DVec3,
+    /// The displacement of the point over the same.
+    pub shift: DVec3,
     /// The share of the light from that direction that reaches the eye.
     pub weight: f64,
     /// The number of the bounce inside at which it leaves, from 1; 0 for the glare of the outer surface.
@@ -92,12 +95,8 @@ pub struct Exit {
 pub struct MeetingRay {
     /// The facet that it meets, and the distance from its origin.
     pub met: (usize, f64),
-    /// The point where it begins.
-    pub origin: DVec3,
-    /// The direction in which it travels, of length 1.
-    pub direction: DVec3,
-    /// The change of that direction over the medium's spread of indices.
-    pub fan: DVec3,
+    /// The ray, and how it changes over what it stands for.
+    pub ray: DispersedRay,
     /// The share of the light from that direction that reaches the eye.
     pub weight: f64,
     /// By what chance weak light goes on in a solid that is not convex; without it, all of it does.
@@ -108,8 +107,8 @@ pub struct MeetingRay {
 
 impl MeetingRay {
     /// Returns a ray from the eye.
-    pub fn from_eye(met: (usize, f64), origin: DVec3, direction: DVec3) -> Self {
-        Self { met, origin, direction, fan: DVec3::ZERO, weight: 1.0, roulette: None, luck: None }
+    pub fn from_eye(met: (usize, f64), ray: DispersedRay) -> Self {
+        Self { met, ray, weight: 1.0, roulette: None, luck: None }
     }
 }
 
@@ -163,7 +162,11 @@ impl StoneTracer {
     /// misses the stone.
     pub fn follow(&self, origin: DVec3, direction: DVec3, leave: impl FnMut(Exit)) -> Option<Loss> {
         let met = self.meet(origin, direction)?;
-        self.follow_from(&MeetingRay::from_eye(met, origin, direction), |_, _| false, leave)
+        self.follow_from(
+            &MeetingRay::from_eye(met, DispersedRay::new(origin, direction)),
+            |_, _| false,
+            leave,
+        )
     }
 
     /// Follows a ray that may have left another stone. `None` where it runs along the facet.
@@ -227,9 +230,8 @@ impl StoneTracer {
 
     /// Returns the light of a ray that is about to enter; it is not polarised.
     fn start(&self, meeting: &MeetingRay) -> Inbound {
-        let &MeetingRay { met, origin, direction, fan, weight, luck, .. } = meeting;
-        let light = PathLight::of_eye(direction, weight, self.options.polarised);
-        let ray = DispersedRay { origin, direction, fan, shift: DVec3::ZERO };
+        let &MeetingRay { met, ray, weight, luck, .. } = meeting;
+        let light = PathLight::of_eye(ray.direction, weight, self.options.polarised);
         Inbound { met, ray, light, left: 1.0, path: 0.0, bounce: 0, luck }
     }
 

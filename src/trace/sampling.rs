@@ -1,8 +1,9 @@
 //! The subject of a picture under light, and the sample passes that it is made from: the same for every tracer.
 
 use super::environment::Environment;
-use super::{Stopped, Watch};
-use crate::optics::{Strata, Stratum};
+use super::places::{place_in_pixel, stretch_of_pixel};
+use super::{DispersedRay, Stopped, Watch};
+use crate::optics::{SAMPLED_NM, Strata, Stratum};
 use crate::scene::{Film, Instance, Medium, Scene, View};
 use crate::trace::ray::{RayOptions, Roulette};
 use glam::{DVec2, DVec3, DVec4};
@@ -28,6 +29,9 @@ pub struct LitScene<'a> {
 pub struct SamplePass {
     /// The place of the ray in its pixel, 0 to 1.
     pub shift: DVec2,
+    /// The stretch of its pixel that a ray stands for, from one end to the other, in pixels to the right and down; 0 where it
+    /// stands for its place alone. What the ray sees around the stones is averaged along it.
+    pub footprint: DVec2,
     /// The media of the stones, in the units of their bodies: stone by stone, band by band.
     pub media: Vec<Vec<Medium>>,
     /// The complex indices of the bodies of metal: body by body, band by band.
@@ -59,6 +63,10 @@ pub struct Sampling {
     /// is followed. Packets heed this, and single rays in double precision in solids that are not convex, and between bodies
     /// and metal; graphics cards follow all light.
     pub by_chance: f64,
+    /// Whether each ray stands for a stretch of its pixel ([`stretch_of_pixel`](super::places::stretch_of_pixel)) and, where bands are
+    /// divided into n shares, for √n of them but at most 2.5, so that what few rays see has fewer gaps. Else it stands for its place and its share
+    /// alone.
+    pub stretches: bool,
 }
 
 /// The most rays of one pixel that may wait to meet another stone.
@@ -97,28 +105,28 @@ pub trait ProgressiveImage<E: From<Stopped>> {
     fn each_pixel(&self, each: &mut dyn FnMut(&RadiancePixel)) -> Result<(), E>;
 }
 
-/// The steps of M. Roberts' R2 sequence (2018), powers of 1/1.3247...: its points are spread evenly over a square, however
-/// many are taken. It is not random, so that pictures repeat.
-const STEPS: DVec2 = DVec2::new(0.754_877_666_246_692_8, 0.569_840_290_998_053_2);
-
-/// Returns the place, 0 to 1 along both sides, of a sample pass's rays in their pixels.
-pub fn place_in_pixel(number: u32) -> DVec2 {
-    (STEPS * f64::from(number) + 0.5).fract()
-}
+/// The most shares of a band of wavelengths that a ray stands for. With more, a few bands of a glass that spreads colours as none
+/// in nature does would blur its rainbow by a percent.
+const WIDEST_BAND: f64 = 2.5;
 
 impl Sampling {
-    /// Returns a sampling of `count` passes at full strength, all light followed.
+    /// Returns a sampling of `count` passes at full strength, all light followed, whose rays stand for stretches of their pixels.
     pub fn of(count: u32) -> Self {
-        Self { count, strength: 1.0, by_chance: 0.0 }
+        Self { count, strength: 1.0, by_chance: 0.0, stretches: true }
     }
 
     /// Returns the sample pass of a number, from 0. Passes of many numbers fill pixels and strata evenly; the first goes
     /// through the middle of pixels.
     pub fn pass(&self, scene: &Scene, strata: &Strata, number: u32) -> SamplePass {
         let bands: Vec<Stratum> = strata.of_pass(number).collect();
-        let medium = |stone: &Instance, s: &Stratum| scene.medium(stone, (s.from_nm, s.at(0.5), s.to_nm));
+        let wider = if self.stretches { f64::from(strata.turns()).sqrt().min(WIDEST_BAND) } else { 1.0 };
+        let medium = |stone: &Instance, s: &Stratum| {
+            let (from, to) = widened(s, wider);
+            scene.medium(stone, (from, 0.5 * (from + to), to))
+        };
         SamplePass {
-            shift: place_in_pixel(number),
+            shift: place_in_pixel(number, self.count),
+            footprint: if self.stretches { stretch_of_pixel(number, self.count) } else { DVec2::ZERO },
             media: scene.instances.iter().map(|p| bands.iter().map(|s| medium(p, s)).collect()).collect(),
             metals: scene
                 .metals
@@ -134,10 +142,28 @@ impl Sampling {
     }
 }
 
+/// Returns the ends, in nm, of a range of wavelengths that is `wider` times as wide around the same middle, moved so that it does not
+/// go beyond the wavelengths that are sampled.
+fn widened(share: &Stratum, wider: f64) -> (f64, f64) {
+    if wider <= 1.0 {
+        return (share.from_nm, share.to_nm);
+    }
+    let (least, most) = SAMPLED_NM.into_inner();
+    let half = 0.5 * wider * (share.to_nm - share.from_nm);
+    let middle = share.at(0.5).clamp((least + half).min(most), (most - half).max(least));
+    (middle - half, middle + half)
+}
+
 impl SamplePass {
-    /// Returns the sample pass of a number, as [`Sampling::pass`] does at full strength.
+    /// Returns the sample pass of a number, as [`Sampling::pass`] does at full strength, whose rays stand for their places in
+    /// the pixels alone.
     pub fn new(scene: &Scene, strata: &Strata, number: u32) -> Self {
-        Sampling::of(1).pass(scene, strata, number)
+        Sampling { stretches: false, ..Sampling::of(1) }.pass(scene, strata, number)
+    }
+
+    /// Returns the stretch of a pixel of a film that a ray stands for, in image coordinates.
+    pub fn footprint_in_image(&self, film: &Film) -> DVec2 {
+        DVec2::new(self.footprint.x, -self.footprint.y) * film.pixel
     }
 
     /// Returns the roulette of a ray through a pixel, in one band; `None` where all light is followed.
@@ -146,23 +172,23 @@ impl SamplePass {
         (self.by_chance > 0.0).then(|| Roulette::new(self.by_chance, pixel, number))
     }
 
-    /// Returns the ray on which light is looked up: its point, unit direction and fan.
+    /// Returns the ray on which light is looked up.
     ///
-    /// The light leaves the stones along its own ray; without any stone it would follow `straight`, a point and a unit
-    /// direction. The result is its own ray at full strength, and where that goes back to the eye's side; else a mixture of
+    /// The light leaves the stones along its own ray; without any stone it would follow `straight`. The result is its own ray at full strength, and where that goes back to the eye's side; else a mixture of
     /// both.
-    pub fn mixed(
-        &self,
-        straight: (DVec3, DVec3),
-        (from, direction, fan): (DVec3, DVec3, DVec3),
-    ) -> (DVec3, DVec3, DVec3) {
-        if self.strength >= 1.0 || direction.dot(straight.1) <= 0.0 {
-            return (from, direction, fan);
+    pub fn mixed(&self, straight: &DispersedRay, own: &DispersedRay) -> DispersedRay {
+        if self.strength >= 1.0 || own.direction.dot(straight.direction) <= 0.0 {
+            return *own;
         }
-        let beside = straight.0 + straight.1 * (from - straight.0).dot(straight.1);
+        let beside = straight.ahead((own.origin - straight.origin).dot(straight.direction));
         // Both go to the same side, so that a vector between them is never short.
-        let between = straight.1.lerp(direction, self.strength);
+        let between = straight.direction.lerp(own.direction, self.strength);
         let length = between.length();
-        (beside.lerp(from, self.strength), between / length, fan * (self.strength / length))
+        DispersedRay {
+            origin: beside.origin.lerp(own.origin, self.strength),
+            direction: between / length,
+            fan: beside.fan.lerp(own.fan, self.strength) / length,
+            shift: beside.shift.lerp(own.shift, self.strength),
+        }
     }
 }

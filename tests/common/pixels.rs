@@ -5,7 +5,7 @@ use brillianteer::math::SolidRef;
 use brillianteer::scene::{Film, Medium, Projection, Scope, Side, View};
 use brillianteer::trace::gpu::{Gpu, GpuError, ScopePixel};
 use brillianteer::trace::ray::{Camera, Exit, MeetingRay, RayOptions, StoneTracer};
-use brillianteer::trace::{ScopeShot, Stopped, unwatched};
+use brillianteer::trace::{DispersedRay, ScopeShot, Stopped, unwatched};
 use glam::DVec2;
 
 pub const SIZE: u32 = 96;
@@ -42,10 +42,14 @@ fn by_ray(
     let met = tracer.meet(origin, direction);
     let is_taken = |_: &Exit, _| !comes_back;
     let follow = |met| {
-        tracer.follow_from(&MeetingRay::from_eye(met, origin, direction), is_taken, |exit| {
-            let band = scope.band(exit.direction, view.zenith());
-            seen[if exit.surface { 8 } else { 0 } + band] += exit.weight;
-        })
+        tracer.follow_from(
+            &MeetingRay::from_eye(met, DispersedRay::new(origin, direction)),
+            is_taken,
+            |exit| {
+                let band = scope.band(exit.direction, view.zenith());
+                seen[if exit.surface { 8 } else { 0 } + band] += exit.weight;
+            },
+        )
     };
     let rest = met.and_then(follow);
     if let Some(rest) = rest {

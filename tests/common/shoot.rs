@@ -29,6 +29,8 @@ pub struct Shoot {
     pub strength: f64,
     /// The weight below which light goes on by chance; 0 where all is followed.
     pub by_chance: f64,
+    /// Whether rays stand for stretches of their pixels.
+    pub stretches: bool,
     pub backdrop: bool,
     /// A photograph behind the stones, and its distance.
     pub photo: Option<(Panorama, f64)>,
@@ -58,6 +60,7 @@ impl Shoot {
             shares: 1,
             strength: 1.0,
             by_chance: 0.0,
+            stretches: true,
             backdrop: true,
             photo: None,
             options: RayOptions { polarised: true, most_bounces: 64, least_weight: 1e-4 },
@@ -97,7 +100,8 @@ impl Shoot {
     }
 
     fn sampling(&self) -> Sampling {
-        Sampling { strength: self.strength, by_chance: self.by_chance, ..Sampling::of(self.samples) }
+        let Self { strength, by_chance, stretches, .. } = *self;
+        Sampling { strength, by_chance, stretches, ..Sampling::of(self.samples) }
     }
 
     /// Traces the picture by single rays in double precision.

@@ -9,7 +9,7 @@ use brillianteer::scene::{
     ASET_CONE, Backing, Body, Film, Glare, Instance, Medium, Projection, Scene, Scope, Specimen, View,
 };
 use brillianteer::trace::ray::{Camera, Exit, InstanceTracer, MeetingRay, RayOptions, StoneTracer};
-use brillianteer::trace::{ScopeShot, unwatched};
+use brillianteer::trace::{DispersedRay, ScopeShot, unwatched};
 use glam::{DQuat, DVec2, DVec3};
 use std::sync::Arc;
 
@@ -265,7 +265,7 @@ fn turning_and_scaling_a_body_changes_nothing() {
         let exits = |tracer: &InstanceTracer, (origin, direction): (DVec3, DVec3)| {
             let mut exits = vec![];
             let met = tracer.meet(origin, direction)?;
-            let ray = MeetingRay::from_eye(met, origin, direction);
+            let ray = MeetingRay::from_eye(met, DispersedRay::new(origin, direction));
             tracer.follow_from(&ray, |_, _| false, |exit| exits.push(exit));
             Some((met.1, exits))
         };

@@ -146,7 +146,7 @@ fn exact_beams_show_what_rays_show() {
         let mut shoot = Shoot::new(&modern(), material, Light { head: 10.0, ..light(name).unwrap() });
         // Under the ring the environment is seen beside the stone as well.
         (shoot.backdrop, shoot.view.tilt) = (name == "ring", tilt);
-        (shoot.wavelengths, shoot.samples, shoot.light.head) = (4, 32, 10.0);
+        (shoot.wavelengths, shoot.samples, shoot.light.head) = (4, 64, 10.0);
         let (rays, rest) = shoot.by_rays();
         // A beam stands for all the rays of a pixel; the wavelengths are the same.
         let (beams, beams_rest) = shoot.by_beams();

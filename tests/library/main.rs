@@ -19,6 +19,7 @@ mod cutting;
 mod estimates;
 mod fields;
 mod floors;
+mod footprint;
 mod foreign_maps;
 mod fuzz;
 mod glass;

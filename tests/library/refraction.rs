@@ -125,7 +125,15 @@ impl Shoot {
         let bands = Strata::of_middles(self.bands, &Illuminant::D65, true);
         let prepare = |lit_scene: &LitScene<'_>| {
             let rows = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
-            spectral::expose(lit_scene, (&bands, Sampling::of(1)), self.size[1], rows, &unwatched).unwrap().0
+            spectral::expose(
+                lit_scene,
+                (&bands, Sampling { stretches: false, ..Sampling::of(1) }),
+                self.size[1],
+                rows,
+                &unwatched,
+            )
+            .unwrap()
+            .0
         };
         self.with_lit_scene(Some(photo), prepare)
     }

@@ -14,12 +14,6 @@ use crate::scene::MOST_COPIES;
 use egui::{Button, Ui, vec2};
 use std::ops::RangeInclusive;
 
-/// The range of the newest picture's share in temporal antialiasing.
-const NEWEST: RangeInclusive<f64> = 0.05..=1.0;
-
-/// The share of the newest picture at first.
-const FIRST_NEWEST: f64 = 0.5;
-
 /// The range of the angle of view, degrees; an eye still nearer may be inside the glass.
 const ANGLES: RangeInclusive<f64> = 1.0..=75.0;
 
@@ -108,7 +102,7 @@ fn smoothing(before: Smoothing, actions: &mut Actions, ui: &mut Ui) {
         over time (temporal). A still picture is smoothed by its many samples of each pixel.";
     let newest = match before {
         Smoothing::Temporal { newest } => newest,
-        _ => FIRST_NEWEST,
+        _ => Smoothing::USUAL_NEWEST,
     };
     let all =
         [(Smoothing::None, "none"), (Smoothing::Fxaa, "FXAA"), (Smoothing::Temporal { newest }, "temporal")];
@@ -119,7 +113,7 @@ fn smoothing(before: Smoothing, actions: &mut Actions, ui: &mut Ui) {
     if let Smoothing::Temporal { newest } = &mut smoothing {
         let meaning = "The share of the newest picture. A smaller share is smoother, but follows a change more \
             slowly.";
-        Row { speed: 0.01, ..Row::new("Newest part", meaning, NEWEST) }.show(ui, newest);
+        Row { speed: 0.01, ..Row::new("Newest part", meaning, Smoothing::NEWEST) }.show(ui, newest);
     }
     actions.push_changed(&before, smoothing, ViewAction::Smoothing);
 }

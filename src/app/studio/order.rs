@@ -6,11 +6,11 @@ use crate::io::background::BackgroundRef;
 use crate::io::lighting::Lighting;
 use crate::measure::Figures;
 use crate::picture::DrawnMarks;
+pub use crate::picture::Smoothing;
 use crate::picture::{Inks, Overlay, RefractionMap};
 use crate::render::{Sweep, SweepError, SweptStone};
 use crate::scene::{Companions, Film, Glare, Pose, Specimen, View};
 use egui::ColorImage;
-use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// One of the two stones of a comparison.
@@ -24,20 +24,6 @@ pub enum Which {
 
 /// The place that a picture is for: the index of a view, and which of the two stones it shows.
 pub type Slot = (usize, Which);
-
-/// How the edges of a render are smoothed while it is rough. At rest many passes smooth them, whatever is chosen here.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub enum Smoothing {
-    #[default]
-    None,
-    /// FXAA in each rough picture.
-    Fxaa,
-    /// Temporal antialiasing while anything moves: earlier pictures are moved along with the bodies and blended in.
-    Temporal {
-        /// The share of the newest picture, above 0 to 1.
-        newest: f64,
-    },
-}
 
 /// An order of one picture.
 #[derive(Debug, Clone)]

@@ -13,7 +13,7 @@ use crate::io::{Failure, Finish, StoredLight, WriteError};
 use crate::render::{Job, Partial, Quality, RenderError, Steps};
 use crate::scene::Mipmap;
 use crate::trace::Watch;
-use crate::trace::sampling::place_in_pixel;
+use crate::trace::places::place_in_pixel;
 use egui::ColorImage;
 use glam::DVec2;
 use std::path::Path;
@@ -43,7 +43,7 @@ impl ShotTracer {
         let is_enlarged = by_rays && !effort.is_refined() && job.film.size != shot.film.size;
         let fine = is_enlarged.then(|| Job { film: shot.film, ..job.clone() });
         // A blend of pictures stands for whole pixels, one picture for the places of its rays.
-        let shift = if moving.is_some() { DVec2::splat(0.5) } else { place_in_pixel(first) };
+        let shift = if moving.is_some() { DVec2::splat(0.5) } else { place_in_pixel(first, 1) };
         let Self { renderer, trails, kept, notes, .. } = self;
         renderer.run(&job, watch, &mut |part| {
             let (picture, unresolved, tracer) = match part {
@@ -176,7 +176,7 @@ impl ExportedRender {
     ) -> Result<T, Failure> {
         let job = shot.overlay_job(shot.film);
         let overlays = shot.overlay.as_slice();
-        let finish = Finish { develop: manner(shot, true), overlays, lit_scene: job.lit() };
+        let finish = Finish { develop: manner(shot, true), fxaa: false, overlays, lit_scene: job.lit() };
         Ok(work(&finish, &mut self.light)?)
     }
 }

@@ -66,7 +66,7 @@ fn a_preset_is_one_click_and_its_copies_are_dragged_scattered_and_counted() {
     let workspace = &bench.editor().model.workspace;
     assert_eq!(
         (workspace.behind.as_deref(), workspace.behind_mm, workspace.strength),
-        (Some("page"), Some(100.0), 0.035)
+        (Some("page"), Some(35.0), 0.035)
     );
     let before = poses(bench.editor());
     let (lean, middle) = (bench.editor().model.workspace.eye.lean, before[2].at);
@@ -205,7 +205,7 @@ fn a_scene_is_seen_in_its_perspective_and_the_next_design_as_before() {
     bench.harness.state_mut().model.workspace.bounces = 3;
     bench.harness.state_mut().act(FileAction::Ask(Then::Preset("free-diamond".to_owned())));
     bench.harness.run_steps(3);
-    assert_eq!(light(&bench), ("room".to_owned(), 0.7, 64));
+    assert_eq!(light(&bench), ("room".to_owned(), 1.2, 64));
     bench.harness.state_mut().act(FileAction::Ask(Then::Library("modern-ideal".to_owned())));
     bench.harness.run_steps(3);
     assert_eq!(light(&bench), ("studio".to_owned(), 0.0, 64));
@@ -286,10 +286,10 @@ fn copies_that_were_moved_are_asked_about_before_they_go() {
     let mut bench = bench("rotating-cube");
     bench.harness.state_mut().model.session.motion.rest();
     bench.click("Prism rainbow");
-    assert_eq!(bench.editor().model.workspace.strength, 0.3, "nothing was moved");
+    assert_eq!(bench.editor().model.workspace.strength, 0.155, "nothing was moved");
     bench.click("Scatter");
     bench.click("Subtle pill");
-    assert_eq!(bench.editor().model.workspace.strength, 0.3);
+    assert_eq!(bench.editor().model.workspace.strength, 0.155);
     bench.click("Export…");
     let Some(Dialog::Export(export)) = &bench.editor().model.session.dialog else { panic!() };
     assert!(export.plan.selection.scene);

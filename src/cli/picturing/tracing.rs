@@ -3,6 +3,7 @@
 use super::PictureSetup;
 use crate::cli::console::say;
 use crate::io::Failure;
+use crate::picture::Smoothing;
 use crate::render::{Rendered, USUAL_BOUNCES, mixture_note};
 
 /// The share of unresolved light above which a warning is printed.
@@ -24,6 +25,10 @@ impl PictureSetup<'_> {
         }
         let light = &self.lighting.light.name;
         let samples = if samples == 1 { "1 sample".to_owned() } else { format!("{samples} samples") };
+        let smoothing = match self.finish.smoothing {
+            Smoothing::None => String::new(),
+            how => format!(", smoothed by {how}"),
+        };
         let jitter = if self.finish.no_jitter { ", without jitter" } else { "" };
         let bounces = match self.finish.bounces {
             USUAL_BOUNCES => String::new(),
@@ -32,7 +37,7 @@ impl PictureSetup<'_> {
         };
         let polarised = if self.options.unpolarised { "unpolarised" } else { "polarised" };
         Ok(format!(
-            "{}; light {light}; {} wavelengths in {samples}{jitter}{bounces}, {polarised}; {tracer}, unresolved {:.2e}, absorbed \
+            "{}; light {light}; {} wavelengths in {samples}{jitter}{smoothing}{bounces}, {polarised}; {tracer}, unresolved {:.2e}, absorbed \
              {:.3}{}",
             self.assembly.name,
             self.options.wavelengths,

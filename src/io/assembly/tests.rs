@@ -74,16 +74,17 @@ fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for(
         assert_eq!(scene.setting.unit_mm, 0.5 * largest);
         assert_eq!(load(name).setting, scene.setting);
     }
-    for (name, count) in [
-        ("subtle-pill", 4),
-        ("prism-rainbow", 4),
-        ("rotating-cube", 4),
-        ("wavy-plate", 4),
-        ("free-diamond", 1),
+    // The strengths are those of the demonstration that they follow.
+    for (name, count, strength) in [
+        ("subtle-pill", 4, 0.035),
+        ("prism-rainbow", 4, 0.155),
+        ("rotating-cube", 4, 0.15),
+        ("wavy-plate", 4, 0.2),
+        ("free-diamond", 1, 0.2),
     ] {
         let scene = load(name);
         assert_eq!(scene.setting.instances.len(), count, "{name}");
-        assert!(scene.strength < 1.0, "{name}");
+        assert_eq!(scene.strength, strength, "{name}");
         assert!(scene.background.is_some() && scene.angle_of_view == Some(45.0), "{name}");
         if name == "subtle-pill" {
             // Pills do not lean, and are as wide as in the demonstration.

@@ -228,7 +228,8 @@ impl<'a> PaneScene<'a> {
     }
 
     fn traced(&self, background: &Mipmap, around: &PaneLighting, watch: Watch) -> Result<Linear, Stopped> {
-        let sampled = (around.strata, Sampling::of(around.passes.max(1)));
+        // Drawn panes take points of the background, so traced ones do as well.
+        let sampled = (around.strata, Sampling { stretches: false, ..Sampling::of(around.passes.max(1)) });
         let (piece, _) = self.with_lit_scene(background, around, |lit_scene| {
             let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
             spectral::expose(lit_scene, sampled, ByRays::MOST_ROWS, prepare, watch)

@@ -29,7 +29,7 @@ pub use prepared::{PreparedPane, SeenThrough};
 
 use super::{Linear, NameError};
 use crate::scene::Panorama;
-use crate::trace::sampling::place_in_pixel;
+use crate::trace::places::place_in_pixel;
 use glam::{DVec2, DVec3, DVec4};
 use outline::{DomePoint, PaneOutline};
 use parts::{RED_AND_BLUE, depth, dispersion, refraction};
@@ -227,7 +227,7 @@ fn drawn(pane: &GlassPane, background: &Panorama, passes: u32, is_over: bool) ->
         return prepared.lit(pane, &prepared.through(background), below);
     }
     let mut sums = vec![];
-    for place in (0..passes).map(place_in_pixel) {
+    for place in (0..passes).map(|number| place_in_pixel(number, passes)) {
         PreparedPane::at(pane, size, place).add_to(&mut sums, pane, background);
     }
     let share = 1.0 / passes as f32;

@@ -284,7 +284,7 @@ fn with_passes_a_pixel_is_the_mean_over_places_in_it() {
     let background = pattern(false);
     let seen = pane(&none(), &background, 3);
     let middle = DVec2::new(30.0, 20.0);
-    let own: DVec3 = (0..3).map(|k| background.between(middle + place_in_pixel(k) - 0.5)).sum();
+    let own: DVec3 = (0..3).map(|k| background.between(middle + place_in_pixel(k, 3) - 0.5)).sum();
     let found = seen.pixels[20 * 72 + 30];
     for (found, own) in found.iter().zip((own / 3.0).to_array()) {
         assert!((f64::from(*found) - own).abs() < 1e-6, "{found} {own}");

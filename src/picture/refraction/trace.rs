@@ -5,8 +5,8 @@ use crate::optics::Stratum;
 use crate::picture::{LUMINANCE, Linear};
 use crate::trace::environment::Environment;
 use crate::trace::ray::{Camera, First, SceneTracer, WaitingRay};
-use crate::trace::sampling::{LitScene, SamplePass, colour};
-use crate::trace::{Stopped, Watch};
+use crate::trace::sampling::{LitScene, SamplePass, Sampling, colour};
+use crate::trace::{DispersedRay, Stopped, Watch};
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -57,7 +57,8 @@ impl RefractionMap {
             tracer: SceneTracer::new(lit_scene),
         };
         let passes = |strata, count: u32| -> Vec<(SamplePass, Vec<SceneTracer>)> {
-            let pass = |number| SamplePass::new(lit_scene.scene, strata, number);
+            let sampling = Sampling { stretches: false, ..Sampling::of(survey.passes) };
+            let pass = |number| sampling.pass(lit_scene.scene, strata, number);
             (0..count).map(pass).map(|pass| (pass.clone(), scene.tracer.made_of(&pass))).collect()
         };
         let (middle, shades) = (passes(survey.bands, 1), passes(survey.shades, survey.passes.max(1)));
@@ -138,9 +139,14 @@ impl MapScene<'_> {
         row
     }
 
+    fn eye_ray(&self, at: DVec2) -> DispersedRay {
+        let (origin, direction) = self.camera.ray(self.lit_scene.film.image_from_pixels(at));
+        DispersedRay::new(origin, direction)
+    }
+
     /// Returns the ray through a point of the picture, in pixels, and the stone that it meets first.
     fn start(&self, at: DVec2) -> (WaitingRay, Option<First>) {
-        let start = WaitingRay::from_eye(self.camera.ray(self.lit_scene.film.image_from_pixels(at)));
+        let start = WaitingRay::from_eye(self.eye_ray(at));
         (start, self.tracer.first(&start))
     }
 
@@ -155,7 +161,7 @@ impl MapScene<'_> {
     ) -> (Vec<SourcePlace>, f64) {
         let mut paths: Vec<(DVec2, f64)> = vec![];
         let mut leave = |ray: &WaitingRay| {
-            let met = self.plane.place(&self.environment.eye, ray.origin, ray.direction);
+            let met = self.plane.place(&self.environment.eye, ray.ray.origin, ray.ray.direction);
             paths.extend(met.filter(|_| ray.weight > 0.0).map(|place| (place, ray.weight)));
         };
         match &first {
@@ -198,10 +204,10 @@ impl MapScene<'_> {
         };
         for (tracer, response) in bands.iter().zip(&pass.responses) {
             tracer.follow(&start, &first, |ray| {
-                if self.plane.place(&self.environment.eye, ray.origin, ray.direction).is_some() {
+                if self.plane.place(&self.environment.eye, ray.ray.origin, ray.ray.direction).is_some() {
                     light.behind += response[1..].iter().sum::<DVec3>() * ray.weight;
                 } else {
-                    let arriving = self.environment.radiance(ray.origin, ray.direction, ray.fan);
+                    let arriving = self.environment.radiance_around(&ray.ray, 0.0);
                     light.elsewhere += colour(response, arriving * ray.weight);
                 }
             });

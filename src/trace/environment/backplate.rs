@@ -3,6 +3,7 @@
 
 use crate::math::Basis;
 use crate::scene::{Film, Mipmap, View};
+use crate::trace::DispersedRay;
 use glam::{DVec2, DVec3, DVec4, Vec4Swizzles as _};
 
 /// The cosine between a ray and the axis to the eye below which the ray counts as running along the backplate.
@@ -37,15 +38,11 @@ impl<'a> Backplate<'a> {
         Self { picture, distance, width }
     }
 
-    /// Returns what a ray sees of the picture; `None` where it does not meet it. The ray is given by its direction and how
-    /// that fans.
-    pub(super) fn at(
-        &self,
-        eye: &Basis,
-        from: DVec3,
-        (direction, fan): (DVec3, DVec3),
-    ) -> Option<Photographed> {
+    /// Returns what a ray sees of the picture, averaged over its fan and its shift; `None` where it does not meet it.
+    pub(super) fn at(&self, eye: &Basis, ray: &DispersedRay) -> Option<Photographed> {
+        let DispersedRay { origin: from, direction, .. } = *ray;
         let height = from.dot(eye.toward) + self.distance;
+        let fan = fan_onto_plane(ray, eye.toward, height);
         let (speed, faster) = (-direction.dot(eye.toward), -fan.dot(eye.toward));
         let speed = |part: f64| speed + faster * part;
         // The part of the fan that runs toward the plane, from half of it before the ray's direction to half after it.
@@ -74,6 +71,14 @@ impl<'a> Backplate<'a> {
         let share = if from == to { 1.0 } else { last - first };
         Some(Photographed { light: light.extend(0.0).wxyz() * share, share })
     }
+}
+
+/// Returns the fan by which a ray runs over the same stretch of a plane, to first order, as by its fan and its shift together.
+/// The plane is square to `toward`, and the ray's origin lies at `height` before it.
+fn fan_onto_plane(ray: &DispersedRay, toward: DVec3, height: f64) -> DVec3 {
+    // The shift is moved along the ray until it lies in a parallel of the plane.
+    let along = ray.shift * -ray.direction.dot(toward) + ray.direction * ray.shift.dot(toward);
+    if along == DVec3::ZERO { ray.fan } else { ray.fan + along / height }
 }
 
 /// What a ray sees of a picture.

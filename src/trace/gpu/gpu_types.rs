@@ -50,8 +50,9 @@ both_sides! {
         /// The strip's tiles of 8 by 8 pixels. x: the first of this dispatch; y: how many it takes; z: the stride by which
         /// their order goes through the strip; w: the number of all.
         tiles: vec4u,
-        /// x: the share of refraction's turning of light that is followed, 1 for physics; the others are unused.
-        strength: vec4f,
+        /// x: the share of refraction's turning of light that is followed, 1 for physics; yz: the stretch of a pixel that a ray
+        /// stands for, in image coordinates; w is unused.
+        sample: vec4f,
     }
 }
 

@@ -6,11 +6,11 @@ use super::limits::MOST_WAVELENGTHS;
 use super::solids::Solids;
 use super::stage::{GpuCamera, Stage, StripLayer};
 use crate::math::PosedSolid;
-use crate::scene::{self, Instance, MOST_LAMPS, Mipmap, Panorama};
+use crate::scene::{self, Film, Instance, MOST_LAMPS, Mipmap, Panorama};
 use crate::trace::environment::{Environment, HEAD_EDGE};
 use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass};
 use crate::trace::{Stopped, Watch};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use std::ops::Range;
 use wgpu::util::DeviceExt;
 
@@ -27,8 +27,7 @@ pub struct ByCard<'a> {
     responses: wgpu::Buffer,
     wavelengths: usize,
     looks: u32,
-    /// How far a film around the origin is shifted to become the picture's, in pixels.
-    shift: DVec2,
+    film: Film,
 }
 
 impl<'a> ByCard<'a> {
@@ -89,7 +88,7 @@ impl<'a> ByCard<'a> {
             responses,
             wavelengths,
             looks: 0,
-            shift: lit_scene.film.shift(),
+            film: lit_scene.film,
         })
     }
 
@@ -114,13 +113,11 @@ impl<'a> ByCard<'a> {
 impl<E: From<Stopped> + From<GpuError>> ProgressiveImage<E> for ByCard<'_> {
     fn add_pass(&mut self, look: &SamplePass, watch: Watch) -> Result<(), E> {
         self.write_frame(look);
-        self.stage.frame.strength[0] = look.strength as f32;
-        let layer = StripLayer {
-            shift: look.shift + self.shift,
-            origin: self.shift,
-            cell: [0, 1],
-            bands: self.wavelengths as u32,
-        };
+        let stretch = look.footprint_in_image(&self.film).as_vec2();
+        self.stage.frame.sample = [look.strength as f32, stretch.x, stretch.y, 0.0];
+        let origin = self.film.shift();
+        let layer =
+            StripLayer { shift: look.shift + origin, origin, cell: [0, 1], bands: self.wavelengths as u32 };
         self.stage.trace::<E>(&self.rows, &layer, watch)?;
         self.looks += 1;
         Ok(())

@@ -49,7 +49,7 @@ impl GpuCamera<'_> {
             turn: [0, 1, 0, wavelengths as u32],
             tiles: [0, 0, 1, 1],
             most: [most_turns(gpu), 0, 0, 0],
-            strength: [1.0, 0.0, 0.0, 0.0],
+            sample: [1.0, 0.0, 0.0, 0.0],
         }
     }
 }

@@ -10,6 +10,9 @@ use pulp::Simd;
 /// A least stretch across the picture, in pixels, so that no division is by 0.
 const LEAST_STRETCH: f32 = 1e-20;
 
+/// A least height above the picture, so that no division is by 0.
+const LEAST_HEIGHT: f32 = 1e-20;
+
 /// A picture on a plane behind the bodies, with its axes in pixels.
 #[derive(Clone)]
 pub(super) struct PacketBackplate<'a> {
@@ -77,17 +80,18 @@ impl<'a> PacketBackplate<'a> {
         })
     }
 
-    /// Returns what rays of the world see of the picture: the mean over the fan of each.
+    /// Returns what rays of the world see of the picture: the mean over the fan and the shift of each.
     #[inline(always)]
     pub fn seen<S: Simd>(
         &self,
         simd: S,
         from: Vectors<S>,
         direction: Vectors<S>,
-        fan: Vectors<S>,
+        [fan, shift]: [Vectors<S>; 2],
     ) -> SeenStretch<S> {
         let (zero, one, half) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 1.0), Lanes::splat(simd, 0.5));
         let along = one.all(ALONG as f32);
+        let fan = self.fan_onto_plane(simd, from, direction, [fan, shift]);
         let rays = self.projected(simd, from, direction, fan);
         // The part of the fan that runs toward the plane.
         let (low, high) = (rays.speed_at(-half), rays.speed_at(half));
@@ -107,6 +111,23 @@ impl<'a> PacketBackplate<'a> {
         let share = is_in.select(stays.select(one, (finish - begin).max(zero).min(one)), zero);
         let light = self.mean(&rays, &share, [begin, finish], straight * (leaves - enters));
         SeenStretch { share, light }
+    }
+
+    /// Returns the fans by which rays run over the same stretches of the picture's plane, to first order, as by their fans and
+    /// shifts together: the twin of the function of that name in `src/trace/environment/backplate.rs`.
+    #[inline(always)]
+    fn fan_onto_plane<S: Simd>(
+        &self,
+        simd: S,
+        from: Vectors<S>,
+        direction: Vectors<S>,
+        [fan, shift]: [Vectors<S>; 2],
+    ) -> Vectors<S> {
+        let toward = Vectors::splat(simd, self.toward);
+        let height = toward.dot(from) + self.distance;
+        let along = shift * -toward.dot(direction) + direction * toward.dot(shift);
+        // A plane that a ray does not come to is not seen.
+        fan + along * (height.all(1.0) / height.max(height.all(LEAST_HEIGHT)))
     }
 
     #[inline(always)]

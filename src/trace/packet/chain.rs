@@ -107,11 +107,8 @@ impl<P: PacketSurface> Passage<'_, P> {
         let point = rays.origin + rays.direction * distance;
         rays.path = rays.path + distance;
         let cos_i = rays.direction.dot(normal);
-        let mut of_normal = None;
-        if P::IS_CURVED {
-            rays.shift = along_surface(rays.shift + rays.fan * distance, rays.direction, normal);
-            of_normal = Some(-self.surface.turned(simd, point, rays.shift));
-        }
+        rays.shift = along_surface(rays.shift + rays.fan * distance, rays.direction, normal);
+        let of_normal = P::IS_CURVED.then(|| -self.surface.turned(simd, point, rays.shift));
         if absorbs {
             absorb(rays, factor);
         }

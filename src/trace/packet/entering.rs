@@ -100,11 +100,8 @@ impl<S: Simd> Arrivals<S> {
         let Self { direction, normal, fan, .. } = self;
         let point = self.origin + direction * self.distance;
         let cos_i = -direction.dot(normal);
-        let (mut shift, mut of_normal) = (self.shift, None);
-        if P::IS_CURVED {
-            shift = along_surface(self.shift + fan * self.distance, direction, normal);
-            of_normal = Some(surface.turned(simd, point, shift));
-        }
+        let shift = along_surface(self.shift + fan * self.distance, direction, normal);
+        let of_normal = P::IS_CURVED.then(|| surface.turned(simd, point, shift));
         let eta = Lanes::splat(simd, 1.0) / self.index;
         let reflection = Reflection::of(cos_i, eta);
         let s = s_axis(direction, normal, self.s);

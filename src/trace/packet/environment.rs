@@ -15,8 +15,10 @@ pub(super) struct LookUpRay {
     pub origin: Vec3,
     /// The direction in the middle of the wavelengths that the ray stands for.
     pub direction: Vec3,
-    /// The change of that direction over these wavelengths.
+    /// The change of that direction over these wavelengths and a stretch of the pixel.
     pub fan: Vec3,
+    /// The displacement of the origin over the same.
+    pub shift: Vec3,
     pub weight: f32,
     pub tag: u32,
 }
@@ -24,15 +26,19 @@ pub(super) struct LookUpRay {
 impl LookUpRay {
     /// Returns the look-up of light that has left all bodies on a ray of the world.
     pub fn of(ray: &SingleRay, weight: f32, tag: u32) -> Self {
-        Self { origin: ray.origin, direction: ray.direction, fan: ray.fan, weight, tag }
+        let &SingleRay { origin, direction, fan, shift, .. } = ray;
+        Self { origin, direction, fan, shift, weight, tag }
     }
 }
 
-/// A ray from the eye as it would go on without any body: a point near the middle of the world, and the unit direction.
+/// A ray from the eye as it would go on without any body: a point near the middle of the world, the unit direction, and how
+/// both change over the stretch of the pixel that the ray stands for.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StraightRay {
     pub near: Vec3,
     pub direction: Vec3,
+    pub fan: Vec3,
+    pub shift: Vec3,
 }
 
 /// The environment in single precision.
@@ -135,11 +141,13 @@ impl WithSimd for LookUp<'_> {
                 origin: Vectors::splat(simd, Vec3::ZERO),
                 direction: Vectors::splat(simd, Vec3::Z),
                 fan: Vectors::splat(simd, Vec3::ZERO),
+                shift: Vectors::splat(simd, Vec3::ZERO),
             };
             for (lane, one) in chunk.iter().enumerate() {
                 ray.origin.set_lane(lane, one.origin);
                 ray.direction.set_lane(lane, one.direction);
                 ray.fan.set_lane(lane, one.fan);
+                ray.shift.set_lane(lane, one.shift);
             }
             if self.strength < 1.0 {
                 ray = self.mixed(simd, chunk, ray);
@@ -155,27 +163,32 @@ struct LookUpLanes<S: Simd> {
     origin: Vectors<S>,
     direction: Vectors<S>,
     fan: Vectors<S>,
+    shift: Vectors<S>,
 }
 
 impl LookUp<'_> {
     /// Returns the rays on which light is looked up below full strength: the twin of `SamplePass::mixed`.
     #[inline(always)]
     fn mixed<S: Simd>(&self, simd: S, chunk: &[LookUpRay], own: LookUpLanes<S>) -> LookUpLanes<S> {
-        let (mut near, mut straight) = (own.origin, own.direction);
+        let (mut near, mut straight, mut fan, mut shift) = (own.origin, own.direction, own.fan, own.shift);
         for (lane, ray) in chunk.iter().enumerate() {
-            let StraightRay { near: from, direction } = self.straight[ray.tag as usize / self.bands];
-            near.set_lane(lane, from);
-            straight.set_lane(lane, direction);
+            let from_eye = self.straight[ray.tag as usize / self.bands];
+            near.set_lane(lane, from_eye.near);
+            straight.set_lane(lane, from_eye.direction);
+            fan.set_lane(lane, from_eye.fan);
+            shift.set_lane(lane, from_eye.shift);
         }
         let strength = Lanes::splat(simd, self.strength);
-        let beside = near + straight * (own.origin - near).dot(straight);
+        let ahead = (own.origin - near).dot(straight);
+        let (beside, moved) = (near + straight * ahead, shift + fan * ahead);
         let between = straight + (own.direction - straight) * strength;
         let per = strength.all(1.0) / between.length_squared().sqrt();
         let goes_on = own.direction.dot(straight).is_positive();
         LookUpLanes {
             origin: goes_on.select_vectors(beside + (own.origin - beside) * strength, own.origin),
             direction: goes_on.select_vectors(between * per, own.direction),
-            fan: goes_on.select_vectors(own.fan * (strength * per), own.fan),
+            fan: goes_on.select_vectors((fan + (own.fan - fan) * strength) * per, own.fan),
+            shift: goes_on.select_vectors(moved + (own.shift - moved) * strength, own.shift),
         }
     }
 
@@ -184,7 +197,7 @@ impl LookUp<'_> {
     fn look_up<S: Simd>(&mut self, simd: S, chunk: &[LookUpRay], ray: LookUpLanes<S>) {
         let mut beside = Lanes::splat(simd, 1.0);
         if let Some(backplate) = &self.environment.backplate {
-            let seen = backplate.seen(simd, ray.origin, ray.direction, ray.fan);
+            let seen = backplate.seen(simd, ray.origin, ray.direction, [ray.fan, ray.shift]);
             beside = beside - seen.share;
             for (lane, one) in chunk.iter().enumerate() {
                 let light = by_channel(seen.light[lane]) * (seen.share.lane(lane) * one.weight);

@@ -8,8 +8,9 @@ use super::planes::PacketPlanes;
 use super::rays::{EnteringRay, PacketLoss, SingleHit, SingleRay};
 use crate::math::{Ball, Pose, SolidRef};
 use crate::scene::Instance;
+use crate::trace::DispersedRay;
 use crate::trace::ray::RayOptions;
-use glam::{DVec3, Mat3, Vec3};
+use glam::{Mat3, Vec3};
 use pulp::{Arch, Simd, WithSimd};
 use std::sync::Arc;
 
@@ -114,15 +115,19 @@ impl PacketInstance {
 
     /// Carries a ray from the eye into the frame of the body, in double precision, as the eye may be far away. The ray begins
     /// near the body; the second number is how far from the eye that is, in the world's unit. `None` where the ray misses.
-    pub fn seen(&self, ray: &SingleRay, (eye, direction): (DVec3, DVec3)) -> Option<(SingleRay, f64)> {
+    pub fn seen(&self, ray: &SingleRay, from_eye: &DispersedRay) -> Option<(SingleRay, f64)> {
+        let &DispersedRay { origin: eye, direction, .. } = from_eye;
         if !self.ball.is_met(eye, direction) {
             return None;
         }
         let before = ((self.ball.middle - eye).dot(direction) - self.ball.radius * ROUND_BALL).max(0.0);
         let back = self.pose.turn.inverse();
+        let near = from_eye.ahead(before);
         let own = SingleRay {
-            origin: self.pose.unplace(eye + direction * before).as_vec3(),
+            origin: self.pose.unplace(near.origin).as_vec3(),
             direction: (back * direction).as_vec3(),
+            fan: (back * near.fan).as_vec3(),
+            shift: (back * near.shift / self.pose.scale).as_vec3(),
             s: (back * ray.s.as_dvec3()).as_vec3(),
             ..*ray
         };

@@ -32,9 +32,9 @@ pub(super) struct SingleRay {
     pub origin: Vec3,
     /// The unit direction in which the light travels.
     pub direction: Vec3,
-    /// The change of that direction over the spread of wavelengths.
+    /// The change of that direction over what the ray stands for: a band of wavelengths and a stretch of the pixel.
     pub fan: Vec3,
-    /// The displacement of the origin over the spread of wavelengths.
+    /// The displacement of the origin over the same.
     pub shift: Vec3,
     /// The axis s of the light's polarisation.
     pub s: Vec3,

@@ -4,9 +4,10 @@ use super::environment::{LookUp, LookUpRay, PacketEnvironment, StraightRay};
 use super::optics::PacketLight;
 use super::outside::PacketInstance;
 use super::rays::{EnteringRay, PacketMedium, SingleHit, SingleRay, Travelled};
+use crate::trace::DispersedRay;
 use crate::trace::ray::RayOptions;
 use crate::trace::sampling::{LitScene, RadiancePixel, SamplePass, colour};
-use glam::{DVec3, DVec4, Vec3};
+use glam::DVec4;
 use pulp::Arch;
 
 /// Follows packets of rays through all bodies of a scene.
@@ -30,9 +31,7 @@ const ENTERS: u64 = 1 << 31;
 pub(in crate::trace) struct EyeRay {
     /// Column and row of the pixel.
     pub pixel: [u32; 2],
-    pub origin: DVec3,
-    /// The unit direction in which the ray runs.
-    pub direction: DVec3,
+    pub ray: DispersedRay,
 }
 
 /// Some pixels that are being traced, each with one ray from the eye.
@@ -114,10 +113,8 @@ impl<'a> PacketTracer<'a> {
 
     fn first_from_eye(&self, eye_rays: &[EyeRay]) -> Vec<Option<FirstHit>> {
         let rays: Vec<SingleRay> = (0..).zip(eye_rays).map(|(tag, ray)| eye_ray(ray, tag)).collect();
-        let seen = |instance: &PacketInstance, _, place: usize| {
-            let EyeRay { origin, direction, .. } = eye_rays[place];
-            instance.seen(&rays[place], (origin, direction))
-        };
+        let seen =
+            |instance: &PacketInstance, _, place: usize| instance.seen(&rays[place], &eye_rays[place].ray);
         self.first(rays.len(), seen)
     }
 
@@ -140,8 +137,7 @@ impl<'a> PacketTracer<'a> {
                     }));
                 }
                 None if backdrop => {
-                    let EyeRay { origin, direction, .. } = pixels.eye_rays[pixel];
-                    let seen = self.lit_scene.environment.radiance(origin, direction, DVec3::ZERO);
+                    let seen = self.lit_scene.environment.radiance_around(&pixels.eye_rays[pixel].ray, 0.0);
                     pixels.lit[pixel].colour = colour(&pixels.pass.whole, seen);
                 }
                 None => {}
@@ -304,13 +300,13 @@ struct Departure {
     passage: u64,
 }
 
-fn eye_ray(&EyeRay { origin, direction, .. }: &EyeRay, tag: u32) -> SingleRay {
-    let direction = direction.as_vec3();
+fn eye_ray(EyeRay { ray, .. }: &EyeRay, tag: u32) -> SingleRay {
+    let direction = ray.direction.as_vec3();
     SingleRay {
-        origin: origin.as_vec3(),
+        origin: ray.origin.as_vec3(),
         direction,
-        fan: Vec3::ZERO,
-        shift: Vec3::ZERO,
+        fan: ray.fan.as_vec3(),
+        shift: ray.shift.as_vec3(),
         s: direction.any_orthonormal_vector(),
         light: PacketLight::<f32>::unpolarised(1.0),
         travelled: Travelled::NONE,
@@ -321,8 +317,13 @@ fn eye_ray(&EyeRay { origin, direction, .. }: &EyeRay, tag: u32) -> SingleRay {
 impl EyeRay {
     /// Returns the ray from near the middle of the world on, where single precision is fine enough.
     fn straight(&self) -> StraightRay {
-        let near = self.origin - self.direction * self.origin.dot(self.direction);
-        StraightRay { near: near.as_vec3(), direction: self.direction.as_vec3() }
+        let near = self.ray.ahead(-self.ray.origin.dot(self.ray.direction));
+        StraightRay {
+            near: near.origin.as_vec3(),
+            direction: near.direction.as_vec3(),
+            fan: near.fan.as_vec3(),
+            shift: near.shift.as_vec3(),
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::math::{Basis, Plane, SolidRef};
 use crate::scene::{Projection, View};
+use crate::trace::DispersedRay;
 use glam::{DVec2, DVec3};
 
 /// The camera of a view: says for each image point where its ray begins and in which direction it goes.
@@ -56,6 +57,20 @@ impl Camera {
         // The ray begins near the stone: a long way from a far eye would cost the digits of the point where it meets the
         // stone.
         (at - direction * from_eye.min(2.0 * self.reach + at.length()), direction)
+    }
+
+    /// Returns the ray through a point of the image plane as [`ray`](Self::ray) does, with its change where that point moves by
+    /// `by`: to first order, as ray differentials have it (H. Igehy, *Tracing Ray Differentials*, SIGGRAPH 1999).
+    pub fn ray_along(&self, p: DVec2, by: DVec2) -> DispersedRay {
+        let (origin, direction) = self.ray(p);
+        let (at, moved) = (self.basis.lift(p), self.basis.lift(by));
+        if self.distance.is_infinite() {
+            return DispersedRay { origin, direction, fan: DVec3::ZERO, shift: moved };
+        }
+        let from_eye = (at - self.basis.toward * self.distance).length();
+        let fan = (moved - direction * moved.dot(direction)) / from_eye;
+        // The point in the image plane moves by `moved`, the ray's beginning lies before it.
+        DispersedRay { origin, direction, fan, shift: moved + fan * (origin - at).dot(direction) }
     }
 
     /// Returns where in the image plane a point is seen, and how much larger things at the point look than things in the

@@ -1,6 +1,7 @@
 //! Which body is seen first at many points of a picture.
 
 use super::sight::SceneProbe;
+use crate::trace::DispersedRay;
 use crate::trace::packet::{EyeRay, PacketTracer};
 use crate::trace::ray::Camera;
 use crate::trace::sampling::LitScene;
@@ -49,7 +50,7 @@ impl<'a> FirstBodies<'a> {
         };
         let eye_ray = |at: &DVec2| {
             let (origin, direction) = self.camera.ray(self.lit_scene.film.image_from_pixels(*at));
-            EyeRay { pixel: [0; 2], origin, direction }
+            EyeRay { pixel: [0; 2], ray: DispersedRay::new(origin, direction) }
         };
         let together =
             |points: &[DVec2]| packets.first_bodies(&points.iter().map(eye_ray).collect::<Vec<_>>());

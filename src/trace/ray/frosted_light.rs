@@ -1,7 +1,6 @@
 //! Light at the frosted facets of a stone: all of it goes on in one direction that chance decides, and no longer polarised. So
 //! frosted facets neither add nor lose light, and a ray stays one chain of bounces.
 
-use super::dispersed_ray::DispersedRay;
 use super::facets::FacetSearch;
 use super::frosted_facets::{Arriving, Struck, scatter};
 use super::lobe_luck::LobeLuck;
@@ -9,6 +8,7 @@ use super::path::{ExitLight, SurfaceEvent};
 use super::tree::Inbound;
 use super::{Loss, PathLight, StoneTracer};
 use crate::optics::{FrostedScatter, FrostedSurface};
+use crate::trace::DispersedRay;
 use glam::DVec3;
 
 impl StoneTracer {

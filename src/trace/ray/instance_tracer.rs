@@ -4,6 +4,7 @@
 use super::{Exit, Loss, MeetingRay, RayOptions, StoneTracer};
 use crate::math::{Ball, Pose};
 use crate::scene::{Instance, Medium};
+use crate::trace::DispersedRay;
 use glam::DVec3;
 
 /// The tracer of a stone's body, and the pose that carries the body into the world.
@@ -78,9 +79,8 @@ impl InstanceTracer {
         mut leave: impl FnMut(Exit),
     ) -> Option<Loss> {
         let (facet, distance) = ray.met;
-        let (origin, direction) = self.arriving((ray.origin, ray.direction));
-        let fan = self.pose.map_or(ray.fan, |pose| pose.turn.inverse() * ray.fan);
-        let ray = MeetingRay { met: (facet, distance / self.unit()), origin, direction, fan, ..*ray };
+        let own = self.own(&ray.ray);
+        let ray = MeetingRay { met: (facet, distance / self.unit()), ray: own, ..*ray };
         let is_taken = |exit: &Exit, distance: f64| is_taken(&self.outward(*exit), distance * self.unit());
         self.tracer.follow_from(&ray, is_taken, |exit| leave(self.outward(exit)))
     }
@@ -96,6 +96,14 @@ impl InstanceTracer {
         (pose.unplace(origin), pose.turn.inverse() * direction)
     }
 
+    /// Carries a ray, with how it changes, into the frame of the body.
+    fn own(&self, ray: &DispersedRay) -> DispersedRay {
+        let Some(pose) = &self.pose else { return *ray };
+        let (origin, direction) = self.arriving((ray.origin, ray.direction));
+        let back = pose.turn.inverse();
+        DispersedRay { origin, direction, fan: back * ray.fan, shift: back * ray.shift / pose.scale }
+    }
+
     /// Carries light that leaves the body into the world.
     #[inline]
     fn outward(&self, exit: Exit) -> Exit {
@@ -105,6 +113,7 @@ impl InstanceTracer {
             path: exit.path * pose.scale,
             direction: pose.turn * exit.direction,
             fan: pose.turn * exit.fan,
+            shift: pose.turn * exit.shift * pose.scale,
             ..exit
         }
     }

@@ -3,6 +3,7 @@
 use crate::math::{Ball, Pose, ShadedMesh, SurfaceNormals};
 use crate::optics::{RoughMetal, Roughness};
 use crate::scene::MetalInstance;
+use crate::trace::DispersedRay;
 use glam::DVec3;
 use num_complex::Complex64;
 use std::sync::Arc;
@@ -41,9 +42,8 @@ pub(super) struct MetalHit {
 /// A ray that metal has reflected.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct MetalReflection {
-    pub point: DVec3,
-    pub direction: DVec3,
-    pub fan: DVec3,
+    /// It changes as at a plane mirror: how the surface bends is left out, which is little beside `spread`.
+    pub ray: DispersedRay,
     /// The factor by which the light from there counts.
     pub weight: f64,
     /// The side, in radians, of the square of directions for which this one stands; 0 for one direction.
@@ -87,13 +87,8 @@ impl MetalTracer {
 
     /// Reflects a ray by a direction that is drawn by three numbers; `None` where what was drawn is lost, and where the body
     /// has no index yet.
-    pub fn reflect(
-        &self,
-        (origin, direction, fan): (DVec3, DVec3, DVec3),
-        hit: &MetalHit,
-        luck: [f64; 3],
-    ) -> Option<MetalReflection> {
-        let point = origin + direction * hit.distance;
+    pub fn reflect(&self, ray: &DispersedRay, hit: &MetalHit, luck: [f64; 3]) -> Option<MetalReflection> {
+        let DispersedRay { origin: point, direction, fan, shift } = ray.ahead(hit.distance);
         let SurfaceNormals { flat, shading } = self.mesh.normals(hit.triangle, self.pose.unplace(point));
         let [flat, shading] = [flat, shading].map(|normal| self.pose.turn * normal);
         let out = -direction;
@@ -107,9 +102,12 @@ impl MetalTracer {
         let middle = (toward + out).normalize_or(up);
         let spread = (1.0 / found.density).min(4.0 * std::f64::consts::PI) / PARTS;
         Some(MetalReflection {
-            point,
-            direction: toward,
-            fan: fan - middle * (2.0 * fan.dot(middle)),
+            ray: DispersedRay {
+                origin: point,
+                direction: toward,
+                fan: fan - middle * (2.0 * fan.dot(middle)),
+                shift,
+            },
             weight: found.weight,
             spread: spread.sqrt(),
         })

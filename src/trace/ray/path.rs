@@ -4,6 +4,7 @@ use super::facets::SolidFacets;
 use super::light::PathLight;
 use super::{Exit, Loss, MeetingRay, StoneTracer};
 use crate::optics::critical_angle;
+use crate::trace::DispersedRay;
 use glam::DVec3;
 
 /// A facet that a ray meets on its way.
@@ -77,27 +78,26 @@ pub(in crate::trace) struct SurfaceEvent<'a> {
 pub(in crate::trace) struct ExitLight {
     pub direction: DVec3,
     pub fan: DVec3,
-    /// The displacement of the point over the spread of wavelengths.
+    /// The displacement of the point over what the ray stands for.
     pub shift: DVec3,
     pub weight: f64,
     pub spread: f64,
 }
 
 impl SurfaceEvent<'_> {
-    /// Returns the light that leaves a stone of this index, without absorption, and its displacement over the spread of
-    /// wavelengths.
-    pub fn onward_outside(&self, index: f64) -> Option<(PathLight, DVec3)> {
-        let leaving = self.leaving.as_ref()?;
+    /// Returns the light that leaves a stone of this index, without absorption; `None` where reflection is total.
+    pub fn onward_outside(&self, index: f64) -> Option<PathLight> {
+        self.leaving.as_ref()?;
         let enters = self.arriving.dot(self.normal) < 0.0;
         let split = self.light.split(self.arriving, self.normal, if enters { 1.0 / index } else { index });
-        Some((if enters { split.reflected } else { split.passed }, leaving.shift))
+        Some(if enters { split.reflected } else { split.passed })
     }
 
     #[inline]
     pub fn exit(&self) -> Option<Exit> {
         let &Self { facet, point, path, bounce, .. } = self;
-        let &ExitLight { direction, fan, weight, spread, .. } = self.leaving.as_ref()?;
-        Some(Exit { facet, point, path, direction, fan, weight, bounce, surface: bounce == 0, spread })
+        let &ExitLight { direction, fan, shift, weight, spread } = self.leaving.as_ref()?;
+        Some(Exit { facet, point, path, direction, fan, shift, weight, bounce, surface: bounce == 0, spread })
     }
 }
 
@@ -108,7 +108,7 @@ impl StoneTracer {
     pub fn path(&self, origin: DVec3, direction: DVec3) -> Option<Path> {
         let met = self.meet(origin, direction)?;
         let mut steps = vec![];
-        let start = self.start(&MeetingRay::from_eye(met, origin, direction));
+        let start = self.start(&MeetingRay::from_eye(met, DispersedRay::new(origin, direction)));
         let least = self.options.least_weight;
         let tell = |meeting: SurfaceEvent| steps.push(self.step(&meeting));
         let rest = match &self.shape {

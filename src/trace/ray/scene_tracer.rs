@@ -8,8 +8,8 @@ use super::{Camera, Exit, InstanceTracer, Loss, MeetingRay, Roulette};
 use crate::scene::Medium;
 use crate::trace::packet::{EyeRay, PacketTracer};
 use crate::trace::sampling::{LitScene, MOST_WAITING, ProgressiveImage, RadiancePixel, SamplePass, colour};
-use crate::trace::{Stopped, Watch};
-use glam::{DVec2, DVec3, DVec4};
+use crate::trace::{DispersedRay, Stopped, Watch};
+use glam::{DVec2, DVec4};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -30,12 +30,8 @@ pub struct SceneTracer {
 /// A ray on its way, and what it left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaitingRay {
-    /// The point where it begins.
-    pub origin: DVec3,
-    /// The direction in which the light travels, of length 1.
-    pub direction: DVec3,
-    /// The change of that direction over the medium's spread of indices.
-    pub fan: DVec3,
+    /// The ray, and how it changes over what it stands for.
+    pub ray: DispersedRay,
     /// The share of the light from that direction that reaches the eye.
     pub weight: f64,
     /// By what chance weak light goes on in solids that are not convex and to other bodies; without it, all of it does.
@@ -73,11 +69,9 @@ impl LeftBody {
 
 impl WaitingRay {
     /// Returns a ray from the eye.
-    pub fn from_eye((origin, direction): (DVec3, DVec3)) -> Self {
+    pub fn from_eye(ray: DispersedRay) -> Self {
         Self {
-            origin,
-            direction,
-            fan: DVec3::ZERO,
+            ray,
             weight: 1.0,
             roulette: None,
             spread: 0.0,
@@ -129,7 +123,7 @@ impl SceneTracer {
     }
 
     fn first_body(&self, ray: &WaitingRay) -> Option<FirstBody> {
-        let way = (ray.origin, ray.direction);
+        let way = (ray.ray.origin, ray.ray.direction);
         let stone = nearest(&self.tracers, way, ray.left.stone());
         let metal = nearest_metal(&self.metals, way, ray.left.metal());
         match (stone, metal) {
@@ -177,12 +171,10 @@ impl SceneTracer {
         let mut sieve = ray.roulette.map(|roulette| roulette.sieve());
         let is_frosted = self.tracers[stone].is_frosted();
         let exits = |exit: Exit| {
-            let Exit { point: origin, direction, fan, weight, spread, .. } = exit;
+            let Exit { point: origin, direction, fan, shift, weight, spread, .. } = exit;
             number += 1;
             let ray = WaitingRay {
-                origin,
-                direction,
-                fan,
+                ray: DispersedRay { origin, direction, fan, shift },
                 weight,
                 roulette: ray.roulette.map(|roulette| roulette.beyond(number)),
                 spread,
@@ -196,8 +188,8 @@ impl SceneTracer {
                 None => leave(&ray),
             }
         };
-        let &WaitingRay { origin, direction, fan, weight, roulette, luck, .. } = ray;
-        let meeting = MeetingRay { met, origin, direction, fan, weight, roulette, luck: Some(luck) };
+        let &WaitingRay { ray: own, weight, roulette, luck, .. } = ray;
+        let meeting = MeetingRay { met, ray: own, weight, roulette, luck: Some(luck) };
         let is_taken = |exit: &Exit, distance: f64| self.meets_before(exit, stone, distance);
         let rest = self.tracers[stone].follow_from(&meeting, is_taken, exits).unwrap_or_default();
         Loss { unresolved: rest.unresolved + unseen, bounces: before + rest.bounces, ..rest }
@@ -216,14 +208,11 @@ impl SceneTracer {
             return lost(0.0, ray.weight);
         }
         let (luck, later) = ray.luck.draw();
-        let way = (ray.origin, ray.direction, ray.fan);
-        let Some(found) = self.metals[hit.metal].reflect(way, hit, luck) else {
+        let Some(found) = self.metals[hit.metal].reflect(&ray.ray, hit, luck) else {
             return lost(ray.weight, 0.0);
         };
         let next = WaitingRay {
-            origin: found.point,
-            direction: found.direction,
-            fan: found.fan,
+            ray: found.ray,
             weight: ray.weight * found.weight,
             roulette: ray.roulette.map(|roulette| roulette.beyond(1)),
             spread: found.spread,
@@ -346,8 +335,7 @@ impl<'a> ByRays<'a> {
         let mut lit = RadiancePixel { cover: f64::from(u8::from(is_seen)), ..RadiancePixel::default() };
         let Some(first) = first else {
             if is_seen {
-                let (from, direction) = straight;
-                let light = self.lit_scene.environment.radiance(from, direction, DVec3::ZERO);
+                let light = self.lit_scene.environment.radiance_around(&straight, 0.0);
                 lit.colour = colour(&pass.whole, light);
             }
             return lit;
@@ -355,7 +343,7 @@ impl<'a> ByRays<'a> {
         for (band, (tracer, response)) in bands.iter().zip(&pass.responses).enumerate() {
             let mut light = DVec4::ZERO;
             start.roulette = pass.roulette(pixel, band);
-            let rest = tracer.follow(&start, &first, |ray| light += self.arriving(ray, straight, pass));
+            let rest = tracer.follow(&start, &first, |ray| light += self.arriving(ray, &straight, pass));
             lit.unresolved += rest.unresolved;
             lit.absorbed += rest.absorbed;
             lit.colour += colour(response, light);
@@ -367,17 +355,16 @@ impl<'a> ByRays<'a> {
 
     /// Returns the environment's light along a ray that has left all stones; `straight` is the ray from the eye that it goes
     /// back to.
-    fn arriving(&self, ray: &WaitingRay, straight: (DVec3, DVec3), pass: &SamplePass) -> DVec4 {
-        let own = (ray.origin, ray.direction, ray.fan);
+    fn arriving(&self, ray: &WaitingRay, straight: &DispersedRay, pass: &SamplePass) -> DVec4 {
         // Only refraction is mixed with the straight way.
-        let (from, direction, fan) = if ray.is_reflected() { own } else { pass.mixed(straight, own) };
-        self.lit_scene.environment.radiance_around(from, direction, (fan, ray.spread)) * ray.weight
+        let seen = if ray.is_reflected() { ray.ray } else { pass.mixed(straight, &ray.ray) };
+        self.lit_scene.environment.radiance_around(&seen, ray.spread) * ray.weight
     }
 
-    /// Returns the ray of a pixel, given by column and row.
-    fn eye_ray(&self, pass: &SamplePass, [x, y]: [u32; 2]) -> (DVec3, DVec3) {
-        let at = DVec2::new(f64::from(x), f64::from(y)) + pass.shift;
-        self.camera.ray(self.lit_scene.film.image_from_pixels(at))
+    /// Returns the ray of a pixel, given by column and row, with the stretch of the pixel that it stands for.
+    fn eye_ray(&self, pass: &SamplePass, [x, y]: [u32; 2]) -> DispersedRay {
+        let (at, film) = (DVec2::new(f64::from(x), f64::from(y)) + pass.shift, &self.lit_scene.film);
+        self.camera.ray_along(film.image_from_pixels(at), pass.footprint_in_image(film))
     }
 
     /// Adds what one ray of each pixel sees to the sums of some pixels, which stand row by row from the number `first` on.
@@ -388,8 +375,7 @@ impl<'a> ByRays<'a> {
             let numbers = first..first + sums.len();
             let eye_ray = |k: usize| {
                 let pixel = pixel(k);
-                let (origin, direction) = self.eye_ray(pass, pixel);
-                EyeRay { pixel, origin, direction }
+                EyeRay { pixel, ray: self.eye_ray(pass, pixel) }
             };
             let rays: Vec<_> = numbers.map(eye_ray).collect();
             packets.see(pass, &rays, sums);

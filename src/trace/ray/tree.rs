@@ -6,13 +6,13 @@
 //! With roulette, weak light is followed by chance: the shares add up to 1 in the mean, and nothing is unresolved but what the
 //! limits on bounces and passages cut off.
 
-use super::dispersed_ray::DispersedRay;
 use super::facets::FacetSearch;
 use super::light::PathLight;
 use super::lobe_luck::LobeLuck;
 use super::path::SurfaceEvent;
 use super::roulette::{PassageRoulette, Roulette};
 use super::{Exit, Loss, StoneTracer};
+use crate::trace::DispersedRay;
 
 /// The most passages of one ray that are followed; light that waits after so many is unresolved.
 const MOST_PASSAGES: usize = 1000;
@@ -96,8 +96,8 @@ impl StoneTracer {
         met: (usize, f64),
         factor: f64,
     ) -> Option<Inbound> {
-        let &Exit { point: origin, direction, fan, path, bounce, .. } = exit;
-        let (light, shift) = meeting.onward_outside(self.medium.index)?;
+        let &Exit { point: origin, direction, fan, shift, path, bounce, .. } = exit;
+        let light = meeting.onward_outside(self.medium.index)?;
         let light = if factor == 1.0 { light } else { light.scaled(factor) };
         let ray = DispersedRay { origin, direction, fan, shift };
         Some(Inbound { met, ray, light, left: meeting.left, path, bounce, luck: None })

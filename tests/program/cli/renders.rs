@@ -233,3 +233,52 @@ fn a_render_at_fault_is_refused_and_says_why() {
     }
     assert!(!desk.at("out").exists());
 }
+
+#[test]
+fn edges_are_smoothed_in_the_finished_picture_or_over_time() {
+    let desk = Desk::new();
+    // In a white world glass is white: before black its outline is all that there is to smooth.
+    let taken = |options: &str| {
+        let scene = "prism --light white --background black --bloom 0 --tracer ray --wavelengths 3";
+        let line = format!("render {scene} --azimuth 20 --tilt 20 --size 96 {options} --out a.png");
+        assert_eq!(desk.run(&line).0, 0, "{line}");
+        let (_, pixels, description) = png(&desk.at("a.png"));
+        (pixels, description)
+    };
+    let (exact, description) = taken("--samples 64");
+    assert!(!description.contains("smoothed"), "{description}");
+    let off =
+        |pixels: &[DVec3]| pixels.iter().zip(&exact).map(|(a, b)| (*a - *b).length_squared()).sum::<f64>();
+    let rough = off(&taken("--samples 1").0);
+    for (options, most) in [
+        ("--samples 1 --smoothing fxaa", 0.8),
+        ("--samples 12 --smoothing temporal", 0.6),
+        ("--samples 12 --smoothing temporal:0.2", 0.5),
+    ] {
+        let (pixels, description) = taken(options);
+        let how = options.rsplit(' ').next().unwrap();
+        assert!(description.contains(&format!(", smoothed by {how},")), "{description}");
+        let part = off(&pixels) / rough;
+        println!("{options}: {part:.3} of the error");
+        assert!(part < most, "{options}: {part}");
+    }
+    assert_eq!(taken("--samples 2 --smoothing none").0, taken("--samples 2").0);
+    desk.done("spin prism --smoothing temporal --samples 1 --frames 3 --size 32 --out b.png");
+    for (line, message) in [
+        ("render prism --smoothing taa", "'taa': give none, fxaa, temporal, or temporal:PART"),
+        ("render prism --smoothing temporal:3", "'temporal:3': give none"),
+        (
+            "render prism --smoothing temporal --size 4096",
+            "--smoothing temporal: 4096 by 4096 pixels are too many",
+        ),
+    ] {
+        let stderr = desk.refused(line, 2);
+        assert!(stderr.contains(message), "{stderr}");
+    }
+    let (code, _, noted) = desk.run("render prism --smoothing fxaa --size 32 --samples 1 --out c.exr");
+    assert_eq!(code, 0);
+    assert!(
+        noted.contains("an EXR holds the bare light: exposure, tone, FXAA and overlays are for PNG"),
+        "{noted}"
+    );
+}

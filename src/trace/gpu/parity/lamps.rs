@@ -12,6 +12,7 @@ struct Ray {
     origin: vec3f,
     direction: vec3f,
     fan: vec3f,
+    shift: vec3f,
 }
 
 const MOST_LAMPS: u32 = 1u;

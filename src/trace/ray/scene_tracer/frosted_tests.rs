@@ -8,6 +8,7 @@ use crate::trace::environment::{Environment, EnvironmentMap};
 use crate::trace::ray::{RayOptions, StoneTracer};
 use crate::trace::sampling::Sampling;
 use crate::trace::unwatched;
+use glam::DVec3;
 
 const SIZE: u32 = 24;
 

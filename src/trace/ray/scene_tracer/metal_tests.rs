@@ -8,6 +8,7 @@ use crate::trace::environment::{Environment, EnvironmentMap};
 use crate::trace::ray::RayOptions;
 use crate::trace::sampling::Sampling;
 use crate::trace::unwatched;
+use glam::DVec3;
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -117,7 +118,7 @@ fn a_ring_and_its_stone_account_for_all_light_of_a_white_world() {
 #[test]
 fn metal_that_absorbs_nothing_vanishes_with_its_stone_in_a_white_world() {
     for roughness in [0.0, 0.2, 0.8] {
-        let shot = Shot { passes: 32, by_chance: 0.1, index: Some(PERFECT), ..ONE };
+        let shot = Shot { passes: 64, by_chance: 0.1, index: Some(PERFECT), ..ONE };
         let pixels = taken(&ring(Metal::Silver, roughness), &Light::white(), shot);
         let [seen, absorbed, unresolved] = means(&pixels);
         assert!((seen - 1.0).abs() < 0.01 && absorbed.abs() < 0.01, "{roughness}: {seen} {absorbed}");

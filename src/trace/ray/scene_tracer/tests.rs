@@ -3,6 +3,7 @@ use crate::math::{Plane, Polytope, Pose};
 use crate::optics::Material;
 use crate::scene::Instance;
 use crate::trace::ray::RayOptions;
+use glam::DVec3;
 
 /// Returns a cube of side 2 of this index, whose middle lies at this height.
 fn cube(index: f64, height: f64) -> Instance {
@@ -22,7 +23,7 @@ fn bounces(stones: &[Instance], most_bounces: u32) -> u32 {
         metals: vec![],
         least_weight: options.least_weight,
     };
-    let start = WaitingRay::from_eye((DVec3::new(0.1, 0.2, 9.0), DVec3::NEG_Z));
+    let start = WaitingRay::from_eye(DispersedRay::new(DVec3::new(0.1, 0.2, 9.0), DVec3::NEG_Z));
     tracer.follow(&start, &tracer.first(&start).unwrap(), |_| ()).bounces
 }
 

@@ -3,6 +3,7 @@ use crate::math::fixture::{Triangles, clasp, heart, star};
 use crate::math::{Plane, Polytope, Pose, Surface, TriangleMesh};
 use crate::optics::fresnel;
 use crate::scene::{Medium, Projection, View};
+use crate::trace::DispersedRay;
 use crate::trace::ray::{Camera, Exit, Loss, MeetingRay, RayOptions, Roulette, StoneTracer};
 use glam::{DQuat, DVec2, DVec3};
 use proptest::prelude::*;
@@ -189,7 +190,7 @@ fn zones(
 ) -> Option<([f64; ZONES], f64)> {
     let mut sums = [0.0; ZONES];
     let met = tracer.meet(origin, direction)?;
-    let ray = MeetingRay { roulette, ..MeetingRay::from_eye(met, origin, direction) };
+    let ray = MeetingRay { roulette, ..MeetingRay::from_eye(met, DispersedRay::new(origin, direction)) };
     let leave = |exit: Exit| {
         let signs = exit.direction.cmpge(DVec3::ZERO);
         sums[signs.bitmask() as usize] += exit.weight;

@@ -1,0 +1,31 @@
+#!/bin/sh
+# Makes glass-sheet.jpg, a contact sheet of the scenes of glass, the rings and the worlds that the program draws: each is rendered
+# 1024 pixels wide and high, or as many as the third argument says, and shown 340 wide. It runs in the top folder of the source and
+# needs ImageMagick. The program is the first argument, or `brillianteer`; the second is the folder that keeps the large pictures, or
+# a temporary one.
+set -e
+program=${1:-brillianteer}
+work=${2:-$(mktemp -d)}
+side=${3:-1024}
+mkdir -p "$work"
+tiles=
+label() {
+    convert "$1" -resize 340x340 -background white -gravity south -splice 0x18 -font "$(fc-match -f %{file} sans)" \
+        -pointsize 13 -annotate +0+2 "$2" "$1-tile.png"
+    tiles="$tiles $1-tile.png"
+}
+for scene in subtle-pill prism-rainbow rotating-cube wavy-plate free-diamond; do
+    [ -e "$work/$scene.png" ] || "$program" render scenes/$scene.toml --samples 6 --size $side --out "$work/$scene.png"
+    label "$work/$scene.png" "$(sed -n 's/^name = "\(.*\)"/\1/p' scenes/$scene.toml)"
+done
+for scene in solitaire four-prong halo-ring eternity; do
+    [ -e "$work/$scene.png" ] || "$program" render scenes/$scene.toml --wavelengths 8 --samples 6 --size $side --out "$work/$scene.png"
+    label "$work/$scene.png" "$(sed -n 's/^name = "\(.*\)"/\1/p' scenes/$scene.toml)"
+done
+for world in sunset room city; do
+    [ -e "$work/$world.png" ] ||
+        "$program" render modern-ideal --light $world --background $world --tilt 12 --azimuth 90 --exposure 0.8 --samples 6 --size $side \
+            --out "$work/$world.png"
+    label "$work/$world.png" "World: $world"
+done
+montage $tiles -tile 4x -geometry +4+4 -background white -depth 8 -quality 85 docs/images/glass-sheet.jpg
