@@ -178,7 +178,7 @@ pub fn number_row(ui: &mut Ui, (name, meaning): (&str, &str), number: Number, va
 }
 
 /// The greatest height of a list that opens, points.
-const LIST_HEIGHT: f32 = 420.0;
+const LIST_HEIGHT: f32 = 470.0;
 
 /// Draws a choice: its name, and a field with what is chosen, which opens the list that `list` draws.
 pub fn choice_row(

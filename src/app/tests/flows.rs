@@ -218,7 +218,7 @@ fn every_view_is_exported_as_a_file() {
             bench.harness.run_steps(2);
         }
     }
-    ["SVG", "JSON", "Refraction map and page", "Scene file and its cut"]
+    ["SVG", "JSON", "Refraction map and page", "Scene file and its cuts"]
         .into_iter()
         .for_each(|name| bench.click(name));
     let size = bench.harness.get_by_role_and_label(egui::Role::SpinButton, "Size");
