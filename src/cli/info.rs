@@ -318,38 +318,9 @@ fn table(specimen: &LoadedSpecimen, value: &Value) -> String {
     line("material", specimen.material.name.clone());
     line("diameter", format!("{} mm", specimen.design.diameter_mm));
     line("weight", weight(specimen.carats()));
-    for group in ["given", "derived"] {
-        for (key, number) in value[group].as_object().into_iter().flatten() {
-            let unit = match specimen.design.cut.proportion(key).map(|row| row.unit) {
-                Some(Unit::Degrees) => " deg".to_owned(),
-                unit => unit.map(|unit| unit.to_string()).unwrap_or_default(),
-            };
-            let number = number.as_f64().unwrap_or(f64::NAN);
-            let digits = if group == "given" { format!("{number}") } else { format!("{number:.4}") };
-            let mark = if group == "given" { "" } else { "   (derived)" };
-            line(&key.replace('_', " "), format!("{digits}{unit}{mark}"));
-        }
-    }
+    proportions_of_cut(&specimen.design.cut, value, &mut line);
     let Ok(stone) = specimen.stone() else {
-        let (low, high) = specimen.solid().bounds();
-        let [x, y, z] = (high - low).to_array();
-        line("size", format!("{x:.4} by {y:.4} by {z:.4} girdle radii"));
-        let is_mesh = matches!(&*specimen.body, Body::Mesh(_));
-        if is_mesh {
-            line("triangles, vertices", format!("{}, {}", value["triangles"], value["corners"]));
-            for (key, height) in value["heights"].as_object().into_iter().flatten() {
-                line(&key.replace('_', " "), format!("{:.2} %", height.as_f64().unwrap_or(f64::NAN)));
-            }
-        }
-        line("volume", format!("{:.6} girdle radii³", specimen.solid().volume()));
-        for tier in value["tiers"].as_array().into_iter().flatten() {
-            line(tier["name"].as_str().unwrap_or_default(), format!("{} facets", tier["facets"]));
-        }
-        let why = match (is_mesh, value.get("tiers")) {
-            (true, Some(_)) => "not convex: traced as triangles",
-            (true, None) => "traced as triangles: it has no facets to list",
-            (false, _) => "curved: it has no facets to list",
-        };
+        let why = size_of_solid(specimen, value, &mut line);
         let _ = write!(text, "\n  {why}");
         return text;
     };
@@ -369,6 +340,49 @@ fn table(specimen: &LoadedSpecimen, value: &Value) -> String {
     line("surface area", format!("{:.6} girdle radii²", polytope.surface_area()));
     tiers(&report, &mut text);
     text
+}
+
+/// Writes a line for each proportion that the cut's file gives, and for each that follows from them.
+fn proportions_of_cut(cut: &Cut, value: &Value, line: &mut impl FnMut(&str, String)) {
+    for group in ["given", "derived"] {
+        for (key, number) in value[group].as_object().into_iter().flatten() {
+            let unit = match cut.proportion(key).map(|row| row.unit) {
+                Some(Unit::Degrees) => " deg".to_owned(),
+                unit => unit.map(|unit| unit.to_string()).unwrap_or_default(),
+            };
+            let number = number.as_f64().unwrap_or(f64::NAN);
+            let digits = if group == "given" { format!("{number}") } else { format!("{number:.4}") };
+            let mark = if group == "given" { "" } else { "   (derived)" };
+            line(&key.replace('_', " "), format!("{digits}{unit}{mark}"));
+        }
+    }
+}
+
+/// Writes the lines of a solid that is no convex stone, and returns why it is traced without facets.
+fn size_of_solid(
+    specimen: &LoadedSpecimen,
+    value: &Value,
+    line: &mut impl FnMut(&str, String),
+) -> &'static str {
+    let (low, high) = specimen.solid().bounds();
+    let [x, y, z] = (high - low).to_array();
+    line("size", format!("{x:.4} by {y:.4} by {z:.4} girdle radii"));
+    let is_mesh = matches!(&*specimen.body, Body::Mesh(_));
+    if is_mesh {
+        line("triangles, vertices", format!("{}, {}", value["triangles"], value["corners"]));
+        for (key, height) in value["heights"].as_object().into_iter().flatten() {
+            line(&key.replace('_', " "), format!("{:.2} %", height.as_f64().unwrap_or(f64::NAN)));
+        }
+    }
+    line("volume", format!("{:.6} girdle radii³", specimen.solid().volume()));
+    for tier in value["tiers"].as_array().into_iter().flatten() {
+        line(tier["name"].as_str().unwrap_or_default(), format!("{} facets", tier["facets"]));
+    }
+    match (is_mesh, value.get("tiers")) {
+        (true, Some(_)) => "not convex: traced as triangles",
+        (true, None) => "traced as triangles: it has no facets to list",
+        (false, _) => "curved: it has no facets to list",
+    }
 }
 
 /// Returns a line for each facet, below a line of headings; `None` of a body without facets to list.

@@ -316,7 +316,7 @@ fn table(report: &FigureReport, timing: bool) -> String {
         let columns: String = columns.map(|(text, width)| format!("{text:>width$}")).collect();
         let _ = writeln!(text, "{}", format!("{name:<12}{columns}").trim_end());
     };
-    let of = |part: f64| format!("{:.3}", 100.0 * part);
+    let of = percent;
     let heads = ["glare", "transmitted", "strongest"].map(String::from);
     line("% of face", heads, ["± error", "± error"].map(String::from));
     for (i, band) in scope.bands.iter().enumerate().rev() {
@@ -331,8 +331,25 @@ fn table(report: &FigureReport, timing: bool) -> String {
         "sum",
         [sum(&f.surface), sum(&f.transmitted), sum(&f.strongest_exit_area) + f.strongest_exit_undecided],
     );
+    sums(report, &mut text);
+    if timing {
+        let _ = write!(text, " in {:.3} s", report.seconds);
+    }
+    text
+}
+
+/// Writes one number of the light in percent.
+fn percent(part: f64) -> String {
+    format!("{:.3}", 100.0 * part)
+}
+
+/// Writes what becomes of the light as a whole, how exactly that is known, and who traced it.
+fn sums(report: &FigureReport, text: &mut String) {
+    let FigureReport { viewing, measured, .. } = report;
+    let f = &measured.figures;
+    let of = percent;
     let (returned, glare) = (measured.light_return(), measured.glare_return());
-    let glare = match has_glare {
+    let glare = match viewing.glare != Some(Glare::LeftOut) {
         true => format!("with glare {:.3} %", 100.0 * (returned + glare)),
         false => format!("glare of {:.3} % is left out", 100.0 * measured.glare()),
     };
@@ -350,8 +367,4 @@ fn table(report: &FigureReport, timing: bool) -> String {
     if let Some(estimate) = &f.estimate {
         let _ = write!(text, " and {} rays for what they left", estimate.rays);
     }
-    if timing {
-        let _ = write!(text, " in {:.3} s", report.seconds);
-    }
-    text
 }

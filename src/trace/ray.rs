@@ -41,7 +41,7 @@ pub use self::scene_tracer::{ByRays, First, SceneTracer, WaitingRay};
 pub use self::sight::{ProbeRay, SceneProbe, facet_at};
 use self::tree::Inbound;
 use crate::math::SolidRef;
-use crate::optics::{cos_transmitted, reflect, reflected_change, refract, refracted_change};
+use crate::optics::{FrostedSurface, cos_transmitted, reflect, reflected_change, refract, refracted_change};
 use crate::scene::Medium;
 use crate::trace::DispersedRay;
 use glam::DVec3;
@@ -248,9 +248,7 @@ impl StoneTracer {
         let DispersedRay { direction, fan, .. } = ray;
         let Arrival { point, normal, shift, of_normal } = ray.arrival(facets, facet, distance);
         let eta = 1.0 / self.medium.index;
-        if let Some(frosted) = &self.frosted
-            && let Some(surface) = frosted.of_facet(facet)
-        {
+        if let Some(surface) = self.frosted_surface(facet) {
             return Some(self.enter_frosted(
                 (facets, surface),
                 (point, normal),
@@ -288,6 +286,11 @@ impl StoneTracer {
         Some(self.bounce(facets, Inbound { ray, light, ..inbound }, least_weight, meets))
     }
 
+    /// Returns the surface of a facet that is frosted; `None` where it is polished.
+    fn frosted_surface(&self, facet: usize) -> Option<FrostedSurface> {
+        self.frosted.as_ref()?.of_facet(facet)
+    }
+
     /// Follows light inside the stone; its ray begins at the point where it has entered.
     fn bounce<F: FacetSearch>(
         &self,
@@ -300,11 +303,12 @@ impl StoneTracer {
         let mut rest = Loss { bounces: inside.bounce, ..Loss::default() };
         let mut remaining = light.weight() * left;
         // Without any change of direction there will be none at the next facet either.
-        let is_fanned = self.medium.spread != 0.0 || ray.is_fanned();
+        let spread = (self.medium.spread != 0.0 || ray.is_fanned()).then_some(self.medium.spread);
         while remaining > least_weight && rest.bounces < self.options.most_bounces {
-            let DispersedRay { origin, direction, fan, .. } = ray;
-            let Some((facet, distance)) = facets.next(origin, direction) else { break };
-            let Arrival { point, normal, shift, of_normal } = ray.arrival(facets, facet, distance);
+            let (direction, index) = (ray.direction, self.medium.index);
+            let Some((facet, distance)) = facets.next(ray.origin, direction) else { break };
+            let arrival = ray.arrival(facets, facet, distance);
+            let Arrival { point, normal, .. } = arrival;
             let cos_i = normal.dot(direction);
             path += distance;
             if !self.medium.is_clear() {
@@ -312,15 +316,12 @@ impl StoneTracer {
                 rest.absorbed += light.weight() * (left - after);
                 left = after;
             }
-            if let Some(frosted) = &self.frosted
-                && let Some(surface) = frosted.of_facet(facet)
-            {
+            if let Some(surface) = self.frosted_surface(facet) {
                 rest.bounces += 1;
                 let arriving = Arriving { facet: facet as u32, point, normal, direction, path, left, light };
                 match self.leave_frosted(surface, &arriving, rest.bounces, &mut luck, &mut meets) {
-                    Struck::Inward(scattered) => {
-                        (ray, light) =
-                            (DispersedRay::new(point, scattered), self.scattered(&light, scattered));
+                    Struck::Inward(scattered, of_scattered) => {
+                        (ray, light) = (scattered, of_scattered);
                         remaining = light.weight() * left;
                         continue;
                     }
@@ -329,21 +330,9 @@ impl StoneTracer {
                 }
                 break;
             }
-            let reflected = reflect(direction, -normal, cos_i);
-            let Medium { index, spread, .. } = self.medium;
-            let cos_t = cos_transmitted(cos_i, index);
             let SplitLight { reflected: onward, passed } = light.split(direction, normal, index);
-            let leaving = cos_t.map(|cos_t| {
-                let cosines = (cos_i, cos_t);
-                let change =
-                    || refracted_change(direction, -normal, index, cosines, (fan, -of_normal, spread));
-                ExitLight {
-                    direction: refract(direction, -normal, index, cosines),
-                    fan: if is_fanned { change() } else { DVec3::ZERO },
-                    shift,
-                    weight: passed.weight() * left,
-                    spread: 0.0,
-                }
+            let leaving = cos_transmitted(cos_i, index).map(|cos_t| {
+                ray.refracted_outside(&arrival, index, (cos_i, cos_t), spread, passed.weight() * left)
             });
             rest.bounces += 1;
             remaining = onward.weight() * left;
@@ -359,15 +348,9 @@ impl StoneTracer {
                 leaving,
                 onward: remaining,
             });
-            let fan = match is_fanned {
-                true => reflected_change(direction, normal, (fan, of_normal)),
-                false => DVec3::ZERO,
-            };
-            ray = DispersedRay { origin: point, direction: reflected, fan, shift };
-            light = onward;
+            (ray, light) = (ray.reflected_inside(&arrival, cos_i, spread.is_some()), onward);
         }
-        rest.unresolved = remaining;
-        rest
+        Loss { unresolved: remaining, ..rest }
     }
 
     /// Returns the facet and the distance at which a ray from outside enters; `None` where it misses.

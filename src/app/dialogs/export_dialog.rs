@@ -137,22 +137,7 @@ fn settings(ui: &mut Ui, export: &ExportForm, selection: &mut Selection, actions
         ui.checkbox(&mut selection.mark_audit, "Findings of the audit").on_hover_text(meaning);
         ui.end_row();
         ui.label("Also");
-        let meaning = "Writes a picture that says where on the background the light of each pixel comes from, a \
-            picture of all other light, and a web page that refracts a moving background by both.";
-        ui.horizontal(|ui| {
-            ui.checkbox(&mut selection.map, "Refraction map and page").on_hover_text(meaning);
-            let meaning = "Number of bands of wavelengths. With one band the map is grey and small; with several it \
-                keeps the rainbow.";
-            let bands = DragValue::new(&mut selection.bands).range(1..=MOST_MAP_BANDS).prefix("bands ");
-            ui.add_enabled(selection.map, bands).on_hover_text(meaning);
-            let meaning = "Number of places on the background that each pixel can show. With several, a pixel shows \
-                everything that is seen through it at once. One map is written for each band and place.";
-            let places = DragValue::new(&mut selection.places).range(1..=MOST_PLACES).prefix("places ");
-            ui.add_enabled(selection.map, places).on_hover_text(meaning);
-            let meaning = "Writes a scene file and a cut file of each design, with all stones and metal in their present places, \
-                their light and their background. The editor opens the scene again.";
-            ui.checkbox(&mut selection.scene, "Scene file and its cuts").on_hover_text(meaning);
-        });
+        also_row(selection, ui);
         ui.end_row();
         ui.label("Sheet");
         sheet_row(&mut selection.sheet, export.plan.can_have_sheet(), ui);
@@ -171,6 +156,26 @@ fn settings(ui: &mut Ui, export: &ExportForm, selection: &mut Selection, actions
             actions.push_if(ui.button("Choose…").clicked(), FileAction::Choose(Purpose::Folder));
         });
         ui.end_row();
+    });
+}
+
+/// Draws what an export writes besides pictures and drawings: a refraction map and a scene file.
+fn also_row(selection: &mut Selection, ui: &mut Ui) {
+    let meaning = "Writes a picture that says where on the background the light of each pixel comes from, a \
+        picture of all other light, and a web page that refracts a moving background by both.";
+    ui.horizontal(|ui| {
+        ui.checkbox(&mut selection.map, "Refraction map and page").on_hover_text(meaning);
+        let meaning = "Number of bands of wavelengths. With one band the map is grey and small; with several it \
+            keeps the rainbow.";
+        let bands = DragValue::new(&mut selection.bands).range(1..=MOST_MAP_BANDS).prefix("bands ");
+        ui.add_enabled(selection.map, bands).on_hover_text(meaning);
+        let meaning = "Number of places on the background that each pixel can show. With several, a pixel shows \
+            everything that is seen through it at once. One map is written for each band and place.";
+        let places = DragValue::new(&mut selection.places).range(1..=MOST_PLACES).prefix("places ");
+        ui.add_enabled(selection.map, places).on_hover_text(meaning);
+        let meaning = "Writes a scene file and a cut file of each design, with all stones and metal in their present places, \
+            their light and their background. The editor opens the scene again.";
+        ui.checkbox(&mut selection.scene, "Scene file and its cuts").on_hover_text(meaning);
     });
 }
 

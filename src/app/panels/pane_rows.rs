@@ -55,7 +55,21 @@ pub fn show(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
             Strengths run from 0 to 100.",
     );
     let mut liquid = workspace.liquid;
-    let Liquid { size, corners, refraction, depth, dispersion, frost, light, gap, .. } = &mut liquid;
+    shape_rows(&mut liquid, ui);
+    if traced {
+        let meaning =
+            "The distance from the traced pane to the background, in parts of the pane's shorter side.";
+        let row = Row::new("Gap", meaning, GAPS);
+        Row { step: 0.001, decimals: 3, speed: 0.002, logarithmic: true, ..row }.show(ui, &mut liquid.gap);
+    }
+    light_rows(&mut liquid, ui);
+    tint_and_quality_rows(&mut liquid, ui);
+    actions.push_changed(&workspace.liquid, liquid, ViewAction::Liquid);
+}
+
+/// Draws the rows for the pane's size and the strengths of its effects.
+fn shape_rows(liquid: &mut Liquid, ui: &mut Ui) {
+    let Liquid { size, corners, refraction, depth, dispersion, frost, light, .. } = liquid;
     for (name, meaning, value, range, unit) in [
         ("Pane width", "How wide the pane is, in percent of the view.", &mut size.x, EXTENTS, " %"),
         ("Pane height", "How high the pane is, in percent of the view.", &mut size.y, EXTENTS, " %"),
@@ -98,15 +112,6 @@ pub fn show(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
     ] {
         Row { step: 1.0, decimals: 0, speed: 0.2, unit, ..Row::new(name, meaning, range) }.show(ui, value);
     }
-    if traced {
-        let meaning =
-            "The distance from the traced pane to the background, in parts of the pane's shorter side.";
-        let row = Row::new("Gap", meaning, GAPS);
-        Row { step: 0.001, decimals: 3, speed: 0.002, logarithmic: true, ..row }.show(ui, gap);
-    }
-    light_rows(&mut liquid, ui);
-    last(&mut liquid, ui);
-    actions.push_changed(&workspace.liquid, liquid, ViewAction::Liquid);
 }
 
 /// Draws the rows for where the light comes from.
@@ -147,7 +152,7 @@ fn light_rows(liquid: &mut Liquid, ui: &mut Ui) {
 }
 
 /// Draws the rows for tint and quality.
-fn last(liquid: &mut Liquid, ui: &mut Ui) {
+fn tint_and_quality_rows(liquid: &mut Liquid, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let meaning = "The colour of the pane. Its alpha says how far it colours the light.";
         let label = named(ui, "Tint", meaning);

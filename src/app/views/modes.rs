@@ -73,12 +73,7 @@ impl Mode {
                     "Scopes also show the light that the outer surface reflects, as a camera records it.";
                 mode("with glare", meaning, Command::Glare)
             }),
-            missing.map(|name| {
-                let meaning = "The file of the background cannot be read, so nothing is behind the stone, and the strength of \
-                               refraction is 1.";
-                let name = Path::new(name).file_name().map_or(name.into(), |name| name.to_string_lossy());
-                mode(format!("{name} is missing"), meaning, ViewAction::Behind(None))
-            }),
+            missing.map(missing_background),
             (bounces < USUAL_BOUNCES).then(|| {
                 let meaning = "Light is followed through no more bounces than this; what is left is dark.";
                 mode(format!("bounces ≤ {bounces}"), meaning, ViewAction::Bounces(USUAL_BOUNCES))
@@ -93,6 +88,14 @@ impl Mode {
         .flatten()
         .collect()
     }
+}
+
+/// Returns the mode of views whose background has this name, when its file cannot be read.
+fn missing_background(name: &str) -> Mode {
+    let meaning = "The file of the background cannot be read, so nothing is behind the stone, and the strength of \
+                   refraction is 1.";
+    let name = Path::new(name).file_name().map_or(name.into(), |name| name.to_string_lossy());
+    mode(format!("{name} is missing"), meaning, ViewAction::Behind(None))
 }
 
 /// Draws the names of a view's modes in a row; a menu at its end holds those that `width` points have no room for.

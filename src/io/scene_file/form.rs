@@ -118,17 +118,9 @@ impl SceneForm {
             }
             within("background_distance_mm", "background_distance_mm", distance, DISTANCES_MM, "mm")?;
         }
-        let strength = self.strength.unwrap_or(1.0);
-        if !(0.0..=1.0).contains(&strength) {
-            let message = format!("strength: {strength} must be from 0, straight on, to 1, physics");
-            return Err(Fault::key("strength", message));
-        }
-        if let Some(angle) = self.angle_of_view {
-            within("angle_of_view", "angle_of_view", angle, ANGLES_OF_VIEW, "degrees")?;
-        }
-        let (exposure, light_turn) = (self.exposure.unwrap_or(0.0), self.light_turn.unwrap_or(0.0));
-        within("light_turn", "light_turn", light_turn, DEGREES, "degrees")?;
-        within("exposure", "exposure", exposure, STOPS, "stops")?;
+        let (strength, exposure) = (self.strength.unwrap_or(1.0), self.exposure.unwrap_or(0.0));
+        let light_turn = self.light_turn.unwrap_or(0.0);
+        check_picture(strength, self.angle_of_view, light_turn, exposure)?;
         let stones = stones(self.stone, !self.metal.is_empty() || self.ring.is_some())?;
         let alone = stones.len() == 1;
         let entry = |(index, stone): (usize, Spanned<TomlTable<StoneForm>>)| {
@@ -159,6 +151,25 @@ impl SceneForm {
             ring,
         })
     }
+}
+
+/// Checks the numbers of how a scene is pictured: the strength of refraction, the angle of view, the turn of its light and the
+/// exposure.
+fn check_picture(
+    strength: f64,
+    angle_of_view: Option<f64>,
+    light_turn: f64,
+    exposure: f64,
+) -> Result<(), Fault> {
+    if !(0.0..=1.0).contains(&strength) {
+        let message = format!("strength: {strength} must be from 0, straight on, to 1, physics");
+        return Err(Fault::key("strength", message));
+    }
+    if let Some(angle) = angle_of_view {
+        within("angle_of_view", "angle_of_view", angle, ANGLES_OF_VIEW, "degrees")?;
+    }
+    within("light_turn", "light_turn", light_turn, DEGREES, "degrees")?;
+    within("exposure", "exposure", exposure, STOPS, "stops")
 }
 
 fn layout(given: &str) -> Result<Layout, Fault> {

@@ -114,10 +114,7 @@ impl<P: PacketSurface> Passage<'_, P> {
         }
         let surface = Reflection::of(cos_i, rays.index);
         if self.options.polarised {
-            let across = s_axis(rays.direction, normal, rays.s);
-            let sine = rays.direction.cross(rays.s).dot(across);
-            rays.light = rays.light.turned(rays.s.dot(across), sine);
-            rays.s = across;
+            turn_to_plane_of_incidence(rays, normal);
         }
         let incidence = Incidence {
             direction: rays.direction,
@@ -193,6 +190,15 @@ impl<P: PacketSurface> Passage<'_, P> {
             *occupant = None;
         }
     }
+}
+
+/// Describes polarised light by its fields across and along the plane of incidence at a facet with this normal.
+#[inline(always)]
+fn turn_to_plane_of_incidence<S: Simd>(rays: &mut InnerRays<S>, normal: Vectors<S>) {
+    let across = s_axis(rays.direction, normal, rays.s);
+    let sine = rays.direction.cross(rays.s).dot(across);
+    rays.light = rays.light.turned(rays.s.dot(across), sine);
+    rays.s = across;
 }
 
 /// Takes out the light that is absorbed on the way; it counts by this factor.

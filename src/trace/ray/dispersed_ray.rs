@@ -1,6 +1,8 @@
 //! The point where a ray meets a facet, and how that point moves over what the ray stands for.
 
 use super::facets::FacetSearch;
+use super::path::ExitLight;
+use crate::optics::{reflect, reflected_change, refract, refracted_change};
 use crate::trace::DispersedRay;
 use glam::DVec3;
 
@@ -26,6 +28,43 @@ impl DispersedRay {
         }
         let shift = along_surface(self.shift + self.fan * distance, self.direction, normal);
         Arrival { point, normal, shift, of_normal: facets.turned(point, shift) }
+    }
+
+    /// Returns the ray that a facet reflects back inside. `cos_i` is the cosine of the angle between the ray and the outward
+    /// normal. Without `is_fanned` the ray stays without a fan.
+    #[inline]
+    pub(super) fn reflected_inside(&self, arrival: &Arrival, cos_i: f64, is_fanned: bool) -> Self {
+        let &Arrival { point, normal, shift, of_normal } = arrival;
+        let direction = reflect(self.direction, -normal, cos_i);
+        let fan = match is_fanned {
+            true => reflected_change(self.direction, normal, (self.fan, of_normal)),
+            false => DVec3::ZERO,
+        };
+        Self { origin: point, direction, fan, shift }
+    }
+
+    /// Returns the light of this weight that a facet lets out of a body of this index. `cosines` are those of the angles inside
+    /// and outside; `spread` is the change of the index over the band of wavelengths, and `None` leaves the light without a fan.
+    #[inline]
+    pub(super) fn refracted_outside(
+        &self,
+        arrival: &Arrival,
+        index: f64,
+        cosines: (f64, f64),
+        spread: Option<f64>,
+        weight: f64,
+    ) -> ExitLight {
+        let &Arrival { normal, shift, of_normal, .. } = arrival;
+        let change = |spread| {
+            refracted_change(self.direction, -normal, index, cosines, (self.fan, -of_normal, spread))
+        };
+        ExitLight {
+            direction: refract(self.direction, -normal, index, cosines),
+            fan: spread.map_or(DVec3::ZERO, change),
+            shift,
+            weight,
+            spread: 0.0,
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use super::light::PathLight;
 use super::lobe_luck::LobeLuck;
 use crate::math::SolidRef;
 use crate::optics::{FrostedScatter, FrostedSurface};
+use crate::trace::DispersedRay;
 use glam::DVec3;
 
 /// The frosted facets of a stone.
@@ -26,8 +27,8 @@ pub(super) struct Arriving {
 
 /// Where light goes on from a frosted facet.
 pub(super) enum Struck {
-    /// Inside, in this direction.
-    Inward(DVec3),
+    /// Inside, as this ray with this light.
+    Inward(DispersedRay, PathLight),
     /// Outside; it was reported.
     Outward,
     /// It is not followed.

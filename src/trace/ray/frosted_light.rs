@@ -71,7 +71,8 @@ impl StoneTracer {
             return Struck::Unresolved;
         };
         if !found.passes {
-            return Struck::Inward(found.direction);
+            let onward = self.scattered(light, found.direction);
+            return Struck::Inward(DispersedRay::new(point, found.direction), onward);
         }
         meets(SurfaceEvent {
             facet,
