@@ -20,6 +20,9 @@
 //! The frame is right-handed: +z out of the table, z = 0 at the crown-side girdle, girdle radius 1. In files, lengths are
 //! percent of the girdle diameter and angles are degrees; inside the program, girdle radii and radians.
 
+// A test may list as many cases as it has.
+#![cfg_attr(test, allow(clippy::too_many_lines))]
+
 // Files of the tests that the library shares with the programs in `tests/` name it.
 #[cfg(test)]
 extern crate self as brillianteer;

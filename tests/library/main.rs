@@ -5,7 +5,8 @@
     clippy::unwrap_used,
     clippy::print_stdout,
     clippy::print_stderr,
-    reason = "a test fails by it, or says what it skips"
+    clippy::too_many_lines,
+    reason = "a test fails by it, says what it skips, or lists many cases"
 )]
 
 mod card_limits;

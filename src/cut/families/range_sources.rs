@@ -49,115 +49,160 @@ fn step_cut(family: &str, key: &str) -> Option<&'static str> {
     is_step.then_some(source)
 }
 
+/// Sources of ranges of single families: the families, the keys of the numbers (none for all that no row above names), and the source.
+const OWN: &[(&[&str], &[&str], &str)] = &[
+    (
+        &["single_cut"],
+        &["table", "crown_angle", "pavilion_angle"],
+        "ours: round brilliants, with the larger tables and flatter crowns of small stones; no source gives numbers",
+    ),
+    (
+        &["portuguese"],
+        &["facets", "crown_rows", "pavilion_rows"],
+        "all that is possible; PC 01.028A has 16 facets in 5 and 6 rows",
+    ),
+    (&["portuguese"], &["table"], "wider than PC 01.028A, B and C (.45)"),
+    (
+        &["portuguese"],
+        &["crown_angle", "pavilion_angle"],
+        "wider than PC 01.028A (52 at the girdle, 40 at the culet)",
+    ),
+    (&["portuguese"], &["rosette"], "ours: what leaves all rows room"),
+    (&["rose"], &["sides"], "all that is possible; the trade counts triangles in threes"),
+    (&["rose"], &["rows"], "all that is possible: pyramid and Dutch rose"),
+    (&["rose"], &["height"], "around PC 45.063 (32) and the half that is quoted from memory"),
+    (&["rose"], &["star", "star_angle"], "wider than PC 45.063"),
+    (
+        &["briolette"],
+        &["facets", "upper_rows", "lower_rows"],
+        "all that is possible; PC 01.386 has 16 facets in 4 and 5 rows",
+    ),
+    (&["briolette"], &[], "ours: what is worn as an earring"),
+    (&["oval"], &["length_to_width"], "wider than published (yourjewel.com: 1.30 to 1.65)"),
+    (&["oval"], &["fullness"], "ours: from the ellipse to fuller shoulders"),
+    (&["oval"], &["table"], "published: 50 to 68 (gemmology.dev)"),
+    (&["oval"], &["crown_angle"], "wider than published (gemmology.dev: 30 to 38)"),
+    (&["oval"], &["pavilion_angle"], "wider than published (gemmology.dev: 38 to 44)"),
+    (
+        &["marquise"],
+        &["length_to_width"],
+        "wider than published (yourjewel.com: 1.80 to 2.20; GemCad's library: 1.61 to 2.67)",
+    ),
+    (
+        &["pear"],
+        &["length_to_width"],
+        "wider than published (yourjewel.com: 1.50 to 1.75; GemCad's library: 1.23 to 1.72)",
+    ),
+    (
+        &["pear", "marquise", "heart"],
+        &["table"],
+        "wider than published (diamondcuttersintl.com: 53 to 60, given for pear and marquise)",
+    ),
+    (
+        &["pear", "marquise", "heart"],
+        &["crown_angle"],
+        "wider than published (diamondcuttersintl.com: 32 to 35, given for pear and marquise)",
+    ),
+    (
+        &["pear", "marquise", "heart"],
+        &["pavilion_angle"],
+        "wider than published (diamondcuttersintl.com: 39.25 to 40.75, given for pear and marquise)",
+    ),
+    (&["pear"], &["head"], "ours: flatter and fuller than half a circle, as in the trade's pictures"),
+    (&["pear", "heart"], &["middle"], "ours: where the culet looks centred"),
+    (&["heart"], &["length_to_width"], "published: 0.90 to 1.10 (yourjewel.com)"),
+    (&["heart"], &["cleft", "lobe_height"], "ours, as in the trade's pictures"),
+    (&["heart"], &["star_length"], "ours: shorter than of other cuts, for the room at the cleft"),
+    (&["heart"], &["mains_per_half"], "all that is possible; the trade cuts four or five"),
+    (
+        &["cushion", "modified_cushion"],
+        &["length_to_width"],
+        "around what is quoted from memory: square to 1.05, long to 1.30",
+    ),
+    (
+        &["cushion", "modified_cushion"],
+        &["table"],
+        "around published ones (gemmology.dev: 55 to 75; GemCad's library: 45 to 62)",
+    ),
+    (&["cushion", "modified_cushion"], &["crown_angle"], "wider than published (gemmology.dev: 33 to 38)"),
+    (&["cushion"], &["pavilion_angle"], "wider than published (gemmology.dev: 38 to 44)"),
+    (
+        &["modified_cushion"],
+        &["upper_angle", "lower_angle"],
+        "ours: depths of about 61 to 68 (gemmology.dev); no source gives angles of rows",
+    ),
+    (&["modified_cushion"], &["tip_depth"], "ours: what leaves all rows room"),
+    (&["modified_cushion"], &["rows"], "published: 2 to 4 (caratwire.com)"),
+    (&["trillion"], &["table"], "within GemCad's library (30 to 59), and as of other brilliants"),
+    (
+        &["trillion"],
+        &["crown_angle", "pavilion_angle"],
+        "ours, around round brilliants; published are depths of the pavilion (GemCad's library: 38 to 51)",
+    ),
+    (&["emerald"], &["length_to_width"], "wider than published (amorejewelry.com: 1.40 to 1.70)"),
+    (&["emerald"], &["corner"], "ours, as in the trade's pictures"),
+    (&["asscher"], &["length_to_width"], "published: 1 (amorejewelry.com), up to what still looks square"),
+    (&["asscher"], &["corner"], "ours: \"wide\" is published (amorejewelry.com), up to a regular octagon"),
+    (&["asscher"], &["table"], "ours: \"small\" is published (amorejewelry.com)"),
+    (&["asscher"], &["crown_angle"], "ours: \"high\" is published (amorejewelry.com)"),
+    (&["baguette", "tapered_baguette"], &["length_to_width"], "around PC 12.001 (2.0)"),
+    (&["tapered_baguette"], &["narrow_end"], "ours, as in the trade's pictures"),
+    (&["kite"], &["length_to_width", "shoulder"], "ours, from a lozenge to a long kite"),
+    (
+        &["hexagon"],
+        &["length_to_width", "point_angle"],
+        "ours, around the regular hexagon (1.155, 120 degrees)",
+    ),
+    (&["princess"], &["length_to_width"], "ours: from the square to what is sold as rectangular"),
+    (&["princess"], &["corner"], "ours: bevels that keep a corner from chipping"),
+    (&["princess"], &["table"], "published: 60 to 80 (brilliancelab)"),
+    (
+        &["princess"],
+        &["main_1_angle", "main_2_angle"],
+        "ours: crowns 8 to 15 percent high; no source gives the angles",
+    ),
+    (&["princess"], &["star_azimuth"], "around published ones (B. Harding on the AGS's model: 6)"),
+    (&["princess", "radiant"], &["chevrons"], "published: 2 to 4 (briangavindiamonds.com, caratwire.com)"),
+    (&["princess"], &["pavilion_depth"], "ours: total depths of 65 to 80 (brilliancelab)"),
+    (&["princess", "radiant"], &["chevron_step", "shoulder"], "ours: what leaves all rows room"),
+    (&["radiant"], &["length_to_width"], "published: 1.0 to 1.5, the range of weight tables (Gemwest)"),
+    (&["radiant"], &["table"], "around GemCad's library (54 to 69)"),
+    (
+        &["radiant"],
+        &["crown_rows"],
+        "all that is possible; a brilliant or a step crown is published (caratwire.com)",
+    ),
+    (&["radiant"], &["crown_angle"], "around PC 04.039 (37)"),
+    (&["radiant"], &["pavilion_depth"], "around GemCad's library (51 to 78), for diamond"),
+    (
+        &["radiant"],
+        &["corner", "star_azimuth", "corner_step", "crown_step"],
+        "ours, as in the trade's pictures",
+    ),
+    (&["barion"], &["corner"], "ours: those of square emerald cuts"),
+    (
+        &["barion", "cushion_barion"],
+        &["length_to_width"],
+        "ours: from the square to where the cone is still nearly round",
+    ),
+    (&["barion", "cushion_barion"], &["table"], "ours: those of emerald cuts and cutters' barions (.55)"),
+    (&["barion", "cushion_barion"], &["crown_angle"], "ours: those of emerald cuts"),
+    (
+        &["barion", "cushion_barion"],
+        &["half_moon_angle"],
+        "ours: from flat half-moons to nearly upright ones",
+    ),
+    (
+        &["barion", "cushion_barion"],
+        &["pavilion_angle", "lower_half_length"],
+        "ours: those of round brilliants",
+    ),
+];
+
 /// Returns the source of a range of one family.
 fn own(family: &str, key: &str) -> Option<&'static str> {
-    Some(match (family, key) {
-        ("single_cut", "table" | "crown_angle" | "pavilion_angle") => {
-            "ours: round brilliants, with the larger tables and flatter crowns of small stones; no source gives numbers"
-        }
-        ("portuguese", "facets" | "crown_rows" | "pavilion_rows") => {
-            "all that is possible; PC 01.028A has 16 facets in 5 and 6 rows"
-        }
-        ("portuguese", "table") => "wider than PC 01.028A, B and C (.45)",
-        ("portuguese", "crown_angle" | "pavilion_angle") => {
-            "wider than PC 01.028A (52 at the girdle, 40 at the culet)"
-        }
-        ("portuguese", "rosette") => "ours: what leaves all rows room",
-        ("rose", "sides") => "all that is possible; the trade counts triangles in threes",
-        ("rose", "rows") => "all that is possible: pyramid and Dutch rose",
-        ("rose", "height") => "around PC 45.063 (32) and the half that is quoted from memory",
-        ("rose", "star" | "star_angle") => "wider than PC 45.063",
-        ("briolette", "facets" | "upper_rows" | "lower_rows") => {
-            "all that is possible; PC 01.386 has 16 facets in 4 and 5 rows"
-        }
-        ("briolette", _) => "ours: what is worn as an earring",
-        ("oval", "length_to_width") => "wider than published (yourjewel.com: 1.30 to 1.65)",
-        ("oval", "fullness") => "ours: from the ellipse to fuller shoulders",
-        ("oval", "table") => "published: 50 to 68 (gemmology.dev)",
-        ("oval", "crown_angle") => "wider than published (gemmology.dev: 30 to 38)",
-        ("oval", "pavilion_angle") => "wider than published (gemmology.dev: 38 to 44)",
-        ("marquise", "length_to_width") => {
-            "wider than published (yourjewel.com: 1.80 to 2.20; GemCad's library: 1.61 to 2.67)"
-        }
-        ("pear", "length_to_width") => {
-            "wider than published (yourjewel.com: 1.50 to 1.75; GemCad's library: 1.23 to 1.72)"
-        }
-        ("pear" | "marquise" | "heart", "table") => {
-            "wider than published (diamondcuttersintl.com: 53 to 60, given for pear and marquise)"
-        }
-        ("pear" | "marquise" | "heart", "crown_angle") => {
-            "wider than published (diamondcuttersintl.com: 32 to 35, given for pear and marquise)"
-        }
-        ("pear" | "marquise" | "heart", "pavilion_angle") => {
-            "wider than published (diamondcuttersintl.com: 39.25 to 40.75, given for pear and marquise)"
-        }
-        ("pear", "head") => "ours: flatter and fuller than half a circle, as in the trade's pictures",
-        ("pear" | "heart", "middle") => "ours: where the culet looks centred",
-        ("heart", "length_to_width") => "published: 0.90 to 1.10 (yourjewel.com)",
-        ("heart", "cleft" | "lobe_height") => "ours, as in the trade's pictures",
-        ("heart", "star_length") => "ours: shorter than of other cuts, for the room at the cleft",
-        ("heart", "mains_per_half") => "all that is possible; the trade cuts four or five",
-        ("cushion" | "modified_cushion", "length_to_width") => {
-            "around what is quoted from memory: square to 1.05, long to 1.30"
-        }
-        ("cushion" | "modified_cushion", "table") => {
-            "around published ones (gemmology.dev: 55 to 75; GemCad's library: 45 to 62)"
-        }
-        ("cushion" | "modified_cushion", "crown_angle") => "wider than published (gemmology.dev: 33 to 38)",
-        ("cushion", "pavilion_angle") => "wider than published (gemmology.dev: 38 to 44)",
-        ("modified_cushion", "upper_angle" | "lower_angle") => {
-            "ours: depths of about 61 to 68 (gemmology.dev); no source gives angles of rows"
-        }
-        ("modified_cushion", "tip_depth") => "ours: what leaves all rows room",
-        ("modified_cushion", "rows") => "published: 2 to 4 (caratwire.com)",
-        ("trillion", "table") => "within GemCad's library (30 to 59), and as of other brilliants",
-        ("trillion", "crown_angle" | "pavilion_angle") => {
-            "ours, around round brilliants; published are depths of the pavilion (GemCad's library: 38 to 51)"
-        }
-        ("emerald", "length_to_width") => "wider than published (amorejewelry.com: 1.40 to 1.70)",
-        ("emerald", "corner") => "ours, as in the trade's pictures",
-        ("asscher", "length_to_width") => "published: 1 (amorejewelry.com), up to what still looks square",
-        ("asscher", "corner") => "ours: \"wide\" is published (amorejewelry.com), up to a regular octagon",
-        ("asscher", "table") => "ours: \"small\" is published (amorejewelry.com)",
-        ("asscher", "crown_angle") => "ours: \"high\" is published (amorejewelry.com)",
-        ("baguette" | "tapered_baguette", "length_to_width") => "around PC 12.001 (2.0)",
-        ("tapered_baguette", "narrow_end") => "ours, as in the trade's pictures",
-        ("kite", "length_to_width" | "shoulder") => "ours, from a lozenge to a long kite",
-        ("hexagon", "length_to_width" | "point_angle") => {
-            "ours, around the regular hexagon (1.155, 120 degrees)"
-        }
-        ("princess", "length_to_width") => "ours: from the square to what is sold as rectangular",
-        ("princess", "corner") => "ours: bevels that keep a corner from chipping",
-        ("princess", "table") => "published: 60 to 80 (brilliancelab)",
-        ("princess", "main_1_angle" | "main_2_angle") => {
-            "ours: crowns 8 to 15 percent high; no source gives the angles"
-        }
-        ("princess", "star_azimuth") => "around published ones (B. Harding on the AGS's model: 6)",
-        ("princess" | "radiant", "chevrons") => "published: 2 to 4 (briangavindiamonds.com, caratwire.com)",
-        ("princess", "pavilion_depth") => "ours: total depths of 65 to 80 (brilliancelab)",
-        ("princess" | "radiant", "chevron_step" | "shoulder") => "ours: what leaves all rows room",
-        ("radiant", "length_to_width") => "published: 1.0 to 1.5, the range of weight tables (Gemwest)",
-        ("radiant", "table") => "around GemCad's library (54 to 69)",
-        ("radiant", "crown_rows") => {
-            "all that is possible; a brilliant or a step crown is published (caratwire.com)"
-        }
-        ("radiant", "crown_angle") => "around PC 04.039 (37)",
-        ("radiant", "pavilion_depth") => "around GemCad's library (51 to 78), for diamond",
-        ("radiant", "corner" | "star_azimuth" | "corner_step" | "crown_step") => {
-            "ours, as in the trade's pictures"
-        }
-        ("barion", "corner") => "ours: those of square emerald cuts",
-        ("barion" | "cushion_barion", "length_to_width") => {
-            "ours: from the square to where the cone is still nearly round"
-        }
-        ("barion" | "cushion_barion", "table") => "ours: those of emerald cuts and cutters' barions (.55)",
-        ("barion" | "cushion_barion", "crown_angle") => "ours: those of emerald cuts",
-        ("barion" | "cushion_barion", "half_moon_angle") => {
-            "ours: from flat half-moons to nearly upright ones"
-        }
-        ("barion" | "cushion_barion", "pavilion_angle" | "lower_half_length") => {
-            "ours: those of round brilliants"
-        }
-        _ => return None,
-    })
+    let is_meant = |(families, keys, _): &&(&[&str], &[&str], &str)| {
+        families.contains(&family) && (keys.is_empty() || keys.contains(&key))
+    };
+    OWN.iter().find(is_meant).map(|(_, _, source)| *source)
 }
