@@ -96,7 +96,7 @@ fn with_depths(turned: &Specimen, stone: &Stone, tiers: &Tiers) -> Tiers {
     tiers
 }
 
-/// Returns the files that [`write`] makes of a sheet, in that order.
+/// Returns the files that [`write()`] makes of a sheet, in that order.
 pub fn files(sheet: &CuttingSheet, paper: PaperSize, (format, path): (SheetFormat, &Path)) -> Vec<PathBuf> {
     let count = match format {
         SheetFormat::Pdf => 1,

@@ -2,7 +2,7 @@
 //!
 //! The outline has 16 sides, as cutters' square barion cushions have (PC 09.046, Long and Steele, Facet Design 6, 1987): in each
 //! quarter one that touches the curve in the middle of a side, one that closes the rounded corner, and one between them. The
-//! cone of the [barion](super::barion) runs through the ends of the corners' sides. Each of the three sides between two corners has
+//! cone of the [barion] runs through the ends of the corners' sides. Each of the three sides between two corners has
 //! a half-moon; where two of them meet, a crease runs from the girdle down to the cone, and two halves meet in its end. So every
 //! facet ends in points. The construction is this program's own; facets: 49 in the crown with three rows, 36 in the pavilion, 16
 //! in the girdle. Ranges are those of the cushion's outline and of the barion's angles.
