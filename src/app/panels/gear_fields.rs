@@ -41,7 +41,7 @@ pub fn show(tiers: &Tiers, actions: &mut Actions, ui: &mut Ui) {
     });
 }
 
-/// Draws the name and the field of a whole number. A number that lies outside the range stays until it is set.
+/// Draws the name and the field of a whole number. A number outside the range stays as it is until the user sets it.
 fn number(ui: &mut Ui, name: &str, meaning: &str, field: DragValue<'_>) {
     // The name stays with its field where the line breaks.
     let size = vec2(FIELD, ui.spacing().interact_size.y);

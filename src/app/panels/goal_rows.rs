@@ -1,4 +1,4 @@
-//! The rows in which a person says what a better cut is: measures with weights and limits, and the numbers that may change.
+//! The rows that describe a better cut: measures with weights and limits, and the numbers that may change.
 
 use super::rows::{ANY, NOT_KNOWN, Number, UNKNOWN, spoken};
 use crate::app::model::goal_form::{GoalForm, NumberChoice, SearchEffort};
@@ -6,10 +6,10 @@ use crate::measure::measure_words;
 use crate::search::GoalMeasure;
 use egui::{ComboBox, DragValue, Grid, Id, Label, RichText, Ui, vec2};
 
-/// The widths of the fields of a measure, of what is wanted of it, and of numbers, points.
+/// The widths of the fields of a measure, of its direction, and of its numbers, points.
 const WIDTHS: [f32; 3] = [212.0, 92.0, 62.0];
 
-/// The widths of the fields for the ends of a range, points.
+/// The width of the fields for the ends of a range, points.
 const END: f32 = 84.0;
 
 /// The weights that can be typed.
@@ -24,7 +24,7 @@ const HEADS: [(&str, &str); 5] = [
     ("At most %", "The greatest value that is allowed. Leave it empty for none."),
 ];
 
-/// What is wanted of a measure, by the sign of its weight.
+/// The directions of a measure: more, less, or limits only; each has the sign of its weight.
 const WANTED: [(&str, f64); 3] = [("more", 1.0), ("less", -1.0), ("limits only", 0.0)];
 
 /// Draws all rows.
@@ -103,7 +103,7 @@ fn measures(form: &mut GoalForm, ui: &mut Ui) {
     }
 }
 
-/// Says what a goal file states of a measure besides what the row shows: materials, views, and what may be lost.
+/// Describes what a goal file states of a measure beyond the row: materials, views and the loss that is allowed.
 fn taken_in(measure: &GoalMeasure) -> String {
     let mut said = vec![];
     if let Some(materials) = &measure.material {
@@ -156,7 +156,7 @@ fn of(measure: &mut GoalMeasure, row: usize, ui: &mut Ui) {
     spoken(&shown.response, &format!("Measure {row}"));
 }
 
-/// Draws the choice of what is wanted of a measure.
+/// Draws the choice of a measure's direction: more, less, or limits only.
 fn wanted(measure: &mut GoalMeasure, row: usize, ui: &mut Ui) {
     let sign = |weight: f64| if weight == 0.0 { 0.0 } else { weight.signum() };
     let now = sign(measure.weight);
@@ -187,7 +187,7 @@ fn weight(measure: &mut GoalMeasure, (row, head): (usize, Id), ui: &mut Ui) {
     }
 }
 
-/// Draws a field for a limit, in percent; an empty one is none.
+/// Draws a field for a limit, in percent; an empty field means no limit.
 fn limit(limit: &mut Option<f64>, name: &str, ui: &mut Ui) {
     let before = limit.map_or(NOT_KNOWN, |part| 100.0 * part);
     let mut percent = before;

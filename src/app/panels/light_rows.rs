@@ -88,7 +88,7 @@ fn short(name: &str) -> Cow<'_, str> {
 /// The size of a light's picture in the list, points.
 const THUMBNAIL: Vec2 = vec2(36.0, 18.0);
 
-/// Returns the picture of a light of the program; drawn when it is first shown.
+/// Returns the picture of a light of the program, which is drawn when it is first shown.
 fn light_thumbnail(ui: &Ui, name: &str) -> Image<'static> {
     let id = Id::unique(("light thumbnail", name));
     let known = ui.data(|data| data.get_temp::<TextureHandle>(id));

@@ -1,4 +1,4 @@
-//! Rows that set how the open mesh is read: whether as flat facets, and which way its table faces.
+//! Rows that set how the open mesh is read: as flat facets or as triangles, and which way its table faces.
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, FileAction};

@@ -1,4 +1,4 @@
-//! Rows for the pane of liquid glass, which are there while a view shows it.
+//! Rows for the pane of liquid glass, which appear while a view shows it.
 
 use crate::app::liquid::{LightMotion, Liquid};
 use crate::app::model::action::{Actions, ViewAction};
@@ -24,14 +24,14 @@ const AZIMUTHS: RangeInclusive<f64> = 0.0..=360.0;
 /// The range of the light's height, degrees.
 const HEIGHTS: RangeInclusive<f64> = 0.0..=90.0;
 
-/// What moves the light: the name of each, and its meaning.
+/// The drivers of the light: the name of each, and its meaning.
 const MOTIONS: [(LightMotion, &str, &str); 3] = [
     (LightMotion::Fixed, "fixed", "The light stays where the next two rows set it."),
     (LightMotion::Pointer, "pointer", "The light follows the pointer over the view."),
     (LightMotion::Time, "time", "The light goes round the pane once in six seconds."),
 ];
 
-/// The qualities: the name of each, and what of the effect it draws.
+/// The qualities: the name of each, and the part of the effect that it draws.
 const QUALITIES: [(PaneQuality, &str, &str); 3] = [
     (PaneQuality::High, "high", "All effects; frost takes five samples, along both axes."),
     (
@@ -114,7 +114,7 @@ fn shape_rows(liquid: &mut Liquid, ui: &mut Ui) {
     }
 }
 
-/// Draws the rows for where the light comes from.
+/// Draws the rows for the direction of the light.
 fn light_rows(liquid: &mut Liquid, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let label = named(ui, "Light follows", "What moves the light of the pane.");

@@ -55,12 +55,12 @@ impl Handle {
         }
     }
 
-    /// Whether the handle lies on the crown, so that there is room for a hint below it.
+    /// Returns whether the handle lies on the crown, so that there is room for a hint below it.
     pub fn is_on_crown(self) -> bool {
         matches!(self.part, TableEdge | TableLine | CrownSlope)
     }
 
-    /// Whether the handle's value grows when the handle is moved down.
+    /// Returns whether the handle's value grows when the handle is moved down.
     pub fn grows_downward(self) -> bool {
         matches!(self.part, GirdleLower | PavilionSlope | PavilionTip)
     }

@@ -188,7 +188,7 @@ fn beside([a, b]: [Pos2; 2], frame: Rect) -> Vec<[Pos2; 2]> {
     parts.map(|(from, to)| [a.lerp(b, from), a.lerp(b, to)]).collect()
 }
 
-/// Whether a convex outline and a box overlap.
+/// Returns whether a convex outline and a box overlap.
 fn overlap(outline: &[Pos2], frame: Rect) -> bool {
     let corners = [frame.left_top(), frame.right_top(), frame.left_bottom(), frame.right_bottom()];
     let edges = outline.iter().zip(outline.iter().cycle().skip(1));

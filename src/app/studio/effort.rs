@@ -80,7 +80,7 @@ impl Effort {
         Self { grain: self.grain_of_rays, ..self }
     }
 
-    /// Whether the picture is more than a rough one.
+    /// Returns whether the picture is more than a rough one.
     pub fn is_refined(&self) -> bool {
         self.refinement.is_some()
     }

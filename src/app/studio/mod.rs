@@ -87,7 +87,7 @@ impl Studio {
         self.answers.try_iter()
     }
 
-    /// Whether passes are added to renders of the order although all of it is already good enough.
+    /// Returns whether passes are added to renders of the order although all of it is already good enough.
     pub fn sharpens(&self) -> bool {
         self.mailbox.sharpens.load(Ordering::SeqCst)
     }
@@ -99,7 +99,7 @@ impl Studio {
         self.mailbox.traced.load(Ordering::SeqCst)
     }
 
-    /// Whether everything in the order is as good as it needs to be.
+    /// Returns whether everything in the order is as good as it needs to be.
     pub fn is_idle(&self) -> bool {
         !self.mailbox.busy.load(Ordering::SeqCst)
     }

@@ -59,7 +59,7 @@ impl Moment {
         &trails.entry(slot).insert_entry((trail, self)).into_mut().0.picture
     }
 
-    /// Whether another moment shows the same bodies before the same background, moved or changed in their dimensions.
+    /// Returns whether another moment shows the same bodies before the same background, moved or changed in their dimensions.
     fn goes_on_in(&self, other: &Self) -> bool {
         let kind = |moment: &Self| (std::mem::discriminant(&moment.specimen.design.cut), moment.form());
         let count = |moment: &Self| (moment.copies.len(), moment.companions.stones.len());

@@ -100,8 +100,8 @@ impl Default for Paper {
 }
 
 impl PartialEq for Shot {
-    /// Whether both shots give the same picture. Stones and lights are compared by pointer, because they are replaced and
-    /// never changed.
+    /// Returns whether both shots give the same picture. Stones and lights are compared by pointer, because they are
+    /// replaced and never changed.
     fn eq(&self, other: &Self) -> bool {
         if self.shows.is_pane() {
             let glass = |shot: &Self| (shot.shows, shot.film.size, shot.liquid);

@@ -89,7 +89,7 @@ impl ShotTracer {
         Ok(shot.light_job(behind, effort.grain.bands, steps, quality))
     }
 
-    /// Whether a shot is a render that rays on the processor trace, which takes long.
+    /// Returns whether a shot is a render that rays on the processor trace, which takes long.
     pub fn is_slow_render(&mut self, shot: &Shot) -> bool {
         if shot.shows != Shows::Render {
             return false;

@@ -24,7 +24,7 @@ pub enum TracedLight {
 }
 
 impl Shot {
-    /// Whether the light of this shot is that of another: the two may differ in exposure and overlay alone.
+    /// Returns whether the light of this shot is that of another: the two may differ in exposure and overlay alone.
     pub fn has_light_of(&self, other: &Self) -> bool {
         let is_kept = matches!(self.shows, Shows::Render | Shows::Refraction);
         is_kept

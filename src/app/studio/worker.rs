@@ -190,7 +190,7 @@ impl Worker {
         self.sweeps(&turn.order, |ask| ask.points.len(), &watch)
     }
 
-    /// Whether a shot has not been answered yet by a picture of this grade or a better one.
+    /// Returns whether a shot has not been answered yet by a picture of this grade or a better one.
     fn is_wanted(&self, slot: &Slot, shot: &Shot, grade: Grade) -> bool {
         self.pictures.get(slot).is_none_or(|(done, known)| done != shot || *known < grade)
     }

@@ -23,7 +23,8 @@ pub fn by_dialog(question: &Question) -> Choice {
     }
 }
 
-/// Whether the system may have dialogs: other desktops than those of Windows and macOS have them by a bus or by a program.
+/// Returns whether the system may have dialogs: other desktops than those of Windows and macOS have them by a bus or
+/// by a program.
 fn may_have_dialogs() -> bool {
     let folders = std::env::var_os("PATH").unwrap_or_default();
     let bus = std::env::var_os("XDG_RUNTIME_DIR").map(|folder| Path::new(&folder).join("bus"));

@@ -34,7 +34,7 @@ impl Outside {
         });
     }
 
-    /// Whether pictures are being looked up.
+    /// Returns whether pictures are being looked up.
     pub fn is_looking_up(&self) -> bool {
         self.runner.is_running(|key| matches!(key, Key::LookUp(_)))
     }

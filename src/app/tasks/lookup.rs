@@ -27,7 +27,7 @@ pub struct LookupRequest {
 }
 
 impl PartialEq for LookupRequest {
-    /// Whether both requests give the same picture.
+    /// Returns whether both requests give the same picture.
     fn eq(&self, other: &Self) -> bool {
         let same = match (&self.map, &other.map) {
             (Some((a, by)), Some((b, other))) => Arc::ptr_eq(a, b) && by == other,

@@ -25,7 +25,7 @@ pub fn read(request: &FileRequest) -> Result<OpenedFile, Failure> {
     }
 }
 
-/// Whether a file is a scene; only a file that ends in .toml is looked into.
+/// Returns whether a file is a scene; only a file that ends in .toml is looked into.
 fn is_scene(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) && scene_file::is_scene(path)
 }

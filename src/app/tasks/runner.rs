@@ -33,7 +33,7 @@ impl<A> JobHandle<A> {
         (self.answers)(answer);
     }
 
-    /// Whether the job was stopped, or nobody wants its answers any more.
+    /// Returns whether the job was stopped, or nobody wants its answers any more.
     pub fn is_stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
@@ -150,7 +150,7 @@ impl<K: Copy + Eq + Hash + Send + Sync + 'static, A: Send + 'static> TaskRunner<
         message.answer.filter(|_| lane.turn == Turn::After || lane.number == message.number)
     }
 
-    /// Whether a job is running whose key is meant.
+    /// Returns whether a job is running whose key is meant.
     pub fn is_running(&self, is_meant: impl Fn(&K) -> bool) -> bool {
         self.lanes.iter().any(|(key, lane)| lane.pending > 0 && is_meant(key))
     }

@@ -48,7 +48,7 @@ impl Bench {
     }
 }
 
-/// Whether a picture has more than one colour.
+/// Returns whether a picture has more than one colour.
 fn is_drawn(picture: &[egui::Color32]) -> bool {
     picture.iter().any(|p| *p != picture[0])
 }

@@ -46,7 +46,7 @@ pub fn carried(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneV
     pose.is_some()
 }
 
-/// Whether stones can be moved by hand: where there is more than one body.
+/// Returns whether stones can be moved by hand: where there is more than one body.
 fn can_hold(model: &Model) -> bool {
     let work = &model.document.work;
     work.copies.poses.len() > 1 || !work.companions.is_empty()

@@ -9,7 +9,7 @@ use egui::{Context, Key, Modifiers, Popup, RichText, Ui, Vec2, Window, vec2};
 /// The size of the window at first, points.
 const SIZE: Vec2 = vec2(560.0, 620.0);
 
-/// Whether Escape ends something else before it closes the window: a dialog, a drag, typing, or an open menu.
+/// Returns whether Escape ends something else before it closes the window: a dialog, a drag, typing, or an open menu.
 fn comes_first(model: &Model, tools: &ViewTools, ctx: &Context) -> bool {
     model.session.dialog.is_some()
         || model.picked_tier().is_some()

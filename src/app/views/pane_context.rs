@@ -53,7 +53,7 @@ pub fn focus(ui: &Ui, response: &Response) -> Stroke {
     if response.has_focus() { ui.visuals().selection.stroke } else { Stroke::NONE }
 }
 
-/// Whether a row has more than so many points left.
+/// Returns whether a row has more than so many points left.
 pub fn has_room(ui: &Ui, points: f32) -> bool {
     ui.available_width() > points
 }

@@ -83,7 +83,7 @@ impl Probe {
         self.tracer.path(origin, direction)
     }
 
-    /// Whether a point of the image lies on the stone.
+    /// Returns whether a point of the image lies on the stone.
     pub fn is_on(&self, view: &View, at: DVec2) -> bool {
         let (origin, direction) = self.ray(view, at);
         self.tracer.meet(origin, direction).is_some()

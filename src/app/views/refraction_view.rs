@@ -27,7 +27,7 @@ pub fn choices(flowing: &mut Flowing, ui: &mut Ui) {
     }
 }
 
-/// Whether a drag moves the background, and not the stone.
+/// Returns whether a drag moves the background, and not the stone.
 pub fn is_held(ui: &Ui) -> bool {
     ui.input(|i| !i.modifiers.shift && !i.modifiers.command)
 }

@@ -38,7 +38,7 @@ impl ViewTools {
         Orders { model, waves: &mut self.waves, paper: self.paper }
     }
 
-    /// Whether a handle of a profile or a facet of a tier is dragged.
+    /// Returns whether a handle of a profile or a facet of a tier is dragged.
     pub fn is_handle_dragged(&self) -> bool {
         self.tiers.is_dragging() || self.profiles.iter().any(ProfileView::is_dragging)
     }

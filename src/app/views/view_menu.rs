@@ -20,7 +20,7 @@ const OVERLAYS: [Command; 6] = [
 /// The sizes at which a picture can be copied: pixels along the longer side.
 const SIZES: [u32; 4] = [512, 1024, 2048, 4096];
 
-/// Whether a view can be copied at a chosen size; a picture that is looked up is only as large as its view.
+/// Returns whether a view can be copied at a chosen size; a picture that is looked up is only as large as its view.
 fn can_copy(cx: &PaneContext) -> bool {
     let needs_facets = matches!(cx.shows, Shows::Profile | Shows::Diagram);
     let has_facets = cx.model.document.specimen().stone().is_ok();

@@ -31,7 +31,7 @@ impl FramePacer {
         self.due.map(|due| self.begun.map_or(due, |begun| due.max(begun + shortest)))
     }
 
-    /// Whether the next image is to be painted now.
+    /// Returns whether the next image is to be painted now.
     pub fn is_due(&self, now: Instant) -> bool {
         self.next().is_some_and(|next| next <= now)
     }

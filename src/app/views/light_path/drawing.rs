@@ -289,7 +289,7 @@ fn free(places: impl Iterator<Item = Rect>, taken: &[Rect], lines: &[[Pos2; 2]])
     places.filter(is_free).min_by_key(hidden)
 }
 
-/// Whether a line segment passes through a rectangle or close by it.
+/// Returns whether a line segment passes through a rectangle or close by it.
 fn crosses(rect: Rect, [from, to]: [Pos2; 2]) -> bool {
     let (way, middle) = (to - from, rect.center());
     let part = ((middle - from).dot(way) / way.length_sq().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
