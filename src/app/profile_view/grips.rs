@@ -144,7 +144,7 @@ fn requested_steps(ui: &Ui, id: Id) -> i32 {
     })
 }
 
-/// Returns the value that a screen reader requests, if any.
+/// Returns the value that a screen reader sets, if any.
 fn requested_value(ui: &Ui, id: Id) -> Option<f64> {
     ui.input(|i| {
         let values = i.accesskit_action_requests(id, Action::SetValue).filter_map(|r| match r.data {

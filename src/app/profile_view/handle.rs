@@ -79,8 +79,9 @@ impl Handle {
         })
     }
 
-    /// Returns a cut after the handle has been pulled by `travel` (girdle radii) from its place on `start`, whose profile
-    /// has these dimensions. The held one of each pair stays held; a value that would cross a limit stays just inside it.
+    /// Returns a cut after the handle has been pulled by `travel` (girdle radii) from its place on `start`, whose
+    /// profile has these dimensions. Of each pair, the value that is held stays; a value that would cross a limit
+    /// stops just inside it.
     pub fn dragged(self, start: &Cut, dimensions: &Dimensions, travel: DVec2, grid: ValueGrid) -> Cut {
         let from = (self.row.get)(start);
         match self.wanted(from, dimensions, travel) {

@@ -6,7 +6,7 @@ use crate::cut::{Tier, TierCorner, Tiers};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use glam::{DMat2, DVec2};
 
-/// How near a meet brings a tier to its corner, in lengths of the largest distance.
+/// The greatest distance between a tier and the corner that a meet brings it to, in parts of the largest distance.
 const THERE: f64 = 2e-5;
 
 /// Opens the first cut as tiers with the table tier selected, face up in a scope.

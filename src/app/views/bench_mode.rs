@@ -16,7 +16,7 @@ const ANGLE: f32 = 72.0;
 const LARGE: [f32; 2] = [30.0, 20.0];
 /// The size of an index's button, points.
 const CHIP: egui::Vec2 = vec2(86.0, 46.0);
-/// The colour of what has been cut.
+/// The colour of indices that have been cut.
 const DONE: Color32 = Color32::from_rgb(60, 140, 80);
 
 /// Draws the step in sight in the place of the views.
@@ -55,7 +55,7 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     }
 }
 
-/// Draws what belongs to all steps.
+/// Draws the controls that all steps share.
 fn controls(now: &mut CuttingProgress, (model, tiers): (&Model, &Tiers), count: usize, ui: &mut Ui) {
     let design = &model.document.work.design.name;
     now.is_open &= !ui.button("Leave bench mode").on_hover_text("Goes back to the views.").clicked();

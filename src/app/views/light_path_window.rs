@@ -1,4 +1,4 @@
-//! The window that shows the path of the ray that is followed through the stone.
+//! The window that shows the path of the followed ray through the stone.
 
 use super::scene_view::zones;
 use super::tools::ViewTools;
@@ -25,7 +25,7 @@ pub fn show(model: &Model, tools: &mut ViewTools, actions: &mut Actions, ctx: &C
         // The window opens in the next frame.
         ctx.request_repaint();
     }
-    // In this frame Escape has already ended what comes first, so the state of the frame before counts.
+    // Escape has already ended those in this frame, so their state in the frame before counts.
     let waits = comes_first(model, tools, ctx);
     let is_free = !std::mem::replace(&mut tools.following.waits, waits);
     if !model.session.followed.is_open {

@@ -1,5 +1,5 @@
-//! Modes of a view: what makes its picture differ from the plain one. The head of the view names each mode; a click there
-//! ends it.
+//! Modes of a view: settings that make its picture differ from the plain one. The head of the view names each mode; a
+//! click there ends it.
 
 use super::pane_context::PaneContext;
 use crate::app::model::Model;
@@ -17,9 +17,9 @@ use std::path::Path;
 pub struct Mode {
     /// The name, a word or two.
     name: String,
-    /// What the mode does to the picture, in a sentence.
+    /// The effect of the mode on the picture, in a sentence.
     meaning: &'static str,
-    /// What switches the mode off.
+    /// The action that switches the mode off.
     end: Action,
 }
 

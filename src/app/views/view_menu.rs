@@ -7,7 +7,7 @@ use crate::app::model::command::Command;
 use crate::app::shows::Shows;
 use egui::{Response, Ui};
 
-/// The commands that draw something over a picture.
+/// The commands that draw an overlay over a picture.
 const OVERLAYS: [Command; 6] = [
     Command::Wireframe,
     Command::Facets,
@@ -27,8 +27,8 @@ fn can_copy(cx: &PaneContext) -> bool {
     Shows::EXPORTED.contains(&cx.shows) && (!needs_facets || has_facets)
 }
 
-/// Handles what every view answers to: a double click shows it alone or among the others, the right button opens its menu
-/// (a drag with it turns the stone), and commands act on the view under the pointer.
+/// Handles input that all views share: a double click shows the view alone or among the others, the right button
+/// opens its menu (a drag with it turns the stone), and commands act on the view under the pointer.
 pub fn attend(cx: &mut PaneContext, response: &Response, is_hovered: bool) {
     response.context_menu(|ui| {
         cx.tools.attention.menu = Some(cx.pane);

@@ -57,7 +57,7 @@ struct Watched {
 
 impl eframe::App for Watched {
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
-        // A later frame begins after the first was shown.
+        // A second frame begins only after the first was shown.
         if ui.ctx().cumulative_frame_nr() > 0 {
             self.has_shown.store(true, Ordering::Relaxed);
         }

@@ -112,7 +112,7 @@ fn another_document_has_a_map_of_its_own_of_the_same_measure() {
     let cut = &bench.model.document.work.design.cut;
     assert!(options.axes.iter().all(|axis| axis.value(cut).is_some()), "{options:?}");
     assert_ne!(ordered(&bench), before);
-    // What is no convex stone is not mapped.
+    // A stone that is not convex has no map.
     bench.act(FileAction::Ask(Then::Library("pill".to_owned())));
     assert!(ordered(&bench).is_empty());
 }
