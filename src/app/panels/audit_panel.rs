@@ -50,7 +50,7 @@ fn summary(model: &Model) -> String {
     }
     let Some(audit) = &model.session.audit.found else { return "The audit is under way…".to_owned() };
     let found = match audit.findings.len() {
-        0 => "No candidates: nothing was found that may not be meant.".to_owned(),
+        0 => "No candidates: the audit found no place that its designer may not have meant.".to_owned(),
         1 => {
             "1 candidate; whether it is a fault is for you to judge. W is the width of the stone.".to_owned()
         }
@@ -59,7 +59,7 @@ fn summary(model: &Model) -> String {
         ),
     };
     match document.shows_last_possible() {
-        true => format!("{found} The design makes no stone now; this is about the last one."),
+        true => format!("{found} The design makes no stone now; the list is about the last stone."),
         false => found,
     }
 }

@@ -17,9 +17,9 @@ const WEIGHTS: std::ops::RangeInclusive<f64> = 0.01..=1000.0;
 
 /// The heads of the measures and their meanings.
 const HEADS: [(&str, &str); 5] = [
-    ("Measure", "How the cut handles light, face up and in its own material."),
-    ("Wanted", "Whether more or less of it is better; or only limits, which it must keep."),
-    ("Weight", "How much it counts against the others."),
+    ("Measure", "A measure of the cut's light, face up and in the design's own material."),
+    ("Wanted", "More or less of the measure is better; or it only has to keep its limits."),
+    ("Weight", "The weight of the measure in the sum of all measures."),
     ("At least %", "The least value that is allowed. Leave it empty for none."),
     ("At most %", "The greatest value that is allowed. Leave it empty for none."),
 ];
@@ -46,7 +46,7 @@ const ANGLE_STEPS: [Option<f64>; 5] = [None, Some(0.05), Some(0.1), Some(0.25), 
 /// Draws the choice of the step of angles.
 pub fn angle_step(form: &mut GoalForm, ui: &mut Ui) {
     let name = |step: Option<f64>| step.map_or("any".to_owned(), |step| format!("{step}°"));
-    let meaning = "Angles that change end on multiples of this, as the scale of a machine has them.";
+    let meaning = "Angles that change become multiples of this step, like those on the scale of a machine.";
     let label = ui.label("Angle step").on_hover_text(meaning);
     let combo =
         ComboBox::from_id_salt("angle step").width(END - 24.0).selected_text(name(form.angle_step_deg));
@@ -60,7 +60,9 @@ pub fn angle_step(form: &mut GoalForm, ui: &mut Ui) {
 
 /// Draws the choice of the effort.
 pub fn effort(form: &mut GoalForm, ui: &mut Ui) {
-    let label = ui.label("Effort").on_hover_text("How many designs are tried, and how finely.");
+    let label = ui
+        .label("Effort")
+        .on_hover_text("The number of designs that are tried, and the accuracy of their measures.");
     let combo = ComboBox::from_id_salt("effort").width(WIDTHS[1]).selected_text(form.effort.name());
     let shown = combo.show_ui(ui, |ui| {
         for offered in SearchEffort::ALL {

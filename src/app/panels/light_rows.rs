@@ -128,7 +128,7 @@ fn light_row(present: &str, actions: &mut Actions, ui: &mut Ui) {
 /// Draws the row of backplates behind the stone in renders.
 fn behind(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
     let mut behind = workspace.behind.clone();
-    let meaning = "The background of renders. Each ray shows the point of it that the ray meets.";
+    let meaning = "The background of renders. Each ray shows the point of the background that it meets.";
     let present = workspace.behind.as_deref().map_or("nothing".into(), short);
     choice_row(ui, "Background", meaning, &present, |ui| {
         ui.selectable_value(&mut behind, None, "nothing");

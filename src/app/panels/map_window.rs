@@ -74,7 +74,7 @@ fn choices(options: &mut MapOptions, cut: &Cut, ui: &mut Ui) {
     {
         let other = options.axes[1 - place].clone();
         let axis = &mut options.axes[place];
-        let meaning = "What varies along this axis. Of two numbers of which one follows from the other, only one can vary.";
+        let meaning = "The number that varies along this axis. Where one number follows from another, only one of them can vary.";
         choice_row(ui, name, meaning, &axis.name.clone(), |ui| {
             for offered in all.iter().filter(|offered| !offered.is_paired(&other, cut)) {
                 if ui.selectable_label(offered.key == axis.key, &offered.name).clicked()
@@ -85,8 +85,10 @@ fn choices(options: &mut MapOptions, cut: &Cut, ui: &mut Ui) {
             }
         });
         ui.horizontal(|ui| {
-            let ends =
-                [(least, "The value at the first end of the axis."), (most, "The value at its other end.")];
+            let ends = [
+                (least, "The value at the first end of the axis."),
+                (most, "The value at the other end of the axis."),
+            ];
             for (end, (name, meaning)) in axis.ends.iter_mut().zip(ends) {
                 let label = named(ui, name, meaning);
                 let number = Number { decimals: 2, speed: 0.05, range: ANY, unit: axis.unit };

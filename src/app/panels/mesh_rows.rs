@@ -55,7 +55,7 @@ fn form(cut: &Cut, options: MeshOptions, actions: &mut Actions, ui: &mut Ui) {
         named(
             ui,
             "Read as",
-            "What the triangles of the file stand for. The mesh is read again when you change it.",
+            "The form in which the triangles of the file are read. A change reads the mesh again.",
         );
         for (name, form, meaning) in FORMS {
             let is_present = form == present;

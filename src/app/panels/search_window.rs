@@ -98,7 +98,7 @@ fn choosing(model: &Model, actions: &mut Actions, ui: &mut Ui) {
         let meaning = "Reads measures, limits and numbers from a goal file, as `brillianteer optimise` does.";
         actions.push_if(explain(ui, open, meaning).clicked(), FileAction::Choose(Purpose::Goal));
         let save = ui.add_enabled(fault.is_none(), Button::new("Save goal…"));
-        let meaning = "Writes what is asked for here as a goal file.";
+        let meaning = "Writes the measures, limits and numbers to a goal file.";
         actions.push_if(explain(ui, save, meaning).clicked(), FileAction::Choose(Purpose::SaveGoal));
         ui.separator();
         goal_rows::angle_step(&mut now, ui);

@@ -20,7 +20,7 @@ const PICK: f32 = 36.0;
 const HEADS: [(&str, &str); 10] = [
     ("", "The number of the tier. Drag it to cut the tier earlier or later."),
     ("Cut", "A tier that is not cut stays in the list and makes no facets."),
-    ("Name", "What cutters call the tier, such as P1, G1, C1 or T."),
+    ("Name", "The cutters' name of the tier, such as P1, G1, C1 or T."),
     ("Zone", "The part of the stone where the tier lies. Choose another to turn the tier over."),
     ("Angle", "The angle from the girdle plane, in degrees; negative in the pavilion."),
     ("Distance", "The distance from the origin to the facets, in mm at the stone's present size."),
@@ -30,8 +30,8 @@ const HEADS: [(&str, &str); 10] = [
          follows, also when an earlier tier changes. Empty for the distance as it is.",
     ),
     ("Indices", "The teeth of the gear at which the tier is cut, joined by dashes."),
-    ("Frosting", "How much the facets are frosted: 0 is polished, 1 as rough as can be."),
-    ("Instructions", "What the cutter is told besides."),
+    ("Frosting", "The frosting of the facets: 0 is polished, 1 is as rough as possible."),
+    ("Instructions", "Further instructions for the cutter."),
 ];
 
 /// Draws the table where it is open and the design is cut by tiers.

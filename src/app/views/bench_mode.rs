@@ -72,7 +72,7 @@ fn controls(now: &mut CuttingProgress, (model, tiers): (&Model, &Tiers), count: 
     let field = DragValue::new(&mut now.cheater).speed(0.01).max_decimals(2).suffix(" teeth");
     ui.add(field)
         .labelled_by(label.id)
-        .on_hover_text("What your machine needs added to every index. The indices below are shown with it.");
+        .on_hover_text("The correction that your machine needs on every index. The indices below include it.");
     ui.checkbox(&mut now.is_left_handed, "Left-handed gear")
         .on_hover_text("For a gear that counts the other way round: index 24 of 96 becomes 72.");
     ui.label(RichText::new(format!("{} index", tiers.gear.abs())).weak());

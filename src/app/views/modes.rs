@@ -75,7 +75,8 @@ impl Mode {
             }),
             missing.map(missing_background),
             (bounces < USUAL_BOUNCES).then(|| {
-                let meaning = "Light is followed through no more bounces than this; what is left is dark.";
+                let meaning =
+                    "Light is followed through no more bounces than this; the rest of the light is dark.";
                 mode(format!("bounces ≤ {bounces}"), meaning, ViewAction::Bounces(USUAL_BOUNCES))
             }),
             (strength < 1.0).then(|| {
