@@ -1,4 +1,4 @@
-//! Lines that say how far long work is, where standard error is no terminal: a file, or the log of a batch job.
+//! Lines about the progress of long work, where standard error is no terminal: a file, or the log of a batch job.
 
 use std::time::Duration;
 
@@ -12,7 +12,7 @@ const SILENCE: Duration = Duration::from_secs(60);
 /// seconds, and none within the first 10.
 pub struct ProgressLines {
     what: String,
-    /// When the last line was printed, counted from the beginning of the work.
+    /// The time when the last line was printed, counted from the beginning of the work.
     last: Duration,
     /// The tenths of the work that were done at the last line.
     tenths: u32,
@@ -23,7 +23,8 @@ impl ProgressLines {
         Self { what: what.to_owned(), last: Duration::ZERO, tenths: 0 }
     }
 
-    /// Returns the line that is due when this part of the work is done, 0 to 1, this long after the work began.
+    /// Returns the line that is due once a part of the work, 0 to 1, is done after `elapsed`; `None` where none is
+    /// due.
     pub fn line(&mut self, done: f64, elapsed: Duration) -> Option<String> {
         let (tenths, silent) = ((done * 10.0) as u32, elapsed.saturating_sub(self.last));
         let is_due = silent >= APART && (tenths > self.tenths || silent >= SILENCE);
@@ -31,14 +32,15 @@ impl ProgressLines {
             return None;
         }
         (self.last, self.tenths) = (elapsed, tenths);
-        // The rest takes as long for each part as what is done. A duration of more than some ages has no number.
+        // The estimate assumes that the rest takes as long for each part as the work so far. A duration of many ages
+        // does not fit the type.
         let left = Duration::try_from_secs_f64(elapsed.as_secs_f64() * (1.0 - done) / done).ok();
         let left = left.map_or(String::new(), |left| format!(", about {} left", in_words(left)));
         Some(format!("{}: {} % done{left}", self.what, (done * 100.0) as u32))
     }
 }
 
-/// Returns a duration in words, rounded to what an estimate is good for.
+/// Returns a duration in words, rounded to the accuracy of an estimate.
 fn in_words(time: Duration) -> String {
     let seconds = time.as_secs_f64();
     let minutes = (seconds / 60.0).round() as u64;

@@ -70,9 +70,9 @@ fn controls(now: &mut CuttingProgress, (model, tiers): (&Model, &Tiers), count: 
     ui.separator();
     let label = ui.label("Cheater");
     let field = DragValue::new(&mut now.cheater).speed(0.01).max_decimals(2).suffix(" teeth");
-    ui.add(field)
-        .labelled_by(label.id)
-        .on_hover_text("The correction that your machine needs on every index. The indices below include it.");
+    ui.add(field).labelled_by(label.id).on_hover_text(
+        "The correction that your machine needs on every index. The indices below include it.",
+    );
     ui.checkbox(&mut now.is_left_handed, "Left-handed gear")
         .on_hover_text("For a gear that counts the other way round: index 24 of 96 becomes 72.");
     ui.label(RichText::new(format!("{} index", tiers.gear.abs())).weak());
