@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 #[cfg(test)]
 mod tests;
 
-/// Pixels an inch of sheets in PNG.
+/// The resolution of sheets in PNG, pixels per inch.
 const PIXELS_PER_INCH: f64 = 300.0;
 
 /// A format of sheets. clap prints these comments as the option's help.
@@ -73,8 +73,8 @@ pub fn cutting_sheet(specimen: &Specimen, left_handed: bool) -> Result<CuttingSh
     Ok(CuttingSheet::new(specimen, stone, &tiers, left_handed))
 }
 
-/// Returns tiers of which those without a meet have their depth as instruction, and a footer that says what depth is. A depth is
-/// the distance of a facet's plane from the origin of the tiers, in widths of the stone.
+/// Returns the tiers with their depth as the instruction where they have no meet, and with a footer that defines
+/// depth. A depth is the distance of a facet's plane from the origin of the tiers, in widths of the stone.
 fn with_depths(turned: &Specimen, stone: &Stone, tiers: &Tiers) -> Tiers {
     let mut tiers = tiers.clone();
     let (low, high) = stone.polytope.bounds();

@@ -55,7 +55,7 @@ impl PdfImages {
     }
 }
 
-/// What is said of a picture that cannot be written.
+/// The error about a picture that cannot be written.
 const REFUSED: DrawingError =
     DrawingError::NotForPdf { what: "a picture that is no PNG of eight-bit red, green and blue" };
 

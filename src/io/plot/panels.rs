@@ -7,7 +7,7 @@ use plotters::prelude::*;
 /// One panel of a plot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlotPanel {
-    /// What stands above it.
+    /// The name above it.
     pub name: String,
     /// Its curves, in the same order and with the same names in all panels of a plot.
     pub curves: Vec<PlotCurve>,

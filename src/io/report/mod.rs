@@ -1,5 +1,5 @@
-//! Reports on stones: puts together what a laboratory would hand out with a stone, or what compares several, and writes it as
-//! PDF or as a web page of one file.
+//! Reports on stones: puts together a report as laboratories give it out, on one stone or on the comparison of
+//! several, and writes it as PDF or as a web page of one file.
 //!
 //! The same stones, options and program give the same bytes.
 
@@ -49,10 +49,10 @@ impl ReportFormat {
     }
 }
 
-/// The usual number of pixels along each side of a picture: 300 an inch where five stand side by side.
+/// The default number of pixels along each side of a picture: 300 per inch where five stand side by side.
 pub const PICTURE_SIDE: u32 = 420;
 
-/// How a report comes about.
+/// The origin of a report.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReportOrigin {
     /// The command that makes the same report again.
@@ -74,7 +74,7 @@ pub fn check_count(count: usize) -> Result<(), Failure> {
     Err(Failure::Usage(format!("a report is on 1 to {MOST_COMPARED} stones; {count} were given")))
 }
 
-/// Takes the pictures and the measures of one stone, or of several, and returns the report on it or on how they compare.
+/// Takes the pictures and the measures of one stone, or of several, and returns the report on it or the comparison.
 ///
 /// # Errors
 /// [`Failure::Usage`] for no stone or more than [`MOST_COMPARED`], an error of `tell`, the errors of tracing, or
@@ -117,7 +117,7 @@ pub fn write(path: &Path, format: ReportFormat, report: &Report, paper: PaperSiz
     Ok(())
 }
 
-/// Returns how a report was made, after the lines that tell the stones' fingerprints.
+/// Returns the lines on how a report was made, after those with the stones' fingerprints.
 fn provenance(fingerprints: Vec<[String; 2]>, origin: &ReportOrigin) -> Vec<[String; 2]> {
     let line = |label: &str, value: &str| [label.to_owned(), value.to_owned()];
     let mut lines = fingerprints;
