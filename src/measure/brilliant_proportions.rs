@@ -1,4 +1,4 @@
-//! The proportions of a round brilliant, measured on the stone: of a design, a cutter's file or a scan alike.
+//! The proportions of a round brilliant, measured on the stone, whether it is a design, a cutter's file or a scan.
 
 use super::facet_deviations::{FacetClasses, LeaningFacet, NotEightfold, OCTANTS, facet_deviations};
 use crate::cut::{BrilliantProportions, Outline};
