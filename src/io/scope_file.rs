@@ -35,7 +35,6 @@ fn scope(text: &str) -> Result<Scope, Fault> {
 /// Returns the text of a scope file that [`read`] reads as the same scope.
 /// # Errors
 /// Never fails for a valid scope.
-/// Never for a scope that is valid.
 pub fn text(scope: &Scope) -> Result<String, toml::ser::Error> {
     toml::to_string(scope)
 }

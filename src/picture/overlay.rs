@@ -1,4 +1,4 @@
-//! Overlays on a developed picture: edges, facets, and what becomes of the rays through the pixels' middles.
+//! Overlays on a developed picture: edges, facets, and the paths of the rays through the pixels' middles.
 //!
 //! Rays are those of sodium's D line, in the stone that they meet first. Light that goes on into another stone is not
 //! followed.
@@ -30,7 +30,7 @@ pub enum Overlay {
     Total,
 }
 
-/// All overlays with their names.
+/// The overlays with their names.
 const NAMES: [(&str, Overlay); 5] = [
     ("wireframe", Overlay::Wireframe),
     ("facets", Overlay::Facets),
@@ -42,7 +42,7 @@ const NAMES: [(&str, Overlay); 5] = [
 /// The number of rows drawn between two calls of the watch.
 const PIECE: usize = 16;
 
-/// How much of the picture a facet's colour hides.
+/// The part of the picture that a facet's colour hides.
 const TINT: f32 = 0.5;
 
 /// The number of bounces at the upper end of the scale.
@@ -63,8 +63,8 @@ impl Overlay {
         NAMES.map(|(name, _)| name)
     }
 
-    /// Returns what the colours of the scale mean, from the lowest. It is empty for wireframe and facets, which have no
-    /// scale.
+    /// Returns the meanings of the colours of the scale, from the lowest. It is empty for wireframe and facets, which
+    /// have no scale.
     pub fn legend(self) -> Vec<(String, Code)> {
         match self {
             Self::Wireframe | Self::Facets => vec![],
@@ -80,7 +80,7 @@ impl Overlay {
         }
     }
 
-    /// Returns the colour over the place that a ray meets, and how much of that place it hides.
+    /// Returns the colour over the place that a ray meets, and the part of that place that it hides.
     fn colour(self, sight: &SceneProbe, glance: &ProbeRay) -> Option<(Code, f32)> {
         match self {
             Self::Wireframe => None,
@@ -122,7 +122,7 @@ fn total_colour(count: u32) -> Code {
     viridis(f64::from(count) / f64::from(MOST_TOTAL))
 }
 
-/// What becomes of a ray inside the stone that it meets first.
+/// The path of a ray inside the stone that it meets first, in numbers.
 struct Fate {
     bounces: u32,
     unresolved: f64,
