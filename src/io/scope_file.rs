@@ -33,6 +33,7 @@ fn scope(text: &str) -> Result<Scope, Fault> {
 }
 
 /// Returns the text of a scope file that [`read`] reads as the same scope.
+///
 /// # Errors
 /// Never fails for a valid scope.
 pub fn text(scope: &Scope) -> Result<String, toml::ser::Error> {
