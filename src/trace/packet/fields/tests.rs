@@ -251,7 +251,7 @@ fn agreement(surface: &ImplicitSurface, question: Question, rays: &[Ray]) -> Agr
     sum
 }
 
-/// Whether a point is so near to a sharp edge that rounding may decide to which face it belongs.
+/// Returns whether a point is so near to a sharp edge that rounding may decide to which face it belongs.
 fn is_near_edge(surface: &ImplicitSurface, point: DVec3) -> bool {
     if surface.parts().edge > 0.0 {
         return false;
