@@ -52,7 +52,7 @@ impl Editor {
     /// Opens the editor in a window of eframe's; see [`within`](Self::within).
     ///
     /// # Errors
-    /// As for [`within`](Self::within).
+    /// Fails where [`within`](Self::within) does.
     pub fn new(context: &CreationContext<'_>, setup: Setup) -> Result<Self, Failure> {
         Self::within(&context.egui_ctx, context.storage, shared(context), setup)
     }

@@ -15,7 +15,7 @@ const NOTE: &str = "An estimate after the ranges that GIA publishes for single p
 /// Estimates the class of a stone.
 ///
 /// # Errors
-/// [`Failure::Usage`] where the stone is no round brilliant of diamond.
+/// Fails with [`Failure::Usage`] where the stone is no round brilliant of diamond.
 pub fn estimated(specimen: &LoadedSpecimen) -> Result<ClassEstimate, Failure> {
     let refused = |why: &dyn std::fmt::Display| Failure::Usage(format!("{}: {why}", specimen.path));
     let material = &specimen.material.name;

@@ -81,7 +81,7 @@ struct Arguments {
 /// options.
 ///
 /// # Errors
-/// [`Failure::NoWindow`] where the window cannot be opened, [`Failure::Output`] where it is lost later.
+/// Fails with [`Failure::NoWindow`] where the window cannot be opened, [`Failure::Output`] where it is lost later.
 pub type EditorOpener = fn(Option<PathBuf>, MeshOptions) -> Result<(), Failure>;
 
 const USAGE: &str = "brillianteer [FILE]\n       brillianteer COMMAND";

@@ -191,7 +191,7 @@ impl<'a> PictureSetup<'a> {
     /// Returns the side of a pixel, in world units, with which the stones fill the picture up to a margin.
     ///
     /// # Errors
-    /// [`Failure::Input`] where the eye of a perspective is not in front of all stones.
+    /// Fails with [`Failure::Input`] where the eye of a perspective is not in front of all stones.
     pub fn pixel(&self, setting: &Scene, view: &View) -> Result<f64, Failure> {
         let camera = Camera::reaching(view, setting.reach());
         let Some(extent) = camera.extent(setting.vertices()) else {

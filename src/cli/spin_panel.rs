@@ -59,8 +59,8 @@ impl SpinCurves {
     /// Measures a design at each tilt of a rocking stone, or at each azimuth of a wobbling one.
     ///
     /// # Errors
-    /// [`Failure::Usage`] where the stone turns, or where there is one tilt only; [`Failure::Input`] where nothing can be
-    /// measured; [`Failure::Stopped`].
+    /// Fails with [`Failure::Usage`] where the stone turns, or where there is one tilt only; [`Failure::Input`] where
+    /// nothing can be measured; [`Failure::Stopped`].
     pub fn of(
         design: Design,
         settings: CurveSettings,

@@ -311,7 +311,7 @@ impl SweepOutputs<'_> {
     /// Prints how many of all points have no measures.
     ///
     /// # Errors
-    /// [`Failure::Input`] where no point has measures, or where a file makes no sweep.
+    /// Fails with [`Failure::Input`] where no point has measures, or where a file makes no sweep.
     fn end(&self, all: usize) -> Result<(), Failure> {
         let Self { failed, failed_files, files, .. } = *self;
         let reason = self.first_reason.as_deref().unwrap_or_default();

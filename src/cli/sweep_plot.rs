@@ -86,7 +86,8 @@ impl<'a> SweepPlot<'a> {
     /// Begins the plot of a cut over one or two axes.
     ///
     /// # Errors
-    /// [`Failure::Usage`] for another ending than svg, png or pdf, for other axes, and for several measures on a map.
+    /// Fails with [`Failure::Usage`] for another ending than svg, png or pdf, for other axes, and for several
+    /// measures on a map.
     pub fn new(
         path: &Path,
         (cut, axes): (&Cut, &[SweepAxis]),

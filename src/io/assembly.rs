@@ -116,7 +116,7 @@ impl Assembly {
     /// Assembles a scene that was read from a file, or that comes with the program; `file` is its path or name.
     ///
     /// # Errors
-    /// As for [`load`](Self::load).
+    /// Fails where [`load`](Self::load) does.
     pub fn of(file: &Path, scene: SceneFile) -> Result<Self, Failure> {
         Self::of_scene(file, scene, None, (None, MeshOptions::default()))
     }

@@ -51,7 +51,7 @@ impl BuiltDesign {
     /// Reads a design from a file. A mesh is read with the options `mesh`.
     ///
     /// # Errors
-    /// As for [`load`](Self::load).
+    /// Fails where [`load`](Self::load) does.
     pub fn read(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
         let refused = |e: FileError| Failure::Input(format!("{e}{}", hint(file)));
         Self::of(file.display().to_string(), design_file::read_with(file, mesh).map_err(refused)?)

@@ -60,7 +60,8 @@ impl SheetFormat {
 /// instruction of a tier without a meet is its depth.
 ///
 /// # Errors
-/// [`Failure::Input`] for a solid without facets that can be cut: a mesh that is not convex, a smooth glass shape.
+/// Fails with [`Failure::Input`] for a solid without facets that can be cut: a mesh that is not convex, a smooth
+/// glass shape.
 pub fn cutting_sheet(specimen: &Specimen, left_handed: bool) -> Result<CuttingSheet, Failure> {
     let refused = |why: String| Failure::Input(format!("{}: no cutter's sheet: {why}", specimen.design.name));
     let by_tiers = in_tiers(specimen).map_err(|why| refused(why.to_string()))?;
@@ -109,7 +110,8 @@ pub fn files(sheet: &CuttingSheet, paper: PaperSize, (format, path): (SheetForma
 /// Returns the files.
 ///
 /// # Errors
-/// [`Failure::Usage`] for several pages to standard output, [`Failure::Output`] where the file system refuses.
+/// Fails with [`Failure::Usage`] for several pages to standard output, [`Failure::Output`] where the file system
+/// refuses.
 pub fn write(
     sheet: &CuttingSheet,
     paper: PaperSize,

@@ -135,8 +135,8 @@ fn with_warnings((design, warnings): (Design, Vec<String>)) -> ImportedDesign {
 /// Encodes a stone's design as a file.
 ///
 /// # Errors
-/// [`Failure::Input`] where the format takes convex stones alone and this is none, [`Failure::Output`] where a mesh is too
-/// large for the format.
+/// Fails with [`Failure::Input`] where the format takes convex stones alone and this is none, [`Failure::Output`]
+/// where a mesh is too large for the format.
 pub fn written(specimen: &Specimen, format: DesignFormat) -> Result<EncodedDesign, Failure> {
     let (name, radius_mm) = (specimen.design.name.as_str(), specimen.unit_mm());
     let material = &specimen.design.material;

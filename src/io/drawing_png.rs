@@ -53,7 +53,7 @@ pub fn rasterize(svg: &str, width: u32) -> Result<(u32, u32, Vec<u8>), DrawingEr
 /// Rasterises an SVG as large as fits into a number of pixels across and down, otherwise like [`rasterize_clear`].
 ///
 /// # Errors
-/// As for [`rasterize`].
+/// Fails where [`rasterize`] does.
 pub fn rasterize_within(svg: &str, [across, down]: [u32; 2]) -> Result<(u32, u32, Vec<u8>), DrawingError> {
     let size = parse(svg)?.size();
     let width = f64::from(down) * f64::from(size.width()) / f64::from(size.height());
@@ -64,7 +64,7 @@ pub fn rasterize_within(svg: &str, [across, down]: [u32; 2]) -> Result<(u32, u32
 /// byte each, rows from the top.
 ///
 /// # Errors
-/// As for [`rasterize`].
+/// Fails where [`rasterize`] does.
 pub fn rasterize_clear(svg: &str, width: u32) -> Result<(u32, u32, Vec<u8>), DrawingError> {
     let pixmap = drawn(&parse(svg)?, width, Color::TRANSPARENT)?;
     let straight = |pixel: &resvg::tiny_skia::PremultipliedColorU8| {

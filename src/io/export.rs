@@ -99,7 +99,8 @@ impl Outputs {
     /// Refuses outputs that cannot be written beside each other.
     ///
     /// # Errors
-    /// [`Failure::Usage`] where two outputs would have one name, or where the size is too small for a caption.
+    /// Fails with [`Failure::Usage`] where two outputs would have one name, or where the size is too small for a
+    /// caption.
     pub fn check(&self) -> Result<(), Failure> {
         if self.caption && self.size < LEAST_CAPTIONED {
             let size = self.size;
@@ -167,8 +168,8 @@ impl Export<'_> {
     /// Returns the paths of the files that [`write`](Self::write) writes, in that order.
     ///
     /// # Errors
-    /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where outputs and tracer do
-    /// not go together: then nothing can be written.
+    /// Fails with [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where
+    /// outputs and tracer do not go together: then nothing can be written.
     pub fn files(&self, renderer: &Renderer) -> Result<Vec<PathBuf>, Failure> {
         let by_beams = self.check(renderer)?;
         Ok(self.paths(by_beams))

@@ -57,7 +57,7 @@ impl PlotAxis {
     /// Checks that the axis can be plotted.
     ///
     /// # Errors
-    /// [`PlotError::Axis`] where it has fewer than two values, or they do not rise or fall throughout.
+    /// Fails with [`PlotError::Axis`] where it has fewer than two values, or they do not rise or fall throughout.
     pub fn check(&self) -> Result<(), PlotError> {
         self.ends().map(drop)
     }
@@ -97,7 +97,7 @@ impl PlotAxis {
 /// places; `None` where there is no value. `unit` stands beside the scale of colours.
 ///
 /// # Errors
-/// A [`PlotError`]: an axis that does not rise or fall, or no number.
+/// Fails with a [`PlotError`] for an axis that does not rise or fall, or no number.
 pub fn heat_map(
     title: &str,
     (x, y): (&PlotAxis, &PlotAxis),

@@ -179,7 +179,7 @@ pub fn read(path: &Path) -> Result<SceneFile, FileError> {
 /// files that it names.
 ///
 /// # Errors
-/// As for [`read`].
+/// Fails where [`read`] does.
 pub fn parse(text: &str, label: &str, folder: Option<&Path>) -> Result<SceneFile, FileError> {
     scene(text, folder).map_err(|fault| fault.in_file(label))
 }

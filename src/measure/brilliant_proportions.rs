@@ -11,7 +11,7 @@ use std::f64::consts::FRAC_PI_8;
 /// around the middle of the outline; lengths are in percent of the diameter.
 ///
 /// # Errors
-/// [`NotEightfold`] where the stone is no round brilliant of eight mains.
+/// Fails with [`NotEightfold`] where the stone is no round brilliant of eight mains.
 pub fn brilliant_proportions(stone: &Stone) -> Result<BrilliantProportions, NotEightfold> {
     facet_deviations(stone)?;
     let FacetClasses { crown, pavilion } = FacetClasses::of(stone)?;

@@ -123,7 +123,7 @@ impl Estimate {
 /// brought to ten times that, as a part of the silhouette. Errors are larger where two million rays do not suffice.
 ///
 /// # Errors
-/// [`Stopped`] when `watch` asks to stop.
+/// Fails with [`Stopped`] when `watch` asks to stop.
 pub fn by_beams_and_rays(
     polytope: &Polytope,
     summed: &SummedBeams,

@@ -74,7 +74,7 @@ pub enum NotEightfold {
 /// Returns the deviations of all classes, from the table to the culet.
 ///
 /// # Errors
-/// [`NotEightfold`] where the stone is no round brilliant of eight mains.
+/// Fails with [`NotEightfold`] where the stone is no round brilliant of eight mains.
 pub fn facet_deviations(stone: &Stone) -> Result<Vec<ClassDeviations>, NotEightfold> {
     let FacetClasses { crown, pavilion } = FacetClasses::of(stone)?;
     let (star, rest) = crown.split_at(OCTANTS);
@@ -103,7 +103,7 @@ impl Mains {
     /// Finds the mains of a stone.
     ///
     /// # Errors
-    /// [`NotEightfold`] where the stone is no round brilliant of eight mains.
+    /// Fails with [`NotEightfold`] where the stone is no round brilliant of eight mains.
     pub fn of(stone: &Stone) -> Result<Self, NotEightfold> {
         let pavilion = FacetClasses::of(stone)?.pavilion;
         let mains = &pavilion[..OCTANTS];

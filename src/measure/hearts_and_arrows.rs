@@ -140,7 +140,7 @@ pub enum HeartsError {
 /// The symmetry of the stone is not used, whatever the options say, so that each octant is traced by itself.
 ///
 /// # Errors
-/// [`HeartsError`] where the stone is no round brilliant of eight mains, or `watch` asks to stop.
+/// Fails with [`HeartsError`] where the stone is no round brilliant of eight mains, or `watch` asks to stop.
 pub fn hearts_and_arrows(
     stone: &Stone,
     medium: Medium,

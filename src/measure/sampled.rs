@@ -38,7 +38,7 @@ struct Tally {
 /// 1 to 16,384.
 ///
 /// # Errors
-/// [`Stopped`] when `watch` stops the work.
+/// Fails with [`Stopped`] when `watch` stops the work.
 pub fn by_rays<'a>(
     solid: impl Into<SolidRef<'a>>,
     medium: Medium,
@@ -81,7 +81,7 @@ pub fn by_rays<'a>(
 /// Samples the same figures as [`by_rays`] on a graphics card.
 ///
 /// # Errors
-/// [`Stopped`] when `watch` stops the work, or a [`GpuError`], each turned into `E`.
+/// Fails with [`Stopped`] when `watch` stops the work, or a [`GpuError`], each turned into `E`.
 #[cfg(feature = "gpu")]
 pub fn by_gpu<'a, E: From<Stopped> + From<GpuError>>(
     gpu: &Gpu,

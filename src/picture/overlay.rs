@@ -167,7 +167,7 @@ impl<'a> OverlayDrawing<'a> {
     /// beyond the height of the film stay as they are. See [`lay`].
     ///
     /// # Errors
-    /// [`Stopped`] when `watch` stops the work; the rows are then drawn over in part.
+    /// Fails with [`Stopped`] when `watch` stops the work; the rows are then drawn over in part.
     pub fn lay(&self, first: u32, rgba: &mut [u8], watch: Watch) -> Result<(), Stopped> {
         let [width, height] = self.size;
         let rows = rgba.chunks_exact_mut(4 * (width as usize).max(1));
@@ -198,7 +198,7 @@ impl<'a> OverlayDrawing<'a> {
 /// as [`develop`](super::develop()) makes it. Rows beyond the height of the scene's film stay as they are.
 ///
 /// # Errors
-/// [`Stopped`] when `watch` stops the work; the picture is then drawn over in part.
+/// Fails with [`Stopped`] when `watch` stops the work; the picture is then drawn over in part.
 pub fn lay(overlay: Overlay, lit_scene: &LitScene, rgba: &mut [u8], watch: Watch) -> Result<(), Stopped> {
     OverlayDrawing::new(overlay, lit_scene).lay(0, rgba, watch)
 }

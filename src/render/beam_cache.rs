@@ -35,7 +35,7 @@ impl BeamCache {
     /// Returns the beams of a body that is a polytope; traces them unless they are kept.
     ///
     /// # Errors
-    /// [`Stopped`] when `watch` asks to stop.
+    /// Fails with [`Stopped`] when `watch` asks to stop.
     pub fn of(
         &mut self,
         (body, polytope): (&Arc<Body>, &Polytope),

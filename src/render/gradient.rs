@@ -68,8 +68,8 @@ impl Sweep {
     /// scale of a side. The derivatives of the planes by other numbers are central differences of fourth order.
     ///
     /// # Errors
-    /// A [`SweepError`]: a number that the design does not have, a measure without derivatives, or a stone that cannot be
-    /// made or traced.
+    /// Fails with a [`SweepError`] for a number that the design does not have, a measure without derivatives, or a stone
+    /// that cannot be made or traced.
     pub fn gradient(
         &self,
         keys: &[SweepKey],
@@ -83,7 +83,7 @@ impl Sweep {
     /// measures for changes of the planes.
     ///
     /// # Errors
-    /// A [`SweepError`]: a measure without derivatives, or a stone that cannot be made or traced.
+    /// Fails with a [`SweepError`] for a measure without derivatives, or a stone that cannot be made or traced.
     pub fn graded(
         &self,
         changes: &PlaneChanges,
@@ -113,7 +113,8 @@ impl Sweep {
     /// numbers.
     ///
     /// # Errors
-    /// A [`SweepError`]: a number that the design does not have, or a facet that is not there on both sides of the design.
+    /// Fails with a [`SweepError`] for a number that the design does not have, or a facet that is not there on both
+    /// sides of the design.
     pub fn plane_changes(&self, keys: &[SweepKey]) -> Result<PlaneChanges, SweepError> {
         let start = self.start();
         let specimen = Specimen::new(self.design.clone())?;

@@ -78,8 +78,8 @@ pub enum MeasureError {
 /// Measures a design: builds its stone, traces its light and sums it up by the zones of a scope.
 ///
 /// # Errors
-/// Any [`MeasureError`]: the design makes no stone, an option is out of its range, or the tracer does not apply or
-/// fails.
+/// Fails with a [`MeasureError`] where the design makes no stone, an option is out of its range, or the tracer does not
+/// apply or fails.
 pub fn measure(design: &Design, options: &MeasureOptions) -> Result<Measured, MeasureError> {
     options.check()?;
     let specimen = Specimen::new(design.clone())?;

@@ -115,10 +115,10 @@ impl Demands {
     /// Returns the demands of a job.
     ///
     /// # Errors
-    /// [`Unfit::NoStone`] and [`Unfit::Eye`] where a scope or figures have no stone, or an eye that cannot see it;
-    /// [`Unfit::Metal`] where the scene has metal and the product is no picture under light; [`Unfit::OnlyBeams`]
-    /// where measures of light are requested of something that beams do not trace; [`Unfit::Frosted`] for a
-    /// refraction map, or measures of light, of frosted facets.
+    /// Fails with [`Unfit::NoStone`] and [`Unfit::Eye`] where a scope or figures have no stone, or an eye that cannot
+    /// see it; [`Unfit::Metal`] where the scene has metal and the product is no picture under light;
+    /// [`Unfit::OnlyBeams`] where measures of light are requested of something that beams do not trace;
+    /// [`Unfit::Frosted`] for a refraction map, or measures of light, of frosted facets.
     pub fn of(job: &Job) -> Result<Self, Unfit> {
         match &job.product {
             Product::Light(light) => Ok(Self::of_light(job, light)),
@@ -190,7 +190,7 @@ impl Demands {
 /// Decides which tracer does the work. The card is opened only where it may be used.
 ///
 /// # Errors
-/// [`Unfit`] where exact beams are requested and do not fit, or a card for work that no card does.
+/// Fails with [`Unfit`] where exact beams are requested and do not fit, or a card for work that no card does.
 pub fn plan(demands: &Demands, wanted: Wanted, card: &Card) -> Result<Plan, Unfit> {
     if let (Wanted::Card, Some(why)) = (wanted, &demands.no_card) {
         return Ok(Plan { backend: Backend::Rays, no_card: Some(why.clone()) });

@@ -184,7 +184,8 @@ impl Renderer {
     /// Decides which tracer does a job.
     ///
     /// # Errors
-    /// [`Unfit`] where the job is impossible, the stone cannot be seen, or the requested tracer does not fit.
+    /// Fails with [`Unfit`] where the job is impossible, the stone cannot be seen, or the requested tracer does not
+    /// fit.
     pub fn plan(&self, job: &Job) -> Result<Plan, Unfit> {
         job.check()?;
         plan(&Demands::of(job)?, job.quality.tracer, &self.card)
@@ -198,7 +199,7 @@ impl Renderer {
     /// Does a job. Where a card fails, the processor does all of it again.
     ///
     /// # Errors
-    /// A [`RenderError`] or an error of `each`.
+    /// Fails with a [`RenderError`] or an error of `each`.
     pub fn run<E: From<RenderError>>(
         &mut self,
         job: &Job,
@@ -277,7 +278,7 @@ impl Rendered {
     /// Returns the picture under light, and the light that it does not show.
     ///
     /// # Errors
-    /// [`RenderError::OtherProduct`] of another product.
+    /// Fails with [`RenderError::OtherProduct`] for another product.
     pub fn light(self) -> Result<(Linear, Remainder), RenderError> {
         match self.output {
             Output::Light(picture, rest) => Ok((picture, rest)),
@@ -288,7 +289,7 @@ impl Rendered {
     /// Returns the light that a picture under light does not show, whose rows were handed out.
     ///
     /// # Errors
-    /// [`RenderError::OtherProduct`] of another product.
+    /// Fails with [`RenderError::OtherProduct`] for another product.
     pub fn remainder(self) -> Result<Remainder, RenderError> {
         match self.output {
             Output::LightRows(rest) => Ok(rest),
@@ -307,7 +308,7 @@ impl Rendered {
     /// Returns the refraction map, and the share of the light that it carries.
     ///
     /// # Errors
-    /// [`RenderError::OtherProduct`] of another product.
+    /// Fails with [`RenderError::OtherProduct`] for another product.
     pub fn map(self) -> Result<(RefractionMap, Carried), RenderError> {
         match self.output {
             Output::RefractionMap(map, carried) => Ok((map, carried)),
@@ -318,7 +319,7 @@ impl Rendered {
     /// Returns the traced pane and, where the job compares, the difference of a drawn one.
     ///
     /// # Errors
-    /// [`RenderError::OtherProduct`] of another product.
+    /// Fails with [`RenderError::OtherProduct`] for another product.
     pub fn pane(self) -> Result<(Linear, Option<Cost>), RenderError> {
         match self.output {
             Output::LiquidGlass(picture, cost) => Ok((picture, cost)),
@@ -329,7 +330,7 @@ impl Rendered {
     /// Returns the figures.
     ///
     /// # Errors
-    /// [`RenderError::OtherProduct`] of another product.
+    /// Fails with [`RenderError::OtherProduct`] for another product.
     pub fn figures(self) -> Result<Measured, RenderError> {
         match self.output {
             Output::Figures(measured) => Ok(*measured),
@@ -340,7 +341,7 @@ impl Rendered {
     /// Returns the measures of light.
     ///
     /// # Errors
-    /// [`RenderError::OtherProduct`] of another product.
+    /// Fails with [`RenderError::OtherProduct`] for another product.
     pub fn measures(self) -> Result<TakenMeasures, RenderError> {
         match self.output {
             Output::Measures(measures) => Ok(*measures),

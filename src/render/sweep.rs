@@ -204,7 +204,7 @@ impl Sweep {
     /// Checks that the design has the number of every axis, and that the values are of its kind.
     ///
     /// # Errors
-    /// A [`SweepError`] that names the axis. Points whose stone cannot be made are no errors of the sweep.
+    /// Fails with a [`SweepError`] that names the axis. Points whose stone cannot be made are no errors of the sweep.
     pub fn check(&self) -> Result<(), SweepError> {
         for (place, axis) in self.axes.iter().enumerate() {
             if self.axes[..place].iter().any(|before| before.key == axis.key) {
@@ -226,7 +226,7 @@ impl Sweep {
     /// Measures the points of these numbers on all cores, and hands them out in the given order.
     ///
     /// # Errors
-    /// [`Stopped`] when `watch` asks to stop, or an error of `each`, each turned into `E`.
+    /// Fails with [`Stopped`] when `watch` asks to stop, or an error of `each`, each turned into `E`.
     pub fn run<E: From<Stopped>>(
         &self,
         points: impl IntoIterator<Item = usize>,
@@ -259,7 +259,7 @@ impl Sweep {
     /// design makes a stone.
     ///
     /// # Errors
-    /// A [`SweepError`] where the design lacks the number of an axis, or where a meet cannot be followed.
+    /// Fails with a [`SweepError`] where the design lacks the number of an axis, or where a meet cannot be followed.
     pub fn design_at(&self, point: usize) -> Result<Design, SweepError> {
         Ok(self.varied(point)?.design)
     }
@@ -267,7 +267,7 @@ impl Sweep {
     /// Measures one point.
     ///
     /// # Errors
-    /// A [`SweepError`] where there is no stone, no index there, or a stone that exact beams do not trace.
+    /// Fails with a [`SweepError`] where there is no stone, no index there, or a stone that exact beams do not trace.
     pub fn point(&self, point: usize, watch: Watch) -> Result<SweptStone, SweepError> {
         let (taken, specimen) = self.taken(self.varied(point)?, vec![], watch)?;
         Ok(SweptStone::of(taken.measures, specimen))
@@ -458,8 +458,8 @@ fn distance_of(cut: &Cut, name: &str) -> Option<f64> {
 /// Returns a design with some of its numbers set, and its meets followed.
 ///
 /// # Errors
-/// A [`SweepError`] where the design lacks a number, or where a meet cannot be followed. It is not checked whether
-/// the design makes a stone.
+/// Fails with a [`SweepError`] where the design lacks a number, or where a meet cannot be followed. It is not checked
+/// whether the design makes a stone.
 pub fn with_numbers<'a>(
     design: &Design,
     numbers: impl IntoIterator<Item = (&'a SweepKey, f64)>,

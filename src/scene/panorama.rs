@@ -68,7 +68,7 @@ impl Panorama {
     /// Checks that there is a colour for each pixel, and at least one pixel.
     ///
     /// # Errors
-    /// [`PanoramaError::Size`] where there is not.
+    /// Fails with [`PanoramaError::Size`] where the numbers differ, or where there is no pixel.
     pub fn check(&self) -> Result<(), PanoramaError> {
         let Self { width, height, ref pixels } = *self;
         if pixels.is_empty() || u64::from(width) * u64::from(height) != pixels.len() as u64 {

@@ -97,7 +97,7 @@ pub struct GoalForm {
     pub angle_step_deg: Option<f64>,
 }
 
-/// Why a search cannot begin.
+/// The reason why a search cannot begin.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GoalFormFault {
     /// The goal neither raises nor lowers a measure.

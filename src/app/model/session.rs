@@ -121,7 +121,7 @@ pub struct Session {
     pub tier: Option<usize>,
     /// The place of the tier whose meet is being picked in a view.
     pub picking: Option<usize>,
-    /// Why the meet of each tier could not be followed after the last change; `None` where it was.
+    /// The reason why the meet of each tier could not be followed after the last change; `None` where it was.
     pub meet_faults: Vec<Option<String>>,
     /// The audit of the stone, while its list is open.
     pub audit: SessionAudit,

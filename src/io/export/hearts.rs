@@ -23,7 +23,8 @@ pub struct HeartsReport<'a> {
 /// Measures the hearts and arrows of a stone in the program's viewer.
 ///
 /// # Errors
-/// [`Failure::Usage`] where the stone is no convex brilliant of eight mains, or [`Failure::Stopped`] when `watch` asks to stop.
+/// Fails with [`Failure::Usage`] where the stone is no convex brilliant of eight mains, or [`Failure::Stopped`] when
+/// `watch` asks to stop.
 pub fn hearts<'a>(viewing: &Viewing<'a>, watch: Watch) -> Result<HeartsReport<'a>, Failure> {
     let refused = |why: &dyn std::fmt::Display| Failure::Usage(format!("{}: {why}", viewing.file));
     let not_convex = "hearts and arrows are measured of round brilliants, which are convex stones between planes; this is none";

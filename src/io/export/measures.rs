@@ -54,7 +54,8 @@ impl Viewing<'_> {
 /// Takes the measures of a stone's light.
 ///
 /// # Errors
-/// [`Failure::Usage`] where exact beams do not fit, an error of `tell`, or [`Failure::Stopped`] when `watch` asks to stop.
+/// Fails with [`Failure::Usage`] where exact beams do not fit, an error of `tell`, or [`Failure::Stopped`] when
+/// `watch` asks to stop.
 pub fn light_measures<'a>(
     viewing: &Viewing<'a>,
     settings: MeasureSettings,

@@ -40,7 +40,8 @@ impl<'a> ScopeStill<'a> {
     /// fits into each, as into a picture that [`Export`](super::Export) writes. The pictures are as good as such ones.
     ///
     /// # Errors
-    /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact beams do not fit.
+    /// Fails with [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact
+    /// beams do not fit.
     pub fn alike(
         viewings: &[Viewing<'a>],
         scoped: &'a Scoped,
@@ -61,8 +62,8 @@ impl<'a> ScopeStill<'a> {
     /// Traces the stone and returns its pixels.
     ///
     /// # Errors
-    /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact beams do not fit,
-    /// an error of `tell`, or [`Failure::Stopped`] when `watch` asks to stop.
+    /// Fails with [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact
+    /// beams do not fit, an error of `tell`, or [`Failure::Stopped`] when `watch` asks to stop.
     pub fn take(
         &self,
         renderer: &mut Renderer,

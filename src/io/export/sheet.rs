@@ -184,7 +184,7 @@ impl SheetFile {
 /// Returns a caption's height in pixels and its pixels (red, green and blue), in rows of this width.
 ///
 /// # Errors
-/// [`Failure::Output`] where the caption cannot be drawn.
+/// Fails with [`Failure::Output`] where the caption cannot be drawn.
 pub fn caption_pixels(caption: &Caption, width: u32) -> Result<(u32, Vec<u8>), Failure> {
     let text = caption.document(f64::from(width.min(CAPTION_WIDTH))).to_string();
     let (_, height, pixels) = rasterize(&text, width).map_err(|e| Failure::Output(e.to_string()))?;

@@ -89,8 +89,8 @@ impl Viewing<'_> {
     /// Refuses a view from which the wanted tracer cannot trace the stone, and returns whether exact beams trace it.
     ///
     /// # Errors
-    /// [`Unfit::Eye`] where the eye is not in front of the whole stone; others where exact beams would have to trace
-    /// a perspective or a body that is not convex.
+    /// Fails with [`Unfit::Eye`] where the eye is not in front of the whole stone; others where exact beams would
+    /// have to trace a perspective or a body that is not convex.
     pub fn plans_beams(&self, renderer: &Renderer) -> Result<bool, Unfit> {
         let figures = FiguresProduct { scope: Scoped::aset().scope, medium: self.medium };
         let job = self.job(Film::NONE, Product::Figures(figures), UNASKED);
@@ -100,7 +100,8 @@ impl Viewing<'_> {
     /// Returns the result of [`plans_beams`](Self::plans_beams), or an error that names the file.
     ///
     /// # Errors
-    /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact beams do not fit.
+    /// Fails with [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact
+    /// beams do not fit.
     pub fn check(&self, renderer: &Renderer) -> Result<bool, Failure> {
         self.plans_beams(renderer).map_err(|why| Failure::of_unfit(&why, self.file))
     }
@@ -108,7 +109,7 @@ impl Viewing<'_> {
     /// Returns the convex stone, for outputs that only convex stones have.
     ///
     /// # Errors
-    /// [`Failure::Usage`] where the body is not a convex stone.
+    /// Fails with [`Failure::Usage`] where the body is not a convex stone.
     pub(in crate::io) fn stone(&self) -> Result<&Stone, Failure> {
         self.specimen.stone().map_err(|e| Failure::Usage(format!("{}: {e}", self.file)))
     }

@@ -26,7 +26,7 @@ impl PdfImages {
     /// Returns the place of a picture among those of the file.
     ///
     /// # Errors
-    /// [`DrawingError::NotForPdf`] for another picture than a PNG of eight-bit red, green and blue.
+    /// Fails with [`DrawingError::NotForPdf`] for another picture than a PNG of eight-bit red, green and blue.
     pub fn place(&mut self, kind: &ImageKind) -> Result<usize, DrawingError> {
         let ImageKind::PNG(png) = kind else { return Err(REFUSED) };
         if let Some(known) = self.pictures.iter().position(|picture| picture.png == *png) {

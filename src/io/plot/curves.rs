@@ -37,7 +37,7 @@ pub struct PlotCurve {
 /// takes no room.
 ///
 /// # Errors
-/// A [`PlotError`]: an axis that does not rise or fall, or no number.
+/// Fails with a [`PlotError`] for an axis that does not rise or fall, or no number.
 pub fn curves(
     title: (&str, (u32, u32)),
     axis: &PlotAxis,

@@ -66,7 +66,7 @@ pub struct ReportOrigin {
 /// Refuses a report on so many stones.
 ///
 /// # Errors
-/// [`Failure::Usage`] for none or more than [`MOST_COMPARED`].
+/// Fails with [`Failure::Usage`] for none or more than [`MOST_COMPARED`].
 pub fn check_count(count: usize) -> Result<(), Failure> {
     if (1..=MOST_COMPARED).contains(&count) {
         return Ok(());
@@ -77,8 +77,8 @@ pub fn check_count(count: usize) -> Result<(), Failure> {
 /// Takes the pictures and the measures of one stone, or of several, and returns the report on it or the comparison.
 ///
 /// # Errors
-/// [`Failure::Usage`] for no stone or more than [`MOST_COMPARED`], an error of `tell`, the errors of tracing, or
-/// [`Failure::Stopped`] when `watch` asks to stop.
+/// Fails with [`Failure::Usage`] for no stone or more than [`MOST_COMPARED`], an error of `tell`, the errors of
+/// tracing, or [`Failure::Stopped`] when `watch` asks to stop.
 pub fn report(
     viewings: &[Viewing],
     origin: &ReportOrigin,
@@ -104,7 +104,7 @@ pub fn report(
 /// Writes a report, whole or not at all; the paper is that of a PDF.
 ///
 /// # Errors
-/// [`Failure::Output`] where the file system refuses.
+/// Fails with [`Failure::Output`] where the file system refuses.
 pub fn write(path: &Path, format: ReportFormat, report: &Report, paper: PaperSize) -> Result<(), Failure> {
     let bytes = match format {
         ReportFormat::Html => report_html(report).into_bytes(),

@@ -101,7 +101,8 @@ pub fn surroundings(pane: &GlassPane) -> Light {
 /// Draws and traces the pane before the background, which is as large as the picture, and compares the two.
 ///
 /// # Errors
-/// A [`PaneError`] that names the fault of the pane, or [`PaneError::Stopped`] when `watch` stops the work.
+/// Fails with a [`PaneError`] that names the fault of the pane, or [`PaneError::Stopped`] when `watch` stops the
+/// work.
 pub fn compare(
     pane: &GlassPane,
     background: &Panorama,
@@ -126,7 +127,8 @@ pub fn compare(
 /// Traces the pane before the background, without a comparison.
 ///
 /// # Errors
-/// A [`PaneError`] that names the fault of the pane, or [`PaneError::Stopped`] when `watch` stops the work.
+/// Fails with a [`PaneError`] that names the fault of the pane, or [`PaneError::Stopped`] when `watch` stops the
+/// work.
 pub fn traced(
     pane: &GlassPane,
     background: &Panorama,

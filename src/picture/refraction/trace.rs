@@ -41,7 +41,7 @@ impl RefractionMap {
     /// Traces a map of a lit scene; a photograph behind the scene is left out.
     ///
     /// # Errors
-    /// [`Stopped`] when `watch` stops the work.
+    /// Fails with [`Stopped`] when `watch` stops the work.
     pub fn trace(
         lit_scene: &LitScene,
         plane: &Backdrop,

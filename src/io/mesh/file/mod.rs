@@ -64,7 +64,7 @@ pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshF
 /// normals are doubled.
 ///
 /// # Errors
-/// As for [`parse`]; normals that cannot be read are left out.
+/// Fails where [`parse`] does; normals that cannot be read are left out.
 pub fn parse_shaded(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshFile, FileError> {
     parse_by(bytes, label, folder, obj_file::read_shaded)
 }
