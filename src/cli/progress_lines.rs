@@ -57,8 +57,8 @@ fn in_words(time: Duration) -> String {
 mod tests {
     use super::*;
 
-    /// Returns when lines are printed, in seconds, and the lines, of work that takes `whole` seconds and looks at the clock
-    /// `often` times.
+    /// Returns the lines that are printed, with their times in seconds, for work that takes `whole` seconds and
+    /// checks the clock `often` times.
     fn lines(whole: f64, often: u32) -> Vec<(f64, String)> {
         let mut lines = ProgressLines::new("sweeping x");
         let parts = (0..=often).map(|k| f64::from(k) / f64::from(often));
@@ -107,7 +107,7 @@ mod tests {
         );
         let slower = lines.line(0.5, Duration::from_secs(7200)).unwrap();
         assert_eq!(slower, "report: 50 % done, about 2 h 0 min left");
-        // Work that turns out to be more than thought goes back, and says nothing until it is further than before.
+        // Work that is more than expected goes back, and prints nothing until it is further than before.
         assert_eq!(lines.line(0.4, Duration::from_secs(7220)), None);
         assert_eq!(lines.line(1.0, Duration::from_secs(9999)), None);
     }

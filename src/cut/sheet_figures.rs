@@ -167,7 +167,8 @@ mod tests {
         (slim, figures(&example(slim)))
     }
 
-    /// Returns whether a number prints as these three decimals, but for the roundings of those it is computed from.
+    /// Returns whether a number prints as these three decimals, apart from the rounding of the numbers from which it
+    /// is computed.
     fn prints(value: f64, printed: f64) -> bool {
         (value - printed).abs() <= 0.001
     }

@@ -416,7 +416,7 @@ mod tests {
         tiers.tiers[2].instructions = "Polish first".to_owned();
         tiers.change(TierChange::Setting(2, 0.0, 0.7));
         assert_eq!(tiers.tiers[2].instructions, "Polish first");
-        // What else they say stays.
+        // Their other words stay.
         tiers.tiers[2].instructions = "Meet P1-P1-G1, polish with 3000".to_owned();
         tiers.change(TierChange::Meet(2, Some(meet(["P1", "G1", "G1"]))));
         assert_eq!(tiers.tiers[2].instructions, "Meet P1-G1-G1, polish with 3000");
@@ -437,7 +437,7 @@ mod tests {
         tiers.change(TierChange::Meet(2, Some(meet(["p1", "G1"]))));
         tiers.change(TierChange::Name(0, "Main".to_owned()));
         assert_eq!(tiers.tiers[2].meet, Some(meet(["Main", "G1"])));
-        // A name that two tiers have says nothing of which is meant.
+        // A name that two tiers have is ambiguous.
         tiers.change(TierChange::Name(1, "Main".to_owned()));
         tiers.change(TierChange::Name(1, "G9".to_owned()));
         assert_eq!(tiers.tiers[2].meet, Some(meet(["Main", "Main"])));

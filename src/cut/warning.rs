@@ -273,7 +273,7 @@ mod tests {
         assert!(flat.iter().any(|text| text.contains("outside the usual range")), "{flat:?}");
         let leak = flat.iter().find(|text| text.contains("critical angle of 24.43°")).unwrap();
         assert!(leak.starts_with("pavilion_angle: pavilion tiers below"), "{leak}");
-        // The oval's mains are steepest at its sides, 40.75°; a tier of which a part is steep enough is not told.
+        // The oval's mains are steepest at its sides, 40.75°; a tier of which a part is steep enough causes no warning.
         let flat = of_family("oval", None, 40.8);
         assert_eq!(flat.len(), 1, "{flat:?}");
         assert!(flat[0].ends_with("main at 40.75°"), "{flat:?}");

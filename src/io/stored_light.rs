@@ -145,7 +145,7 @@ mod tests {
         (0..width).map(|x| [y as f32, x as f32 * 0.1, -1e-30, 1.0]).collect()
     }
 
-    /// Stores a picture whose rows say where they are.
+    /// Stores a picture in which each row holds its own number.
     fn stored(size: [u32; 2]) -> StoredLight {
         let mut light = StoredLight::new(size).unwrap();
         // The first rows are traced anew, as where a graphics card fails.

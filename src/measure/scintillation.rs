@@ -129,7 +129,8 @@ mod tests {
     use super::*;
     use crate::scene::Side;
 
-    /// What repeats n times around a stone and is its own mirror image changes as cos(n φ), cos(2n φ) and so on.
+    /// A quantity of a stone that repeats n times around it and is its own mirror image varies as cos(n φ), cos(2n φ)
+    /// and so on.
     #[test]
     fn the_mean_over_directions_is_that_over_all_of_them_for_slow_waves() {
         for wave in 1..12 {
@@ -152,7 +153,7 @@ mod tests {
                 assert!((angle - 3.0).abs() < 1e-9, "{angle}");
                 let lean = |view: &View| view.basis().toward.dot(view.zenith());
                 assert!((lean(other) - lean(&view)).abs() < 1e-12);
-                // What lies on the axis stays in its place of the image.
+                // A point on the axis stays in its place of the image.
                 let axis = view.basis().lift(direction);
                 assert!(other.basis().project(axis).distance(direction) < 1e-12);
             }

@@ -122,7 +122,7 @@ mod tests {
         SweepOrder { number, sweep, points: Arc::new([2, 0, 1]), coarse: 1 }
     }
 
-    /// An answer that no stone was found at a point.
+    /// The result for a point where the proportions make no stone.
     fn nothing(point: usize) -> SweptPoint {
         let error = SweepError::NoTier { key: String::new(), known: String::new() };
         (point, Arc::new(Err(error)))

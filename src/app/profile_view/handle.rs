@@ -190,7 +190,7 @@ mod tests {
         }
     }
 
-    /// Returns how far a stone's value is from the one that a pull requests, in percent or degrees.
+    /// Returns the difference of a stone's value from the value that a pull requests, in percent or degrees.
     fn off(handle: Handle, new: &RoundBrilliant, start: &RoundBrilliant, travel: DVec2) -> f64 {
         let wanted = handle.wanted(value(handle, start), &dimensions(start), travel).unwrap();
         (value(handle, new) - wanted).abs()

@@ -29,7 +29,7 @@ pub enum LabelDetail {
     Numbers,
     /// The numbers, all heights and the culet, with their names.
     Named,
-    /// All that `Named` has, and star and lower half.
+    /// The numbers of `Named`, and star and lower half.
     Whole,
 }
 

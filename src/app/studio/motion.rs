@@ -199,7 +199,7 @@ mod tests {
             for (k, moved) in moved.iter().enumerate() {
                 let at = DVec2::new((k as u32 % width).into(), (k as u32 / width).into()) + 0.5;
                 let Some(seen) = eyes[1].through(at.x, at.y) else {
-                    // A point of the backplate stays where it is on the backplate.
+                    // A point of the backplate does not move on the backplate.
                     let hangs = |shot: &Shot, at: DVec2| {
                         let (from, way) =
                             ray::Camera::reaching(&shot.view, 3.0).ray(shot.film.image_from_pixels(at));

@@ -212,7 +212,7 @@ mod tests {
         (TaskRunner::new(Arc::new(move || sender.lock().unwrap().send(()).unwrap_or_default())), woken)
     }
 
-    /// Waits until so many answers have come, and returns them.
+    /// Waits until `count` answers have come, and returns them.
     fn some(runner: &mut Runner, woken: &Receiver<()>, count: usize) -> Vec<i32> {
         let mut answers = runner.answers();
         while answers.len() < count {

@@ -130,7 +130,7 @@ fn a_facet_that_is_dragged_to_a_corner_stops_there_and_takes_its_meet() {
     bench.harness.step();
     let message = bench.editor().model.session.message.clone();
     assert!(message.starts_with("T: ") && message.contains(&meet), "{message}");
-    // Escape takes the whole drag back, and what the pointer does until it lets go changes nothing.
+    // Escape takes the whole drag back, and movements of the pointer until the release change nothing.
     bench.harness.key_press(Key::Escape);
     bench.harness.run_steps(2);
     let eye = bench.editor().model.workspace.eye;

@@ -144,7 +144,7 @@ mod tests {
         std::fs::read(path).unwrap()
     }
 
-    /// Returns what a viewer shows of each frame, and its delays; it puts one frame over the other.
+    /// Returns each frame as a viewer shows it, drawn over the one before, with its delay.
     fn shown(bytes: &[u8]) -> Vec<(Vec<u8>, u16)> {
         let mut options = DecodeOptions::new();
         options.set_color_output(ColorOutput::RGBA);

@@ -282,7 +282,8 @@ mod tests {
                 losses: &mut losses,
             };
             Arch::new().dispatch(passage);
-            // Glare, and what leaves below; the rest goes up, where there is no facet.
+            // The leaving light is the glare and the light that leaves below; the rest goes up, where there is no
+            // facet.
             assert_eq!((leaving.len(), losses.len()), (6, 3));
             let r = 0.04_f32;
             let inside = (1.0 - r) * (-absorption).exp();

@@ -1,4 +1,5 @@
-//! Tests of the map of a measure and of the plot against tilt: what is ordered, and how the map moves the design.
+//! Tests of the map of a measure and of the plot against tilt: the sweeps that they request, and the moves of the
+//! design on the map.
 
 use super::*;
 use crate::app::model::measure_map::MapOptions;
@@ -10,7 +11,7 @@ use crate::measure::MeasureName;
 use crate::trace::{Stopped, unwatched};
 use std::sync::Arc;
 
-/// Returns the sweeps that are ordered now, by their numbers.
+/// Returns the numbers of the sweeps that are requested now.
 fn ordered(bench: &Bench) -> Vec<u64> {
     let mut waves = WaveCache::default();
     let mut orders = Orders { model: &bench.model, waves: &mut waves, paper: Paper::default() };
