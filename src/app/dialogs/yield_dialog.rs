@@ -59,19 +59,13 @@ pub fn show(model: &Model, form: &YieldForm, actions: &mut Actions, ui: &mut Ui)
 fn numbers(options: &mut YieldOptions, ui: &mut Ui) {
     let mm = |range: RangeInclusive<f64>| Number { decimals: 3, speed: 0.02, range, unit: " mm" };
     let ct = || Number { decimals: 3, speed: 0.02, range: CARATS, unit: " ct" };
-    choice_row(
-        ui,
-        "Size by",
-        "The size follows from the rough, or from a weight.",
-        options.by.name(),
-        |ui| {
-            for by in SizeBy::ALL {
-                if ui.selectable_label(by == options.by, by.name()).on_hover_text(by.meaning()).clicked() {
-                    options.by = by;
-                }
+    choice_row(ui, "Size by", "The rough or a weight sets the size.", options.by.name(), |ui| {
+        for by in SizeBy::ALL {
+            if ui.selectable_label(by == options.by, by.name()).on_hover_text(by.meaning()).clicked() {
+                options.by = by;
             }
-        },
-    );
+        }
+    });
     if options.by == SizeBy::Rough {
         for (side, row) in options.sides_mm.iter_mut().zip(SIDES) {
             number_row(ui, row, mm(SIDES_MM), side);
