@@ -1,4 +1,4 @@
-//! Keys that a picture with the focus answers to.
+//! Reads the arrow keys and other keys for a picture that has the focus.
 
 use egui::{EventFilter, Id, Key, Modifiers, Ui};
 use glam::DVec2;

@@ -1,4 +1,4 @@
-//! Enums whose variants are described by one table, which is all that has to change where a variant is added.
+//! A macro that declares an enum by one table of its variants: a new variant needs one new row and nothing else.
 
 /// Declares an enum by a table. Each row holds a variant with its key, its name and its meaning, by which the variant
 /// is documented as well. The word behind `by` is the name of the function that returns the key.

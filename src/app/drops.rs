@@ -1,8 +1,8 @@
-//! The invitation to drop files, while they are held over the window.
+//! The invitation that covers the window while files are dragged over it.
 
 use egui::{Align2, Color32, Context, FontId, Id, LayerId, Order};
 
-/// Says what dropping does, while files are held over the window.
+/// Draws a text that says what dropping the files does, while they are held over the window.
 pub fn invite(ctx: &Context) {
     if ctx.input(|i| i.raw.hovered_files.is_empty()) {
         return;

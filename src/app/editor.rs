@@ -35,13 +35,13 @@ pub struct Editor {
     pub(super) outside: Outside,
     ctx: Context,
     pub(super) studio: Studio,
-    /// What the views are drawn with.
+    /// The caches and states that drawing the views needs.
     pub(super) views: ViewTools,
     /// The small pictures of the export dialog.
     pub(super) thumbnails: HashMap<Shows, TextureHandle>,
     title: String,
     state_file: Option<StateFile>,
-    /// What paints the window.
+    /// The painter of the window: the graphics card or the processor.
     pub(super) painted_by: PaintedBy,
 }
 
@@ -52,12 +52,12 @@ impl Editor {
     /// Opens the editor in a window of eframe's; see [`within`](Self::within).
     ///
     /// # Errors
-    /// As for [`within`](Self::within).
+    /// Fails where [`within`](Self::within) does.
     pub fn new(context: &CreationContext<'_>, setup: Setup) -> Result<Self, Failure> {
         Self::within(&context.egui_ctx, context.storage, shared(context), setup)
     }
 
-    /// Opens the editor as it was left, by what `storage` holds; `gpu` is a card that pictures may be computed on.
+    /// Opens the editor with the workspace that `storage` holds; `gpu` is a card that pictures may be computed on.
     ///
     /// # Errors
     /// Fails only where the program itself is broken: it comes with the cut and the light that it starts with.
@@ -97,7 +97,7 @@ impl Editor {
         Ok(editor)
     }
 
-    /// Performs an action at once, and starts the tasks that it causes.
+    /// Carries out an action at once, and starts the tasks that it causes.
     pub(super) fn act(&mut self, action: impl Into<Action>) {
         for task in update(&mut self.model, action.into()) {
             match task {
@@ -113,7 +113,7 @@ impl Editor {
         }
     }
 
-    /// Performs the actions that were pushed since the last call.
+    /// Carries out the actions that were pushed since the last call.
     pub(super) fn run(&mut self) {
         for action in self.actions.take() {
             self.act(action);
@@ -226,7 +226,7 @@ impl Editor {
         }
     }
 
-    /// Whether all pictures and figures are as good as they get, and nothing is under way.
+    /// Returns whether all pictures and figures have their final quality and no task is running.
     pub(super) fn is_idle(&self) -> bool {
         let session = &self.model.session;
         let awaited = &session.awaited;
@@ -240,7 +240,7 @@ impl Editor {
             && !awaited.dropped
     }
 
-    /// Draws the window, and carries out what the user does in it.
+    /// Draws the window and carries out the user's actions.
     pub(super) fn show(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         self.take_in();
@@ -334,7 +334,7 @@ fn waker(ctx: &Context) -> studio::Wake {
     Arc::new(move || ctx.request_repaint())
 }
 
-/// Returns the card that draws the window, if it computes.
+/// Returns the card that draws the window, if it can compute.
 fn shared(context: &CreationContext<'_>) -> Option<Arc<Gpu>> {
     let state = context.wgpu_render_state.as_ref()?;
     Gpu::of(state.device.clone(), state.queue.clone(), &state.adapter.get_info()).ok().map(Arc::new)

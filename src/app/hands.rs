@@ -1,13 +1,13 @@
-//! Sorts the input of hands before the window handles it: a quick drag is not lost where frames are slow, and letters
-//! pressed together with Alt are not typed.
+//! Sorts the user's input before the window handles it, so that no quick drag is lost where frames are slow, and
+//! letters pressed together with Alt are not typed.
 
 use egui::{Context, Event, Modifiers, Plugin, RawInput};
 
-/// Holds events back for the frames to come.
+/// A queue that holds events back for the frames to come.
 #[derive(Default)]
 pub struct Hands {
     later: Vec<Event>,
-    /// Whether Alt alone is down, which opens menus.
+    /// True while Alt is down without Ctrl; letters then open menus.
     is_alt: bool,
 }
 
@@ -29,7 +29,7 @@ impl Plugin for Hands {
 }
 
 impl Hands {
-    /// Whether the window is to handle an event: it does not handle the text of a letter while Alt is down.
+    /// Returns whether the window handles an event: it ignores the text of a letter while Alt is down.
     fn is_meant(&mut self, event: &Event) -> bool {
         match event {
             Event::Key { modifiers, .. } | Event::ModifiersChanged(modifiers) => {
@@ -46,7 +46,7 @@ impl Hands {
     }
 }
 
-/// Whether a letter pressed with these modifiers opens a menu.
+/// Returns whether a letter pressed with these modifiers opens a menu.
 ///
 /// On a Mac such a letter types another one, as it does with AltGr, which some systems report as Ctrl and Alt.
 fn opens_menus(modifiers: &Modifiers) -> bool {

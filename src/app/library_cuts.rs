@@ -15,7 +15,7 @@ pub struct LibraryCut {
     pub key: &'static str,
     /// The name that people read.
     pub title: String,
-    /// Where the cut is published, or what it is.
+    /// The place where the cut is published, or a short description of it.
     pub about: String,
     /// The place of its group among [`GROUPS`].
     pub group: usize,

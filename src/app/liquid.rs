@@ -1,4 +1,4 @@
-//! The pane of liquid glass over the background of a view: its settings, as they are kept, and its place in a picture.
+//! The pane of liquid glass over the background of a view: its stored settings and its place in a picture.
 
 use crate::optics::linear_from_encoded;
 use crate::picture::liquid_glass::{GlassPane, LightFrom, PaneQuality};
@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 /// The least side of the pane, pixels.
 const LEAST: f64 = 8.0;
 
-/// How far the light of a pane turns in a second, degrees.
+/// The speed at which time turns the light of a pane, degrees per second.
 const TURN: f64 = 60.0;
 
-/// What moves the light of a pane.
+/// The driver of a pane's light: nothing, the pointer or time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum LightMotion {
@@ -24,11 +24,11 @@ pub enum LightMotion {
     Time,
 }
 
-/// The settings of the pane of liquid glass, as they are kept.
+/// The stored settings of the pane of liquid glass.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Liquid {
-    /// The middle of the pane, in parts of the view from the upper left corner.
+    /// The middle of the pane as parts of the view's width and height, from the upper left corner.
     pub at: DVec2,
     /// The width and height of the pane, percent of the view's.
     pub size: DVec2,
@@ -44,15 +44,15 @@ pub struct Liquid {
     pub frost: f64,
     /// The strength of the light, 0 to 100.
     pub light: f64,
-    /// What moves the light.
+    /// The driver of the light.
     pub light_motion: LightMotion,
-    /// Where the light comes from.
+    /// The direction that the light comes from.
     pub light_from: LightFrom,
     /// The base colour of the pane in sRGB, and how far it colours the light.
     pub tint: [u8; 4],
-    /// How much of the effect is drawn.
+    /// The part of the effect that is drawn.
     pub quality: PaneQuality,
-    /// How far above the background the traced pane lies, in parts of the pane's shorter side.
+    /// The height of the traced pane above the background, in parts of the pane's shorter side.
     pub gap: f64,
 }
 
@@ -98,8 +98,8 @@ impl Liquid {
         }
     }
 
-    /// Turns the light toward a place of a view of this size, in parts of the view: as if a lamp hung there, half of the
-    /// pane's shorter side over it.
+    /// Turns the light toward a point of a view of this size, in parts of the view, as if a lamp hung there above the
+    /// view, at half of the pane's shorter side.
     pub fn light_at(&mut self, place: DVec2, view: DVec2) {
         let away = (place - self.at) * view;
         let height = (self.size / 200.0 * view).min_element().max(1.0);
@@ -109,7 +109,7 @@ impl Liquid {
         self.light_from = LightFrom { azimuth: azimuth.rem_euclid(360.0), height };
     }
 
-    /// Lets time run for the light.
+    /// Turns the light on by so many seconds.
     pub fn turn_light(&mut self, seconds: f64) {
         self.light_from.azimuth = (self.light_from.azimuth + TURN * seconds).rem_euclid(360.0);
     }

@@ -1,4 +1,4 @@
-//! What pictures of backgrounds behind glass have in common: the backplate, and how its light is shown.
+//! The backplate of pictures of backgrounds behind glass, and the conversion of their light for the screen.
 
 use crate::io::background::BackgroundRef;
 use crate::picture::{Develop, Linear, Pattern, Tone, develop};
@@ -12,7 +12,7 @@ pub fn backdrop(chosen: Option<&BackgroundRef>) -> BackgroundRef {
     chosen.filter(|chosen| chosen.is_picture()).cloned().unwrap_or(BackgroundRef::Pattern(FIRST))
 }
 
-/// Returns a picture for the screen whose light is shown as it is, without exposure or tone.
+/// Returns a picture for the screen whose light is encoded as it is, without exposure, bloom or tone mapping.
 pub fn as_screens(picture: &Linear) -> ColorImage {
     let manner = Develop { bloom: None, tone: Tone::Linear, ..Develop::default() };
     let size = [picture.width as usize, picture.height as usize];

@@ -211,7 +211,7 @@ pub fn keys(model: &Model, actions: &mut Actions, ctx: &Context, is_picture_focu
     }
 }
 
-/// Returns which of the keys are held that change what is shown.
+/// Returns the state of the held keys that change what views show.
 pub fn held_keys(ctx: &Context) -> HeldKeys {
     HeldKeys { other: is_down(ctx, Key::C), three: is_down(ctx, Key::Z) }
 }

@@ -1,4 +1,4 @@
-//! The stone from the side, with its dimensions on it: a drawing whose handles shape the stone.
+//! The drawing of the stone from the side, with its dimensions and with handles that shape the stone.
 //!
 //! A cut whose family has handles is shaped by them. Each changes one proportion, by pointer or arrow keys, in steps of a
 //! tenth (with Shift a hundredth) of a percent or degree. Of a pair, such as crown angle and height, the one that was held
@@ -40,7 +40,8 @@ pub struct ProfileView {
 }
 
 impl ProfileView {
-    /// Draws `stone` within `rect`, with what `marks` marks; where its family has handles, they change the proportions of `cut`.
+    /// Draws `stone` within `rect`, with its `marks`; where its family has handles, they change the proportions of
+    /// `cut`.
     ///
     /// A [`Ui`] can hold one such drawing, whose state goes by the identity of that `Ui`. Of a cut without proportions, or
     /// with impossible ones, the drawing shows what can be measured and has no handles.
@@ -66,12 +67,13 @@ impl ProfileView {
         }
     }
 
-    /// Whether a handle is dragged: all changes until it is released are one gesture.
+    /// Returns whether a handle is dragged: all changes until its release are one gesture.
     pub fn is_dragging(&self) -> bool {
         self.grab.is_some()
     }
 
-    /// Returns the part of the profile to show: the same part while a handle is dragged, else one on its way to what fits.
+    /// Returns the part of the profile to show: an unchanged part while a handle is dragged, else one that moves
+    /// toward the new fit.
     fn extent(&mut self, ui: &Ui, measured: &MeasuredProfile<'_>) -> ProfileBox {
         let fitting = ProfileBox::of(&measured.dimensions);
         let shown = match (&self.grab, &measured.cut) {
@@ -95,7 +97,7 @@ impl ProfileView {
         held.or_else(|| find(Offered::is_pointed_at)).or_else(|| find(|o| o.response.has_focus()))
     }
 
-    /// Returns the cut after what pointer and keys have changed.
+    /// Returns the cut after the changes by pointer and keys.
     fn edited(&mut self, ui: &Ui, frame: &ProfileFrame<'_>, offered: &[Offered], given: Cut) -> Cut {
         let first = offered.iter().filter(|o| !o.grip.mirrored);
         let keyed = first.fold(given, |given, o| o.grip.keyed(ui, &o.response, given));
@@ -112,7 +114,7 @@ impl ProfileView {
         self.grab = self
             .shown
             .map(|shown| Grab::new(grip, given.clone(), dimensions, shown, pressed.unwrap_or(grip.at)));
-        // The focus lets arrow keys finish what the pointer began.
+        // The focus lets arrow keys go on where the pointer ended.
         let first = Grip { mirrored: false, ..*grip };
         ui.memory_mut(|m| m.request_focus(first.id(frame.id)));
     }

@@ -1,4 +1,4 @@
-//! What an editor starts with.
+//! The settings that an editor starts with.
 
 use super::model::workspace::Workspace;
 use super::state_file::StateFile;
@@ -8,23 +8,23 @@ use crate::io::mesh_options::MeshOptions;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What an editor starts with.
+/// The settings that an editor starts with.
 pub struct Setup {
     /// A file to open.
     pub file: Option<PathBuf>,
-    /// How the file is read where it is a mesh.
+    /// The options by which the file is read where it is a mesh.
     pub mesh: MeshOptions,
     /// The folder of the autosave; `None` for no autosave.
     pub safe: Option<PathBuf>,
-    /// What asks the user for files.
+    /// The function that asks the user for files.
     pub chooser: Chooser,
     /// The workspace to begin with where none was kept.
     pub workspace: Workspace,
     /// The file that says whether the window is at rest; `None` for no such file.
     pub state_file: Option<StateFile>,
-    /// What opens folders and pages outside the program.
+    /// The function that opens folders and pages outside the program.
     pub opener: Opener,
-    /// What paints the window.
+    /// The painter of the window.
     pub painted_by: PaintedBy,
 }
 
@@ -43,7 +43,7 @@ impl Default for Setup {
     }
 }
 
-/// What paints the window.
+/// The device that paints the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum PaintedBy {
     /// A graphics card.

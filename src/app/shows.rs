@@ -1,4 +1,4 @@
-//! What a view can show.
+//! The pictures and drawings that a view can show.
 
 use crate::app::described::described;
 use crate::picture::{Picture, Scoped, named};
@@ -56,22 +56,22 @@ impl Shows {
         self.scoped().and_then(|s| s.side)
     }
 
-    /// Whether the picture shows all copies, as they move; else it shows the design alone, at rest.
+    /// Returns whether the picture shows all copies in motion; else it shows the design alone, at rest.
     pub fn has_copies(self) -> bool {
         matches!(self, Self::Render | Self::Refraction)
     }
 
-    /// Whether the picture shows the stone by light, from a side that can be chosen.
+    /// Returns whether the picture shows the stone under light, from a side that can be chosen.
     pub fn is_seen(self) -> bool {
         !matches!(self, Self::Profile | Self::Diagram) && !self.is_pane()
     }
 
-    /// Whether the picture is a pane of liquid glass, and shows nothing of the stone.
+    /// Returns whether the picture is a pane of liquid glass, without the stone.
     pub fn is_pane(self) -> bool {
         matches!(self, Self::LiquidGlass | Self::TracedPane)
     }
 
-    /// Whether an overlay can be drawn over the picture.
+    /// Returns whether an overlay can be drawn over the picture.
     pub fn takes_overlay(self) -> bool {
         self.is_seen() && self != Self::Refraction
     }

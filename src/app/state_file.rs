@@ -1,5 +1,5 @@
-//! A small file that says whether the window is at rest. Tests that work the real program wait for what it says, instead of
-//! for time to pass.
+//! A small file that says whether the window is at rest. Tests that operate the real program wait for its content,
+//! and not for a length of time.
 
 use crate::app::model::workspace::PaneLayout;
 use crate::io::{WriteError, write};
@@ -18,11 +18,11 @@ const QUIET_FRAMES: u32 = 30;
 /// The content of the file, as JSON.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 struct State {
-    /// Whether every picture and figure is final, and the screen shows them.
+    /// True once every picture and figure is final and the screen shows them.
     at_rest: bool,
-    /// How the views are arranged.
+    /// The layout of the views.
     layout: PaneLayout,
-    /// How many times larger than the film's pixels those of the coarsest picture in sight are.
+    /// The factor by which pixels of the coarsest picture in sight are larger than those of the film.
     coarsest: f64,
 }
 
@@ -41,15 +41,15 @@ impl StateFile {
         Some(Self { path: path.into(), written: None, quiet_frames: 0 })
     }
 
-    /// Takes note of a frame, at its end; `is_quiet` says that nothing is under way, and `coarsest` how many times
-    /// larger than the film's pixels those of the coarsest picture in sight are.
+    /// Records a frame, at its end. `is_quiet` says that no work is going on; `coarsest` is the factor by which
+    /// pixels of the coarsest picture in sight are larger than those of the film.
     ///
     /// Returns whether one more frame is needed to find out whether the window is at rest.
     pub fn note(&mut self, is_quiet: bool, layout: PaneLayout, coarsest: f64) -> bool {
         self.quiet_frames = if is_quiet { self.quiet_frames.saturating_add(1) } else { 0 };
         let at_rest = self.quiet_frames >= QUIET_FRAMES;
         let state = State { at_rest, layout, coarsest };
-        // If the file cannot be written, the test that waits for it fails; nobody else needs to know.
+        // If the file cannot be written, the test that waits for it fails; no user has to know.
         if self.written != Some(state) && self.put(&state).is_ok() {
             self.written = Some(state);
         }

@@ -4,10 +4,10 @@ use crate::app::studio::Paper;
 use crate::picture::Inks;
 use egui::{Color32, Context, CornerRadius, FontId, Stroke, Style, TextStyle, Theme, Visuals, vec2};
 
-/// The colour in which a finding of the audit is shown: bright on any picture, and not that of a tier that is selected.
+/// The colour of a finding of the audit: bright on any picture, and different from that of a selected tier.
 pub const FOUND: Color32 = Color32::from_rgb(255, 176, 40);
 
-/// Returns the colour that marks what is chosen.
+/// Returns the colour that marks a chosen or active item.
 pub fn accent(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { Color32::from_rgb(96, 165, 230) } else { Color32::from_rgb(26, 102, 184) }
 }
@@ -17,7 +17,7 @@ pub fn good(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { Color32::from_rgb(92, 176, 116) } else { Color32::from_rgb(38, 132, 66) }
 }
 
-/// Returns the colour of what deserves attention and is no error.
+/// Returns the colour of warnings.
 pub fn caution(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { Color32::from_rgb(226, 178, 84) } else { Color32::from_rgb(140, 92, 0) }
 }
@@ -37,7 +37,7 @@ pub fn zone(name: &str, visuals: &Visuals) -> Color32 {
     }
 }
 
-/// Returns what drawings are drawn on: light or dark, as the window is.
+/// Returns the colours and scale of drawings: on light or dark paper, to match the window.
 pub fn paper(ctx: &Context) -> Paper {
     let is_dark = ctx.global_style().visuals.dark_mode;
     let inks = if is_dark { Inks::DARK } else { Inks::PAPER };

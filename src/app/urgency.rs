@@ -2,14 +2,14 @@
 
 use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_priority};
 
-/// The priority of work that nobody's hand waits for, 0 to 99; on Linux this becomes niceness 2.
+/// The priority of work that the user does not wait for directly, 0 to 99; on Linux this becomes niceness 2.
 ///
-/// The thread that paints the window sleeps in between and so comes first anyway; a much lower priority would let other
-/// busy programs stop the tracing.
+/// The thread that paints the window sleeps in between and so comes first anyway; a much lower priority would let
+/// other busy programs stop the tracing.
 const BEHIND: u8 = 42;
 
-/// The priority of work that takes minutes, 0 to 99, below that of pictures, which show what it finds; on Linux this becomes
-/// niceness 7.
+/// The priority of work that takes minutes, 0 to 99. It is below that of pictures, which show the results of that
+/// work; on Linux it becomes niceness 7.
 const LAST: u8 = 30;
 
 /// Lowers the priority of this thread. If the system refuses, the window follows the hand less quickly; nothing else

@@ -4,10 +4,10 @@ use crate::cut::{Cut, Proportion};
 
 /// A bound beyond any proportion, which keeps requested values finite.
 const FARTHEST: f64 = 1e9;
-/// A value this near to a step, in steps, counts as standing on it.
+/// A value this near to a step, in steps, counts as lying on it.
 const ON_STEP: f64 = 1e-6;
 
-/// The grid on which values are set: so many steps to a percent or degree.
+/// The grid on which values are set, by the number of its steps per percent or degree.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ValueGrid(f64);
 
@@ -30,7 +30,8 @@ impl ValueGrid {
         if up { (steps + ON_STEP).floor() } else { (steps - ON_STEP).ceil() }
     }
 
-    /// Returns a cut with a proportion at the step nearest to `wanted`, or as near to that as its limits allow.
+    /// Returns a cut with a proportion at the step nearest to `wanted`, or as near to that step as the limits of the
+    /// proportion allow.
     pub fn toward(self, row: &Proportion, cut: &Cut, wanted: f64) -> Cut {
         let possible = |step: f64| {
             let mut new = cut.clone();

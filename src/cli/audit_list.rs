@@ -1,4 +1,4 @@
-//! How `info` prints what an audit found: as a list for people, and as JSON.
+//! Prints the findings of an audit for `info`: as a list for people, and as JSON.
 
 use crate::cut::{Audit, Finding, FindingKind, tier_stem};
 use crate::math::grouped;
@@ -12,7 +12,7 @@ const MOST_PLACES: usize = 3;
 /// The most names of facets that a line of the list prints.
 const MOST_NAMES: usize = 12;
 
-/// Returns the audit as JSON: how many findings of each kind, and all findings.
+/// Returns the audit as JSON: the number of findings of each kind, and all findings.
 pub fn audit_json(audit: &Audit) -> Value {
     let kinds = FindingKind::ALL.map(|kind| (kind, audit.of_kind(kind).count()));
     let counts: BTreeMap<String, usize> = kinds
@@ -42,7 +42,7 @@ pub fn audit_list(audit: &Audit) -> String {
     text
 }
 
-/// Returns what findings that share a line have in common: their tiers and their size as it is printed.
+/// Returns the properties that findings on one line share: their tiers and their size as it is printed.
 fn key(finding: &Finding) -> (Vec<&str>, String) {
     let mut tiers: Vec<&str> = finding.facets.iter().map(|name| tier_stem(name)).collect();
     tiers.sort_unstable();
@@ -71,7 +71,7 @@ fn line(alike: &[&Finding]) -> String {
 }
 
 fn place(point: &glam::DVec3) -> String {
-    // Rounded first, so that a tiny negative number does not print as -0.000.
+    // The coordinates are rounded first, so that a tiny negative number does not print as -0.000.
     let [x, y, z] = ((1e3 * *point).round() / 1e3 + 0.0).to_array();
     format!("({x:.3}, {y:.3}, {z:.3})")
 }

@@ -1,4 +1,4 @@
-//! The files of one command, worked on one after the other.
+//! Runs a command on several files, one after the other.
 
 use super::console::say;
 use super::specimen::stem;

@@ -1,4 +1,5 @@
-//! `bench`: measures how long each tracer takes for the same pictures on this machine, and what bounds a graphics card.
+//! `bench`: measures how long each tracer takes for the same pictures on this machine, and which part of the work
+//! limits a graphics card.
 
 #[cfg(feature = "gpu")]
 mod card_use;
@@ -29,7 +30,7 @@ use std::time::Instant;
 /// The share of the light that exact beams may leave unresolved.
 const UNRESOLVED: f64 = 0.01;
 
-/// The number of timed runs of each task, after one to warm up. The median counts.
+/// The number of timed runs of each task, after one to warm up. Their median is the result.
 const TIMES: usize = 5;
 
 /// The time of a first run, in milliseconds, above which the task is not repeated.
@@ -60,14 +61,14 @@ struct Row {
     tracer: &'static str,
     by: String,
     milliseconds: f64,
-    /// What a graphics card's time went into.
+    /// The description of a graphics card's time; `None` for other tracers.
     card: Option<CardLine>,
 }
 
 /// Text for the table and an object for JSON.
 type CardLine = (String, Value);
 
-/// A picture, and how long each tracer took for it.
+/// A picture, and the time that each tracer took for it.
 struct Task {
     what: String,
     /// The number of planes tested for the picture, if each ray tests all planes at each bounce.
@@ -132,8 +133,8 @@ impl Task {
     }
 }
 
-/// Times `work` and returns the median of several runs, or the first run where it is long, in milliseconds, and how many runs
-/// there were in all.
+/// Times `work`. Returns the median of several runs in milliseconds, or the first run where it is long, and the
+/// number of runs.
 fn timed(mut work: impl FnMut() -> Result<(), Failure>) -> Result<(f64, usize), Failure> {
     let mut once = || {
         let start = Instant::now();
@@ -148,7 +149,7 @@ fn timed(mut work: impl FnMut() -> Result<(), Failure>) -> Result<(f64, usize), 
     Ok((times[TIMES / 2], TIMES + 1))
 }
 
-/// Returns in words what the machine's card does at most; empty where there is none.
+/// Returns in words the measured peaks of the machine's card; empty where there is none.
 #[cfg(feature = "gpu")]
 fn card_peak() -> Result<String, Failure> {
     let card = Card::Machine.any().ok();
@@ -162,7 +163,7 @@ fn card_peak() -> Result<String, Failure> {
     Ok(String::new())
 }
 
-/// Times a picture by a tracer; of a card it says as well what its time goes into.
+/// Times a picture by a tracer; for a card, also describes the parts of its time.
 #[cfg(feature = "gpu")]
 fn timed_by(
     backend: &Backend,
@@ -195,7 +196,7 @@ fn options(most_bounces: u32) -> RayOptions {
 /// The tracers that are compared.
 const TRACERS: [Wanted; 3] = [Wanted::Rays, Wanted::Card, Wanted::Beams];
 
-/// Whether the machine has a real graphics card. Prints a note where it has none at all.
+/// Returns whether the machine has a real graphics card. Prints a note where it has none at all.
 fn has_card() -> bool {
     match Card::Machine.any() {
         Ok(card) => card.is_quick(),
@@ -209,7 +210,7 @@ fn has_card() -> bool {
 /// Times a job by each tracer that there is, from its planning to the finished picture.
 fn rows(job: &Job, load: &Load) -> Result<Vec<Row>, Failure> {
     let row = |tracer: Wanted| {
-        // Exact beams have no limit of bounces, which would be refused.
+        // Exact beams have no limit of bounces; the renderer would refuse a job that sets one.
         let bounces = if tracer == Wanted::Beams { USUAL_BOUNCES } else { job.quality.rays.most_bounces };
         let quality = Quality { tracer, rays: options(bounces), ..job.quality };
         let job = Job { quality, ..job.clone() };
@@ -217,7 +218,7 @@ fn rows(job: &Job, load: &Load) -> Result<Vec<Row>, Failure> {
         if plan.no_card.is_some() {
             return Ok(None);
         }
-        // A renderer of its own, as one that is kept would know the beams.
+        // Each run has a renderer of its own, since one that has run already would reuse the beams.
         let picture = || {
             let rendered = Renderer::new(Card::Machine).run(&job, &unwatched, &mut |_| Ok::<_, Failure>(()));
             rendered.map(|_| ())
@@ -308,11 +309,12 @@ fn figures(specimen: &LoadedSpecimen, tilt_deg: f64) -> Result<Task, Failure> {
     Ok(Task { what, plane_tests: 0.0, rows: vec![Row { tracer: "beam", by, milliseconds, card: None }] })
 }
 
-/// What a picture asks of a tracer that tests all planes at each bounce.
+/// The work that a picture is for a tracer that tests all planes at each bounce.
 struct Load {
     /// The number of planes tested, extrapolated from the pixels of every eighth row and column.
     plane_tests: f64,
-    /// The searches of the rays in one workgroup of every eighth, each way, at the middle wavelength: row by row.
+    /// The number of searches of each ray in a workgroup, row by row, at the middle wavelength; every eighth
+    /// workgroup each way is sampled.
     #[cfg(feature = "gpu")]
     groups: Vec<[f64; 64]>,
 }
@@ -355,7 +357,8 @@ impl Load {
         }
     }
 
-    /// Returns the mean part of lanes that still follow a ray where so many run in step until the last ray ends, above 0.
+    /// Returns the mean part of lanes, above 0, that still follow a ray where this number of lanes run in step until
+    /// the last ray ends.
     #[cfg(feature = "gpu")]
     fn busy_lanes(&self, lanes: u32) -> f64 {
         let (mut busy, mut all) = (0.0, 0.0);

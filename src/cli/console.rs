@@ -1,4 +1,4 @@
-//! What the program prints: results on standard output, notes, warnings and errors on standard error.
+//! The program's output: results on standard output; notes, warnings and errors on standard error.
 
 use crate::io::export::Event;
 use crate::io::{Failure, is_standard};

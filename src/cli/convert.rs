@@ -51,7 +51,7 @@ impl Convert {
     }
 }
 
-/// Returns the stone whose tiers lie where their meets say.
+/// Returns the stone with its tiers at the distances that follow from their meets.
 fn followed(specimen: LoadedSpecimen) -> Result<LoadedSpecimen, Failure> {
     let LoadedSpecimen { path, made } = specimen;
     let Some(meets) = KnownMeets::of(&made) else {

@@ -7,7 +7,7 @@ use crate::measure::brilliant_proportions;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// What stands below every estimate.
+/// The note below every estimate.
 const NOTE: &str = "An estimate after the ranges that GIA publishes for single proportions of round brilliants of diamond, and after our own\n\
     fit for crown, pavilion and table together. It is not a grade, and no laboratory has seen the stone. Not judged: culet, the\n\
     girdle's thinnest place, polish, symmetry, painting, total depth and weight ratio, each of which can only lower the class.";
@@ -15,7 +15,7 @@ const NOTE: &str = "An estimate after the ranges that GIA publishes for single p
 /// Estimates the class of a stone.
 ///
 /// # Errors
-/// [`Failure::Usage`] where the stone is no round brilliant of diamond.
+/// Fails with [`Failure::Usage`] where the stone is no round brilliant of diamond.
 pub fn estimated(specimen: &LoadedSpecimen) -> Result<ClassEstimate, Failure> {
     let refused = |why: &dyn std::fmt::Display| Failure::Usage(format!("{}: {why}", specimen.path));
     let material = &specimen.material.name;

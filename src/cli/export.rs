@@ -44,8 +44,8 @@ pub struct ExportArguments {
     timing: bool,
     #[command(flatten)]
     view: ViewOptions,
-    /// Add glare, the light that the stone's outer surface reflects, to pictures: what a camera in the scope records, but
-    /// orange and pink where graders look for red
+    /// Add glare, the light that the stone's outer surface reflects, to pictures: a camera in the scope records it,
+    /// but it is orange and pink where graders look for red
     #[arg(long, conflicts_with = "no_glare", help_heading = "Light")]
     glare: bool,
     #[command(flatten)]

@@ -4,7 +4,7 @@ use crate::io::export::HeartsReport;
 use crate::measure::{EightfoldPattern, FaceUpSize, OctantFigure, OctantUnit};
 use std::fmt::Write;
 
-/// Departures below this are shown as 0, and then no octant is the worst.
+/// Departures below this are printed as 0, and then no octant is named as the worst.
 const NOT_SHOWN: f64 = 5e-4;
 
 /// Formats hearts and arrows as two tables.
@@ -66,7 +66,7 @@ fn line(figure: &OctantFigure, mains: &[String; 8]) -> String {
     let (Some(median), Some(spread), Some(worst)) = (figure.median, figure.spread, figure.worst) else {
         return format!("{name:<32}{:>9}{:>9}   in no octant", "-", "-");
     };
-    // Rounding leaves azimuths of no size with a sign.
+    // Rounding leaves signs on azimuths of 0.
     let [median, spread] = [median, spread].map(|value| if value.abs() < NOT_SHOWN { 0.0 } else { value });
     let missing: Vec<String> = (1..)
         .zip(&figure.octants)

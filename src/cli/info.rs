@@ -44,8 +44,8 @@ pub struct Info {
     /// and the distance that follows from it. A cut by proportions is turned into tiers first
     #[arg(long)]
     meets: bool,
-    /// List instead what may not be meant: near misses, split meets, slivers, tiers below the critical angle, departures from
-    /// the symmetry. Candidates, no verdicts
+    /// List instead what may not be meant: near misses, split meets, slivers, tiers below the critical angle,
+    /// departures from the symmetry. The list holds candidates, and no verdicts
     #[arg(long)]
     audit: bool,
     #[command(flatten)]
@@ -88,7 +88,7 @@ impl Info {
         })
     }
 
-    /// Audits the stone where that is asked for; a solid that is no stone between planes gets a note instead.
+    /// Audits the stone if the option is set; a solid that is no convex stone between planes gets a note instead.
     fn audited(&self, specimen: &LoadedSpecimen) -> Option<Audit> {
         let audit = self.audit.then(|| specimen.audit())?;
         if audit.is_err() {
@@ -97,7 +97,7 @@ impl Info {
         audit.ok()
     }
 
-    /// Returns what is printed of a stone: the lists that were asked for alone, or else its figures and tiers.
+    /// Returns the text about a stone: only the lists whose options are set, or else its figures and tiers.
     fn text(&self, specimen: &LoadedSpecimen, value: &Value, lists: Vec<String>) -> String {
         let heading = heading(&specimen.path, &specimen.design.name);
         let mut parts = if lists.is_empty() { vec![table(specimen, value)] } else { lists };
@@ -152,7 +152,7 @@ fn scene_table(assembly: &Assembly) -> String {
         let weight = weight(stone.carats(assembly.setting.unit_mm));
         let (cut, material, diameter) = (&stone.label, &stone.material.name, place.diameter_mm);
         let _ = write!(text, "\n  {cut:<20}{material:<20}{diameter:>8.3}{weight:>12}");
-        // Rounded first, so that a tiny negative number does not print as -0.000.
+        // The height is rounded first, so that a tiny negative number does not print as -0.000.
         let at = (1e3 * place.at_mm).round() / 1e3 + 0.0;
         let _ = write!(text, "{:>9.3}{:>9.3}{:>9.3}", at.x, at.y, at.z);
     }
@@ -300,13 +300,13 @@ fn fixed(value: f64, digits: usize) -> String {
     if is_nought { text.trim_start_matches('-').to_owned() } else { text }
 }
 
-/// Formats an azimuth in degrees. One that rounds to 360 is shown as 0.
+/// Formats an azimuth in degrees. An azimuth that rounds to 360 is printed as 0.
 fn shown_azimuth(azimuth_deg: f64) -> String {
     let text = fixed(azimuth_deg, 4);
     if text == "360.0000" { fixed(0.0, 4) } else { text }
 }
 
-/// Returns the lines below the heading: what the design gives, what the stone measures, and its tiers.
+/// Returns the lines below the heading: the numbers of the design, the measured proportions, and the tiers.
 fn table(specimen: &LoadedSpecimen, value: &Value) -> String {
     let mut text = String::new();
     let mut line = |key: &str, what: String| {

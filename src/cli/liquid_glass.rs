@@ -65,8 +65,8 @@ pub struct LiquidGlass {
     /// Strength of the light, 0 to 100
     #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 30.0, value_parser = number)]
     light: f64,
-    /// Where the light comes from, degrees: its azimuth counter-clockwise from the right, 90 above, and its height over the
-    /// pane, 0 to 90
+    /// The direction of the light, degrees: its azimuth counter-clockwise from the right, 90 above, and its height
+    /// over the pane, 0 to 90
     #[arg(long, allow_hyphen_values = true, value_name = "AZIMUTH,HEIGHT", default_value = "90,53.13", value_parser = light_from)]
     light_from: LightFrom,
     /// The base colour; its alpha says how far it colours the light
@@ -87,7 +87,7 @@ pub struct LiquidGlass {
     /// Trace the same pane as well, and print how far the approximation is from it
     #[arg(long)]
     compare: bool,
-    /// How far above the background the traced pane lies, in parts of its shorter side
+    /// The height of the traced pane above the background, in parts of the pane's shorter side
     #[arg(
         long,
         allow_negative_numbers = true,
@@ -208,7 +208,7 @@ impl LiquidGlass {
     /// Returns the pane that the options describe.
     ///
     /// # Errors
-    /// A pane that does not lie within the picture, or an option out of its range.
+    /// Fails where the pane does not lie within the picture, or where an option is out of its range.
     fn asked(&self) -> Result<GlassPane, Failure> {
         let whole = DVec2::from(self.size.map(f64::from));
         let usual = Geometry { size: (whole * EXTENT).round(), corner: None };

@@ -1,4 +1,4 @@
-//! `materials`, `cuts`, `scenes`, `scopes`, `lights`: lists of what the program knows by name.
+//! `materials`, `cuts`, `scenes`, `scopes`, `lights`: list the items that the program knows by name.
 
 use super::console::{json, print};
 use crate::io::assembly::Assembly;
@@ -96,7 +96,7 @@ impl Scenes {
         for (name, text) in SCENES {
             let scene = scene_file::parse(text, name, None)?;
             let title = scene.name.clone();
-            // Only a ring that was made says how many stones it holds.
+            // A ring has to be made before the number of its stones is known.
             let stones = match scene.ring {
                 Some(_) => Assembly::of(Path::new(name), scene)?.places.len(),
                 None => scene.stones.iter().map(|s| s.count).sum(),

@@ -27,17 +27,17 @@ pub enum MapKind {
     Preview,
 }
 
-/// What the files of a map are and say.
+/// The output of a map's command: the files and their texts.
 pub struct MapFiles<'a> {
     pub out: &'a Path,
-    /// How the names of the files begin.
+    /// The beginning of the files' names.
     pub stem: &'a str,
     pub kinds: &'a [MapKind],
     /// The heading of the page.
     pub title: &'a str,
-    /// How the map was made, in words.
+    /// A description of how the map was made.
     pub description: &'a str,
-    /// How many times as wide as the map the background is.
+    /// The width of the background as a multiple of the map's.
     pub span: f64,
     pub background: &'a BackgroundRef,
     /// The picture of the background, where it has one.
@@ -52,7 +52,7 @@ pub fn folder(out: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Returns the kinds that were asked for by `--format`, or the usual ones.
+/// Returns the kinds that `--format` lists, or the usual ones.
 pub fn kinds_or_usual(asked: &[MapKind], has_photo: bool) -> Result<Vec<MapKind>, Failure> {
     if asked.contains(&MapKind::Preview) && !has_photo {
         return Err(Failure::Usage(

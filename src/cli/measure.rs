@@ -75,7 +75,7 @@ pub struct Measure {
     view: ViewOptions,
     #[command(flatten)]
     light: LightOptions,
-    /// An option of `export`, which is known here so that the message can say so.
+    /// An option of `export`. It is declared here so that an error can point to that command.
     #[arg(long, hide = true)]
     glare: bool,
     #[command(flatten)]
@@ -228,7 +228,7 @@ fn table_of_deviations(path: &str, classes: &[ClassDeviations]) -> String {
     text
 }
 
-/// Spreads below this, degrees, are shown as 0, and then no facet is the worst.
+/// Spreads below this, degrees, are printed as 0, and then no facet is named as the worst.
 const NOT_SHOWN_DEG: f64 = 5e-4;
 
 /// Formats measures as a table, in percent of the silhouette.
@@ -246,7 +246,7 @@ fn list_of_measures(report: &MeasureReport) -> String {
         "± at most",
     );
     for (name, interval) in report.by_name() {
-        // A difference that vanishes but for rounding has no sign.
+        // A difference that is 0 except for rounding gets no sign.
         let [value, error] =
             [interval.middle(), interval.error()].map(|part| (1e11 * part).round() / 1e9 + 0.0);
         let _ = writeln!(text, "{:<28}{value:>9.3}{error:>10.3}", name.to_string());
@@ -343,7 +343,7 @@ fn percent(part: f64) -> String {
     format!("{:.3}", 100.0 * part)
 }
 
-/// Writes what becomes of the light as a whole, how exactly that is known, and who traced it.
+/// Writes the sums of all light, their error, and the tracer.
 fn sums(report: &FigureReport, text: &mut String) {
     let FigureReport { viewing, measured, .. } = report;
     let f = &measured.figures;

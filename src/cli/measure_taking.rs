@@ -1,4 +1,4 @@
-//! How measures of a design are taken, for the commands that vary it.
+//! Takes the measures of a design, for the commands that vary it.
 
 use super::mesh_options::MeshArguments;
 use super::options::{ViewOptions, number};
@@ -11,7 +11,7 @@ use crate::render::{Sweep, SweepAxis, SweepKey};
 use clap::Args;
 use std::path::Path;
 
-/// The part of the light that may usually stay unresolved at each point.
+/// The default part of the light that may stay unresolved at each point.
 pub const UNRESOLVED: f64 = 2e-3;
 
 #[derive(Debug, Args)]
@@ -50,7 +50,7 @@ impl MeasureTaking {
         Ok(())
     }
 
-    /// Loads a design, and returns the sweep of it over these axes, which takes these measures.
+    /// Loads a design, and returns its sweep over these axes, with these measures.
     pub fn sweep(
         &self,
         file: &Path,
@@ -73,8 +73,8 @@ impl MeasureTaking {
     }
 }
 
-/// Returns the settings with which these measures are taken of a design under a head of this half angle, degrees. The indices of
-/// colours are left open, as each point of a sweep has those of its material.
+/// Returns the settings by which these measures of a design are taken, under a head of this half angle, degrees. The
+/// indices of colours are left open, as each point of a sweep has those of its material.
 pub fn settings_of(measures: &[MeasureName], head_deg: f64) -> MeasureSettings {
     let mut domes = vec![];
     for dome in measures.iter().filter_map(|name| name.dome()) {

@@ -1,4 +1,4 @@
-//! What `info --meets` and `convert --meets` have in common: a design with its meets, and where they come from.
+//! The meets of a design and their origins, for `info --meets` and `convert --meets`.
 
 use super::console::say;
 use crate::cut::{Cut, Meet, SolvedTiers, TierOutcome, Tiers};
@@ -8,16 +8,16 @@ use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// The largest change of a distance, in the design's unit, that is not worth a note: the last digit of most files.
+/// The largest change of a distance, in the design's unit, that causes no note: the last digit of most files.
 const NOTED: f64 = 1e-5;
 
-/// The largest change of an angle, degrees, that is not worth a note.
+/// The largest change of an angle, degrees, that causes no note.
 const NOTED_DEG: f64 = 1e-3;
 
-/// A design with all meets that are known of it.
+/// A design with all its known meets.
 pub struct KnownMeets<'a> {
     design: Cow<'a, Tiers>,
-    /// Where the meet of each tier comes from; empty where it has none.
+    /// The origin of each tier's meet; empty where the tier has none.
     sources: Vec<&'static str>,
     met: Tiers,
     solved: SolvedTiers,
@@ -45,7 +45,7 @@ impl<'a> KnownMeets<'a> {
         Some(Self { design, sources, met, solved })
     }
 
-    /// Whether the stone was turned into tiers.
+    /// Returns whether the stone was turned into tiers.
     fn is_turned(&self) -> bool {
         matches!(self.design, Cow::Owned(_))
     }
@@ -123,7 +123,7 @@ impl<'a> KnownMeets<'a> {
         (0..self.design.tiers.len()).map(tier).collect()
     }
 
-    /// Says in two sentences where the meets come from, and how well the design's distances agree with them.
+    /// Describes in two sentences the origins of the meets, and the agreement of the design's distances with them.
     fn summary(&self) -> String {
         let count = self.sources.len();
         let from = [
@@ -153,12 +153,12 @@ impl<'a> KnownMeets<'a> {
         format!("  meets of {count} tiers: {from}\n  where they are followed, {followed}{failed}")
     }
 
-    /// Returns how far following all meets moves a tier.
+    /// Returns the distance by which a tier moves when all meets are followed.
     fn difference(&self, place: usize) -> f64 {
         self.solved.tiers.tiers[place].distance - self.design.tiers[place].distance
     }
 
-    /// Returns the summary, a table of the tiers, and what is wrong with meets that cannot be followed.
+    /// Returns the summary, a table of the tiers, and the reasons why meets cannot be followed.
     pub fn table(&self) -> String {
         let mut text = self.summary();
         let _ = write!(
@@ -169,7 +169,7 @@ impl<'a> KnownMeets<'a> {
         for (place, tier) in self.design.tiers.iter().enumerate() {
             let name = if tier.name().is_empty() { (place + 1).to_string() } else { tier.name().to_owned() };
             let meet = self.met.tiers[place].meet.as_ref().map_or_else(|| "-".to_owned(), Meet::to_string);
-            // Rounded first, so that a tiny negative number does not print as -0.000000.
+            // The distance is rounded first, so that a tiny negative number does not print as -0.000000.
             let solved = self.solved.tiers.tiers[place].distance;
             let (solved, difference) = match &self.solved.outcomes[place] {
                 TierOutcome::Solved => (

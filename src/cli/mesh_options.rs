@@ -5,14 +5,14 @@ use crate::io::mesh_options::{MeshForm, MeshOptions};
 use clap::{Args, ValueEnum};
 use glam::DVec3;
 
-/// How meshes are read. Other designs say both themselves.
+/// The options by which meshes are read. Other files of designs state the direction and the form themselves.
 #[derive(Debug, Clone, Copy, Default, Args)]
 #[command(next_help_heading = "Meshes")]
 pub struct MeshArguments {
     /// The direction in which the table of a mesh faces, in its own frame: x, -x, y, -y, z, -z, or X,Y,Z [default: as found]
     #[arg(long, value_name = "DIRECTION", value_parser = direction, allow_hyphen_values = true)]
     up: Option<Up>,
-    /// What the triangles of a mesh stand for [default: as found]
+    /// The form in which the triangles of a mesh are read [default: as found]
     #[arg(long = "as", value_name = "FORM", value_enum)]
     form: Option<MeshForm>,
 }
@@ -23,7 +23,7 @@ impl MeshArguments {
         MeshOptions { up: self.up.unwrap_or_default(), form: self.form.unwrap_or_default() }
     }
 
-    /// Returns the options as they are typed, but for the form of numbers.
+    /// Returns the options as command-line words, with numbers in a fixed form.
     pub fn words(self) -> Vec<String> {
         let up = self.up.and_then(|up| match up {
             Up::Given(direction) => Some(direction.to_array().map(|part| (part + 0.0).to_string()).join(",")),

@@ -1,7 +1,7 @@
 //! Floor 8: the command line. Each command has a file of its own.
 //!
-//! `options` holds the options that several commands share, `specimen` the stone that a command works on, `batch` the files
-//! that it takes one after the other, `names` what a name stands for, and `console` what is printed.
+//! `options` holds the options that several commands share, `specimen` loads the stone of a command, `batch` runs a
+//! command on several files, `names` resolves the names of cuts and scenes, and `console` prints.
 
 mod audit_list;
 mod batch;
@@ -81,7 +81,7 @@ struct Arguments {
 /// options.
 ///
 /// # Errors
-/// [`Failure::NoWindow`] where the window cannot be opened, [`Failure::Output`] where it is lost later.
+/// Fails with [`Failure::NoWindow`] where the window cannot be opened, [`Failure::Output`] where it is lost later.
 pub type EditorOpener = fn(Option<PathBuf>, MeshOptions) -> Result<(), Failure>;
 
 const USAGE: &str = "brillianteer [FILE]\n       brillianteer COMMAND";
@@ -118,7 +118,7 @@ enum Command {
     RefractionImport(refraction_import::RefractionImport),
     /// Draw a pane of liquid glass over a background as screens do, and trace the same pane beside it
     LiquidGlass(liquid_glass::LiquidGlass),
-    /// Measure the light of one view: what comes from where, with its error
+    /// Measure the light of one view: its share from each zone, with the error
     Measure(measure::Measure),
     /// Write the measures of designs over a grid of proportions, angles, materials and views
     Sweep(sweep::SweepArguments),

@@ -1,4 +1,4 @@
-//! What a name on the command line stands for: a file, or a cut or a scene that comes with the program.
+//! Resolves a name on the command line: a file, or a cut or a scene that comes with the program.
 
 use crate::io::library;
 use std::path::Path;

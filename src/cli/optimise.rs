@@ -1,4 +1,4 @@
-//! `optimise`: finds a better design by a goal, and says what it gave up for what it won.
+//! `optimise`: finds a better design by a goal, and prints which measures rose and which fell.
 
 use super::console::{print, say, written};
 use super::optimise_text::{json_value, text};
@@ -63,10 +63,10 @@ pub struct OptimiseArguments {
     /// The number of designs that are scattered over all ranges first [default: as many as the numbers need]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     scatter: Option<u32>,
-    /// From how many of the scattered designs the search goes on
+    /// The number of the scattered designs from which the search climbs
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=1000))]
     climbs: u32,
-    /// Another number scatters other designs
+    /// The seed of the scatter: another number scatters other designs
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u32,
     /// Treat the light as unpolarised at every surface
@@ -81,7 +81,7 @@ pub struct OptimiseArguments {
 #[derive(Debug, Clone)]
 struct WeightedMeasure(MeasureName, f64);
 
-/// Why a text is no part of a goal.
+/// The reason why a text is no part of a goal.
 #[derive(Debug, thiserror::Error)]
 enum GoalArgumentError {
     #[error("'{0}': give a weight above 0, as in fire=0.5")]
@@ -165,7 +165,8 @@ impl OptimiseArguments {
                 "warning: {path}: no design was found that keeps all limits; the design stays as it is"
             ));
         }
-        // What was found is kept first, whatever fails behind it, and is printed even where it cannot be written.
+        // The design is written first, so that a later failure cannot lose it, and the result is printed even where
+        // the file cannot be written.
         let kept = self.write(format, renamed(&outcome, search.objective().design()));
         let others = OtherMeasure::all(&search, &outcome, &unwatched).map_err(refused)?;
         match self.json {
@@ -269,7 +270,7 @@ impl OptimiseArguments {
     }
 }
 
-/// Returns the design that was found under a name of its own: what source and notes say of the given design is not true of it.
+/// Returns the found design under a name of its own: the source and the notes of the given design do not apply to it.
 fn renamed(outcome: &SearchOutcome, given: &Design) -> Design {
     let mut design = outcome.design.clone();
     if design != *given {
@@ -285,12 +286,12 @@ fn progress_svg(title: &str, outcome: &SearchOutcome) -> Result<String, crate::i
     let mut bands = vec![];
     for point in &outcome.curve {
         let at = point.appraised as f64;
-        // Two may be found while the same number was appraised; the better one counts.
+        // Threads may report two designs for the same number of appraisals; the better one counts.
         if places.last() == Some(&at) {
             places.pop();
             bands.pop();
         }
-        // Between two finds the best stays as it is.
+        // Between two finds the best total stays as it is.
         if let (Some(before), true) =
             (bands.last().copied(), places.last().is_some_and(|last| at - last > 1.0))
         {

@@ -1,4 +1,4 @@
-//! What `optimise` prints: what was won, what was given up, and which numbers did it.
+//! The output of `optimise`: the measures that rose, those that fell, and the numbers that changed.
 
 use super::sweep_plot::label;
 use crate::cut::Cut;

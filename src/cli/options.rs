@@ -1,4 +1,4 @@
-//! Options that several commands share: from where a stone is seen, and how its light is traced.
+//! Options that several commands share: the viewpoint, and the settings by which light is traced.
 
 use super::specimen::{LoadedSpecimen, note_colour};
 use crate::cut::Size;
@@ -13,7 +13,7 @@ use crate::scene::{Glare, Lean, Medium, Projection, Side, Viewpoint};
 use clap::{Args, ValueEnum};
 use std::path::Path;
 
-/// Why the text of an option cannot be read.
+/// The reason why the text of an option cannot be read.
 #[derive(Debug, Clone, thiserror::Error)]
 pub enum OptionError {
     /// The text is not a number.
@@ -47,7 +47,7 @@ pub fn pupil_diameter(text: &str) -> Result<f64, OptionError> {
     if diameter > 0.0 && diameter <= 50.0 { Ok(diameter) } else { Err(OptionError::Pupil) }
 }
 
-/// Returns the error of a job that cannot be done as it is wanted, with the options that help.
+/// Returns the error of a job that the chosen tracer cannot do, with the options that help.
 pub fn unfit(why: &Unfit, file: &str) -> Failure {
     let options = match why {
         Unfit::Perspective => "--tracer ray, or no --perspective",
@@ -66,7 +66,7 @@ pub fn unfit(why: &Unfit, file: &str) -> Failure {
     Failure::Usage(format!("{why} ({options})"))
 }
 
-/// From where the stone is seen.
+/// The viewpoint from which the stone is seen.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "View")]
 pub struct ViewOptions {
@@ -104,7 +104,7 @@ impl ViewOptions {
     /// Returns the viewpoint that the options describe.
     ///
     /// # Errors
-    /// A tilt, azimuth or distance out of its range.
+    /// Fails where a tilt, azimuth or distance is out of its range.
     pub fn viewpoint(&self) -> Result<Viewpoint, Failure> {
         let side = if self.side == SideName::Table { Side::Table } else { Side::Culet };
         let (lean, tilt_deg) =
@@ -130,7 +130,7 @@ impl ViewOptions {
     }
 }
 
-/// How the light is traced.
+/// The settings by which light is traced.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Light")]
 pub struct LightOptions {
@@ -165,7 +165,7 @@ pub struct LightOptions {
     /// Treat the light as unpolarised at every surface, to compare with programs that do so
     #[arg(long)]
     pub unpolarised: bool,
-    /// What traces the light
+    /// The tracer of the light
     #[arg(long, value_enum, default_value_t = Wanted::Quickest)]
     pub tracer: Wanted,
 }
@@ -197,7 +197,8 @@ impl LightOptions {
         LoadedSpecimen::load(file, mesh)?.made_of(self.material.as_deref(), self.stone)
     }
 
-    /// Returns how a specimen is seen and traced: its viewpoint, medium, observer and tracer, without glare in pictures.
+    /// Returns the view and tracing of a specimen: its viewpoint, medium, observer and tracer, without glare in
+    /// pictures.
     pub fn viewing<'a>(
         &self,
         specimen: &'a LoadedSpecimen,
@@ -227,7 +228,8 @@ impl LightOptions {
     /// Refuses a view that the chosen tracer cannot trace, and says what to do instead.
     fn check(viewing: &Viewing, specimen: &LoadedSpecimen, renderer: &Renderer) -> Result<(), Failure> {
         match viewing.plans_beams(renderer) {
-            // Each picture refuses an eye that sees nothing, by the side that it shows.
+            // The error of an eye that sees nothing comes later, from each picture, because it depends on the side
+            // that the picture shows.
             Err(Unfit::Eye) | Ok(_) => Ok(()),
             Err(why) => Err(unfit(&why, &specimen.path)),
         }
@@ -292,7 +294,7 @@ impl LightOptions {
 /// Returns the half angle of an observer's head, in degrees.
 ///
 /// # Errors
-/// The angle is not from 0 to below 90.
+/// Fails where the angle is not from 0 to below 90.
 pub fn checked_head(degrees: f64) -> Result<f64, Failure> {
     match (0.0..90.0).contains(&degrees) {
         true => Ok(degrees),

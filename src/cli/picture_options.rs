@@ -59,14 +59,15 @@ pub struct PictureOptions {
     /// photograph's file; by default the scene's, or #33373d-#0e0f11
     #[arg(long, value_name = "WHAT")]
     pub background: Option<String>,
-    /// How far behind the stones the world, pattern or photograph hangs, in girdle radii [default: the scene's, or 3]
+    /// The distance of the world, pattern or photograph behind the stones, in girdle radii [default: the scene's, or
+    /// 3]
     #[arg(long, allow_negative_numbers = true, value_name = "DISTANCE", value_parser = number)]
     pub photo_distance: Option<f64>,
     #[command(flatten)]
     pub mesh: MeshArguments,
 }
 
-/// How a picture is traced and finished, which maps have no use for.
+/// Tracing and finish of a picture; refraction maps do not use these options.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Tracing and finish")]
 pub struct FinishOptions {
@@ -77,11 +78,11 @@ pub struct FinishOptions {
     /// by rays [default: the scene's, or 1]
     #[arg(long, allow_negative_numbers = true, value_name = "PART", value_parser = number)]
     pub strength: Option<f64>,
-    /// Follow light through at most N bounces inside a stone, 1 to 64, to see what each adds; what is left is dark. Below 64
-    /// the picture is traced by rays
+    /// Follow light through at most N bounces inside a stone, 1 to 64, to see what each adds; the rest of the light
+    /// is dark. Below 64 the picture is traced by rays
     #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = USUAL_BOUNCES, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub bounces: u32,
-    /// What traces the light; beams are for one convex stone without a photograph behind
+    /// The tracer of the light; beams are for one convex stone without a photograph behind
     #[arg(long, value_enum, default_value_t = Wanted::Quickest)]
     pub tracer: Wanted,
     /// Part of the brightest light that is spread as glow and sparkle, 0 to 1
@@ -92,8 +93,8 @@ pub struct FinishOptions {
     /// half, or by PART with temporal:PART
     #[arg(long, value_name = "HOW", default_value_t = Smoothing::None)]
     pub smoothing: Smoothing,
-    /// What to draw over the stones, separated by commas: wireframe, facets, bounces, unresolved, total (how often light is
-    /// totally reflected before the first light leaves)
+    /// Overlays to draw over the stones, separated by commas: wireframe, facets, bounces, unresolved, total (how
+    /// often light is totally reflected before the first light leaves)
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     pub overlay: Vec<Overlay>,
 }

@@ -1,4 +1,4 @@
-//! The stones, light, background and camera of a picture under light, and taking the picture.
+//! The setup of a picture under light (stones, light, background and camera), and taking the picture.
 
 use super::console::{report, say};
 use super::options::unfit;
@@ -34,12 +34,12 @@ const BACKGROUND: &str = "#33373d-#0e0f11";
 /// The default distance of a world, pattern or photograph behind the origin, in girdle radii.
 const PHOTO_DISTANCE: f64 = 3.0;
 
-/// Everything that a picture needs, loaded once: stones, light, background, tracer and finish.
+/// The setup of pictures, loaded once: stones, light, background, tracer and finish.
 pub struct PictureSetup<'a> {
     options: &'a PictureOptions,
     finish: &'a FinishOptions,
     pub assembly: Assembly,
-    /// From where the stones are seen, in the scene's perspective.
+    /// The viewpoint of the stones, in the scene's perspective where the scene has one.
     pub viewpoint: Viewpoint,
     lighting: Arc<Lighting>,
     pub background: BackgroundRef,
@@ -51,7 +51,7 @@ pub struct PictureSetup<'a> {
     pub strength: f64,
     pub develop: Develop,
     renderer: RefCell<Renderer>,
-    /// With temporal smoothing, what was seen before.
+    /// With temporal smoothing, the history of the samples so far.
     trail: RefCell<over_time::Trail>,
     /// The planned tracer, in words.
     tracer: String,
@@ -131,7 +131,8 @@ impl<'a> PictureSetup<'a> {
         Ok(studio)
     }
 
-    /// Returns an error if `--photo-distance` is given without a world, pattern or photograph to place there.
+    /// Returns an error if `--photo-distance` is given without a world, pattern or photograph that could have a
+    /// distance.
     pub fn with_what_has_a_distance(self) -> Result<Self, Failure> {
         if self.photo.is_some() || self.options.photo_distance.is_none() {
             return Ok(self);
@@ -142,7 +143,7 @@ impl<'a> PictureSetup<'a> {
         ))
     }
 
-    /// Returns the tracer of pictures from a view in words, before any is taken.
+    /// Returns a description of the tracer that pictures of a view will have.
     fn planned(&self, view: &View) -> Result<String, Failure> {
         let job = self.job(&Arc::new(self.assembly.setting.clone()), view, 1.0);
         let plan = self.renderer.borrow().plan(&job).map_err(|why| unfit(&why, &self.assembly.path))?;
@@ -163,7 +164,7 @@ impl<'a> PictureSetup<'a> {
         Job { scene: Arc::clone(scene), view: *view, film, product, quality: self.quality() }
     }
 
-    /// Returns what is around the stones of a picture with pixels of the side `pixel`.
+    /// Returns the surroundings of the stones in a picture with pixels of the side `pixel`.
     pub fn surroundings(&self, pixel: f64) -> Surroundings {
         let hung = |picture: &Arc<Mipmap>| HungPicture {
             picture: Arc::clone(picture),
@@ -180,17 +181,17 @@ impl<'a> PictureSetup<'a> {
         }
     }
 
-    /// Returns how well pictures are traced.
+    /// Returns the quality with which pictures are traced.
     pub fn quality(&self) -> Quality {
         let usual = Quality::of_pictures(!self.options.unpolarised);
         let rays = RayOptions { most_bounces: self.finish.bounces, ..usual.rays };
         Quality { tracer: self.finish.tracer, samples: self.options.samples, rays, ..usual }
     }
 
-    /// Returns the side of a pixel, in world units, with which the stones fill the picture but for a margin.
+    /// Returns the side of a pixel, in world units, with which the stones fill the picture up to a margin.
     ///
     /// # Errors
-    /// [`Failure::Input`] where the eye of a perspective is not in front of all stones.
+    /// Fails with [`Failure::Input`] where the eye of a perspective is not in front of all stones.
     pub fn pixel(&self, setting: &Scene, view: &View) -> Result<f64, Failure> {
         let camera = Camera::reaching(view, setting.reach());
         let Some(extent) = camera.extent(setting.vertices()) else {
@@ -220,13 +221,13 @@ impl<'a> PictureSetup<'a> {
         Ok(RenderedPicture { light, description: self.described(rendered)? })
     }
 
-    /// Returns how a picture is developed, with the chosen overlays.
+    /// Returns the settings by which a picture is developed, with the chosen overlays.
     pub fn finish<'j>(&'j self, job: &'j Job) -> Finish<'j> {
         let fxaa = self.finish.smoothing == Smoothing::Fxaa;
         Finish { develop: self.develop, fxaa, overlays: &self.finish.overlay, lit_scene: job.lit() }
     }
 
-    /// Returns lines that say what the colours of the overlays mean.
+    /// Returns lines that explain the colours of the overlays.
     pub fn legend(&self) -> Vec<String> {
         let lines = |overlay: &Overlay| {
             let name = format!("{overlay:?}").to_lowercase();

@@ -26,7 +26,7 @@ impl PlotFile {
     /// Takes the name of a file.
     ///
     /// # Errors
-    /// [`Failure::Usage`]: another ending than svg, png or pdf.
+    /// Fails with [`Failure::Usage`] for another ending than svg, png or pdf.
     pub fn new(path: &Path) -> Result<Self, Failure> {
         let format = match path.extension().and_then(|ending| ending.to_str()) {
             Some("svg") => PlotFormat::Svg,

@@ -18,11 +18,11 @@ use std::time::{Duration, Instant};
 /// The progress bar on the screen, which is cleared when a signal ends the program.
 static SHOWN: Mutex<Option<ProgressBar>> = Mutex::new(None);
 
-/// How long the program waits at its end for the bar to be cleared. A thread that prints past the bar holds its lock, and
-/// keeps it as long as nobody reads the output.
+/// The longest time that the program waits at its end for the bar to be cleared. A thread that prints past the bar
+/// holds the bar's lock, and keeps it as long as nobody reads the output.
 const CLEARING: Duration = Duration::from_millis(200);
 
-/// Whether the first signal asks the work to finish early, and whether it has come.
+/// The first flag is true where the first signal asks the work to finish early; the second once that signal has come.
 static FINISHES: AtomicBool = AtomicBool::new(false);
 static IS_ASKED: AtomicBool = AtomicBool::new(false);
 
@@ -32,12 +32,12 @@ pub fn finish_on_signals() {
     FINISHES.store(true, Ordering::Relaxed);
 }
 
-/// Whether a signal has asked the work to finish early.
+/// Returns whether a signal has asked the work to finish early.
 pub fn is_asked_to_finish() -> bool {
     IS_ASKED.load(Ordering::Relaxed)
 }
 
-/// Takes a signal as the wish to finish early; returns whether it was taken so.
+/// Takes a signal as the request to finish early; returns whether it did, which only the first signal can.
 fn ask_to_finish() -> bool {
     let is_first = FINISHES.load(Ordering::Relaxed) && !IS_ASKED.swap(true, Ordering::Relaxed);
     if is_first {
@@ -51,7 +51,8 @@ fn ask_to_finish() -> bool {
 /// Temporary files are removed, finished files stay, and the exit code is 128 plus the signal's number. A second signal has
 /// the system's default effect, in case the first one is kept waiting.
 pub fn end_on_signals() {
-    // An error here is ignored: without the handler a signal still ends the program, only less tidily.
+    // An error here is ignored: without the handler a signal still ends the program, but leaves temporary files
+    // behind.
     #[cfg(unix)]
     if let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) {
         std::thread::spawn(move || {
@@ -99,7 +100,7 @@ fn end(signal: i32) -> ! {
 /// and then.
 pub struct WorkProgress {
     bar: ProgressBar,
-    /// The lines, and when the work began; none on a terminal.
+    /// The lines, and the time when the work began; `None` on a terminal.
     lines: Option<(Instant, Mutex<ProgressLines>)>,
 }
 
@@ -119,7 +120,7 @@ impl WorkProgress {
     pub fn watch(&self) -> impl Fn(f64) -> ControlFlow<()> + Sync + '_ {
         |done| {
             self.bar.set_position((done * 1000.0) as u64);
-            // A thread that finds another one at the lines has nothing newer to say.
+            // A thread that finds another one at the lines has no newer progress to report.
             if let Some((begun, lines)) = &self.lines
                 && let Ok(mut lines) = lines.try_lock()
                 && let Some(line) = lines.line(done, begun.elapsed())
@@ -130,7 +131,7 @@ impl WorkProgress {
         }
     }
 
-    /// Shows beside the bar what is being made, and prints files, notes and warnings above it.
+    /// Shows the present output beside the bar, and prints files, notes and warnings above it.
     pub fn report(&self, event: Event) -> Result<(), Failure> {
         if let Event::Begun(what) = event {
             self.bar.set_message(what.to_string());

@@ -1,4 +1,4 @@
-//! Lines that say how far long work is, where standard error is no terminal: a file, or the log of a batch job.
+//! Lines about the progress of long work, where standard error is no terminal: a file, or the log of a batch job.
 
 use std::time::Duration;
 
@@ -12,7 +12,7 @@ const SILENCE: Duration = Duration::from_secs(60);
 /// seconds, and none within the first 10.
 pub struct ProgressLines {
     what: String,
-    /// When the last line was printed, counted from the beginning of the work.
+    /// The time when the last line was printed, counted from the beginning of the work.
     last: Duration,
     /// The tenths of the work that were done at the last line.
     tenths: u32,
@@ -23,7 +23,8 @@ impl ProgressLines {
         Self { what: what.to_owned(), last: Duration::ZERO, tenths: 0 }
     }
 
-    /// Returns the line that is due when this part of the work is done, 0 to 1, this long after the work began.
+    /// Returns the line that is due once a part of the work, 0 to 1, is done after `elapsed`; `None` where none is
+    /// due.
     pub fn line(&mut self, done: f64, elapsed: Duration) -> Option<String> {
         let (tenths, silent) = ((done * 10.0) as u32, elapsed.saturating_sub(self.last));
         let is_due = silent >= APART && (tenths > self.tenths || silent >= SILENCE);
@@ -31,14 +32,15 @@ impl ProgressLines {
             return None;
         }
         (self.last, self.tenths) = (elapsed, tenths);
-        // The rest takes as long for each part as what is done. A duration of more than some ages has no number.
+        // The estimate assumes that the rest takes as long for each part as the work so far. A duration of many ages
+        // does not fit the type.
         let left = Duration::try_from_secs_f64(elapsed.as_secs_f64() * (1.0 - done) / done).ok();
         let left = left.map_or(String::new(), |left| format!(", about {} left", in_words(left)));
         Some(format!("{}: {} % done{left}", self.what, (done * 100.0) as u32))
     }
 }
 
-/// Returns a duration in words, rounded to what an estimate is good for.
+/// Returns a duration in words, rounded to the accuracy of an estimate.
 fn in_words(time: Duration) -> String {
     let seconds = time.as_secs_f64();
     let minutes = (seconds / 60.0).round() as u64;
@@ -55,8 +57,8 @@ fn in_words(time: Duration) -> String {
 mod tests {
     use super::*;
 
-    /// Returns when lines are printed, in seconds, and the lines, of work that takes `whole` seconds and looks at the clock
-    /// `often` times.
+    /// Returns the lines that are printed, with their times in seconds, for work that takes `whole` seconds and
+    /// checks the clock `often` times.
     fn lines(whole: f64, often: u32) -> Vec<(f64, String)> {
         let mut lines = ProgressLines::new("sweeping x");
         let parts = (0..=often).map(|k| f64::from(k) / f64::from(often));
@@ -105,7 +107,7 @@ mod tests {
         );
         let slower = lines.line(0.5, Duration::from_secs(7200)).unwrap();
         assert_eq!(slower, "report: 50 % done, about 2 h 0 min left");
-        // Work that turns out to be more than thought goes back, and says nothing until it is further than before.
+        // Work that is more than expected goes back, and prints nothing until it is further than before.
         assert_eq!(lines.line(0.4, Duration::from_secs(7220)), None);
         assert_eq!(lines.line(1.0, Duration::from_secs(9999)), None);
     }

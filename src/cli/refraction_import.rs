@@ -1,5 +1,5 @@
-//! `refraction-template` writes the gradient that another renderer shows through its glass; `refraction-import` takes what
-//! it rendered as a refraction map.
+//! `refraction-template` writes the gradient that another renderer shows through its glass; `refraction-import` turns
+//! its rendered picture into a refraction map.
 
 use super::console::{say, written};
 use super::map_files::{MapFiles, MapKind, folder, kinds_or_usual};
@@ -13,7 +13,7 @@ use crate::picture::Background;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
-/// The coding of a template, as it is named on the command line.
+/// The coding of a template, with its name on the command line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum TemplateCoding {
     /// 8 bits, 16 by 16 tiles: without filter, through glass that takes no light away
@@ -35,7 +35,7 @@ impl TemplateCoding {
 pub struct RefractionTemplate {
     /// The PNG file to write
     file: PathBuf,
-    /// What the colours mean
+    /// The coding: what the colours stand for
     #[arg(long, value_enum, default_value = "tiled")]
     coding: TemplateCoding,
     /// Pixels of each side, 256 to 4096
@@ -49,7 +49,8 @@ pub struct RefractionImport {
     /// program
     #[arg(required = true, value_name = "PICTURE")]
     pictures: Vec<PathBuf>,
-    /// The light that does not come from the background, and what it hides: PNG or OpenEXR with alpha
+    /// The diffuse layer: the light that does not come from the background, and the cover where it hides it; PNG or
+    /// OpenEXR with alpha
     #[arg(long, value_name = "FILE")]
     diffuse: Option<PathBuf>,
     /// The template that was rendered [default: tiled for 8 bits, gradient for more]
@@ -58,14 +59,14 @@ pub struct RefractionImport {
     /// Folder to write to
     #[arg(long, default_value = "out")]
     out: PathBuf,
-    /// What to write, separated by commas [default: tiled,page, and preview with a photograph]
+    /// Kinds of file to write, separated by commas [default: tiled,page, and preview with a photograph]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KIND")]
     format: Vec<MapKind>,
     /// A world (sunset, room, city), a pattern (page, grid, checks, stripes, dots, slit) or a photograph's file for the page
     /// and the preview
     #[arg(long, value_name = "WHAT")]
     background: Option<String>,
-    /// How many times as wide as the picture the template is, seen straight on
+    /// The width of the template, seen straight on, as a multiple of the picture's
     #[arg(long, allow_negative_numbers = true, value_name = "TIMES", default_value_t = 2.0, value_parser = number)]
     span: f64,
 }

@@ -1,5 +1,5 @@
-//! `refraction-map`: writes maps of where in the background the light of each pixel comes from. Pages and programs refract a
-//! moving background by looking it up in such a map.
+//! `refraction-map`: writes maps that give for each pixel the place in the background that its light comes from.
+//! Pages and programs refract a moving background by looking it up in such a map.
 
 use super::batch::{distinct, each_file};
 use super::console::say;
@@ -29,17 +29,17 @@ pub struct RefractionMaps {
     /// Folder to write to
     #[arg(long, default_value = "out")]
     out: PathBuf,
-    /// What to write, separated by commas [default: tiled,page, and preview with a photograph]
+    /// Kinds of file to write, separated by commas [default: tiled,page, and preview with a photograph]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KIND")]
     format: Vec<MapKind>,
     /// Make one map for each of N bands of wavelengths, 1 to 16, so that the look-up shows a rainbow
     #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_MAP_BANDS)))]
     bands: u32,
-    /// Keep the places of the N strongest paths of each pixel, 1 to 8, so that what is seen twice through a pixel shows twice;
-    /// each band has N maps
+    /// Keep the places of the N strongest paths of each pixel, 1 to 8, so that a pixel through which two places are
+    /// seen shows both; each band has N maps
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_PLACES)))]
     places: u32,
-    /// How many times as wide as the picture the background is; light from beyond it is in the diffuse layer
+    /// The width of the background as a multiple of the picture's; light from beyond it is in the diffuse layer
     #[arg(long, allow_negative_numbers = true, value_name = "TIMES", default_value_t = 2.0, value_parser = number)]
     span: f64,
     /// Hang the same background in front of the stones too, so that light which they send back to the eye's side shows it
@@ -81,7 +81,7 @@ impl RefractionMaps {
                     "--background: give a world, a pattern or a photograph, or leave it out".into(),
                 ));
             }
-            // The scene's background, and the default, are colours or the light, which a map does not show.
+            // The scene's background and the default are colours or the light itself, which a map does not show.
             studio.background = BackgroundRef::Plain(Background::Transparent);
         }
         if studio.strength < 1.0 {

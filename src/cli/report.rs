@@ -51,7 +51,7 @@ impl ReportArguments {
         check_count(self.files.len())?;
         check_writable(&self.out)?;
         let light = self.light();
-        // A card would leave other last digits than the processor.
+        // The last digits of a card's results differ from the processor's, so reports use the processor alone.
         let mut renderer = Renderer::new(Card::None);
         let mut specimens = vec![];
         for file in &self.files {
@@ -71,7 +71,7 @@ impl ReportArguments {
         written(&self.out)
     }
 
-    /// Returns the light of every report: the same, so that reports can be compared.
+    /// Returns the options of the light, which are the same for every report, so that reports can be compared.
     fn light(&self) -> LightOptions {
         LightOptions {
             material: self.material.clone(),
@@ -87,7 +87,7 @@ impl ReportArguments {
         }
     }
 
-    /// Returns the command that makes the same report again, but for what does not change its content.
+    /// Returns the command that makes the same report again; options that do not change the content are left out.
     fn command(&self) -> String {
         let mut words = vec!["brillianteer".to_owned(), "report".to_owned()];
         words.extend(self.files.iter().map(|file| file.display().to_string()));
@@ -103,7 +103,7 @@ impl ReportArguments {
     }
 }
 
-/// Returns a word as a shell reads it.
+/// Returns a word in quotes where a shell needs them.
 fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "-_./+=:,@%".contains(c);
     match !word.is_empty() && word.chars().all(is_plain) {

@@ -46,9 +46,9 @@ pub struct RetargetArguments {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Rule {
-    /// Each pavilion tier turns by the difference of the critical angles; the crown stays
+    /// Turn each pavilion tier by the difference of the critical angles; the crown stays
     CriticalAngle,
-    /// The tangents of one side's angles are multiplied by one factor, which keeps every meet
+    /// Multiply the tangents of one side's angles by one factor, which keeps every meet
     TangentRatio,
 }
 
@@ -102,7 +102,7 @@ impl RetargetArguments {
         })?;
         let made = Specimen::new(found.design.clone())
             .map_err(|error| Failure::Input(format!("{path}: fitted to the material, {error}")))?;
-        // What is odd about the old design as well was said when it was read.
+        // Warnings that the old design has as well were printed when it was read.
         let unusual = made.unusual.iter().filter(|warning| !specimen.unusual.contains(warning));
         let odd = made.warnings.iter().filter(|warning| !specimen.warnings.contains(warning));
         for warning in unusual.map(ToString::to_string).chain(odd.cloned()) {

@@ -19,7 +19,7 @@ pub struct RoughYield {
     /// The rough's length, width and depth in mm, such as 12x9x7; the stone's axis lies along the depth
     #[arg(long, value_name = "LxWxD")]
     rough: Option<Rough>,
-    /// The finished weight that is wanted, carats
+    /// The weight of the finished stone, carats
     #[arg(long, value_name = "CARATS", value_parser = number, allow_negative_numbers = true)]
     weight: Option<f64>,
     /// The thickness of the finished girdle in mm, whatever the size [default: as the design has it]

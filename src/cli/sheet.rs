@@ -28,7 +28,7 @@ pub struct SheetArguments {
     /// Give the indices of a gear that counts clockwise, for a left-handed machine
     #[arg(long)]
     left_handed: bool,
-    /// Print what stands on the sheet as JSON instead: one object, or for several files one object a line
+    /// Print the content of the sheet as JSON instead: one object, or for several files one object a line
     #[arg(long)]
     json: bool,
     /// A material's name, or an index, instead of the file's

@@ -32,7 +32,7 @@ pub struct Manual {
 }
 
 impl Manual {
-    /// Prints the manual page of `program`, or of the command that is asked for.
+    /// Prints the manual page of `program`, or of one of its commands.
     pub fn run(&self, mut program: Command) -> Result<(), Failure> {
         program.build();
         let asked = match &self.command {

@@ -32,7 +32,7 @@ impl Deref for LoadedSpecimen {
 }
 
 impl LoadedSpecimen {
-    /// Reads a design, or takes a cut that comes with the program by its name, and builds the stone. Prints notes and
+    /// Reads a design, or takes by its name a cut that comes with the program, and builds the stone. Prints notes and
     /// warnings about it.
     pub fn load(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
         let BuiltDesign { path, made, remarks } = BuiltDesign::load(file, mesh)?;
@@ -40,7 +40,7 @@ impl LoadedSpecimen {
         Ok(Self { path, made })
     }
 
-    /// Returns the same stone with another material (a name or an index) and size, where they are given.
+    /// Returns the same stone with another material (a name or an index) and size, where one of them is `Some`.
     pub fn made_of(self, material: Option<&str>, size: Option<Size>) -> Result<Self, Failure> {
         let Self { path, made } = self;
         let mut design = made.design.clone();
@@ -98,7 +98,7 @@ pub fn note_colour(material: &Material) {
     }
 }
 
-/// Prints a note where fire is measured of a material that is known by its index alone.
+/// Prints a note where fire is measured for a material of which only one index is known.
 pub fn note_no_fire(material: &Material, measures: impl IntoIterator<Item = MeasureName>) {
     let mut measures = measures.into_iter();
     let is_of_colours = |name: &MeasureName| matches!(name, MeasureName::Fire | MeasureName::FireSeen);

@@ -18,7 +18,7 @@ use crate::scene::Viewpoint;
 use clap::Args;
 use std::path::PathBuf;
 
-/// The options that are for pictures under light alone.
+/// The options that apply only to pictures under light.
 const OF_LIGHT: [&str; 16] = [
     "light",
     "turn",
@@ -46,7 +46,7 @@ pub struct Spin {
     /// NAME-spin/
     #[arg(long, default_value = "out")]
     out: PathBuf,
-    /// How the stone moves
+    /// The motion of the stone
     #[arg(long, value_enum, default_value_t = StoneMotion::Turn)]
     motion: StoneMotion,
     /// Frames of one round
@@ -55,7 +55,7 @@ pub struct Spin {
     /// Seconds of one round
     #[arg(long, value_name = "SECONDS", default_value_t = 4.0, value_parser = number)]
     seconds: f64,
-    /// How far the stone rocks or wobbles
+    /// The greatest angle by which the stone rocks or wobbles
     #[arg(long, value_name = "DEGREES", default_value_t = 15.0, value_parser = number)]
     swing: f64,
     /// Show one stone in a scope instead of under light: a scope's name (see `scopes`) or its file
@@ -65,7 +65,7 @@ pub struct Spin {
     /// with a mark at the present one; measures are named as for `sweep`; may be repeated
     #[arg(long = "of", value_name = "MEASURE")]
     measures: Vec<MeasureName>,
-    /// Write under the pictures what they show, and how the stone stands
+    /// Write a caption under the pictures: their content, and the position of the stone
     #[arg(long)]
     caption: bool,
     #[command(flatten)]
@@ -76,17 +76,17 @@ pub struct Spin {
     finish: FinishOptions,
 }
 
-/// Where an animation goes.
+/// The output of an animation: its file, and the folder of its frames.
 struct SpinOutput {
     path: PathBuf,
-    /// The folder of the frames, where they are wanted.
+    /// The folder of the frames; `None` where no frames are written.
     stills: Option<PathBuf>,
 }
 
 impl Spin {
     pub fn run(&self) -> Result<(), Failure> {
         let asked = self.view.viewpoint()?;
-        // What is wrong with the command line is said before anything is loaded.
+        // Faults of the command line are reported before anything is loaded.
         let format = self.format()?;
         let delay_ms = self.delay_ms(format)?;
         self.check_swing()?;
@@ -166,7 +166,7 @@ impl Spin {
         written(&output.path)
     }
 
-    /// Takes the measures whose curves are wanted.
+    /// Takes the measures whose curves are drawn; `None` where the options name none.
     fn curves(
         &self,
         pictures: &dyn SpinPictures,
@@ -220,7 +220,8 @@ impl Spin {
         Ok(format)
     }
 
-    /// Returns where the animation goes. In a folder its name is that of the stone with the viewpoint's suffix and the scope.
+    /// Returns the output of the animation. In a folder its name is that of the stone with the viewpoint's suffix and
+    /// the scope.
     fn output(&self, format: AnimationFormat, asked: &Viewpoint, scope: &str) -> SpinOutput {
         if self.is_file() {
             return SpinOutput { path: self.out.clone(), stills: None };
@@ -231,7 +232,7 @@ impl Spin {
         SpinOutput { path, stills: Some(self.out.join(name)) }
     }
 
-    /// Returns how long each frame is shown, in milliseconds.
+    /// Returns the time that each frame is shown, in milliseconds.
     fn delay_ms(&self, format: AnimationFormat) -> Result<u16, Failure> {
         let delay = (1000.0 * self.seconds / f64::from(self.frames)).round();
         let [least, most] = format.delays_ms();
@@ -260,8 +261,8 @@ impl Spin {
         }
     }
 
-    /// Refuses what cannot be drawn under the pictures: more curves than can be told apart, curves of what does not tilt, and all
-    /// that needs wider pictures.
+    /// Refuses options that cannot be drawn under the pictures: more curves than can be told apart, curves of a
+    /// motion that does not tilt, and a plot or caption that needs wider pictures.
     fn check_panel(&self) -> Result<(), Failure> {
         let refused = |what: &str| Err(Failure::Usage(format!("--of: {what}")));
         match () {

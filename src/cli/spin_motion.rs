@@ -1,23 +1,23 @@
-//! How a stone moves in an animation, frame by frame.
+//! The motion of a stone in an animation, frame by frame.
 
 use crate::scene::{Lean, View, Viewpoint};
 use clap::ValueEnum;
 use glam::DQuat;
 
-/// The digits of degrees that frames keep, so that a still picture can be asked for by the numbers that are printed.
+/// The decimal steps per degree that frames keep, so that a still picture can be made with the printed numbers.
 const DIGITS: f64 = 1e6;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum StoneMotion {
-    /// About its own axis, while eye and light stay; --tilt or --eye-tilt shows more of its side
+    /// Turn about its own axis, while eye and light stay; --tilt or --eye-tilt shows more of its side
     Turn,
-    /// To and fro toward --azimuth
+    /// Rock to and fro toward --azimuth
     Rock,
-    /// Its table leans toward one azimuth after the other, all around
+    /// Wobble: the table leans toward one azimuth after the other, all around
     Wobble,
 }
 
-/// How the stone stands in one frame.
+/// The position of the stone in one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpinPose {
     /// The viewpoint of a stone that is not turned.
@@ -33,14 +33,14 @@ pub struct SpinMotion {
     pub motion: StoneMotion,
     /// The viewpoint in which the stone rests.
     pub rest: Viewpoint,
-    /// How far the stone rocks or wobbles, degrees.
+    /// The greatest angle by which the stone rocks or wobbles, degrees.
     pub swing_deg: f64,
     /// The number of frames.
     pub frames: u32,
 }
 
 impl SpinMotion {
-    /// Returns how the stone stands in each frame. A rocking stone begins at rest.
+    /// Returns the position of the stone in each frame. A rocking stone begins at rest.
     pub fn poses(&self) -> Vec<SpinPose> {
         (0..self.frames).map(|number| self.pose(number)).collect()
     }
@@ -84,7 +84,7 @@ impl SpinPose {
         self.viewpoint.view().of_turned(DQuat::from_rotation_z(self.turned_deg.to_radians()))
     }
 
-    /// Says how the stone stands, to a tenth of a degree.
+    /// Describes the position of the stone, to a tenth of a degree.
     pub fn words(&self) -> String {
         let Viewpoint { lean, tilt_deg, azimuth_deg, .. } = self.viewpoint;
         let tenths = |degrees: f64| (degrees * 10.0).round() / 10.0 + 0.0;

@@ -1,4 +1,4 @@
-//! What is drawn under the pictures of an animation: a caption, and how measures change with the tilt or the azimuth.
+//! The panel under the pictures of an animation: a caption, and curves of measures against the tilt or the azimuth.
 
 use super::console::say;
 use super::measure_taking::{UNRESOLVED, settings_of};
@@ -18,7 +18,7 @@ use crate::trace::Watch;
 /// The least width of pictures with curves, in pixels.
 pub const LEAST_PLOTTED: u32 = 320;
 
-/// Why a stone that turns has no curves.
+/// The reason why a stone that turns has no curves.
 pub const ONLY_TILTS: &str = "curves are over the tilt of --motion rock or the azimuth of --motion wobble";
 
 /// The least width of a plot in units of its drawing; on narrower pictures it is drawn smaller.
@@ -31,7 +31,7 @@ const PLOT_SHAPE: f64 = 0.45;
 const MOST_TILT_STEP: f64 = 2.0;
 const MOST_AZIMUTH_STEP: f64 = 10.0;
 
-/// What curves are of, besides the design and the motion.
+/// The settings of curves, besides the design and the motion.
 #[derive(Debug, Clone, Copy)]
 pub struct CurveSettings<'a> {
     pub measures: &'a [MeasureName],
@@ -40,7 +40,7 @@ pub struct CurveSettings<'a> {
     pub polarised: bool,
 }
 
-/// What a motion varies.
+/// The axis along which a motion varies the view.
 struct SpinAxis {
     key: SweepKey,
     plotted: PlotAxis,
@@ -51,7 +51,7 @@ struct SpinAxis {
 /// Measures at each tilt or azimuth of a motion.
 pub struct SpinCurves {
     axis: SpinAxis,
-    /// For each measure its name, and its value at each place of the axis.
+    /// For each measure its name, and its value at each place of the axis; `None` where it was not measured.
     curves: Vec<(String, Vec<Option<Interval>>)>,
 }
 
@@ -59,8 +59,8 @@ impl SpinCurves {
     /// Measures a design at each tilt of a rocking stone, or at each azimuth of a wobbling one.
     ///
     /// # Errors
-    /// [`Failure::Usage`] where the stone turns, or where there is one tilt only; [`Failure::Input`] where nothing can be
-    /// measured; [`Failure::Stopped`].
+    /// Fails with [`Failure::Usage`] where the stone turns, or where there is one tilt only; [`Failure::Input`] where
+    /// nothing can be measured; [`Failure::Stopped`].
     pub fn of(
         design: Design,
         settings: CurveSettings,
@@ -102,7 +102,7 @@ impl SpinCurves {
         }
     }
 
-    /// Draws the curves with a mark at a pose; the key says what the measures are there.
+    /// Draws the curves with a mark at a pose; the key gives the values of the measures there.
     fn svg(&self, pose: &SpinPose, title: &str, width: u32) -> Result<String, Failure> {
         let (axis, at) = (&self.axis.plotted, (self.axis.of)(pose));
         let place = axis.values.iter().position(|&value| value == at);
@@ -123,7 +123,7 @@ impl SpinCurves {
     }
 }
 
-/// Returns what a motion varies, and its values: those of the frames, each once and rising, and others between them.
+/// Returns the axis of a motion, and its values: those of the frames, each once and rising, and others between them.
 fn axis(motion: &SpinMotion, poses: &[SpinPose]) -> Result<SpinAxis, Failure> {
     let side = motion.rest.side.name();
     let tilt = match motion.rest.lean {
@@ -173,7 +173,7 @@ fn in_percent(value: &Interval) -> String {
     format!("{told:.1} ± {:.1} %", (10.0 * bound).ceil() / 10.0)
 }
 
-/// What is drawn under each picture, as high under one as under the other.
+/// The panel under each picture, which has the same height under all of them.
 pub struct SpinPanel<'a> {
     pictures: &'a dyn SpinPictures,
     is_captioned: bool,
@@ -192,7 +192,7 @@ impl<'a> SpinPanel<'a> {
         curves: Option<SpinCurves>,
     ) -> Result<Self, Failure> {
         let mut panel = Self { pictures, is_captioned, curves, width, heights: [0, 0] };
-        // How the stone stands may need more lines in one caption than in another. Plots are all alike.
+        // The position of the stone may need more lines in one caption than in another. All plots are equally high.
         let height = |pose: &&SpinPose| pictures.caption(pose).height(f64::from(width));
         let tallest = poses.iter().max_by(|a, b| height(a).total_cmp(&height(b)));
         if let Some(pose) = tallest {
@@ -226,7 +226,7 @@ impl<'a> SpinPanel<'a> {
 
     fn plot(&self, pose: &SpinPose) -> Result<(u32, Vec<u8>), Failure> {
         let Some(curves) = &self.curves else { return Ok((0, vec![])) };
-        // A caption says already how the stone stands.
+        // The caption already gives the position of the stone.
         let title = if self.is_captioned { String::new() } else { pose.words() };
         let svg = curves.svg(pose, &title, self.width.max(PLOT_WIDTH))?;
         let drawn = rasterize(&svg, self.width).map_err(|error| Failure::Output(error.to_string()))?;

@@ -18,27 +18,27 @@ use std::cell::RefCell;
 use std::path::Path;
 use std::sync::Arc;
 
-/// A picture of an animation: red, green, blue and cover of each pixel, and what it shows.
+/// A picture of an animation: red, green, blue and cover of each pixel, and a description of its content.
 pub struct SpinPicture {
     pub rgba: Vec<u8>,
     pub description: String,
 }
 
-/// What takes the pictures of an animation, all with pixels of one size.
+/// A source of the pictures of an animation, all with pixels of one size.
 pub trait SpinPictures {
-    /// Returns what the animation shows, for its text and its progress.
+    /// Returns the subject of the animation, for its text and its progress.
     fn title(&self) -> String;
 
-    /// Returns how the pictures are made, for the animation's text.
+    /// Returns a description of how the pictures are made, for the animation's text.
     fn description(&self) -> String;
 
-    /// Returns the design whose measures can be drawn; none of a scene.
+    /// Returns the design whose measures can be drawn; `None` for a scene.
     fn design(&self) -> Result<Option<Design>, Failure>;
 
-    /// Says whether the pictures have a transparent background.
+    /// Returns whether the pictures have a transparent background.
     fn is_transparent(&self) -> bool;
 
-    /// Returns colours that mean something and stay as they are.
+    /// Returns the colours that have a meaning and must not change when the format reduces the number of colours.
     fn exact_colours(&self) -> Vec<[u8; 3]>;
 
     /// Returns the caption of the picture of a pose.
@@ -57,7 +57,7 @@ pub struct LitPictures<'a> {
 }
 
 impl<'a> LitPictures<'a> {
-    /// Loads stones, light and background. The viewpoint is as the user asks for it.
+    /// Loads stones, light and background. The viewpoint is the one that the options give.
     pub fn load(
         options: (&'a PictureOptions, &'a FinishOptions),
         file: &Path,
@@ -68,12 +68,12 @@ impl<'a> LitPictures<'a> {
         Ok(Self { setup, material: options.0.material.as_deref(), stones, pixel: 0.0 })
     }
 
-    /// Returns the viewpoint in which the stones rest: in the scene's perspective where the user gives none.
+    /// Returns the viewpoint in which the stones rest: in the scene's perspective where the options give none.
     pub fn rest(&self) -> Viewpoint {
         self.setup.viewpoint
     }
 
-    /// Makes the pixels so large that the stones fit into each frame.
+    /// Returns the same pictures with pixels so large that the stones fit into each frame.
     pub fn fitting(self, poses: &[SpinPose]) -> Result<Self, Failure> {
         let mut pixels = poses.iter().map(|pose| self.setup.pixel(&self.stones, &pose.view()));
         let pixel = pixels.try_fold(0.0_f64, |most, pixel| pixel.map(|p| most.max(p)))?;
@@ -125,7 +125,7 @@ impl SpinPictures for LitPictures<'_> {
     }
 }
 
-/// What `spin` needs of a stone, a scope and its options before it knows how many frames there are.
+/// The setup of `spin` in a scope before the frames are known: stone, scope and options.
 pub struct ScopeSetup<'a> {
     options: (&'a PictureOptions, &'a FinishOptions),
     specimen: LoadedSpecimen,
@@ -135,7 +135,7 @@ pub struct ScopeSetup<'a> {
 }
 
 impl<'a> ScopeSetup<'a> {
-    /// Loads a stone and a scope, which is given by its name or as a file.
+    /// Loads a stone and a scope; the scope is a name or a file.
     pub fn load(
         (options, finish): (&'a PictureOptions, &'a FinishOptions),
         file: &Path,
@@ -156,7 +156,7 @@ impl<'a> ScopeSetup<'a> {
         Ok(Self { options: (options, finish), specimen, scoped, medium, renderer })
     }
 
-    /// Returns the name that the scope bears in the names of files.
+    /// Returns the name of the scope in the names of files.
     pub fn name(&self) -> &str {
         &self.scoped.scope.name
     }
@@ -179,7 +179,7 @@ impl<'a> ScopeSetup<'a> {
         }
     }
 
-    /// Returns what takes the pictures of these poses.
+    /// Returns the source of the pictures of these poses.
     pub fn pictures(&self, motion: &SpinMotion, poses: &[SpinPose]) -> Result<ScopePictures<'_>, Failure> {
         let viewings: Vec<Viewing> = poses.iter().map(|pose| self.viewing(pose)).collect();
         let stills =

@@ -31,9 +31,10 @@ pub struct SweepArguments {
     /// Designs, meshes, names of cuts that come with the program, or folders of designs
     #[arg(required = true)]
     files: Vec<PathBuf>,
-    /// What varies, and its values: crown_angle=30:38:0.5 (from, to, step), crown_angle=33,34.5 or material=diamond,ruby; the key of a
-    /// proportion, tier: (its angle) or distance: and the name of a tier, crown_scale or pavilion_scale (percent of a side's height), index,
-    /// material, tilt or azimuth. May be repeated; the last varies quickest
+    /// What varies, and its values: crown_angle=30:38:0.5 (from, to, step), crown_angle=33,34.5 or
+    /// material=diamond,ruby. The key is that of a proportion; tier: (its angle) or distance: and the name of a tier;
+    /// crown_scale or pavilion_scale (percent of a side's height); index, material, tilt or azimuth. May be repeated;
+    /// the last varies quickest
     #[arg(long, value_name = "KEY=VALUES")]
     over: Vec<AxisArgument>,
     /// A measure to list: return-even, return-cos2@15, return-even+glare, leakage, windowing, obstruction, extinction, contrast,
@@ -44,7 +45,7 @@ pub struct SweepArguments {
     /// The file to write: .csv or .jsonl, row by row, or .parquet in the end [default: CSV on standard output]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Go on with the file of --out, where the same command was stopped
+    /// Continue the file of --out, where the same command was stopped
     #[arg(long, requires = "out")]
     resume: bool,
     /// Draw the measures over one axis as curves with their bounds, or one measure over two axes as a map, as .svg, .png or .pdf; without
@@ -68,7 +69,7 @@ pub struct SweepArguments {
 #[derive(Debug, Clone)]
 struct AxisArgument(SweepAxis);
 
-/// Why a text is no axis.
+/// The reason why a text is no axis.
 #[derive(Debug, thiserror::Error)]
 enum AxisError {
     #[error("give what varies and its values, as in crown_angle=30:38:0.5")]
@@ -113,12 +114,12 @@ fn range(text: &str) -> Result<Vec<f64>, AxisError> {
     if steps >= MOST_VALUES as f64 {
         return Err(AxisError::TooMany(text.to_owned()));
     }
-    // A range whose last step ends beside its end by rounding keeps the end.
+    // A range whose last step misses its end only by rounding includes the end.
     let count = (steps + 1e-9).floor() as usize + 1;
     Ok((0..count).map(|k| from + k as f64 * step).collect())
 }
 
-/// Where the numbers of a sweep go.
+/// The outputs of a sweep: its table and its plot, and the counts for the messages at the end.
 struct SweepOutputs<'a> {
     measures: &'a [MeasureName],
     /// The number of files.
@@ -129,9 +130,9 @@ struct SweepOutputs<'a> {
     failed: usize,
     /// The number of files that make no sweep.
     failed_files: usize,
-    /// Why the first of these points has none.
+    /// The reason why the first of these points has no measures.
     first_reason: Option<String>,
-    /// The number of points where something is odd that is not in the design as it is given, and what is odd at the first.
+    /// The number of points with a warning that the given design does not have, and the warning of the first.
     odd: usize,
     first_odd: Option<String>,
 }
@@ -140,7 +141,7 @@ impl SweepArguments {
     pub fn run(&self) -> Result<(), Failure> {
         self.check()?;
         let (files, measures) = (expanded(&self.files)?, self.measures());
-        // What is wrong with the first design, often the only one, is said before a file is begun or replaced.
+        // A fault of the first design, which is often the only one, is reported before a file is begun or replaced.
         let first = files.first().map(|file| self.sweep(file, &measures));
         let mut loaded = match first {
             Some(Err(failure)) if files.len() == 1 => return Err(failure),
@@ -160,7 +161,7 @@ impl SweepArguments {
             self.sweep_file(file, (sweep, from..points), &watch, &mut outputs)?;
         }
         drop(progress);
-        // A plot that cannot be drawn loses no row.
+        // A plot that cannot be drawn must not lose a row of the table.
         if let Some(table) = outputs.table.take() {
             table.finish()?;
         }
@@ -185,7 +186,7 @@ impl SweepArguments {
         self.over.iter().fold(1, |count: usize, axis| count.saturating_mul(axis.0.values.len()))
     }
 
-    /// Opens the table, unless only a plot is wanted, and begins the plot.
+    /// Opens the table, unless the options name only a plot, and begins the plot.
     fn outputs<'a>(
         &self,
         files: &[PathBuf],
@@ -235,7 +236,7 @@ impl SweepArguments {
         Ok(table)
     }
 
-    /// Returns what a row says of its point.
+    /// Returns the values of a point for its row.
     fn labels(&self, point: usize) -> Vec<String> {
         let axes: Vec<SweepAxis> = self.over.iter().map(|axis| axis.0.clone()).collect();
         SweepAxis::values_at(&axes, point).into_iter().map(ToString::to_string).collect()
@@ -307,10 +308,10 @@ impl SweepOutputs<'_> {
 }
 
 impl SweepOutputs<'_> {
-    /// Says how many of all points have no measures.
+    /// Prints how many of all points have no measures.
     ///
     /// # Errors
-    /// [`Failure::Input`]: no point has measures, or a file makes no sweep.
+    /// Fails with [`Failure::Input`] where no point has measures, or where a file makes no sweep.
     fn end(&self, all: usize) -> Result<(), Failure> {
         let Self { failed, failed_files, files, .. } = *self;
         let reason = self.first_reason.as_deref().unwrap_or_default();
@@ -331,7 +332,7 @@ impl SweepOutputs<'_> {
     }
 }
 
-/// Returns what the progress of a sweep over these files is called.
+/// Returns the name of a sweep over these files for its progress bar.
 fn sweeping(files: &[PathBuf]) -> String {
     match files {
         [file] => format!("sweeping {}", file.display()),

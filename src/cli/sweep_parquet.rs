@@ -17,12 +17,12 @@ const GROUP: usize = 1 << 16;
 /// The values of one column that wait to be written.
 enum Column {
     Texts(Vec<ByteArray>),
-    /// The numbers that are there, and for each row 1 where it has one and 0 where it has none.
+    /// The numbers of the rows that have one, and for each row 1 where it has a number and 0 where it has none.
     Numbers(Vec<f64>, Vec<i16>),
 }
 
 impl Column {
-    /// Returns how the column is described in the file.
+    /// Returns the type of the column in the file.
     fn described(&self, name: &str) -> Result<Type, ParquetError> {
         let (kind, logical, repetition) = match self {
             Self::Texts(_) => (PhysicalType::BYTE_ARRAY, Some(LogicalType::String), Repetition::REQUIRED),
@@ -56,7 +56,7 @@ pub struct ParquetTable {
 }
 
 impl ParquetTable {
-    /// Begins a file with these columns; all hold numbers but for those that `is_text` names.
+    /// Begins a file with these columns; all hold numbers except for those that `is_text` names.
     pub fn begin(path: &Path, columns: &[String], is_text: impl Fn(usize) -> bool) -> Result<Self, Failure> {
         let empty = |place| match is_text(place) {
             true => Column::Texts(vec![]),
@@ -112,7 +112,7 @@ impl ParquetTable {
         written().map_err(|error| refused(&self.path, &error))
     }
 
-    /// Brings the file to its place.
+    /// Moves the finished file to its place.
     pub fn finish(mut self) -> Result<(), Failure> {
         if self.waiting > 0 {
             self.write_group()?;

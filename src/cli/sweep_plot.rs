@@ -10,35 +10,35 @@ use crate::measure::{Interval, MeasureName};
 use crate::render::{SweepAxis, SweepKey, SweepValue, SweptStone};
 use std::path::Path;
 
-/// A plot, as its numbers come in.
+/// A plot that collects the points of a sweep.
 pub struct SweepPlot<'a> {
     file: PlotFile,
     shape: PlotShape,
     measures: &'a [MeasureName],
-    /// For each point, its measures; none where there is no stone.
+    /// The measures of each point; empty where the point has no stone.
     points: Vec<Vec<Option<Interval>>>,
 }
 
-/// What a plot shows of the points of a sweep.
+/// The shape of a sweep's plot.
 enum PlotShape {
     /// Measures over the only axis.
     Curves(PlotAxis),
-    /// One measure over the first axis and the second.
+    /// One measure as a map: the first axis runs across, the second up.
     Map([PlotAxis; 2]),
     /// One curve for each value of one axis over the other, in one panel for each measure.
     Family {
         axis: PlotAxis,
-        /// What varies from curve to curve.
+        /// The key of the number that varies from curve to curve.
         key: &'static str,
         /// The names of the curves.
         members: Vec<String>,
-        /// Whether the axis of the curves is the first of the two, which varies slowest.
+        /// True where the axis of the curves is the first of the two, which varies slowest.
         is_first: bool,
     },
 }
 
 impl PlotShape {
-    /// Chooses what is drawn of this number of measures over these axes.
+    /// Chooses the plot for this number of measures over these axes.
     fn of(cut: &Cut, axes: &[SweepAxis], measures: usize) -> Result<Self, &'static str> {
         match axes {
             [axis] => Ok(Self::Curves(plotted(axis, cut)?)),
@@ -86,7 +86,8 @@ impl<'a> SweepPlot<'a> {
     /// Begins the plot of a cut over one or two axes.
     ///
     /// # Errors
-    /// [`Failure::Usage`]: another ending than svg, png or pdf, other axes, or several measures on a map.
+    /// Fails with [`Failure::Usage`] for another ending than svg, png or pdf, for other axes, and for several
+    /// measures on a map.
     pub fn new(
         path: &Path,
         (cut, axes): (&Cut, &[SweepAxis]),
@@ -132,7 +133,7 @@ impl<'a> SweepPlot<'a> {
                 let measure = self.measures[0];
                 let error = self.points.iter().filter_map(|of| of[0]).map(|interval| interval.error());
                 let most = 100.0 * error.fold(0.0, f64::max);
-                // Rounded up, so that it stays a bound.
+                // The bound is rounded up, so that it stays a bound.
                 let bound = (100.0 * most).ceil() / 100.0;
                 heat_map(&format!("{title}: {measure}, each ± {bound:.2} or less"), (x, y), UNIT, &values)
             }
@@ -162,10 +163,10 @@ impl<'a> SweepPlot<'a> {
     }
 }
 
-/// The unit of all measures; what each is a percentage of is in docs/optics.md.
+/// The unit of all measures; docs/optics.md says of which quantity each is a percentage.
 pub const UNIT: &str = "percent";
 
-/// Returns what stands beside the axis of a number of a cut.
+/// Returns the label of the axis of a cut's number.
 pub fn label(key: &SweepKey, cut: &Cut) -> String {
     match key {
         SweepKey::Proportion(key) => match cut.proportion(key) {

@@ -16,7 +16,8 @@ pub struct SweepRow<'a> {
     pub file: &'a str,
     /// The value of each axis.
     pub point: &'a [String],
-    /// The carats, each measure with its error, and what is unresolved; `None` where there is no number.
+    /// The carats, each measure with its error, and the unresolved part of the light; `None` where there is no
+    /// number.
     pub numbers: Vec<Option<f64>>,
     pub error: &'a str,
 }
@@ -38,7 +39,7 @@ impl<'a> SweepRow<'a> {
     }
 }
 
-/// The table of a sweep, in whichever form it is written.
+/// The table of a sweep in its format.
 pub enum SweepTable {
     /// Its rows are written at once, so that a sweep that was stopped can go on.
     ByRow(RowTable),
@@ -66,8 +67,8 @@ impl SweepTable {
         Ok(Self::Parquet(Box::new(ParquetTable::begin(path, &columns, is_text)?)))
     }
 
-    /// Returns the number of rows that the file held already and that need not be taken again. The last row with measures that it
-    /// held and those after it are taken again: they must be the same, or the file is of another sweep.
+    /// Returns the number of rows that the file held already and that need not be taken again. The last row with
+    /// measures and those after it are taken again: they must be the same, or the file belongs to another sweep.
     pub fn kept(&self) -> usize {
         match self {
             Self::ByRow(table) => table.kept - table.checked.len(),
@@ -89,7 +90,7 @@ impl SweepTable {
         }
     }
 
-    /// Brings the file to its place where that is still to be done.
+    /// Moves the file to its place, where the format still needs that.
     pub fn finish(self) -> Result<(), Failure> {
         match self {
             Self::ByRow(_) => Ok(()),
@@ -105,10 +106,10 @@ pub struct RowTable {
     file: Option<(PathBuf, File)>,
     /// The number of rows that the file held already.
     kept: usize,
-    /// The last of these rows, from the last one with measures on, until they have been taken again.
+    /// The last of these rows, from the last row with measures on, until they have been taken again.
     checked: VecDeque<String>,
-    /// Where the rows of a file that is resumed end. What comes after them was not written to its end; it is dropped before the
-    /// next row is written.
+    /// The end of the rows in a file that is resumed. The bytes after it are an unfinished row, which is dropped
+    /// before the next row is written.
     end: Option<u64>,
 }
 
@@ -133,7 +134,8 @@ impl RowTable {
                 return Err(Failure::Usage(text));
             }
         };
-        // Makes missing folders, and says the same as other commands where nothing can be written.
+        // This creates missing folders, and its error is the one that other commands have where nothing can be
+        // written.
         check_writable(path)?;
         let refused = |error: std::io::Error| Failure::Output(format!("{}: {error}", path.display()));
         let is_resumed = resume && path.exists();
@@ -235,7 +237,7 @@ impl RowTable {
     }
 }
 
-/// Whether a row has measures: its last column, the error, is empty.
+/// Returns whether a row has measures: its last column, the error, is empty.
 fn has_measures(row: &str, is_json: bool) -> bool {
     row.trim_end().ends_with(if is_json { "\"error\":\"\"}" } else { "," })
 }
@@ -243,12 +245,12 @@ fn has_measures(row: &str, is_json: bool) -> bool {
 /// Returns the line of a row, with its line break.
 fn csv_line(fields: &[String]) -> String {
     let mut writer = csv::Writer::from_writer(vec![]);
-    // Writing to memory fails never.
+    // Writing to memory cannot fail.
     let _ = writer.write_record(fields);
     String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
 }
 
-/// Returns the error of a file whose rows are of another sweep.
+/// Returns the error of a file whose rows belong to another sweep.
 pub fn another_sweep(path: &Path) -> Failure {
     Failure::Usage(format!(
         "{}: its rows are of another sweep, or were made with other options; give another --out, or leave --resume out to replace it",

@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 /// The folder to which `export` and `render` write by default.
 const FOLDER: &str = "out";
 
-/// The command for the pictures that the editor shows first and those that the trade expects, with the figures.
+/// The command that writes the pictures that the editor shows first and those that the trade expects, with the
+/// figures.
 const EXPORT: [&str; 5] =
     ["export", "--views", "aset,ideal-scope,hearts,arrows,profile,diagram", "--format", "png,json"];
 
@@ -41,6 +42,6 @@ pub fn write(
 /// Returns the command line of a command on a file.
 fn line(command: &[&str], file: &Path) -> Vec<OsString> {
     let words = ["brillianteer"].iter().chain(command).map(OsString::from);
-    // After `--` a name that begins with a dash is not read as an option.
+    // After `--`, a name that begins with a dash is not read as an option.
     words.chain(["--".into(), file.into()]).collect()
 }

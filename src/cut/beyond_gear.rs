@@ -3,12 +3,12 @@
 use super::tiers::{Tier, Tiers};
 use std::fmt;
 
-/// How many indices a message names where there are more.
+/// The number of indices that a message names where there are more.
 const MOST_NAMED: usize = 4;
 
-/// The indices of a tier that lie beyond the gear. The stone has facets there all the same, as if the gear began anew.
+/// The indices of a tier that lie beyond the gear. The stone still has facets there, as if the gear began anew.
 ///
-/// Written out, it is a warning without the place in the file.
+/// Its text is a warning without the place in the file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeyondGear {
     /// The number of the tier, from 1.
@@ -22,9 +22,10 @@ pub struct BeyondGear {
 }
 
 impl Tiers {
-    /// Returns for each tier that has them the indices that lie beyond the gear, counted either way round.
+    /// Returns the indices beyond the gear, counted either way round, of each tier that has some.
     ///
-    /// The number of teeth itself is usual and stands for 0. The index of a table or culet means nothing, and is left out.
+    /// The number of teeth itself is usual and stands for 0. The index of a table or culet has no meaning, and is
+    /// left out.
     pub fn beyond_gear(&self) -> impl Iterator<Item = BeyondGear> + '_ {
         let teeth = self.gear.unsigned_abs();
         let beyond = move |(number, tier): (usize, &Tier)| {

@@ -1,7 +1,8 @@
-//! A class for the cut of a round brilliant of diamond, estimated after the ranges that GIA publishes. It is no grade.
+//! A class for the cut of a round brilliant of diamond, estimated after the ranges that GIA publishes. It is not a
+//! grade.
 //!
-//! The class is the worst of those of single proportions and of a limit for crown, pavilion and table together, which is our own
-//! fit. How far it can be trusted stands in docs/optics.md, "Estimate after GIA".
+//! The class is the worst of those of single proportions and of a limit for crown, pavilion and table together, which
+//! is our own fit. docs/optics.md, "Estimate after GIA", describes its reliability.
 
 use super::family::Unit;
 use super::proportions::Proportions;
@@ -31,7 +32,7 @@ pub enum CutClass {
 }
 
 impl CutClass {
-    /// All classes, the best first.
+    /// The classes, the best first.
     pub const ALL: [Self; 5] = [Self::Excellent, Self::VeryGood, Self::Good, Self::Fair, Self::Poor];
 }
 
@@ -57,9 +58,11 @@ pub struct BrilliantProportions {
     pub crown_angle: f64,
     /// The angle of the mains.
     pub pavilion_angle: f64,
-    /// How far the stars reach from the table's edge to the girdle, seen from above, percent of that way.
+    /// The distance that the stars reach from the table's edge toward the girdle, seen from above, percent of that
+    /// way.
     pub star_length: f64,
-    /// How far the lower halves reach from the girdle to the centre, seen along the axis, percent of that way.
+    /// The distance that the lower halves reach from the girdle toward the centre, seen along the axis, percent of
+    /// that way.
     pub lower_half_length: f64,
     /// The girdle's thickness at the bezels.
     pub girdle_thickness: f64,
@@ -86,7 +89,7 @@ impl BrilliantProportions {
     }
 }
 
-/// What one proportion, or crown, pavilion and table together, allow.
+/// The best class that one proportion, or crown, pavilion and table together, allow.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ClassLimit {
     /// The key of the proportion as in cut files; `crown_pavilion_table` for the three together.
@@ -116,29 +119,29 @@ pub struct NearbyClass {
     /// The unit of the number.
     #[serde(skip)]
     pub unit: Unit,
-    /// What it would be rounded to.
+    /// The value to which it would be rounded.
     pub rounded: f64,
     /// The class of the stone then.
     pub class: CutClass,
 }
 
-/// A class estimated after what GIA publishes. It is no grade.
+/// A class estimated after the ranges that GIA publishes. It is not a grade.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ClassEstimate {
     /// The class: the worst that a limit allows.
     pub class: CutClass,
-    /// What each proportion allows, and then the three together.
+    /// The limit by each proportion, and then that by the three together.
     pub limits: Vec<ClassLimit>,
     /// Other classes that are as near as a tenth of a step of rounding; one for each proportion that has one.
     pub nearby: Vec<NearbyClass>,
 }
 
-/// The part of a step from a border of rounding within which GIA's own way of averaging may round the other way.
+/// The part of a step from a border of rounding within which GIA's own averaging may round the other way.
 const BESIDE_BORDER: f64 = 0.1;
 
-/// Where the first class ends in a plane of crown angle, pavilion angle and table, and the next begins.
+/// The border between two classes: a plane of crown angle, pavilion angle and table.
 struct Border {
-    /// Whether crowns above the border are out, or those below it.
+    /// True where crowns above the border are excluded, false where those below it are.
     is_above: bool,
     /// The crown angle at the border, less [`MIDDLE`]'s, at its pavilion and table, degrees.
     crown: f64,

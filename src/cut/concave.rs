@@ -1,7 +1,7 @@
-//! Concave facets: what cutters' texts say of them.
+//! Concave facets: finds them in the texts of cutters' files.
 //!
-//! Concave facets are ground with a mandrel after the flat ones. No cutters' format that is read here has a field for their
-//! shape, so a design whose texts name them is made of its flat facets, and says so.
+//! Concave facets are ground with a mandrel after the flat ones. No cutters' format that the program reads has a
+//! field for their shape, so a design whose texts name them is made of its flat facets, with a warning.
 
 use super::frosting::words;
 use super::tiers::Tiers;
@@ -9,7 +9,7 @@ use super::tiers::Tiers;
 /// The most characters of a text that a message quotes.
 const QUOTED: usize = 60;
 
-/// Words that make the next word mean nothing.
+/// Words that cancel the next word.
 const NOT: [&str; 4] = ["no", "non", "not", "without"];
 
 /// Returns whether a text names concave facets, or the mandrel that cuts them.
@@ -40,7 +40,7 @@ impl Tiers {
     }
 }
 
-/// Returns as much of a text as fits into a message.
+/// Returns the beginning of a text, as long as fits into a message.
 fn quoted(text: &str) -> String {
     text.trim().chars().take(QUOTED).collect()
 }

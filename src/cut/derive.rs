@@ -1,5 +1,5 @@
-//! What follows from the proportions of a round brilliant: derived lengths and angles, facets and warnings. Each is computed
-//! only after the proportions have passed their limits.
+//! The results that follow from the proportions of a round brilliant: derived lengths and angles, facets and
+//! warnings. Each is computed only after the proportions have passed their limits.
 
 use super::proportions::{Derived, Proportions};
 use super::round_brilliant::RoundBrilliant;
@@ -14,7 +14,7 @@ impl RoundBrilliant {
     /// Returns both members of each pair (angle and height, say), the angles of the stars and halves, and the depths.
     ///
     /// # Errors
-    /// The first limit crossed, and by how much.
+    /// The error names the first limit that is crossed, and the excess.
     pub fn derived(&self) -> Result<Derived, ProportionError> {
         self.closed_form().map(|proportions| proportions.derived())
     }
@@ -26,7 +26,7 @@ impl RoundBrilliant {
     /// planes no longer touch the stone; a [`Polytope`](crate::math::Polytope) made of the planes lists them as redundant.
     ///
     /// # Errors
-    /// The first limit crossed, and by how much.
+    /// The error names the first limit that is crossed, and the excess.
     pub fn facets(&self) -> Result<Vec<(String, Plane)>, ProportionError> {
         self.closed_form().map(|proportions| facets::round_brilliant(&proportions))
     }
@@ -34,7 +34,7 @@ impl RoundBrilliant {
     /// Returns a warning for everything that is possible but unusual about these proportions.
     ///
     /// # Errors
-    /// The first limit crossed, and by how much.
+    /// The error names the first limit that is crossed, and the excess.
     pub fn warnings(&self) -> Result<Vec<Warning>, ProportionError> {
         self.closed_form().map(|proportions| Warning::of(&proportions))
     }
@@ -42,7 +42,7 @@ impl RoundBrilliant {
 
 #[cfg(test)]
 pub(crate) mod strategy {
-    //! Random valid proportions, over wider ranges than are ever cut.
+    //! Random valid proportions, over wider ranges than real stones have.
 
     use super::*;
     use crate::cut::round_brilliant_table::least_star_length;

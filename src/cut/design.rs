@@ -1,4 +1,4 @@
-//! A design: everything that a cut file says about a stone.
+//! A design: the content of a cut file about a stone.
 
 use super::material::{MaterialError, MaterialRef};
 use super::{Cut, ProportionError, TierFault, Tiers, Warning, names};
@@ -14,14 +14,14 @@ pub const MAX_PLANES: usize = 10_000;
 /// The girdle diameters that a design may have, mm.
 pub(super) const DIAMETERS_MM: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
 
-/// A stone as a file describes it: its cut, its material and its size.
+/// A stone in a file: its cut, its material and its size.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Design {
     /// The cut's name: printable, not blank, and at most 200 bytes long.
     pub name: String,
-    /// Where the cut is published.
+    /// The publication of the cut.
     pub source: Option<String>,
-    /// Anything else that the file says about the cut.
+    /// Further text of the file about the cut.
     pub notes: Option<String>,
     /// The material of the stone.
     pub material: MaterialRef,
@@ -31,7 +31,7 @@ pub struct Design {
     pub cut: Cut,
 }
 
-/// What is wrong with a design.
+/// The fault in a design.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DesignError {
     /// A name that is blank, too long or has control characters.
@@ -43,7 +43,7 @@ pub enum DesignError {
         /// The diameter in the file, mm.
         value: f64,
     },
-    /// A material that is unknown, or whose numbers make no sense.
+    /// A material that is unknown, or whose numbers are impossible.
     #[error(transparent)]
     Material(#[from] MaterialError),
     /// Proportions that no cut of the family can have.
@@ -64,12 +64,12 @@ pub enum DesignError {
         /// The number of facets that are cut.
         count: usize,
     },
-    /// A cutter's design with a number that makes no sense.
+    /// A cutter's design with a number out of its range.
     #[error("{}{fault}", .tier.map(|tier| format!("tier {tier}: ")).unwrap_or_default())]
     Tiers {
         /// The number of the tier, from 1; `None` where the gear or its offset is at fault.
         tier: Option<usize>,
-        /// What is wrong with the tier, the gear or its offset.
+        /// The fault of the tier, the gear or its offset.
         fault: TierFault,
     },
     /// A plane of the list that bounds nothing or has no valid name.
@@ -77,12 +77,12 @@ pub enum DesignError {
     Plane {
         /// The number of the plane, from 1, in the order of the list.
         number: usize,
-        /// What is wrong with the plane.
+        /// The fault of the plane.
         fault: PlaneFault,
     },
 }
 
-/// What is wrong with a plane of a list.
+/// The fault in a plane of a list.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum PlaneFault {
     /// A name that is blank, too long or has control characters.
@@ -126,7 +126,7 @@ impl Design {
     /// Checks everything that can be checked without building the stone.
     ///
     /// # Errors
-    /// The first thing at fault: name, size, material, proportions or plane.
+    /// The error names the first fault: of name, size, material, proportions or plane.
     pub fn check(&self) -> Result<(), DesignError> {
         if !names::is_printable(&self.name) {
             return Err(DesignError::Name);
@@ -143,10 +143,11 @@ impl Design {
 
     /// Returns every facet's name, no two alike, and its plane with a unit normal.
     ///
-    /// Lengths are in girdle radii, but for a cutter's design in that design's own unit.
+    /// Lengths are in girdle radii, except for a cutter's design, whose lengths are in its own unit.
     ///
     /// # Errors
-    /// The first proportion or plane at fault; [`DesignError::NotConvex`] for a design without planes.
+    /// The error names the first proportion or plane that is wrong; [`DesignError::NotConvex`] for a design without
+    /// planes.
     pub fn facets(&self) -> Result<Vec<(String, Plane)>, DesignError> {
         match &self.cut {
             Cut::RoundBrilliant(proportions) => Ok(proportions.facets()?),
@@ -161,11 +162,11 @@ impl Design {
         }
     }
 
-    /// Returns a warning for everything that is possible but unusual about this design. Only cuts of families have warnings.
-    /// Pavilions are compared with the critical angle of the material in sodium light.
+    /// Returns a warning for everything that is possible but unusual about this design. Only cuts of families have
+    /// warnings. Pavilions are compared with the critical angle of the material in sodium light.
     ///
     /// # Errors
-    /// The first proportion at fault.
+    /// The error names the first proportion that is wrong.
     pub fn warnings(&self) -> Result<Vec<Warning>, DesignError> {
         match &self.cut {
             Cut::RoundBrilliant(brilliant) => Ok(brilliant.warnings()?),
@@ -201,7 +202,7 @@ fn named_planes(planes: &[(String, Plane)]) -> Result<Vec<(String, Plane)>, Desi
         .collect()
 }
 
-/// Returns the plane with a unit normal, or what is wrong with its name or numbers.
+/// Returns the plane with a unit normal, or the fault of its name or numbers.
 fn unit(name: &str, plane: &Plane) -> Result<Plane, PlaneFault> {
     if !names::is_printable(name) {
         return Err(PlaneFault::Name);

@@ -1,5 +1,5 @@
-//! The facets of a cut while a family makes them: planes through points where facets meet, and the check that each of them
-//! has its place on the stone.
+//! The facets of a cut while a family makes them: planes through points where facets meet, and the check that each of
+//! them has room on the stone.
 
 use super::facet_zones::EXACT;
 use super::names;
@@ -14,20 +14,21 @@ const NARROWEST: f64 = 0.02;
 /// The least width of table and culet, girdle radii. On a stone of 6.5 mm it is 0.01 mm.
 const NARROWEST_LEVEL: f64 = 0.003;
 
-/// An upright facet whose area is below this part of the median area of all upright facets is a sliver, if the girdle closes
-/// beside it.
+/// An upright facet whose area is below this part of the median area of all upright facets is a sliver, if the girdle
+/// closes beside it.
 const SLIVER: f64 = 0.02;
 
-/// The girdle closes, or nearly so, at both ends of a facet that is lower than this part of the highest upright facet.
+/// The girdle closes, or nearly does, at both ends of a facet that is lower than this part of the highest upright
+/// facet.
 const CLOSING: f64 = 0.5;
 
-/// Corners nearer to one another than this, girdle radii, are one: what rounding leaves.
+/// Corners nearer to one another than this, girdle radii, are one except for rounding.
 const SAME: f64 = 1e-9;
 
 /// Areas within this factor of the smallest are alike: those of facets that are each other's image differ by rounding.
 const ALIKE: f64 = 1.0 + 1e-6;
 
-/// A triangle whose height is below this part of its longest side gives no plane: only rounding is left of it.
+/// A triangle whose height is below this part of its longest side has no certain plane, because of rounding.
 const FLAT: f64 = 1e-9;
 
 /// A facet whose normal leans less than this toward the plane x = 0 (sine) is square to it.
@@ -37,17 +38,17 @@ const SQUARE: f64 = 1e-12;
 #[derive(Debug, Clone, Default)]
 pub struct FacetNet {
     facets: Vec<(&'static str, Plane)>,
-    /// Whether the facets are those of one half, at x of 0 and more, of a stone that need not be convex.
+    /// True where the facets are those of one half, at x of 0 and more, of a stone that need not be convex.
     is_half: bool,
 }
 
 /// The plane in which both halves of a stone meet.
 const MIRROR: Plane = Plane { normal: DVec3::NEG_X, offset: 0.0 };
 
-/// What the numbers of a family leave no room for.
+/// The tier for which the numbers of a family leave no room.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct NoRoom {
-    /// The tier of the facets that have no room; empty where it is the whole stone.
+    /// The tier of the facets without room; empty where the whole stone has none.
     pub tier: &'static str,
 }
 
@@ -58,7 +59,7 @@ impl FacetNet {
         Self { is_half: true, ..Self::default() }
     }
 
-    /// Whether the net is one half of a stone.
+    /// Returns whether the net is one half of a stone.
     pub fn is_half(&self) -> bool {
         self.is_half
     }
@@ -77,7 +78,7 @@ impl FacetNet {
     /// Adds the facet through three points; `inside` is any point on its inner side, as the middle of the stone is.
     ///
     /// # Errors
-    /// The tier, if the points lie on one line or the plane runs through `inside`.
+    /// The error names the tier if the points lie on one line, or if the plane runs through `inside`.
     pub fn through(&mut self, tier: &'static str, points: [DVec3; 3], inside: DVec3) -> Result<(), NoRoom> {
         let [a, b, c] = points;
         let across = (b - a).cross(c - a);
@@ -96,12 +97,12 @@ impl FacetNet {
         names.into_iter().zip(self.facets.iter().map(|(_, plane)| *plane)).collect()
     }
 
-    /// Returns the net with the facets that have their place on the stone, and the solid between them: the stone, or one half
-    /// of it. Where the girdle closes to a knife edge, upright facets that are not on the solid, or of which only a sliver is
-    /// left, are dropped; their neighbours, or the facets above and below, take their place.
+    /// Returns the net with the facets that have room on the stone, and the solid between them: the stone, or one
+    /// half of it. Where the girdle closes to a knife edge, upright facets that are not on the solid, or of which
+    /// only a sliver is left, are dropped; their neighbours, or the facets above and below, replace them.
     ///
     /// # Errors
-    /// The first tier with another facet that has no room.
+    /// The error names the first tier with another facet that has no room.
     pub fn settled(mut self) -> Result<(Self, Polytope), NoRoom> {
         loop {
             let planes: Vec<Plane> =
@@ -128,8 +129,8 @@ impl FacetNet {
         solid.facets().iter().map(|facet| (facet.source, facet)).filter(move |(index, _)| *index < count)
     }
 
-    /// Returns the upright planes that are not on the solid, or else those of the smallest slivers, which are alike; none where
-    /// all upright planes have their place.
+    /// Returns the upright planes that are not on the solid, or else those of the smallest slivers, which are alike;
+    /// an empty set where all upright planes have room.
     fn without_place(&self, solid: &Polytope) -> BTreeSet<usize> {
         let is_upright =
             |index: &usize| self.facets.get(*index).is_some_and(|(_, plane)| plane.normal.z == 0.0);
@@ -170,14 +171,14 @@ impl FacetNet {
     /// facet.
     ///
     /// # Errors
-    /// The half does not reach the plane x = 0.
+    /// Fails where the half does not reach the plane x = 0.
     pub fn both_halves(&self, half: &Polytope) -> Result<Surface, NoRoom> {
         let (sides, mirror) = (triangulate(half), self.facets.len());
         let mirrored = half.facets().iter().find(|facet| facet.source == mirror);
         let seam = mirrored.ok_or(NoRoom::default())?.outline.as_slice();
         let mut vertices = sides.vertices;
         seam.iter().for_each(|corner| vertices[*corner as usize].x = 0.0);
-        // The mirror image of each corner; those of the seam are their own.
+        // The mirror image of each corner; corners of the seam are their own images.
         let mut images: Vec<u32> = (0..vertices.len() as u32).collect();
         for corner in 0..images.len() as u32 {
             if !seam.contains(&corner) {
@@ -211,7 +212,7 @@ struct Upright {
     height: f64,
     /// The extent along the girdle.
     length: f64,
-    /// Whether the girdle closes at one of the facet's ends.
+    /// True where the girdle closes at one of the facet's ends.
     is_closed: bool,
 }
 
@@ -228,8 +229,8 @@ impl Upright {
         Self { area: solid.facet_area(facet), height: high - low, length: to - from, is_closed }
     }
 
-    /// Returns whether the facet is what is left where the girdle closes: too small or too short to be cut. `median` is the
-    /// median area of the upright facets, `highest` the height of the highest.
+    /// Returns whether the facet is a remainder where the girdle closes: too small or too short to be cut. `median`
+    /// is the median area of the upright facets, `highest` the height of the highest.
     fn is_sliver(&self, median: f64, highest: f64) -> bool {
         let is_closing = self.is_closed || self.height < CLOSING * highest;
         is_closing && (self.area < SLIVER * median || self.length < NARROWEST.min(self.height))

@@ -1,4 +1,4 @@
-//! In which zone of a stone a facet lies: the table, the crown, the girdle, the pavilion or the culet.
+//! Finds the zone of a stone in which a facet lies: the table, the crown, the girdle, the pavilion or the culet.
 
 use super::TierZone;
 use crate::math::{Facet, Polytope};
@@ -7,13 +7,14 @@ use crate::math::{Facet, Polytope};
 /// of a cutter's file of six digits lean by no more.
 pub(super) const EXACT: f64 = 1e-5;
 
-/// The same where the facets are measured, as those of a scan: about 1.15 degrees. Narrow facets of a girdle lean most.
+/// The same limit for measured facets, such as those of a scan: about 1.15 degrees. Narrow facets of a girdle lean
+/// most.
 const MEASURED: f64 = 0.02;
 
-/// How far the upright and the level facets of a stone lean.
+/// The limits up to which upright and level facets of a stone may lean.
 ///
-/// A design's own are exact. Where most facets that are nearly upright, or nearly level, lean by more than rounding does, the
-/// stone was measured, and all of them count.
+/// The facets of a design are exact. Where most facets that are nearly upright, or nearly level, lean by more than
+/// rounding does, the stone was measured, and all of them count as upright or level.
 #[derive(Debug, Clone, Copy)]
 pub struct FacetZones {
     upright: f64,
@@ -21,7 +22,7 @@ pub struct FacetZones {
 }
 
 impl FacetZones {
-    /// Finds how far the facets of a stone lean.
+    /// Finds the limits for the facets of a stone.
     pub fn of(stone: &Polytope) -> Self {
         let facets = stone.facets();
         Self {
@@ -30,17 +31,17 @@ impl FacetZones {
         }
     }
 
-    /// Whether a facet stands upright and so is part of the girdle.
+    /// Returns whether a facet is upright, so that it is part of the girdle.
     pub fn is_girdle(&self, facet: &Facet) -> bool {
         from_upright(facet) < self.upright
     }
 
-    /// Whether a facet lies flat on top and so is the table.
+    /// Returns whether a facet lies flat on top, so that it is the table.
     pub fn is_table(&self, facet: &Facet) -> bool {
         facet.plane.normal.z > 0.0 && from_level(facet) < self.level
     }
 
-    /// Returns the zone where a facet lies.
+    /// Returns the zone of a facet.
     pub fn zone(&self, facet: &Facet) -> TierZone {
         match facet.plane.normal.z > 0.0 {
             _ if self.is_girdle(facet) => TierZone::Girdle,
@@ -62,7 +63,7 @@ fn from_level(facet: &Facet) -> f64 {
     facet.plane.normal.truncate().length()
 }
 
-/// Returns the limit below which such angles count as none.
+/// Returns the limit up to which such angles count as 0.
 fn limit(sines: impl Iterator<Item = f64>) -> f64 {
     let (exact, measured) = sines.filter(|sine| *sine < MEASURED).fold((0, 0), |(exact, measured), sine| {
         if sine < EXACT { (exact + 1, measured) } else { (exact, measured + 1) }

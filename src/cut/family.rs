@@ -1,4 +1,4 @@
-//! The table of proportions: every family of cuts describes its numbers by rows, one a proportion.
+//! The table of proportions: every family of cuts describes its numbers by rows, one for each proportion.
 //!
 //! The panel, the profile, cut files, `info`, help, errors and warnings read names, keys, units, ranges and meanings from
 //! here and nowhere else. A new family is a table of rows, a variant of [`Cut`] and a place in
@@ -42,19 +42,20 @@ pub struct Proportion {
     pub name: &'static str,
     /// The unit.
     pub unit: Unit,
-    /// What the number is a part of or measured from, as in "percent of the girdle diameter".
+    /// The quantity of which the number is a part or from which it is measured, as in "percent of the girdle
+    /// diameter".
     pub of: &'static str,
     /// The meaning, in a sentence or two.
     pub meaning: &'static str,
-    /// The least and the greatest usual value, between which its slider runs; of a count all that is possible.
+    /// The least and the greatest usual value, between which its slider runs; for a count, the possible range.
     pub usual: [f64; 2],
     /// The step of the slider; 0 for none.
     pub step: f64,
     /// The change for each point by which the number is dragged.
     pub speed: f64,
-    /// The lower end of what is possible; `None` where the proportion has none of its own.
+    /// The lower end of the possible range; `None` where the proportion has none of its own.
     pub least: Option<Bound>,
-    /// The upper end of what is possible; `None` where the proportion has none of its own.
+    /// The upper end of the possible range; `None` where the proportion has none of its own.
     pub most: Option<Bound>,
     /// GIA's range for the grade Excellent of round brilliants of diamond (GIA, 2006), where there is one.
     pub excellent: Option<[f64; 2]>,
@@ -68,29 +69,29 @@ pub struct Proportion {
     pub get: fn(&Cut) -> f64,
     /// Gives the value: of a pair, this proportion is the given one afterwards. `None` where it only follows from others.
     pub give: Option<fn(&mut Cut, f64)>,
-    /// Whether a cut gives this proportion, rather than that it follows from others.
+    /// Returns whether a cut gives this proportion, so that it does not follow from others.
     pub is_given: fn(&Cut) -> bool,
     /// The key of the other proportion of a pair: one of both is given, and the other follows.
     pub pair: Option<&'static str>,
 }
 
-/// An end of what is possible.
+/// An end of the possible range.
 #[derive(Clone, Copy)]
 pub struct Bound {
     /// The bound itself.
     pub at: BoundAt,
-    /// Whether the bound itself is possible.
+    /// True where the bound itself is possible.
     pub inclusive: bool,
-    /// What happens there, as a clause for a message.
+    /// The event at the bound, as a clause for a message.
     pub reason: &'static str,
 }
 
-/// Where a bound lies.
+/// The place of a bound.
 #[derive(Clone, Copy)]
 pub enum BoundAt {
-    /// At the same value for all cuts of the family.
+    /// The same value for all cuts of the family.
     Fixed(f64),
-    /// At a value that depends on the cut's other proportions.
+    /// A value that depends on the cut's other proportions.
     Of(fn(&Cut) -> f64),
 }
 
@@ -109,9 +110,9 @@ impl Bound {
 /// The unit of a proportion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
-    /// Percent of the girdle diameter, or of what the row says.
+    /// Percent of the girdle diameter, or of the quantity that the row names.
     Percent,
-    /// Degrees from the girdle plane, or as the row says.
+    /// Degrees from the girdle plane, or from the one that the row names.
     Degrees,
     /// A whole number.
     Count,
@@ -162,7 +163,7 @@ pub enum ProfileHandle {
 }
 
 impl ProfileHandle {
-    /// All handles, from table to culet.
+    /// The handles, from table to culet.
     pub const ALL: [Self; 8] = [
         Self::TableEdge,
         Self::TableLine,
@@ -181,7 +182,7 @@ impl fmt::Debug for Proportion {
     }
 }
 
-/// Rows of one table are the same where their keys are.
+/// Rows of one table are equal where their keys are.
 impl PartialEq for Proportion {
     fn eq(&self, other: &Self) -> bool {
         self.key == other.key
@@ -211,7 +212,7 @@ impl Proportion {
         pair: None,
     };
 
-    /// Sets the value. Of a pair, the one that is given stays the given one; a count becomes a possible whole number.
+    /// Sets the value. Of a pair, the one that is given stays so; a count becomes a possible whole number.
     pub fn set(&self, cut: &mut Cut, value: f64) {
         let held = self.pair.filter(|_| !(self.is_given)(cut)).and_then(|key| cut.proportion(key));
         let value = match self.unit {
@@ -222,7 +223,7 @@ impl Proportion {
         held.into_iter().for_each(|other| other.hold(cut));
     }
 
-    /// Makes this proportion of a pair the given one, at its present value.
+    /// Makes this proportion of a pair the given one, with its present value.
     pub fn hold(&self, cut: &mut Cut) {
         let value = (self.get)(cut);
         self.give(cut, value);
@@ -244,7 +245,7 @@ impl Proportion {
         }
     }
 
-    /// Says what a file's value stands for: its unit and what it is a part of, or the range of a count.
+    /// Returns the meaning of a file's value: its unit and its reference, or the range of a count.
     pub fn hint(&self) -> String {
         match self.unit {
             Unit::Count => format!("{} to {}", self.usual[0], self.usual[1]),

@@ -21,7 +21,8 @@ impl FamilyCut {
     /// [diameter](super::Outline::diameter) is 1.
     ///
     /// # Errors
-    /// The first limit crossed, and by how much; [`DesignError::NotConvex`] where the stone is not convex.
+    /// The error names the first limit that is crossed, and the excess; [`DesignError::NotConvex`] where the stone is
+    /// not convex.
     pub fn facets(&self) -> Result<Vec<(String, Plane)>, DesignError> {
         let cut = Cut::Family(*self);
         cut.check_numbers()?;
@@ -32,7 +33,7 @@ impl FamilyCut {
     /// Builds the stone. Half of its [diameter](super::Outline::diameter) is 1.
     ///
     /// # Errors
-    /// The first limit crossed, and by how much.
+    /// The error names the first limit that is crossed, and the excess.
     pub fn solid(&self) -> Result<FamilySolid, ProportionError> {
         let cut = Cut::Family(*self);
         cut.check_numbers()?;

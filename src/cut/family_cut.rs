@@ -13,11 +13,11 @@ pub const MOST_NUMBERS: usize = 16;
 /// The function that makes the facets of a family.
 ///
 /// # Errors
-/// What the numbers leave no room for.
+/// The error names the tier for which the numbers leave no room.
 pub type MakeNet = fn(&FamilyCut) -> Result<FacetNet, NoRoom>;
 
-/// A cut of a family, as the numbers of its table in their units. Numbers are taken by their place among the rows of the
-/// table, which the file of the family names by constants.
+/// A cut of a family, as the numbers of its table in their units. A number is accessed by its place among the rows of
+/// the table, for which the file of the family has constants.
 #[derive(Clone, Copy)]
 pub struct FamilyCut {
     /// The family, which has a [`Family::net`].
@@ -41,16 +41,16 @@ impl FamilyCut {
     /// Returns the net of facets.
     ///
     /// # Errors
-    /// What the numbers leave no room for.
+    /// The error names the tier for which the numbers leave no room.
     pub(super) fn net(&self) -> Result<FacetNet, NoRoom> {
         let Some(make) = self.family.net else { return Err(NoRoom::default()) };
         make(self)
     }
 
-    /// Returns the net with all facets that have their place on the stone, and the solid between them.
+    /// Returns the net with all facets that have room on the stone, and the solid between them.
     ///
     /// # Errors
-    /// What the numbers leave no room for.
+    /// The error names the tier for which the numbers leave no room.
     pub(super) fn settled(&self) -> Result<(FacetNet, Polytope), NoRoom> {
         self.net()?.settled()
     }
@@ -73,7 +73,7 @@ impl fmt::Debug for FamilyCut {
     }
 }
 
-/// Cuts of one family are the same where their numbers are.
+/// Cuts of one family are equal where their numbers are.
 impl PartialEq for FamilyCut {
     fn eq(&self, other: &Self) -> bool {
         self.family.key == other.family.key && self.numbers == other.numbers

@@ -1,15 +1,15 @@
-//! Frosted facets: how much a facet is frosted, and what cutters write of it.
+//! Frosted facets: the degree of frosting, and its wording in cutters' texts.
 //!
-//! No cutters' text format has a field for the finish of a facet; cutters write it into the instructions of a tier ("Leave
-//! frosted"). What is plain there is read, and what may mean other facets than the tier's own is not: see
-//! [`FinishNote`]. The wordings are those of real files, which docs/formats.md lists.
+//! No cutters' text format has a field for the finish of a facet; cutters write it into the instructions of a tier
+//! ("Leave frosted"). Only wordings that plainly mean the tier's own facets are read: see [`FinishNote`]. They are
+//! those of real files, which docs/formats.md lists.
 
 use std::borrow::Cow;
 
-/// How much a facet is frosted of which a file only says that it is: the number that Gem Cut Studio writes.
+/// The frosting of a facet for which a file states no number: the one that Gem Cut Studio writes.
 pub const USUAL_FROSTING: f64 = 0.5;
 
-/// How much facets may be frosted: 0 polished, 1 as rough as can be.
+/// The range of the frosting of facets: 0 polished, 1 as rough as possible.
 pub const FROSTINGS: std::ops::RangeInclusive<f64> = 0.0..=1.0;
 
 /// The words beside the finish in a clause that speaks of all facets of its tier.
@@ -50,26 +50,26 @@ const PLAIN: &[&str] = &[
     "with",
 ];
 
-/// What a text says of the finish of the facets of its tier.
+/// The statement of a text about the finish of the facets of its tier.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FinishNote {
-    /// Nothing.
+    /// No statement.
     Unsaid,
-    /// That all of them are frosted so much, 0 for polished.
+    /// All facets of the tier have this frosting, 0 for polished.
     Frosting(f64),
-    /// That some facets are frosted, but not plainly those of the tier.
+    /// Some facets are frosted, but not plainly those of the tier.
     Unclear,
 }
 
 impl FinishNote {
-    /// Reads the instructions of a tier. Of several clauses that say something plain the last one counts.
+    /// Reads the instructions of a tier. Of several plain clauses the last one counts.
     pub fn of(instructions: &str) -> Self {
         let clauses = instructions.split_inclusive([';', ',', ':', '(', ')', '!', '\n', '.']);
         let mut clause = String::new();
         let mut found = Self::Unsaid;
         for part in clauses {
             clause.push_str(part);
-            // The point of a number ends no clause; a blank follows one that does.
+            // The point of a number ends no clause; a blank follows a point that does.
             let ends_in_point = clause.ends_with('.');
             let rest = &instructions[part.as_ptr() as usize - instructions.as_ptr() as usize + part.len()..];
             if ends_in_point && rest.starts_with(|c: char| !c.is_whitespace()) {
@@ -81,7 +81,7 @@ impl FinishNote {
         found.then(Self::of_clause(&clause))
     }
 
-    /// Whether a text that belongs to no tier, such as a header, names a frosted finish.
+    /// Returns whether a text that belongs to no tier, such as a header, names a frosted finish.
     pub fn is_named_in(text: &str) -> bool {
         words(text).any(|word| is_frosted(&word))
     }
@@ -115,7 +115,7 @@ impl FinishNote {
     }
 }
 
-/// Returns the instructions of a tier that is frosted so much, with words that say so where they do not yet.
+/// Returns the instructions of a tier with this frosting, with words that state it where they do not yet.
 pub fn with_finish(instructions: Cow<'_, str>, frosting: f64) -> Cow<'_, str> {
     let said = match FinishNote::of(&instructions) {
         FinishNote::Frosting(said) => said,
@@ -140,7 +140,7 @@ pub(super) fn words(text: &str) -> impl Iterator<Item = String> {
 }
 
 fn is_frosted(word: &str) -> bool {
-    // Old programs cut long lines off, so that "unpolished" may end early.
+    // Old programs cut long lines, so "unpolished" may end early.
     matches!(word, "frost" | "frosted") || word.starts_with("unpolish")
 }
 

@@ -1,4 +1,4 @@
-//! Glass shapes, on which spectral refraction is shown beside gems.
+//! Glass shapes, which show spectral refraction beside gems.
 //!
 //! Lengths are percent of the design's diameter, as with stones; +z points to the eye of the view face up. A cube or prism
 //! with sharp edges is a solid between planes like any stone; every other shape is a smooth solid.

@@ -7,7 +7,7 @@ impl Glass {
     /// Returns the shape's implicit surface, in girdle radii.
     ///
     /// # Errors
-    /// The dimension at fault, in the unit in which it is written.
+    /// The error names the dimension that is wrong, in the unit of its file.
     pub fn field(&self) -> Result<ImplicitSurface, ProportionError> {
         Cut::Glass(*self).check().map(|()| ImplicitSurface::checked(self.form(0.02)))
     }
@@ -26,7 +26,7 @@ impl Glass {
             let normal = field.normal((a + b + c) / 3.0);
             Some(((*name).to_owned(), Plane::new(normal, normal.dot(a))))
         };
-        // The field's facets past the flat faces are its edges, which have no extent here.
+        // The surface's facets after the flat faces are its edges, which have no extent here.
         Some((0..).zip(field.facets()).filter_map(plane).collect())
     }
 }

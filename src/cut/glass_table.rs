@@ -7,12 +7,13 @@ use super::glass::{Glass, Plate, Sides};
 use crate::math::{MOST_WAVES, STEEPEST};
 use std::f64::consts::TAU;
 
-/// The least and the greatest length, percent: far enough apart for every use, and squares of their quotients keep digits.
+/// The least and the greatest length, percent: far enough apart for every use, and such that squares of their
+/// quotients keep their digits.
 const LENGTHS: [f64; 2] = [1e-4, 1e7];
 /// The greatest phase, degrees: ten thousand turns.
 const MOST_PHASE: f64 = 3.6e6;
 
-/// What the rows of lengths have in common.
+/// The row of lengths, without the properties in which they differ.
 const SIDE: Proportion = Proportion {
     of: "of the diameter",
     usual: [2.0, 200.0],

@@ -9,9 +9,9 @@ impl Cut {
     /// Checks the proportions; a cut that lists its facets or triangles has none.
     ///
     /// # Errors
-    /// The first bound crossed, and by how much. Bounds that depend on other proportions come after fixed ones, and those
-    /// of derived numbers at last, so that they are computed from what is possible by itself. Where a derived number
-    /// crosses its bound, the error names the given proportion that leads to it.
+    /// The error names the first bound that is crossed, and the excess. Bounds that depend on other proportions are
+    /// tested after fixed ones, and those of derived numbers last, so that they are computed from possible numbers.
+    /// Where a derived number crosses its bound, the error names the given proportion that leads to it.
     pub fn check(&self) -> Result<(), ProportionError> {
         self.check_numbers()?;
         match self {
@@ -20,7 +20,8 @@ impl Cut {
         }
     }
 
-    /// Checks the proportions as [`check`](Self::check) does, but for the room of the facets of a [`FamilyCut`](super::FamilyCut).
+    /// Checks the proportions as [`check`](Self::check) does, except for the room of the facets of a
+    /// [`FamilyCut`](super::FamilyCut).
     pub(super) fn check_numbers(&self) -> Result<(), ProportionError> {
         if let Some((row, value)) = self.given().find(|(_, value)| !value.is_finite()) {
             return Err(ProportionError::NotFinite { row, value });
@@ -33,8 +34,9 @@ impl Cut {
         Ok(())
     }
 
-    /// Returns the error of facets without room as one of the given proportion that is farthest from its usual range among
-    /// those that alone make room when they are usual, with its limit; of all where none makes room alone.
+    /// Returns the error of facets without room in terms of one given proportion, with its limit: of those that alone
+    /// make room when they are usual, the one that is farthest from its usual range; of all, where none makes room
+    /// alone.
     pub(super) fn without_room(&self, unfit: NoRoom) -> ProportionError {
         let given: Vec<(&'static Proportion, f64)> = self.given().collect();
         let first = self.family().map(|family| &family.first);
@@ -57,7 +59,7 @@ impl Cut {
         let (row, value) =
             alone.or_else(|| most(&mut given.iter().copied())).expect("every family has proportions");
         let limit = farthest(usual(row), value, |value| fits(&with(others, row, value)));
-        // A count becomes a possible one.
+        // The limit of a count is a possible count.
         let limit = (row.get)(&with(others, row, limit));
         let limit = Limit {
             row,
@@ -70,8 +72,8 @@ impl Cut {
         if value > limit.limit { ProportionError::TooLarge(limit) } else { ProportionError::TooSmall(limit) }
     }
 
-    /// Returns the error of a derived number as one of the given proportion that changes that number most, with the limit
-    /// of that proportion.
+    /// Returns the error of a derived number in terms of the given proportion that changes that number most, with the
+    /// limit of that proportion.
     ///
     /// The limit holds with the other proportions as they are, or, where they alone cross the bound, with usual ones.
     fn in_given_terms(&self, derived: &'static Proportion, error: ProportionError) -> ProportionError {
@@ -100,8 +102,8 @@ impl Cut {
     }
 }
 
-/// Returns the value on the way from a possible value to an impossible one that is the last possible one, with two decimals
-/// if those are enough to leave the possible value.
+/// Returns the last possible value on the way from a possible to an impossible one, with two decimals if those are
+/// enough to leave the possible value.
 fn farthest(possible: f64, impossible: f64, is_possible: impl Fn(f64) -> bool) -> f64 {
     let (mut good, mut bad) = (possible, impossible);
     loop {
@@ -120,7 +122,7 @@ impl Proportion {
     /// Checks a value against the bounds that depend on nothing else.
     ///
     /// # Errors
-    /// The bound crossed, and by how much.
+    /// The error names the bound that is crossed, and the excess.
     pub fn check_fixed(&'static self, value: f64) -> Result<(), ProportionError> {
         self.check(value, None)
     }

@@ -1,4 +1,4 @@
-//! The material of a stone as a cut file gives it. [`optics`] describes the materials themselves.
+//! The material of a stone in a cut file. [`optics`] describes the materials themselves.
 
 use crate::optics::{self, Dispersion, DispersionError, Material, UnknownMaterial, VISIBLE_NM};
 
@@ -16,7 +16,7 @@ pub enum MaterialRef {
     Custom(Box<Material>),
 }
 
-/// What is wrong with a material. Each variant names its key.
+/// The fault in a material. Each variant names its key.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MaterialError {
     /// A blank name, or one with control characters.
@@ -51,10 +51,10 @@ pub enum MaterialError {
     Dispersion {
         /// The key at fault.
         key: &'static str,
-        /// What is wrong with the law.
+        /// The fault of the law.
         fault: DispersionError,
     },
-    /// A range of wavelengths whose first lies above its last, or where one of them is NaN.
+    /// A range of wavelengths whose first wavelength lies above its last, or one of which is NaN.
     #[error("valid_nm: [{first}, {last}] is not a range; give the first wavelength in nm, then the last")]
     Valid {
         /// The first wavelength, nm.
@@ -86,10 +86,10 @@ impl MaterialError {
 }
 
 impl MaterialRef {
-    /// Checks that the material exists and that its numbers make sense.
+    /// Checks that the material exists and that its numbers are in their ranges.
     ///
     /// # Errors
-    /// The key at fault, and why.
+    /// The error names the key that is wrong, and says why.
     pub fn check(&self) -> Result<(), MaterialError> {
         self.material().map(drop)
     }
@@ -97,7 +97,7 @@ impl MaterialRef {
     /// Returns the material: the library's, a clear one named after its index as in "index 2.42", or the file's own.
     ///
     /// # Errors
-    /// The key at fault, and why.
+    /// The error names the key that is wrong, and says why.
     pub fn material(&self) -> Result<Material, MaterialError> {
         match self {
             Self::Name(name) => {
@@ -152,7 +152,7 @@ fn check_law(law: &Dispersion) -> Result<(), MaterialError> {
         Dispersion::Abbe { .. } => "abbe",
         Dispersion::Sellmeier { .. } | Dispersion::Rational { .. } => "dispersion",
     };
-    // Checked here, as Abbe's law would silently raise an index below 1 to 1.
+    // The index is checked here, because Abbe's law would silently raise an index below 1 to 1.
     if let Dispersion::Constant(index) | Dispersion::Abbe { n_d: index, .. } = law {
         check_index(key, *index)?;
     }

@@ -1,4 +1,4 @@
-//! The shape of a stone that is given by triangles.
+//! The shape of a stone of triangles.
 
 use super::outline;
 use crate::math::{Calipers, Pose, TriangleMesh, hull, span};
@@ -6,7 +6,8 @@ use glam::{DQuat, DVec3};
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// A surface that differs from the stone's frame by less than this, girdle radii, counts as lying in it: rounding.
+/// A surface that differs from the stone's frame by less than this, girdle radii, counts as lying in it: the
+/// difference is rounding.
 const IN_FRAME: f64 = 1e-9;
 
 /// A closed surface of triangles in the stone's frame, shared because it may be large.
@@ -36,8 +37,8 @@ impl MeshShape {
 }
 
 impl PartialEq for MeshShape {
-    /// Compares corners and triangles alone. Everything else in a mesh follows from them, but for rounding that depends on
-    /// how it was made.
+    /// Compares only corners and triangles. Everything else in a mesh follows from them, except for rounding that
+    /// depends on the way it was made.
     fn eq(&self, other: &Self) -> bool {
         let (a, b) = (self.surface(), other.surface());
         Arc::ptr_eq(&self.0, &other.0) || (&a.vertices, &a.triangles) == (&b.vertices, &b.triangles)

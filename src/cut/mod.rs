@@ -1,5 +1,5 @@
-//! Floor 1: what a cut is, as numbers: the round brilliant in closed form, cutters' tiers with their meets, plane lists, meshes, glass
-//! shapes, material and size.
+//! Floor 1: cuts as numbers: the round brilliant in closed form, families of cuts, cutters' tiers with their meets,
+//! plane lists, meshes, glass shapes, material and size.
 //!
 //! Numbers in files are percent of the girdle diameter and degrees. Planes come out in the stone's frame: +z out of the
 //! table, z = 0 at the crown-side girdle, girdle radius 1. Impossible numbers are errors that name their limit; unusual ones

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 /// Returns one name per facet, all different.
 ///
-/// A name that occurs once stays. One that repeats is numbered from 1 in order ("star 1", "star 2"); numbers are passed over
-/// where another facet has that very name.
+/// A name that occurs once stays. One that repeats is numbered from 1 in order ("star 1", "star 2"); numbers are
+/// skipped where another facet has that very name.
 pub(super) fn unique<'a>(names: impl Iterator<Item = &'a str> + Clone) -> Vec<String> {
     let mut occurrences: HashMap<&str, usize> = HashMap::new();
     for name in names.clone() {
@@ -38,8 +38,8 @@ pub(crate) fn tier_stem(name: &str) -> &str {
 /// The longest name, in characters, so that it fits on a line.
 const LONGEST: usize = 200;
 
-/// Returns whether a name can be shown anywhere: it is not blank, not too long, and without control characters, which XML
-/// cannot hold.
+/// Returns whether a name can be shown anywhere: it is not blank, not too long, and without control characters, which
+/// XML cannot hold.
 pub(crate) fn is_printable(name: &str) -> bool {
     !name.trim().is_empty()
         && name.chars().count() <= LONGEST

@@ -13,9 +13,9 @@ pub(super) const ROUND: f64 = 0.95;
 
 /// The part of the corners of the girdle's facets that lie beyond each of its edges.
 ///
-/// A few corners reach far in a wavy girdle and say little about it. Depths published for GemCad's designs leave out a tenth
-/// too, but of the corners of triangles into which facets fall by chance. So one design in a hundred, whose tenth corner
-/// lies where its girdle steps, measures differently.
+/// A few corners reach far in a wavy girdle and are hardly representative. Depths published for GemCad's designs
+/// leave out a tenth too, but of the corners of triangles into which facets fall by chance. So one design in a
+/// hundred, whose tenth corner lies where its girdle steps, measures differently.
 const EDGE: f64 = 0.1;
 
 /// Corners of a facet nearer to one another than this, in widths of the stone, are one. Where more than three facets meet,
@@ -164,7 +164,7 @@ fn girdle(stone: &Polytope, nearest: f64) -> (f64, f64) {
     let aside = (EDGE * levels.len() as f64).ceil() as usize;
     match levels.len().checked_sub(aside + 1) {
         Some(last) => (levels[aside.min(last)], levels[last.max(aside)]),
-        // Only a solid without an edge between facets that face up and down comes here, and no closed solid is one.
+        // Only a solid without an edge between facets that face up and down leads here, and no closed solid is one.
         None => (0.0, 0.0),
     }
 }

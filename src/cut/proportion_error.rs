@@ -1,4 +1,4 @@
-//! The error for a crossed limit: which proportion crosses it, by how much, and what to change.
+//! The error for a crossed limit: the proportion, the excess, and the remedy.
 
 use super::family::{Proportion, Unit};
 use std::f64::consts::FRAC_PI_2;
@@ -35,7 +35,7 @@ impl ProportionError {
         format!("{}: {}", self.row().name, self.statement())
     }
 
-    /// Returns what is wrong, without the proportion.
+    /// Returns the fault in words, without the proportion.
     fn statement(&self) -> String {
         match self {
             Self::NotFinite { value, .. } => {
@@ -64,17 +64,17 @@ pub struct Limit {
     pub value: f64,
     /// The limit, in the same unit as the value.
     pub limit: f64,
-    /// Whether the limit itself is allowed.
+    /// True where the limit itself is allowed.
     pub inclusive: bool,
-    /// What happens at the limit, as a clause for the message.
+    /// The event at the limit, as a clause for the message.
     pub reason: &'static str,
-    /// The tier of the facets for which no room is left; empty where the reason says it all.
+    /// The tier of the facets for which no room is left; empty where the reason alone explains the limit.
     pub tier: &'static str,
 }
 
 impl Limit {
-    /// Returns what happens at the limit, as a clause for a message. Reasons say "beyond" of either side; the clause says
-    /// "above" of a maximum and "below" of a minimum.
+    /// Returns the event at the limit, as a clause for a message. Reasons say "beyond" of either side; the clause
+    /// says "above" of a maximum and "below" of a minimum.
     pub fn clause(&self) -> String {
         let side = if self.value > self.limit { "above which" } else { "below which" };
         let reason = self.reason.replacen("beyond which", side, 1);

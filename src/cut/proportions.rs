@@ -14,8 +14,8 @@ pub(super) const STAR_AZIMUTH: f64 = FRAC_PI_8;
 /// h, the azimuth from a bezel to its half facet, radians.
 pub(super) const HALF_AZIMUTH: f64 = FRAC_PI_8 / 2.0;
 
-/// What follows from the given proportions. Lengths are in percent of the girdle diameter, angles in degrees from the girdle
-/// plane.
+/// The numbers that follow from the given proportions. Lengths are in percent of the girdle diameter, angles in
+/// degrees from the girdle plane.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Derived {
     /// The angle of the bezels, degrees.
@@ -34,7 +34,8 @@ pub struct Derived {
     pub lower_half_angle: f64,
     /// The length of the lower halves seen along the axis, percent of the way from girdle to centre.
     pub lower_half_length: f64,
-    /// The length of the lower halves seen from the side, percent of the depth from the girdle to where the mains meet.
+    /// The length of the lower halves seen from the side, percent of the depth from the girdle to the point in which
+    /// the mains meet.
     pub lower_half_length_vertical: f64,
     /// The girdle's thickness in its valleys, percent: at the girdle corner nearest to the middle of a half facet.
     ///
@@ -45,7 +46,7 @@ pub struct Derived {
     pub total_depth: f64,
 }
 
-/// The variables of the closed form. Facets and warnings are made of checked ones alone.
+/// The variables of the closed form. Facets and warnings are made only of checked ones.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Proportions {
     pub table: f64,
@@ -127,12 +128,12 @@ impl Proportions {
         self.tan_pavilion * self.lower_vertical() / (self.lower * HALF_AZIMUTH.cos())
     }
 
-    /// Returns how far the lower halves reach seen from the side, as a fraction of the depth at which the mains meet.
+    /// Returns the length of the lower halves seen from the side, as a fraction of the depth at which the mains meet.
     pub fn lower_vertical(&self) -> f64 {
         1.0 - (1.0 - self.lower) * STAR_AZIMUTH.cos()
     }
 
-    /// Returns by how much the girdle is thinner in its valleys than at the bezels.
+    /// Returns the difference of the girdle's thickness at the bezels and in its valleys.
     ///
     /// The halves pass through the girdle's chord. They stand clear of it most at the girdle corner nearest to their own
     /// azimuth.

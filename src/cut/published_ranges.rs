@@ -1,8 +1,8 @@
 //! The ranges of single proportions that GIA publishes for the cut of round brilliants of diamond, and the steps to which it rounds.
 //!
-//! Those of EX stand on many public pages. Those of the other classes, and the ranges of girdle and crown height, are known from
-//! one open program that restates them (docs/optics.md, "Estimate after GIA"). The ranges of total depth are published in two
-//! versions, so they are left out.
+//! The ranges of EX stand on many public pages. Those of the other classes, and the ranges of girdle and crown
+//! height, are known from one open program that restates them (docs/optics.md, "Estimate after GIA"). The ranges of
+//! total depth are published in two versions, so they are left out.
 
 use super::class_estimate::{BrilliantProportions, CutClass};
 use super::family::Unit;
@@ -99,7 +99,7 @@ const CROWN_HEIGHT: PublishedRange = PublishedRange {
     get: |stone| stone.crown_height,
 };
 
-/// All ranges, crown angle, pavilion angle and table first.
+/// The ranges: crown angle, pavilion angle and table first.
 pub const PUBLISHED_RANGES: [PublishedRange; 7] =
     [CROWN_ANGLE, PAVILION_ANGLE, TABLE, STAR_LENGTH, LOWER_HALF_LENGTH, GIRDLE_THICKNESS, CROWN_HEIGHT];
 
@@ -119,8 +119,8 @@ impl PublishedRange {
         (1e6 * steps * self.step).round() / 1e6
     }
 
-    /// Returns what a value within this part of a step from a border of rounding would be rounded to beyond it; `None` for another
-    /// value.
+    /// Returns the other value to which a value within this part of a step from a border of rounding could be
+    /// rounded; `None` for values farther from a border.
     pub fn rounded_otherwise(&self, value: f64, part: f64) -> Option<f64> {
         let steps = value / self.step;
         let rounded = self.rounded(value) / self.step;

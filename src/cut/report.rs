@@ -26,7 +26,7 @@ impl Spread {
     }
 }
 
-/// The facets of one zone that share a name but for its number.
+/// The facets of one zone whose names differ only by a number.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TierReport {
     /// The name they share.
@@ -120,7 +120,7 @@ impl MeshHeights {
     }
 }
 
-/// Returns the lengths of the edges between two facets of the girdle, each as `percent` says.
+/// Returns the lengths of the edges between two facets of the girdle, each converted by `percent`.
 fn girdle_edges(stone: &Polytope, percent: impl Fn(f64) -> f64) -> Option<Spread> {
     let (facets, zones) = (stone.facets(), FacetZones::of(stone));
     let upright = (0..).zip(facets).filter(|(_, facet)| zones.is_girdle(facet));
@@ -147,7 +147,7 @@ fn tiers(stone: &Polytope, names: &[String]) -> Vec<TierReport> {
             zone: zone.name(),
             facets: tier.len(),
             slope_deg: Spread::of(tier.iter().map(|(_, plane)| slope(plane.normal))),
-            // Adding 0 turns the -0 of a plane through the origin into 0.
+            // The sum with 0 turns the -0 of a plane through the origin into 0.
             distance: Spread::of(tier.iter().map(|(_, plane)| plane.offset + 0.0)),
         }
     };

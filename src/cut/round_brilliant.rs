@@ -1,4 +1,5 @@
-//! The round brilliant as people write it: in percent of the girdle diameter and degrees from the girdle plane.
+//! The round brilliant in the numbers that people use: percent of the girdle diameter, and degrees from the girdle
+//! plane.
 //!
 //! It has eight bezels, eight stars, sixteen upper and sixteen lower halves, and eight mains. Measures follow GIA: table and
 //! star length are radial, and the lower-half length is radial too unless the vertical one is given.
@@ -14,7 +15,7 @@ pub struct RoundBrilliant {
     pub pavilion: Pavilion,
     /// The distance that the stars reach from the table's edge to the girdle, seen from above. Percent of that way.
     pub star_length: f64,
-    /// How far the lower halves reach from the girdle to the centre.
+    /// The length of the lower halves from the girdle toward the centre.
     pub lower_half: LowerHalf,
     /// The girdle's thickness at the bezels, where it is greatest, percent of the girdle diameter. 0 is a knife edge all
     /// round, without girdle facets.
@@ -52,11 +53,12 @@ pub enum Pavilion {
 pub enum LowerHalf {
     /// The length seen along the axis: percent of the way from the girdle to the centre (GIA).
     Radial(f64),
-    /// The length seen from the side: percent of the depth from the girdle to where the mains meet (some laboratories).
+    /// The length seen from the side: percent of the depth from the girdle to the point in which the mains meet (some
+    /// laboratories).
     Vertical(f64),
 }
 
-/// Tolkowsky's cut of 1919 as in `cuts/tolkowsky.toml`, with which the family begins.
+/// Tolkowsky's cut of 1919, as in `cuts/tolkowsky.toml`: the first cut of the family.
 pub(crate) const TOLKOWSKY: RoundBrilliant = RoundBrilliant {
     table: 53.0,
     crown: Crown::Angle(34.5),

@@ -206,7 +206,7 @@ pub static ROUND_BRILLIANT: Family = Family {
             key: "total_depth",
             name: "Total depth",
             meaning: "From table to culet.",
-            // Up to there rounding stays below every tolerance.
+            // Up to this value, rounding errors stay below every tolerance.
             most: Bound::at(
                 Fixed(300.0),
                 "beyond which the total depth is more than 300 %, that of a needle and not of a brilliant",
@@ -247,7 +247,7 @@ pub static ROUND_BRILLIANT: Family = Family {
     ],
 };
 
-/// What the rows of angles have in common.
+/// The row of angles, without the properties in which they differ.
 const ANGLE: Proportion =
     Proportion { unit: Unit::Degrees, of: "from the girdle plane", ..Proportion::BLANK };
 
@@ -276,7 +276,7 @@ pub(super) fn least_star_length(table: f64) -> f64 {
     100.0 * t * sin * sin / (cos * (1.0 - t * cos))
 }
 
-// Each of a pair follows from the other alone, whatever is wrong with the rest of the proportions.
+// Each of a pair follows from the other alone, whatever the fault in the rest of the proportions.
 
 /// Returns the slope, degrees, that rises by `rise` over `run`, both in the same unit.
 fn slope(rise: f64, run: f64) -> f64 {

@@ -4,7 +4,7 @@ use super::{Cut, TierZone, tier_stem};
 use crate::math::{Plane, grouped};
 use std::collections::HashSet;
 
-/// A tier as it is set on a faceting machine. Where its facets differ, the numbers are their means.
+/// A tier with the numbers that are set on a faceting machine. Where its facets differ, the numbers are their means.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineSetting {
     /// The name of its facets, without their numbers; of several tiers with one name the second has `#2` behind it, and so on.
@@ -78,7 +78,7 @@ impl Cut {
     }
 }
 
-/// Groups the planes that share a name but for its number and that face the same way. Each group lists their places.
+/// Groups the planes whose names differ only by a number and that face the same way. Each group lists their places.
 fn groups(planes: &[(String, Plane)]) -> Vec<Vec<usize>> {
     let key = |k: usize| (tier_stem(&planes[k].0), faces(&planes[k].1));
     grouped(0..planes.len(), |&a, &b| key(a) == key(b))
@@ -113,7 +113,7 @@ fn mean(planes: &[(String, Plane)], group: &[usize]) -> MachineSetting {
     }
 }
 
-/// Returns a plane that is steeper by some degrees and further from the origin, with the same azimuth.
+/// Returns a plane that is steeper by some degrees and farther from the origin, with the same azimuth.
 fn turned(plane: &Plane, degrees: f64, further: f64) -> Plane {
     let (slope, distance) = slope(plane);
     let across = plane.normal.truncate();
@@ -121,7 +121,7 @@ fn turned(plane: &Plane, degrees: f64, further: f64) -> Plane {
     let slope = (slope + degrees).to_radians();
     let slope = if plane.normal.z > 0.0 { slope } else { std::f64::consts::PI - slope };
     match degrees == 0.0 {
-        // Where the plane is not turned, no digit of its normal changes.
+        // Where the plane is not turned, its normal keeps every digit.
         true => Plane::new(plane.normal, plane.offset + further * plane.normal.length()),
         false => Plane::from_slope(slope, azimuth, distance + further),
     }

@@ -1,7 +1,7 @@
 //! The ratios that cutters print on the sheet of a design.
 //!
-//! Source: the sheets that GemCad prints (R. Strickland, gemcad.com/lesson4.htm). GemCad adds 0.02 W to P and C for the
-//! height, as if every girdle were that thick; here the girdle is measured.
+//! Source: the sheets that GemCad prints (R. Strickland, gemcad.com/lesson4.htm). For the height, GemCad adds 0.02 W
+//! to P and C, as if every girdle were that thick; here the girdle is measured.
 
 use super::facet_zones::FacetZones;
 use super::outline::{AlongAxes, Outline};
@@ -167,7 +167,8 @@ mod tests {
         (slim, figures(&example(slim)))
     }
 
-    /// Whether a number prints as these three decimals, but for the roundings of those it is computed from.
+    /// Returns whether a number prints as these three decimals, apart from the rounding of the numbers from which it
+    /// is computed.
     fn prints(value: f64, printed: f64) -> bool {
         (value - printed).abs() <= 0.001
     }

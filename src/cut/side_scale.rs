@@ -1,8 +1,9 @@
 //! Scales one side of a stone along its axis: tan(new angle) = factor · tan(old angle) for all facets of the crown, or of the
 //! pavilion, about the girdle's edge.
 //!
-//! That is a stretch of the side, so every point in which its facets meet stays one, the plan view stays, and the girdle keeps its
-//! outline and its thickness. Source: the tangent ratio of R. Long and N. Steele, *Facet Design*, vol. 1.
+//! That is a stretch of the side, so every point in which its facets meet is kept, the plan view stays, and the
+//! girdle keeps its outline and its thickness. Source: the tangent ratio of R. Long and N. Steele, *Facet Design*,
+//! vol. 1.
 
 use super::facet_zones::EXACT;
 use super::{Cut, Design, DesignError, Meet, Outline, Tier, Tiers};
@@ -10,7 +11,7 @@ use crate::math::{Plane, Polytope, PolytopeError};
 use glam::DVec3;
 use std::fmt;
 
-/// The factors of tangents that are taken.
+/// The range of factors of tangents.
 pub(super) const FACTORS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
 
 /// The flattest and the steepest angle that a leaning facet may have afterwards, degrees from the girdle plane.
@@ -29,7 +30,7 @@ pub enum ScaledSide {
 }
 
 impl ScaledSide {
-    /// Both sides, the upper one first.
+    /// The sides, the upper one first.
     pub const ALL: [Self; 2] = [Self::Crown, Self::Pavilion];
 
     /// Returns the sign of the heights of normals on this side.
@@ -48,7 +49,7 @@ impl ScaledSide {
         }
     }
 
-    /// Whether a facet of this normal belongs to the side; an upright one belongs to the girdle.
+    /// Returns whether a facet of this normal belongs to the side; an upright one belongs to the girdle.
     fn has(self, normal: DVec3) -> bool {
         normal.z.abs() >= EXACT && normal.z.signum() == self.sign()
     }
@@ -63,7 +64,7 @@ impl fmt::Display for ScaledSide {
     }
 }
 
-/// Why a side of a design cannot be scaled.
+/// The reason why a side of a design cannot be scaled.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ScaleError {
     /// The design is at fault.
@@ -108,13 +109,13 @@ pub enum ScaleError {
 }
 
 impl Cut {
-    /// Returns whether [`scaled`] can scale its sides: it is a design of tiers or a list of planes.
+    /// Returns whether [`scaled`] can scale the sides of the cut: it is a design of tiers or a list of planes.
     pub fn has_scalable_sides(&self) -> bool {
         matches!(self, Self::Tiers(_) | Self::Planes(_))
     }
 
-    /// Returns the name of the first leaning tier of a side, by whose slope [`Self::tangent_of_side`] goes; `None` for a cut that is
-    /// no design of tiers, and where the side has no such tier.
+    /// Returns the name of the first leaning tier of a side, whose slope [`Self::tangent_of_side`] uses; `None` for a
+    /// cut that is no design of tiers, and where the side has no such tier.
     pub fn tier_of_side(&self, side: ScaledSide) -> Option<String> {
         let Self::Tiers(tiers) = self else { return None };
         let leans = |tier: &&Tier| leaning(side, tiers.plane(tier, 0.0).normal).is_some();
@@ -145,7 +146,8 @@ fn leaning(side: ScaledSide, normal: DVec3) -> Option<f64> {
 /// Returns the cut of a design with one side scaled along the axis by a factor, 0.1 to 10.
 ///
 /// # Errors
-/// A cut without tiers or planes, planes that enclose nothing, and angles that leave the possible range.
+/// Fails for a cut without tiers or planes, for planes that enclose nothing, and where angles leave the possible
+/// range.
 pub fn scaled(design: &Design, side: ScaledSide, factor: f64) -> Result<Cut, ScaleError> {
     if !design.cut.has_scalable_sides() {
         return Err(ScaleError::NotScalable);
@@ -166,7 +168,7 @@ pub fn scaled(design: &Design, side: ScaledSide, factor: f64) -> Result<Cut, Sca
     }
 }
 
-/// How planes of unit normals change as one side of their stone is scaled.
+/// The derivatives of planes with unit normals by the scale of one side of their stone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SideSlope {
     side: ScaledSide,
@@ -175,15 +177,15 @@ pub struct SideSlope {
 }
 
 impl SideSlope {
-    /// Returns how the planes of a stone change with the factor of one side, before it is scaled.
+    /// Returns the derivatives of the planes of a stone by the factor of one side, before it is scaled.
     pub fn of(side: ScaledSide, stone: &Polytope) -> Self {
         Self { side, level: side.level(&Outline::of(stone)) }
     }
 
     /// Returns the derivatives of a plane's normal and offset by the factor, at a factor of 1.
     ///
-    /// With the slope θ, tan θ grows as the factor does, so that dθ = sin θ cos θ; the line in which the plane crosses the level
-    /// stays.
+    /// With the slope θ, tan θ grows as the factor does, so that dθ = sin θ cos θ; the line in which the plane
+    /// crosses the level does not move.
     pub fn of_plane(&self, plane: &Plane) -> (DVec3, f64) {
         let (across, rise) = (plane.normal.truncate(), plane.normal.z);
         let run = across.length();
@@ -200,7 +202,7 @@ impl SideSlope {
     }
 }
 
-/// What becomes of the angles of one side.
+/// The change of the angles of one side.
 #[derive(Clone, Copy)]
 pub(super) struct AngleChange {
     /// The side that changes.
@@ -238,20 +240,20 @@ impl AngleChange {
             None => (self.factor * before.tan()).atan(),
         };
         let [before_deg, after_deg] = [before, after].map(f64::to_degrees);
-        // A facet that is beyond the range may stay where it is, and go back.
+        // A facet that is beyond the range may stay where it is, or move back toward the range.
         let is_farther = (after_deg < *ANGLES_DEG.start() && after_deg < before_deg - STILL_DEG)
             || (after_deg > *ANGLES_DEG.end() && after_deg > before_deg + STILL_DEG);
         if is_farther {
             return Err([before_deg, after_deg]);
         }
-        // The line in which the plane crosses the level stays where it is.
+        // The line in which the plane crosses the level does not move.
         let radius = (plane.offset - rise * self.level) / run;
         let (sin, cos) = after.sin_cos();
         let normal = (across / run * sin).extend(self.side.sign() * cos);
         Ok(Some(Plane::new(normal, radius * sin + self.side.sign() * cos * self.level)))
     }
 
-    /// Returns a meet as it is after the change. The angle of a centre point is one of the pavilion.
+    /// Returns a meet after the change. The angle of a centre point is one of the pavilion.
     fn meet(&self, meet: &Meet) -> Meet {
         match meet {
             Meet::CentreAngle(degrees) if self.side == ScaledSide::Pavilion && self.shift.is_none() => {
@@ -304,7 +306,7 @@ pub(super) fn changed_tiers(tiers: &Tiers, change: &AngleChange) -> Result<Tiers
         }
         if tier.angle != 0.0 {
             let angle = plane.normal.truncate().length().atan2(plane.normal.z.abs()).to_degrees();
-            // A file may give a facet that faces down as one above 0 and beyond 90 degrees.
+            // A file may state a facet that faces down as one above 0 and beyond 90 degrees.
             tier.angle = angle.copysign(plane.normal.z);
         }
         tier.distance = plane.offset.copysign(tier.distance);

@@ -5,7 +5,7 @@ use crate::optics::Material;
 use std::fmt;
 use std::str::FromStr;
 
-/// The size of a stone, as people give it.
+/// The size of a stone, in the unit that the user gave.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Size {
     /// The girdle diameter, mm; 0.1 to 1000.
@@ -14,7 +14,7 @@ pub enum Size {
     Carats(f64),
 }
 
-/// What is wrong with a size.
+/// The fault in a size.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SizeError {
     /// A number without a unit.
@@ -58,7 +58,7 @@ impl Size {
     /// radius is 1.
     ///
     /// # Errors
-    /// A diameter out of range, or a weight where the material has no density.
+    /// Fails where the diameter is out of range, or where a weight is given and the material has no density.
     pub fn diameter_mm(self, unit: f64, material: &Material) -> Result<f64, SizeError> {
         let Self::Carats(carats) = self else { return self.checked().map(|_| self.number()) };
         let no_density = || SizeError::NoDensity { material: material.name.clone() };

@@ -5,24 +5,24 @@ use super::tiers::{Indexed, Tier, TierZone, Tiers};
 use crate::math::{Plane, Polytope};
 use glam::DVec3;
 
-/// Half of the last decimal to which indices are shown, teeth.
+/// Half of the last decimal of indices in the editor, teeth.
 const SHOWN: f64 = 0.5e-4;
 
-/// Half of the last decimal to which sheets print indices, teeth.
+/// Half of the last decimal of indices on sheets, teeth.
 const PRINTED: f64 = 0.5e-3;
 
-/// A tier that is added is flatter by this than the one before it, degrees.
+/// The angle by which a new tier is flatter than the one before it, degrees.
 const FLATTER: f64 = 3.0;
 
-/// An index nearer to a whole tooth than this, after a change of the gear, is that tooth.
+/// The distance from a whole tooth up to which an index becomes that tooth after a change of the gear.
 const WHOLE: f64 = 1e-9;
 
 /// A change of the list of tiers. Places count from 0, in the order of cutting, with the tiers that are not cut.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TierChange {
-    /// Puts a tier in at a place; those from there on move down.
+    /// Inserts a tier at a place; those from there on move down.
     Insert(usize, Tier),
-    /// Puts a copy of a tier in after it.
+    /// Inserts a copy of a tier after it.
     Copy(usize),
     /// Takes a tier out of the list.
     Delete(usize),
@@ -41,18 +41,19 @@ pub enum TierChange {
     /// Sets the angle of a tier, degrees, and its distance, in the unit of the design. A tier whose distance changes loses its
     /// meet, which would give another, and instructions that say no more than that meet; a size that the cutter chooses stays.
     Setting(usize, f64, f64),
-    /// Sets how much the facets of a tier are frosted: 0 polished, 1 as rough as can be.
+    /// Sets the frosting of the facets of a tier: 0 polished, 1 as rough as possible.
     Frosting(usize, f64),
-    /// Sets where the facets of a tier go; `None` for its distance. Instructions that state another meet make way for the words
-    /// of this one.
+    /// Sets the meet of a tier; `None` for its distance alone. Instructions that state another meet are replaced by
+    /// the words of this one.
     Meet(usize, Option<Meet>),
     /// Gives every tier without a meet the one that its instructions state, or else the one that the geometry shows; neither
     /// where it would move the tier.
     FindMeets,
-    /// Sets the teeth of the index gear, below 0 where they are counted clockwise; not 0. All facets stay where they are, so
-    /// that their indices change.
+    /// Sets the teeth of the index gear, below 0 where they are counted clockwise; not 0. All facets stay in their
+    /// places, so their indices change.
     Gear(i32),
-    /// States how often the design repeats around its axis, and whether each repeat is its own mirror image. No facet changes.
+    /// States the number of repeats of the design around its axis, and whether each repeat is its own mirror image.
+    /// No facet changes.
     Symmetry(u32, bool),
 }
 
@@ -163,8 +164,8 @@ impl Tiers {
         (1..).map(|number| format!("{letters}{number}")).find(is_free).unwrap_or_default()
     }
 
-    /// Returns the names of the tiers with an index between two teeth of the gear, by more than the three decimals show to
-    /// which sheets print indices. Flat tiers have no direction, and are left out.
+    /// Returns the names of the tiers with an index between two teeth of the gear, as far as three decimals show it,
+    /// the number that sheets print. Flat tiers have no direction, and are left out.
     pub fn between_teeth(&self) -> impl Iterator<Item = &str> {
         let is_flat = |tier: &Tier| matches!(tier.zone(), TierZone::Table | TierZone::Culet);
         let leaning = self.tiers.iter().filter(move |tier| !is_flat(tier));
@@ -198,8 +199,8 @@ impl Tiers {
 }
 
 impl Tiers {
-    /// Makes a tier for a place in the list, with the indices of the tier before it. It is 3 degrees flatter than that one, or
-    /// steeper where there is no room, and touches the stone at a corner or an edge.
+    /// Makes a tier for a place in the list, with the indices of the tier before it. It is 3 degrees flatter than
+    /// that one, or steeper where there is no room, and touches the stone at a corner or an edge.
     pub fn beside_stone(&self, place: usize) -> Tier {
         let before = place.checked_sub(1).and_then(|place| self.tiers.get(place));
         let angle = match before.map_or(0.0, |tier| tier.angle) {
@@ -257,14 +258,14 @@ impl Tier {
         }
     }
 
-    /// Makes a change of the tier alone.
+    /// Makes a change that concerns only this tier.
     fn change(&mut self, change: TierChange) {
         match change {
             TierChange::IsCut(_, is_cut) => self.is_cut = is_cut,
             TierChange::Instructions(_, text) => self.instructions = text,
             TierChange::Indices(_, indices) => {
                 let name = self.name().to_owned();
-                // An index that is as it was shown keeps its further digits.
+                // An index that equals the rounded one on the screen keeps its further digits.
                 let kept = |index: f64| {
                     let same = self.facets.iter().find(|facet| (facet.index - index).abs() < SHOWN);
                     same.map_or(index, |facet| facet.index)
@@ -415,7 +416,7 @@ mod tests {
         tiers.tiers[2].instructions = "Polish first".to_owned();
         tiers.change(TierChange::Setting(2, 0.0, 0.7));
         assert_eq!(tiers.tiers[2].instructions, "Polish first");
-        // What else they say stays.
+        // Their other words stay.
         tiers.tiers[2].instructions = "Meet P1-P1-G1, polish with 3000".to_owned();
         tiers.change(TierChange::Meet(2, Some(meet(["P1", "G1", "G1"]))));
         assert_eq!(tiers.tiers[2].instructions, "Meet P1-G1-G1, polish with 3000");
@@ -436,7 +437,7 @@ mod tests {
         tiers.change(TierChange::Meet(2, Some(meet(["p1", "G1"]))));
         tiers.change(TierChange::Name(0, "Main".to_owned()));
         assert_eq!(tiers.tiers[2].meet, Some(meet(["Main", "G1"])));
-        // A name that two tiers have says nothing of which is meant.
+        // A name that two tiers have is ambiguous.
         tiers.change(TierChange::Name(1, "Main".to_owned()));
         tiers.change(TierChange::Name(1, "G9".to_owned()));
         assert_eq!(tiers.tiers[2].meet, Some(meet(["Main", "Main"])));

@@ -1,5 +1,5 @@
-//! Designs as cutters write them: tiers of facets that share an angle and a distance, each facet at an index of the faceting
-//! machine's gear.
+//! Designs in the form of cutters: tiers of facets that share an angle and a distance, each facet at an index of the
+//! faceting machine's gear.
 //!
 //! Source: the conventions of GemCad (R. Strickland), as described in docs/formats.md.
 
@@ -32,11 +32,11 @@ pub struct Tiers {
     /// The gear's offset, in teeth: the index that lies at -y.
     #[serde(default)]
     pub offset: f64,
-    /// The number of times that the design repeats around its axis, according to its file. All indices are listed all the
-    /// same.
+    /// The number of times that the design repeats around its axis, according to its file. The facets list all
+    /// indices nevertheless.
     #[serde(default = "once")]
     pub symmetry: u32,
-    /// Whether, according to the file, each repeat is its own mirror image.
+    /// True where, according to the file, each repeat is its own mirror image.
     #[serde(default)]
     pub mirror: bool,
     /// The text at the top of the file, line by line.
@@ -45,7 +45,7 @@ pub struct Tiers {
     /// The text at the end of the file, line by line.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub footers: Vec<String>,
-    /// Everything else that the file says, such as the date, by key.
+    /// Further statements of the file, such as the date, by key.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub remarks: BTreeMap<String, String>,
     /// The tiers, in the order in which they are cut.
@@ -67,12 +67,12 @@ pub struct Tier {
     pub distance: f64,
     /// The cutter's instructions; empty where there are none.
     pub instructions: String,
-    /// Where the facets go, as far as it is known; `None` where the distance alone says it. Reading a design moves no facet to
-    /// its meet: [`Tiers::solved`] does.
+    /// The meet of the tier, if it is known; `None` where the distance alone places the facets. Reading a design
+    /// moves no facet to its meet: [`Tiers::solved`] does.
     pub meet: Option<Meet>,
-    /// Whether the tier is cut. A tier that is not cut is kept in the design but makes no facets.
+    /// True where the tier is cut. A tier that is not cut stays in the design but makes no facets.
     pub is_cut: bool,
-    /// How much the facets are frosted: 0 polished, 1 as rough as can be.
+    /// The frosting of the facets: 0 polished, 1 as rough as possible.
     pub frosting: f64,
     /// The facets, in the order in which they are listed.
     pub facets: Vec<Indexed>,
@@ -83,11 +83,12 @@ pub struct Tier {
 pub struct Indexed {
     /// The index on the gear, in teeth; may lie between two teeth.
     pub index: f64,
-    /// The facet's name; empty where it has none. Cutters name the first facet of a tier, and that names them all.
+    /// The facet's name; empty where it has none. Cutters name the first facet of a tier, and its name is that of
+    /// all.
     pub name: String,
 }
 
-/// What is wrong with a cutter's design.
+/// The fault in a cutter's design.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum TierFault {
     /// A gear without teeth, or with too many.
@@ -155,7 +156,7 @@ impl TierZone {
 impl Tier {
     /// Returns the zone where the tier lies.
     pub fn zone(&self) -> TierZone {
-        // Beyond 90 degrees a facet faces the other way than the sign says.
+        // A facet beyond 90 degrees faces the other way than its sign says.
         match (self.angle, self.faces_down() != (self.angle.abs() > 90.0)) {
             (0.0, true) => TierZone::Culet,
             (0.0, false) => TierZone::Table,
@@ -165,7 +166,7 @@ impl Tier {
         }
     }
 
-    /// Returns what a cutter is told: the instructions, or where there are none, the meet in words.
+    /// Returns the instruction for the cutter: the tier's own, or where it has none, the meet in words.
     pub fn instruction(&self) -> Cow<'_, str> {
         match &self.meet {
             Some(meet) if self.instructions.is_empty() => Cow::Owned(meet.to_string()),
@@ -212,8 +213,8 @@ impl Tiers {
     /// Checks the gear, the offset and every tier.
     ///
     /// # Errors
-    /// The first number that makes no sense, with the number of its tier, from 1; `None` where the gear or the offset is at
-    /// fault.
+    /// The error names the first number that is out of its range, with the number of its tier, from 1; `None` where
+    /// the gear or the offset is wrong.
     pub fn check(&self) -> Result<(), (Option<usize>, TierFault)> {
         if self.gear == 0 || !(-MOST_TEETH..=MOST_TEETH).contains(&self.gear) {
             return Err((None, TierFault::Gear(self.gear)));
@@ -253,7 +254,7 @@ impl Tiers {
         names.into_iter().zip(bases.iter().map(|(_, plane)| *plane)).collect()
     }
 
-    /// Returns how much each facet that is cut is frosted, in the order in which a design lists its facets.
+    /// Returns the frosting of each facet that is cut, in the order in which a design lists its facets.
     pub fn frosting(&self) -> Vec<f64> {
         let cut = self.tiers.iter().filter(|tier| tier.is_cut);
         cut.flat_map(|tier| std::iter::repeat_n(tier.frosting, tier.facets.len())).collect()

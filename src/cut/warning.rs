@@ -10,14 +10,15 @@ use super::proportions::{Proportions, STAR_AZIMUTH};
 use super::round_brilliant_table::ROUND_BRILLIANT;
 use super::shape::Cut;
 
-/// Something about a stone that its owner may not have meant: a proportion, and what it leads to.
+/// A property of a stone that its owner may not have meant: a proportion, and its consequence.
 ///
-/// It is written with the proportion's key in cut files; [`by_name`](Self::by_name) has the name that people read instead.
+/// Its text has the proportion's key in cut files; [`by_name`](Self::by_name) has the name that people read instead.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Warning {
     /// The proportion that leads to it.
     pub row: &'static Proportion,
-    /// What the proportion leads to, with the numbers. Lengths are percent of the girdle diameter unless said otherwise.
+    /// The consequence of the proportion, with the numbers. Lengths are percent of the girdle diameter unless the
+    /// text says otherwise.
     pub statement: String,
 }
 
@@ -49,7 +50,7 @@ impl Warning {
     }
 }
 
-/// A number that lies outside its usual range by no more than this is one that was rounded.
+/// The distance from its usual range up to which a number counts as rounded to it.
 const ROUNDED: f64 = 1e-9;
 
 /// The sine of the angle to the axis, or to the girdle plane, up to which a facet is a culet, or one of the girdle.
@@ -72,7 +73,7 @@ impl Warning {
                     row.written(most)
                 )
             };
-            // The range of a count is all that is possible.
+            // The range of a count contains all possible values.
             (!is_usual && row.unit != Unit::Count).then(|| Self { row, statement: statement() })
         };
         let leaking = critical_deg.and_then(|critical| leaking(cut, critical));
@@ -80,8 +81,9 @@ impl Warning {
     }
 }
 
-/// Returns a warning about the pavilion tiers that lie wholly below the critical angle, at the number that shapes the pavilion.
-/// Single facets do so in usual cuts as well, as the mains at the ends of a marquise; the audit lists them.
+/// Returns a warning about the pavilion tiers that lie wholly below the critical angle, at the number that shapes the
+/// pavilion. Single facets lie below it in usual cuts as well, such as the mains at the ends of a marquise; the audit
+/// lists them.
 fn leaking(cut: &FamilyCut, critical_deg: f64) -> Option<Warning> {
     let net = cut.net().ok()?;
     let mut tiers: Vec<(&str, f64)> = vec![];
@@ -271,7 +273,7 @@ mod tests {
         assert!(flat.iter().any(|text| text.contains("outside the usual range")), "{flat:?}");
         let leak = flat.iter().find(|text| text.contains("critical angle of 24.43°")).unwrap();
         assert!(leak.starts_with("pavilion_angle: pavilion tiers below"), "{leak}");
-        // The oval's mains are steepest at its sides, 40.75°; a tier of which a part is steep enough is not told.
+        // The oval's mains are steepest at its sides, 40.75°; a tier of which a part is steep enough causes no warning.
         let flat = of_family("oval", None, 40.8);
         assert_eq!(flat.len(), 1, "{flat:?}");
         assert!(flat[0].ends_with("main at 40.75°"), "{flat:?}");

@@ -29,7 +29,7 @@ pub enum AnimationFormat {
 }
 
 impl AnimationFormat {
-    /// All formats.
+    /// All formats, in the order of lists.
     pub const ALL: [Self; 3] = [Self::Apng, Self::Gif, Self::Mp4];
 
     /// Returns the ending of the format's files, without the dot.
@@ -47,7 +47,7 @@ impl AnimationFormat {
         Self::ALL.into_iter().find(|format| ending.eq_ignore_ascii_case(format.ending()))
     }
 
-    /// Says whether this program was built so that it writes the format.
+    /// Returns whether this program was built with the format's encoder.
     pub fn is_built_in(self) -> bool {
         match self {
             Self::Apng => true,
@@ -56,7 +56,7 @@ impl AnimationFormat {
         }
     }
 
-    /// Returns the shortest and the longest time in ms for which a frame of the format can be shown.
+    /// Returns the shortest and the longest time, in ms, for which a frame of the format can be shown.
     ///
     /// Browsers show frames of animated PNG of less than 10 ms, and of GIF of less than 20 ms, for 100 ms.
     pub fn delays_ms(self) -> [u16; 2] {
@@ -80,7 +80,7 @@ impl Animation<'_> {
     /// [`develop`](crate::picture::develop()) gives them.
     ///
     /// # Errors
-    /// When the file system refuses, the frame has another size, or there is one frame too many.
+    /// Fails where the file system refuses, the frame has another size, or there is one frame too many.
     pub fn push(&mut self, rgba: &[u8]) -> Result<(), WriteError> {
         let (width, height) = self.frames.size;
         if rgba.len() as u64 != 4 * u64::from(width) * u64::from(height) {
@@ -109,8 +109,8 @@ impl Animation<'_> {
 /// Writes an animation; `fill` pushes its frames. `description` goes into the file as text.
 ///
 /// # Errors
-/// When the file system refuses, a frame is missing or does not fit, the program was built without the format, or `fill`
-/// returns an error. No file is left behind then.
+/// Fails where the file system refuses, a frame is missing or does not fit, the program was built without the format,
+/// or `fill` returns an error. No file is left behind then.
 pub fn write_animation<E: From<WriteError>>(
     (path, format): (&Path, AnimationFormat),
     frames: &Frames,

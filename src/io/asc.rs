@@ -1,8 +1,8 @@
 //! Reads and writes GemCad's text files, `.asc`. Each record is a line that begins with a letter; a list of facets may
 //! continue on lines that begin with a blank. The format is described in docs/formats.md.
 //!
-//! A line that is not understood gives a warning, and the stone opens all the same. What the file says besides the stone
-//! (names, instructions, headers) is kept.
+//! A line that cannot be understood gives a warning, and the stone opens all the same. The file's texts (names,
+//! instructions, headers) are kept.
 
 use super::cutters::{self, Gear, WarningList};
 use super::design_file::{EncodedDesign, ImportedDesign};
@@ -45,8 +45,8 @@ pub fn looks_like(bytes: &[u8]) -> bool {
 /// Reads a GemCad text file; `label` is the path of the file, which names a design without a title.
 ///
 /// # Errors
-/// When the file is too large, lists no facet or more than a stone may have, or makes no valid design; with the line where
-/// there is one.
+/// Fails where the file is too large, lists no facet or more than a stone may have, or makes no valid design. The
+/// error has the line where one is at fault.
 pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
     check_size(bytes.len(), MAX_BYTES as u64)?;
     let mut reader = Reader::default();
@@ -96,7 +96,7 @@ struct Reader {
     tiers: Vec<Tier>,
     /// The line where each tier begins.
     tier_lines: Vec<usize>,
-    /// Whether the line before was part of a tier, so that this line may continue it.
+    /// True where the line before was part of a tier, so that this line may continue it.
     in_tier: bool,
     /// A name that was read before the index that it belongs to.
     name: Option<String>,
@@ -290,7 +290,8 @@ impl Reader {
                 tier.facets.push(Indexed { index, name: self.name.take().unwrap_or_default() });
                 self.count += 1;
             }
-            // A stone with one facet between two teeth is another than one with two facets.
+            // Read as one index between two teeth, the token makes one facet; read as two indices, it makes two facets, and
+            // so another stone.
             Token::WithComma(_) | Token::Broken => {
                 return Err(self.fault(format!(
                     "'{}' may be one index or several; write a decimal point, and blanks between indices",
@@ -353,7 +354,7 @@ impl Reader {
     }
 }
 
-/// Parts a text into its first word and what follows the blank behind it.
+/// Parts a text into its first word and the rest after the blank.
 fn word(text: &str) -> (&str, &str) {
     let text = text.trim_ascii_start();
     text.split_once(|c: char| c.is_ascii_whitespace()).unwrap_or((text, ""))
@@ -403,7 +404,7 @@ pub fn write(specimen: &Specimen) -> EncodedDesign {
     EncodedDesign { bytes: encoded(out), lost }
 }
 
-/// Returns messages about what of a design's tiers has no place in the format.
+/// Returns messages about the parts of a design's tiers that the format cannot hold.
 fn left_out(tiers: &Tiers) -> Vec<String> {
     let uncut = tiers.tiers.iter().filter(|tier| !tier.is_cut || tier.facets.is_empty()).count();
     let keys: Vec<&str> = tiers.remarks.keys().map(String::as_str).collect();
@@ -417,7 +418,7 @@ fn left_out(tiers: &Tiers) -> Vec<String> {
     lost
 }
 
-/// Fits texts into lines and words, and remembers what that changed.
+/// Fits texts into lines and words, and remembers the changes.
 #[derive(Default)]
 struct Texts {
     are_joined: bool,

@@ -33,7 +33,7 @@ pub struct Assembly {
     pub design: Option<Design>,
     /// The stones in one world. A single stone lies unmoved in its own frame.
     pub setting: Scene,
-    /// What each stone is and where it lies, in the order of the instances of `setting`.
+    /// The kind and the place of each stone, in the order of the instances of `setting`.
     pub places: Vec<StonePlace>,
     /// The light that the scene names: one that comes with the program, or a file.
     pub light: Option<PathBuf>,
@@ -49,7 +49,7 @@ pub struct Assembly {
     pub exposure: f64,
     /// The angle by which the scene turns its light about its axis, in degrees.
     pub light_turn: f64,
-    /// Whether the light's axis points up in the picture, and not to the eye.
+    /// True where the light's axis points up in the picture, false where it points to the eye.
     pub light_upright: bool,
     /// The scene's ring.
     pub ring: Option<MadeRing>,
@@ -62,14 +62,14 @@ pub struct Assembly {
 pub struct MadeRing {
     /// The metal.
     pub metal: Metal,
-    /// What the ring is made of, in its own frame, in mm.
+    /// The metal and the seats of the ring, in its own frame, in mm.
     pub mounting: Mounting,
 }
 
-/// What a stone is, and where it lies.
+/// The kind of a stone, and its place.
 #[derive(Debug, Clone)]
 pub struct StonePlace {
-    /// The stone as its own file has it: it may be of another material and size. Stones of one cut share it.
+    /// The stone in the material and size of its own file; the scene may state others. Stones of one cut share it.
     pub specimen: Arc<Specimen>,
     /// The material.
     pub material: MaterialRef,
@@ -79,7 +79,7 @@ pub struct StonePlace {
     pub at_mm: DVec3,
 }
 
-/// A material by its name in files, and what that name stands for.
+/// A material with its name in files.
 type NamedMaterial = (MaterialRef, Material);
 
 /// A stone of a scene, in mm: the world's unit is not known yet.
@@ -100,7 +100,7 @@ impl Assembly {
     /// `material` and `size` replace those of every stone. Every mesh is read with the options `mesh`.
     ///
     /// # Errors
-    /// When a file cannot be read or makes no stone, when there is no such material, and when stones overlap.
+    /// Fails where a file cannot be read or makes no stone, where a material is unknown, or where stones overlap.
     pub fn load(
         file: &Path,
         material: Option<&MaterialRef>,
@@ -116,7 +116,7 @@ impl Assembly {
     /// Assembles a scene that was read from a file, or that comes with the program; `file` is its path or name.
     ///
     /// # Errors
-    /// As for [`load`](Self::load).
+    /// Fails where [`load`](Self::load) does.
     pub fn of(file: &Path, scene: SceneFile) -> Result<Self, Failure> {
         Self::of_scene(file, scene, None, (None, MeshOptions::default()))
     }
@@ -287,7 +287,7 @@ fn at_entry(file: &Path, number: usize, entry: &Entry, message: &str) -> Failure
     Failure::Input(format!("{}:{}: stone {}: {message}", file.display(), entry.line, number + 1))
 }
 
-/// Returns the material that is asked for, else the scene's own, else that of the stone's file.
+/// Returns the material that `asked` replaces it by, else the scene's own, else that of the stone's file.
 fn named_material(
     specimen: &Specimen,
     asked: Option<&MaterialRef>,

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use tempfile::{NamedTempFile, SpooledTempFile};
 
-/// Why a file was not written. Nothing of it is left behind.
+/// The reason why a file was not written. No part of it is left behind.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
     /// The file system refused.
@@ -76,21 +76,21 @@ pub fn abandon_writes() -> Abandoned {
 
 /// A file that is written whole or not at all: nothing is found at its path before [`finish`](Self::finish) has returned.
 ///
-/// What is written goes to a temporary file beside the path, which is renamed in the end. Missing folders are made. A symbolic
-/// link stays, and the file that it leads to is written. The path `-` is standard output; standard output, pipes and devices
-/// are written to in the end.
+/// The content goes to a temporary file beside the path, which is renamed in the end. Missing folders are made. A
+/// symbolic link stays, and the file that it leads to is written. The path `-` is standard output; standard output,
+/// pipes and devices are written to in the end.
 pub struct WholeFile {
     path: PathBuf,
     content: Content,
 }
 
-/// Where the content of a file is kept until the file is finished.
+/// The store of a file's content until the file is finished.
 enum Content {
-    /// In a temporary file, which is renamed to the path.
+    /// A temporary file, which is renamed to the path.
     Beside(Temporary, PathBuf),
-    /// In a file without a name, which is copied to standard output.
+    /// A file without a name, which is copied to standard output.
     Standard(BufWriter<SpooledTempFile>),
-    /// In a file without a name, which is copied to a pipe or a device.
+    /// A file without a name, which is copied to a pipe or a device.
     Device(BufWriter<SpooledTempFile>, PathBuf),
 }
 
@@ -98,7 +98,7 @@ impl WholeFile {
     /// Begins a file.
     ///
     /// # Errors
-    /// When the file system refuses.
+    /// Fails where the file system refuses.
     pub fn begin(path: &Path) -> Result<Self, WriteError> {
         let store = || BufWriter::new(SpooledTempFile::new(KEPT));
         let own = path.to_path_buf();
@@ -113,16 +113,16 @@ impl WholeFile {
         Ok(Self { path: own, content: Content::Beside(temporary, target) })
     }
 
-    /// Brings the file to its place.
+    /// Moves the finished file to its path.
     ///
     /// # Errors
-    /// When the file system refuses; then nothing of the file is left behind.
+    /// Fails where the file system refuses; then nothing of the file is left behind.
     pub fn finish(self) -> Result<(), WriteError> {
         let Self { path, content } = self;
         let done = match content {
             Content::Beside(temporary, target) => temporary.persist(&target),
             Content::Standard(store) => match copied(store, || Ok(io::stdout().lock())) {
-                // The reader of the pipe has gone away and wants no more.
+                // The reader of the pipe has closed it.
                 Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
                 done => done,
             },
@@ -142,7 +142,7 @@ impl WholeFile {
 /// Checks that a file can be written, before long work begins. Missing folders are made, and nothing else is left.
 ///
 /// # Errors
-/// When the file system refuses.
+/// Fails where the file system refuses.
 pub fn check_writable(path: &Path) -> Result<(), WriteError> {
     WholeFile::begin(path).map(drop)
 }
@@ -163,7 +163,7 @@ impl Seek for WholeFile {
     }
 }
 
-/// Copies a store to what `open` opens.
+/// Copies a store to the file that `open` opens.
 fn copied<W: Write>(
     store: BufWriter<SpooledTempFile>,
     open: impl FnOnce() -> io::Result<W>,
@@ -178,7 +178,7 @@ fn copied<W: Write>(
 /// Writes a file whole or not at all: `fill` writes its content; see [`WholeFile`].
 ///
 /// # Errors
-/// When the file system refuses, or `fill` returns an error.
+/// Fails where the file system refuses, or `fill` returns an error.
 pub fn write<E: From<WriteError>>(
     path: &Path,
     fill: impl FnOnce(&mut dyn Sink) -> Result<(), E>,
@@ -192,7 +192,7 @@ pub fn write<E: From<WriteError>>(
 fn destination(path: &Path) -> io::Result<PathBuf> {
     let mut target = path.to_path_buf();
     for _ in 0..MOST_LINKS {
-        // What is no link, or does not exist, cannot be read as a link.
+        // A path that is no link, or does not exist, cannot be read as a link.
         let Ok(next) = std::fs::read_link(&target) else { return Ok(target) };
         target = target.parent().unwrap_or(Path::new("")).join(next);
     }

@@ -1,5 +1,5 @@
-//! What lies behind the stones, as people name it: the light itself, a colour, a pattern or a world that the program
-//! draws, a photograph.
+//! The background behind the stones, as files and options name it: the light itself, a colour, a pattern or a world
+//! that the program draws, a photograph.
 
 use super::panorama::{self, LoadedPanorama};
 use super::png_bytes::png;
@@ -13,10 +13,10 @@ use ::png::{BitDepth, ColorType};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// The widest photograph that is kept as it is; wider ones are halved.
+/// The greatest width of a photograph that is kept as it is; larger ones are halved.
 const WIDEST: u32 = 4096;
 
-/// A background as a person names it.
+/// A background by its name.
 #[derive(Debug, Clone, PartialEq)]
 pub enum BackgroundRef {
     /// `light`: the light itself.
@@ -55,13 +55,13 @@ impl BackgroundRef {
         matches!(self, Self::Pattern(_) | Self::World(_) | Self::Photo(_))
     }
 
-    /// Returns how many times as wide as the picture the background hangs behind it: patterns and worlds go on beside the
-    /// picture.
+    /// Returns the width of the hanging picture as a multiple of the width of the film: patterns and worlds continue
+    /// beside the picture.
     pub fn span(&self) -> f64 {
         if matches!(self, Self::Pattern(_) | Self::World(_)) { PATTERN_SPAN } else { 1.0 }
     }
 
-    /// Returns a word that tells people what hangs behind, such as `Photograph`.
+    /// Returns a word for the kind of background, such as `Photograph`.
     pub fn title(&self) -> String {
         let mut title = match self {
             Self::Light => "light",
@@ -75,10 +75,10 @@ impl BackgroundRef {
         title
     }
 
-    /// Reads the name of a background. Names come before files, which are looked for from `folder`.
+    /// Reads the name of a background. Names are tried before files, which are sought from `folder`.
     ///
     /// # Errors
-    /// When the text is no name, no colour and no file, or names a file that does not exist.
+    /// Fails where the text is no name, no colour and no file, or names a file that does not exist.
     pub fn read(text: &str, folder: &Path) -> Result<Self, NameOrFileError> {
         if text.eq_ignore_ascii_case("light") {
             return Ok(Self::Light);
@@ -114,7 +114,7 @@ impl BackgroundRef {
     /// Returns the picture that hangs behind, as [`Self::picture_behind`] does for a film of 1024 pixels.
     ///
     /// # Errors
-    /// When a photograph's file is at fault.
+    /// Fails where a photograph's file is at fault.
     pub fn picture(&self) -> Result<Option<LoadedPanorama>, FileError> {
         self.picture_behind(PATTERN_SIDE / 2)
     }
@@ -124,7 +124,7 @@ impl BackgroundRef {
     /// pixels. `None` for the light and for colours.
     ///
     /// # Errors
-    /// When a photograph's file is at fault.
+    /// Fails where a photograph's file is at fault.
     pub fn picture_behind(&self, film: u32) -> Result<Option<LoadedPanorama>, FileError> {
         match self {
             Self::Light | Self::Plain(_) => Ok(None),
@@ -150,7 +150,7 @@ impl BackgroundRef {
     /// photograph that fills it, or colours; `None` for the light and for a transparent background.
     ///
     /// # Errors
-    /// When a photograph's file is at fault.
+    /// Fails where a photograph's file is at fault.
     pub fn filling(&self, [width, height]: [u32; 2]) -> Result<Option<LoadedPanorama>, FileError> {
         if let Self::Plain(colours) = self {
             let rows: Option<Vec<_>> = (0..height).map(|y| colours.row(y, height)).collect();
@@ -173,7 +173,7 @@ impl BackgroundRef {
     /// for colours.
     ///
     /// # Errors
-    /// When a photograph's file is at fault.
+    /// Fails where a photograph's file is at fault.
     pub fn bytes(&self) -> Result<Option<Vec<u8>>, FileError> {
         match self {
             Self::Light | Self::Plain(_) => Ok(None),
@@ -202,7 +202,7 @@ fn rastered(pattern: Pattern) -> Result<(u32, u32, Vec<u8>), FileError> {
     raster.map_err(|error| FileError::new(pattern.name(), error))
 }
 
-/// Draws a world as it hangs behind a picture: its middle half is what a photograph 60 degrees across shows.
+/// Draws a world as a hanging picture: its middle half is the part that a photograph 60 degrees across shows.
 fn hung(world: World, side: u32) -> Panorama {
     world.picture([side; 2], PATTERN_SPAN)
 }

@@ -9,10 +9,10 @@ use crate::scene::Specimen;
 use std::ops::Deref;
 use std::path::Path;
 
-/// What is said of a scene in the place of a design.
+/// The end of the message about a scene where a design is expected.
 const IS_SCENE: &str = "this is a scene, where the file or the name of a cut is expected";
 
-/// A stone, the file that its design was read from, and what a person should know about both.
+/// A stone, the file that its design was read from, and the remarks about both.
 #[derive(Debug)]
 pub struct BuiltDesign {
     /// The path of the file, or the name of the cut.
@@ -32,11 +32,11 @@ impl Deref for BuiltDesign {
 }
 
 impl BuiltDesign {
-    /// Reads a design, or takes a cut that comes with the program by its name, and builds the stone. A mesh is read with the
-    /// options `mesh`. Where a file and a cut have the same name, the file is taken.
+    /// Reads a design, or takes a cut that comes with the program by its name, and builds the stone. A mesh is read
+    /// with the options `mesh`. Where a file and a cut have the same name, the file is taken.
     ///
     /// # Errors
-    /// When the file cannot be read, is no design, or makes no stone.
+    /// Fails where the file cannot be read, is no design, or makes no stone.
     pub fn load(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
         let name = file.display().to_string();
         match library::cut(&name).filter(|_| !file.is_file()) {
@@ -51,7 +51,7 @@ impl BuiltDesign {
     /// Reads a design from a file. A mesh is read with the options `mesh`.
     ///
     /// # Errors
-    /// As for [`load`](Self::load).
+    /// Fails where [`load`](Self::load) does.
     pub fn read(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
         let refused = |e: FileError| Failure::Input(format!("{e}{}", hint(file)));
         Self::of(file.display().to_string(), design_file::read_with(file, mesh).map_err(refused)?)
@@ -60,7 +60,7 @@ impl BuiltDesign {
     /// Builds a stone from the text of a cut file. Error messages call the file `path`.
     ///
     /// # Errors
-    /// When the text is no design, or makes no stone.
+    /// Fails where the text is no design, or makes no stone.
     pub fn parse(path: &str, text: &str) -> Result<Self, Failure> {
         let design = cut_file::parse(text, path)?;
         Self::of(path.to_owned(), ImportedDesign::of(design))

@@ -1,8 +1,8 @@
-//! Cut files: a design as TOML, format 1, read and written through one declaration of its keys (`form`), and those of
-//! families of cuts by their tables of proportions (`family_form`).
+//! Cut files: a design as TOML, format 1, read and written through one declaration of its keys (`form`), and the keys
+//! of families of cuts by their tables of proportions (`family_form`).
 //!
-//! Numbers in a file are percent of the girdle diameter and degrees; [`Design`] keeps them as they stand, so that
-//! reading back what was written gives the same design to the last bit. Every error names file, line and key, and says
+//! Numbers in a file are percent of the girdle diameter and degrees; [`Design`] keeps them unchanged, so that a
+//! design that is written and read again is the same to the last bit. Every error names file, line and key, and says
 //! what was expected.
 
 use std::path::Path;
@@ -36,7 +36,7 @@ pub const MAX_MESH_BYTES: u64 = 256 << 20;
 /// Reads a cut file, without its warnings; `design_file::read` reads it with them.
 ///
 /// # Errors
-/// When the file cannot be read or is no cut file; the error names path, line and key.
+/// Fails where the file cannot be read or is no cut file; the error names path, line and key.
 pub fn read(path: impl AsRef<Path>) -> Result<Design, FileError> {
     let path = path.as_ref();
     let read = text::read(path, MAX_MESH_BYTES).and_then(|text| design(&text));
@@ -46,7 +46,7 @@ pub fn read(path: impl AsRef<Path>) -> Result<Design, FileError> {
 /// Reads a design from the text of a cut file; `label` stands for its path in errors.
 ///
 /// # Errors
-/// When the text is no cut file; the error names label, line and key.
+/// Fails where the text is no cut file; the error names label, line and key.
 pub fn parse(text: &str, label: &str) -> Result<Design, FileError> {
     design(text).map(|(design, _)| design).map_err(|fault| fault.in_file(label))
 }
@@ -87,7 +87,7 @@ fn odd_indices(design: &Design, lines: &KeyLines<'_>) -> Vec<String> {
     tiers.beyond_gear().map(|beyond| place(beyond.tier) + &beyond.to_string()).collect()
 }
 
-/// Returns whether the text has a table `[mesh]`, as far as its beginning shows.
+/// Returns whether the text seems to have a table `[mesh]`, from the beginnings of its lines.
 fn holds_mesh(text: &str) -> bool {
     const BEGINNING: usize = 64 << 10;
     text.lines().take_while(|line| line.len() < BEGINNING).take(1000).any(|line| line.trim() == "[mesh]")

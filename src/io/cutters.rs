@@ -1,8 +1,8 @@
-//! What the files of gem cutters have in common: planes as settings of a faceting machine, facets gathered into
-//! tiers, and warnings about designs that say too much or too little.
+//! Parts that the readers and writers of gem cutters' files share: planes as settings of a faceting machine, facets
+//! gathered into tiers, and warnings about designs with contradictory or missing statements.
 //!
-//! Numbers that are computed from planes are rounded to what the cutter wrote, so that reading what was written gives the
-//! same numbers.
+//! Numbers that are computed from planes are rounded to the digits that the cutter wrote, so that a design that is
+//! written and read again has the same numbers.
 
 use super::design_file::ImportedDesign;
 use super::file_error::Fault;
@@ -22,9 +22,9 @@ mod slopes_of_tiers;
 pub(super) use outward::{FacetOutline, outlines, refractive_index, tiers_of, untold};
 pub use outward::{NoTiers, as_tiers, in_tiers};
 
-/// Two facets of one tier are cut at one setting if their angles (degrees) and their distances (relative) differ by no more
-/// than this. A number this near to one that a cutter would write is taken for that one. The value is above the noise of
-/// stored planes (1e-13) and far below what a machine can set (1e-3).
+/// Two facets of one tier are cut at one setting if their angles (degrees) and their distances (relative) differ by
+/// no more than this. A number this near to one that a cutter would write is taken for that one. The value is above
+/// the noise of stored planes (1e-13) and far below the accuracy of machines (1e-3).
 const SAME_SETTING: f64 = 1e-9;
 
 /// Angles are rounded to this many steps per degree: millionths, which cutters' programs print.
@@ -34,14 +34,14 @@ const ANGLE_STEPS: f64 = 1e6;
 /// leaves, less than 1e-12 in radians.
 const KEPT: f64 = 1e11;
 
-/// A plane runs through the origin if its distance is below this part of the farthest plane's: far below what 8 decimals can
-/// mean.
+/// A plane runs through the origin if its distance is below this part of the farthest plane's: far below the accuracy
+/// of 8 decimals.
 const THROUGH_ORIGIN: f64 = 1e-15;
 
-/// The index of refraction in place of one that makes no sense: gem cutters take it where nothing is said.
+/// The index of refraction in place of an impossible one: gem cutters' default.
 const USUAL_INDEX: f64 = 1.54;
 
-/// The gear in place of one that makes no sense: the commonest.
+/// The gear in place of an impossible one: the commonest.
 const USUAL_GEAR: i32 = 96;
 
 /// The most warnings that are reported about one file.
@@ -71,7 +71,7 @@ pub(super) struct TierPiece {
     pub name: String,
     pub instructions: String,
     pub is_cut: bool,
-    /// As in [`Tier`].
+    /// The frosting, as in [`Tier`].
     pub frosting: f64,
 }
 
@@ -101,7 +101,7 @@ impl WarningList {
 }
 
 impl Default for Gear {
-    /// The gear where a file gives none, or none that makes sense.
+    /// Returns the gear of a file that states none, or an impossible one.
     fn default() -> Self {
         Self { teeth: USUAL_GEAR, offset: 0.0 }
     }
@@ -140,7 +140,8 @@ impl Gear {
         FacetSetting { angle: slope.copysign(normal.z), distance: fourteen_digits(distance), index }
     }
 
-    /// Returns the index, above 0 and up to the number of teeth, of a facet whose azimuth is given in radians from -y.
+    /// Returns the index, above 0 and up to the number of teeth, of a facet whose azimuth is given in radians from
+    /// -y.
     fn index(self, azimuth: f64) -> f64 {
         let teeth = f64::from(self.teeth);
         let index = (self.offset + teeth * azimuth / TAU).rem_euclid(teeth.abs());
@@ -151,8 +152,8 @@ impl Gear {
     }
 }
 
-/// Returns a number as it was probably written: rounded to `steps` per unit where that is very near, else rounded without
-/// its noise.
+/// Returns the number that the cutter probably wrote: rounded to `steps` per unit where that is very near, else
+/// rounded to the digits above the noise.
 fn as_written(value: f64, steps: f64) -> f64 {
     let on_step = (value * steps).round() / steps;
     if (on_step - value).abs() < SAME_SETTING { on_step } else { (value * KEPT).round() / KEPT }
@@ -197,7 +198,7 @@ impl TierPiece {
             && (said[0] == said[1] || said.iter().any(|text| text.is_empty()))
     }
 
-    /// Whether the facet is cut at the angle and the distance of another setting.
+    /// Returns whether the facet is cut at the angle and the distance of another setting.
     fn is_cut_as(&self, other: &FacetSetting) -> bool {
         let FacetSetting { angle, distance, .. } = self.setting;
         (angle - other.angle).abs() <= SAME_SETTING
@@ -227,7 +228,7 @@ impl TierPiece {
     }
 }
 
-/// Takes the finish of each tier from its instructions, as far as they are plain, and warns of what is not.
+/// Takes the finish of each tier from its instructions, as far as they are plain, and warns of unclear ones.
 pub(super) fn finish_as_said(tiers: &mut Tiers, warnings: &mut WarningList) {
     for (number, tier) in (1..).zip(&mut tiers.tiers) {
         match FinishNote::of(&tier.instructions) {
@@ -260,7 +261,8 @@ pub(super) fn named_once(tiers: &mut [Tier]) {
     tiers.iter_mut().flat_map(|tier| tier.facets.iter_mut().skip(1)).for_each(|facet| facet.name.clear());
 }
 
-/// Returns the name of a design: the first of these lines that can be shown, else the name of its file without the ending.
+/// Returns the name of a design: the first of these lines that is printable, else the name of its file without the
+/// ending.
 pub(super) fn title<'a>(lines: impl IntoIterator<Item = &'a String>, label: &str) -> String {
     let stem = Path::new(label).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let lines = lines.into_iter().map(|line| line.trim());

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 #[cfg(test)]
 mod tests;
 
-/// Pixels an inch of sheets in PNG.
+/// The resolution of sheets in PNG, pixels per inch.
 const PIXELS_PER_INCH: f64 = 300.0;
 
 /// A format of sheets. clap prints these comments as the option's help.
@@ -60,7 +60,8 @@ impl SheetFormat {
 /// instruction of a tier without a meet is its depth.
 ///
 /// # Errors
-/// [`Failure::Input`] for a solid without facets that can be cut: a mesh that is not convex, a smooth glass shape.
+/// Fails with [`Failure::Input`] for a solid without facets that can be cut: a mesh that is not convex, a smooth
+/// glass shape.
 pub fn cutting_sheet(specimen: &Specimen, left_handed: bool) -> Result<CuttingSheet, Failure> {
     let refused = |why: String| Failure::Input(format!("{}: no cutter's sheet: {why}", specimen.design.name));
     let by_tiers = in_tiers(specimen).map_err(|why| refused(why.to_string()))?;
@@ -73,8 +74,8 @@ pub fn cutting_sheet(specimen: &Specimen, left_handed: bool) -> Result<CuttingSh
     Ok(CuttingSheet::new(specimen, stone, &tiers, left_handed))
 }
 
-/// Returns tiers of which those without a meet have their depth as instruction, and a footer that says what depth is. A depth is
-/// the distance of a facet's plane from the origin of the tiers, in widths of the stone.
+/// Returns the tiers with their depth as the instruction where they have no meet, and with a footer that defines
+/// depth. A depth is the distance of a facet's plane from the origin of the tiers, in widths of the stone.
 fn with_depths(turned: &Specimen, stone: &Stone, tiers: &Tiers) -> Tiers {
     let mut tiers = tiers.clone();
     let (low, high) = stone.polytope.bounds();
@@ -109,7 +110,8 @@ pub fn files(sheet: &CuttingSheet, paper: PaperSize, (format, path): (SheetForma
 /// Returns the files.
 ///
 /// # Errors
-/// [`Failure::Usage`] for several pages to standard output, [`Failure::Output`] where the file system refuses.
+/// Fails with [`Failure::Usage`] for several pages to standard output, [`Failure::Output`] where the file system
+/// refuses.
 pub fn write(
     sheet: &CuttingSheet,
     paper: PaperSize,

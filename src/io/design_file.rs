@@ -1,5 +1,5 @@
-//! Reads and writes designs in all formats. What is in a file decides its format, and only where that says nothing, the
-//! ending of its name.
+//! Reads and writes designs in all formats. The content of a file decides its format, and the ending of its name only
+//! where the content does not.
 
 use super::cut_file;
 use super::cutters::WarningList;
@@ -23,7 +23,7 @@ pub use imported::ImportedDesign;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum DesignFormat {
-    /// This program's own cut files.
+    /// Cut files of this program.
     Toml,
     /// GemCad's text files.
     Asc,
@@ -60,7 +60,7 @@ impl DesignFormat {
         }
     }
 
-    /// Returns whether the format holds a design whole enough to go on with, and not the shape alone.
+    /// Returns whether the format holds a whole design for further work, and not only the shape.
     pub fn holds_designs(self) -> bool {
         match self {
             Self::Toml | Self::Asc | Self::Gem | Self::Gcs => true,
@@ -83,7 +83,7 @@ impl DesignFormat {
         ];
         let is_mesh = |ending: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
         if is_mesh("gltf") {
-            // The reader of glTF says what is wrong with the file.
+            // The reader of glTF reports the faults of the file.
             return Self::Glb;
         }
         let found = known.into_iter().find(|(_, looks_like)| looks_like(bytes)).map(|(format, _)| format);
@@ -94,7 +94,7 @@ impl DesignFormat {
 /// Reads a design, a mesh with the default options.
 ///
 /// # Errors
-/// When the file is no design; the error has its path, and a line where there is one.
+/// Fails where the file is no design; the error has its path, and a line where there is one.
 pub fn read(path: &Path) -> Result<ImportedDesign, FileError> {
     read_with(path, MeshOptions::default())
 }
@@ -102,7 +102,7 @@ pub fn read(path: &Path) -> Result<ImportedDesign, FileError> {
 /// Reads a design; the options apply to meshes alone.
 ///
 /// # Errors
-/// When the file is no design; the error has its path, and a line where there is one.
+/// Fails where the file is no design; the error has its path, and a line where there is one.
 pub fn read_with(path: &Path, options: MeshOptions) -> Result<ImportedDesign, FileError> {
     let label = path.display().to_string();
     let named = |fault: Fault| fault.in_file(&label);
@@ -135,8 +135,8 @@ fn with_warnings((design, warnings): (Design, Vec<String>)) -> ImportedDesign {
 /// Encodes a stone's design as a file.
 ///
 /// # Errors
-/// [`Failure::Input`] where the format takes convex stones alone and this is none, [`Failure::Output`] where a mesh is too
-/// large for the format.
+/// Fails with [`Failure::Input`] where the format takes convex stones alone and this is none, [`Failure::Output`]
+/// where a mesh is too large for the format.
 pub fn written(specimen: &Specimen, format: DesignFormat) -> Result<EncodedDesign, Failure> {
     let (name, radius_mm) = (specimen.design.name.as_str(), specimen.unit_mm());
     let material = &specimen.design.material;
@@ -174,7 +174,7 @@ pub fn written(specimen: &Specimen, format: DesignFormat) -> Result<EncodedDesig
     Ok(as_mesh(specimen, format, mesh))
 }
 
-/// Wraps the bytes of a mesh, with messages about what meshes have no place for.
+/// Wraps the bytes of a mesh, with messages about the properties that meshes cannot hold.
 fn as_mesh(specimen: &Specimen, format: DesignFormat, bytes: Vec<u8>) -> EncodedDesign {
     let is_named = matches!(format, DesignFormat::Obj | DesignFormat::Glb);
     let shape = match &*specimen.body {
@@ -221,10 +221,10 @@ fn listed(words: &[&str]) -> String {
     }
 }
 
-/// Writes a stone's design, whole or not at all, and returns what the format cannot hold, in words.
+/// Writes a stone's design, whole or not at all, and returns in words the properties that the format cannot hold.
 ///
 /// # Errors
-/// When the design cannot be encoded, as for [`written`], or the file system refuses.
+/// Fails where the design cannot be encoded, as for [`written`], or where the file cannot be written.
 pub fn write(specimen: &Specimen, format: DesignFormat, path: &Path) -> Result<Vec<String>, Failure> {
     let written = written(specimen, format)?;
     write_whole(path, |file| file.write_all(&written.bytes).map_err(|e| WriteError::io(path, e)))?;

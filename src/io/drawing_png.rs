@@ -8,19 +8,19 @@ use std::sync::Arc;
 #[cfg(test)]
 pub(super) mod legible;
 
-/// Why a drawing could not be rasterised.
+/// The reason why a drawing could not be rasterised.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum DrawingError {
     /// The text is no SVG.
     #[error("the drawing is not an SVG: {reason}")]
     NotSvg {
-        /// What the parser found.
+        /// The parser's message.
         reason: String,
     },
-    /// The drawing holds what PDF files of this program have no room for.
+    /// The drawing has an element that PDF files of this program cannot hold.
     #[error("the drawing has {what}, which is not written as PDF; write it as SVG or PNG")]
     NotForPdf {
-        /// What the drawing has.
+        /// The name of that element.
         what: &'static str,
     },
     /// The picture would be empty or too large.
@@ -41,7 +41,7 @@ pub enum DrawingError {
 /// Only the program's own fonts are used, and nothing outside the text is read. Pictures in the drawing are left out.
 ///
 /// # Errors
-/// When the text is no SVG, or the picture would have a side of no pixels or more than 16,384.
+/// Fails where the text is no SVG, or the picture would have a side of no pixels or more than 16,384.
 pub fn rasterize(svg: &str, width: u32) -> Result<(u32, u32, Vec<u8>), DrawingError> {
     let tree = parse(svg)?;
     let pixmap = drawn(&tree, width, Color::WHITE)?;
@@ -53,7 +53,7 @@ pub fn rasterize(svg: &str, width: u32) -> Result<(u32, u32, Vec<u8>), DrawingEr
 /// Rasterises an SVG as large as fits into a number of pixels across and down, otherwise like [`rasterize_clear`].
 ///
 /// # Errors
-/// As for [`rasterize`].
+/// Fails where [`rasterize`] does.
 pub fn rasterize_within(svg: &str, [across, down]: [u32; 2]) -> Result<(u32, u32, Vec<u8>), DrawingError> {
     let size = parse(svg)?.size();
     let width = f64::from(down) * f64::from(size.width()) / f64::from(size.height());
@@ -64,7 +64,7 @@ pub fn rasterize_within(svg: &str, [across, down]: [u32; 2]) -> Result<(u32, u32
 /// byte each, rows from the top.
 ///
 /// # Errors
-/// As for [`rasterize`].
+/// Fails where [`rasterize`] does.
 pub fn rasterize_clear(svg: &str, width: u32) -> Result<(u32, u32, Vec<u8>), DrawingError> {
     let pixmap = drawn(&parse(svg)?, width, Color::TRANSPARENT)?;
     let straight = |pixel: &resvg::tiny_skia::PremultipliedColorU8| {

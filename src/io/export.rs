@@ -34,10 +34,11 @@ use std::path::{Path, PathBuf};
 /// The least side of a picture with a caption, in pixels.
 pub const LEAST_CAPTIONED: u32 = 96;
 
-/// How many files a message names where there are too many.
+/// The number of files that a message names where there are too many.
 const MOST_NAMED: usize = 3;
 
-/// How long a drawing and the figures take, roughly, where a picture in a scope takes 1. Progress is counted by these.
+/// The rough effort of a drawing and of the figures, where a picture in a scope counts 1. Progress is counted by
+/// these.
 const DRAWING: f64 = 0.1;
 const FIGURES: f64 = 1.0;
 
@@ -70,7 +71,7 @@ impl OutputFormat {
     }
 }
 
-/// What is written of a stone, and where to.
+/// The outputs of a stone: their kinds and their folder.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outputs {
     /// The folder, which is created if it is missing. `-` is standard output, which takes one file.
@@ -84,13 +85,13 @@ pub struct Outputs {
     pub size: u32,
     /// The file formats.
     pub formats: Vec<OutputFormat>,
-    /// Whether pictures in scopes are written by strongest exits as well as by energy.
+    /// True where pictures in scopes are written by strongest exits as well as by energy.
     pub strongest: bool,
-    /// Whether facet diagrams mark the findings of the stone's audit.
+    /// True where facet diagrams mark the findings of the stone's audit.
     pub mark_audit: bool,
-    /// Whether PNG and SVG pictures in scopes have a caption with the legend of the scope's zones under them.
+    /// True where PNG and SVG pictures in scopes have a caption with the legend of the scope's zones under them.
     pub caption: bool,
-    /// Whether the figures include the time that they took, which makes files differ from run to run.
+    /// True where the figures include the time that they took, which makes files differ from run to run.
     pub timing: bool,
 }
 
@@ -98,7 +99,8 @@ impl Outputs {
     /// Refuses outputs that cannot be written beside each other.
     ///
     /// # Errors
-    /// [`Failure::Usage`] where two outputs would have one name, or where the size is too small for a caption.
+    /// Fails with [`Failure::Usage`] where two outputs would have one name, or where the size is too small for a
+    /// caption.
     pub fn check(&self) -> Result<(), Failure> {
         if self.caption && self.size < LEAST_CAPTIONED {
             let size = self.size;
@@ -114,7 +116,8 @@ impl Outputs {
         }
     }
 
-    /// The names of the files, most without an extension. No other output may have one of them, in whatever format.
+    /// Returns the names of the files, most without an extension. No other output may have one of them, in whatever
+    /// format.
     fn names(&self) -> impl Iterator<Item = String> + '_ {
         let stem = &self.stem;
         let pictured = self.pictures.iter().flat_map(move |(name, picture)| {
@@ -125,7 +128,7 @@ impl Outputs {
         pictured.chain([format!("{stem}-figures.json")])
     }
 
-    /// Returns the path of the file of this name; `suffix` says from where the stone is seen.
+    /// Returns the path of the file of this name; `suffix` describes the viewpoint.
     fn path(&self, suffix: &str, name: &str, format: OutputFormat) -> PathBuf {
         if is_standard(&self.folder) {
             return self.folder.clone();
@@ -137,7 +140,7 @@ impl Outputs {
         self.formats.contains(&format)
     }
 
-    /// The pictures, or none where figures are the only format.
+    /// Returns the pictures, or none where figures are the only format.
     fn drawn(&self) -> impl Iterator<Item = &(String, Picture)> {
         let draws = self.formats.iter().any(|&f| f != OutputFormat::Json);
         self.pictures.iter().filter(move |_| draws)
@@ -152,10 +155,10 @@ pub fn first_twice(stones: &[Outputs]) -> Option<(usize, String)> {
     all.find(|(_, name)| !seen.insert(name.clone()))
 }
 
-/// An export: a stone in its view, and the outputs to write of it.
+/// An export: a stone in its view, and the outputs that are written of it.
 #[derive(Clone, Copy)]
 pub struct Export<'a> {
-    /// The stone and how it is viewed.
+    /// The stone with its view and tracer.
     pub viewing: Viewing<'a>,
     /// The outputs to write.
     pub outputs: &'a Outputs,
@@ -165,8 +168,8 @@ impl Export<'_> {
     /// Returns the paths of the files that [`write`](Self::write) writes, in that order.
     ///
     /// # Errors
-    /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where outputs and tracer do
-    /// not go together: then nothing can be written.
+    /// Fails with [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where
+    /// outputs and tracer do not go together: then nothing can be written.
     pub fn files(&self, renderer: &Renderer) -> Result<Vec<PathBuf>, Failure> {
         let by_beams = self.check(renderer)?;
         Ok(self.paths(by_beams))
@@ -182,8 +185,8 @@ impl Export<'_> {
     /// Writes the files, each whole or not at all, and reports the part of the work that is done to `watch`.
     ///
     /// # Errors
-    /// The errors of [`files`](Self::files), before anything is written; [`Failure::Output`]; an error of `tell`; or
-    /// [`Failure::Stopped`] when `watch` asks to stop. Files that were reported as written stay.
+    /// Returns the errors of [`files`](Self::files), before anything is written; [`Failure::Output`]; an error of
+    /// `tell`; or [`Failure::Stopped`] where `watch` asks to stop. Files that were reported as written stay.
     pub fn write(&self, renderer: &mut Renderer, watch: Watch, tell: Reporter) -> Result<(), Failure> {
         let by_beams = self.check(renderer)?;
         let outputs = self.outputs;
@@ -207,7 +210,7 @@ impl Export<'_> {
         Ok(())
     }
 
-    /// Refuses what cannot be written, and says whether exact beams trace the pictures in scopes.
+    /// Refuses outputs that cannot be written, and returns whether exact beams trace the pictures in scopes.
     fn check(&self, renderer: &Renderer) -> Result<bool, Failure> {
         let (viewing, outputs) = (&self.viewing, self.outputs);
         outputs.check()?;
@@ -279,12 +282,12 @@ impl Export<'_> {
     }
 }
 
-/// How long a picture takes, roughly: a picture in a scope takes 1.
+/// Returns the rough effort of a picture, where a picture in a scope counts 1.
 fn effort(picture: &Picture) -> f64 {
     if matches!(picture, Picture::Scoped(_)) { 1.0 } else { DRAWING }
 }
 
-/// The message for a picture in a format that only exact beams can make.
+/// Returns the message about a picture in a format that only exact beams can make.
 fn only_png(name: &str) -> String {
     format!("{name}: rays make PNG pictures only; SVG and EXR need exact beams")
 }

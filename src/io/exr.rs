@@ -1,4 +1,4 @@
-//! Writes OpenEXR: what every pixel holds, in floating point, with a channel for each part of the light.
+//! Writes OpenEXR: the values of every pixel in floating point, with a channel for each part of the light.
 
 use super::atomic::{WriteError, write};
 use crate::picture::{Layer, paint};
@@ -17,13 +17,13 @@ use exr::prelude::{Compression, LineOrder, Text};
 use smallvec::smallvec;
 use std::path::Path;
 
-/// The side of the tiles that a file is made of, in pixels. Rows are held until they make a row of tiles.
+/// The side of the file's tiles, in pixels. Rows are held until they make a row of tiles.
 pub(super) const TILE: usize = 64;
 
 /// Paints a layer and writes its channels, as 32-bit numbers that are linear in energy.
 ///
 /// # Errors
-/// When the file system refuses, or `watch` asks to stop.
+/// Fails where the file system refuses, or `watch` asks to stop.
 pub fn write_exr(
     path: &Path,
     layer: &Layer,
@@ -43,15 +43,15 @@ pub fn write_exr(
     )
 }
 
-/// What the head of an image of one layer, `light`, says.
+/// The header of an image of one layer, `light`.
 pub(super) struct ExrImage<'a> {
     /// The number of pixels across and down.
     pub size: (usize, usize),
     /// The names of the channels.
     pub channels: &'a [String],
-    /// What the image shows.
+    /// A description of the image's content.
     pub description: &'a str,
-    /// Another text, under a name of its own.
+    /// Another text, with its own keyword.
     pub more: Option<(&'a str, &'a str)>,
     /// The primaries and the white of its colours.
     pub chromaticities: Option<Chromaticities>,
@@ -75,7 +75,8 @@ impl ExrImage<'_> {
     /// Writes the image, whole or not at all; `fill` pushes its rows from top to bottom.
     ///
     /// # Errors
-    /// When the file system refuses, when the image has no pixels or other rows than it says, and the errors of `fill`.
+    /// Fails where the file system refuses, when the image has no pixels or other rows than it says, and the errors
+    /// of `fill`.
     pub fn write(
         &self,
         path: &Path,
@@ -127,10 +128,10 @@ impl ExrImage<'_> {
 }
 
 impl ExrFile<'_> {
-    /// Adds a row: `value` gives what each channel holds in each column.
+    /// Adds a row: `value` gives the number of each channel in each column.
     ///
     /// # Errors
-    /// When the file system refuses, or the image has all its rows already.
+    /// Fails where the file system refuses, or the image has all its rows already.
     pub fn push(&mut self, value: impl Fn(usize, usize) -> f32) -> Result<(), WriteError> {
         let (width, height) = self.size;
         self.rows += 1;

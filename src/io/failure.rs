@@ -1,11 +1,11 @@
-//! Why work that produces files was not done.
+//! The reasons why work that produces files was not done.
 
 use super::atomic::WriteError;
 use super::file_error::{FileError, NameOrFileError};
 use crate::render::{RenderError, Unfit};
 use crate::trace::Stopped;
 
-/// Why a request was not carried out in full. Files that were finished before stay.
+/// The reason why a request was not carried out in full. Files that were finished before stay.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Failure {
     /// The input is at fault; the message names it.
@@ -17,16 +17,16 @@ pub enum Failure {
     /// The output could not be written.
     #[error("{0}")]
     Output(String),
-    /// No window could be opened: there is no screen, or nothing that draws on it; the message says which.
+    /// No window could be opened, because there is no screen or no painter for it; the message says which.
     #[error("{0}")]
     NoWindow(String),
-    /// Whoever watches the work has stopped it.
+    /// The caller's watch has stopped the work.
     #[error("stopped")]
     Stopped,
 }
 
 impl Failure {
-    /// Makes the error of a job that cannot be done as it is wanted; it names the file where that is at fault.
+    /// Makes the error of a job that its tracer cannot do; it names the file where the file is at fault.
     pub fn of_unfit(why: &Unfit, file: &str) -> Self {
         match why {
             Unfit::Eye => Self::Input(format!("{file}: {why}")),

@@ -1,21 +1,21 @@
-//! What is wrong in a file that a person wrote or chose: which file, where in it, and what to do.
+//! Errors in files that a person wrote or chose: the file, the place of the fault in it, and the remedy.
 
 use std::fmt::Display;
 
-/// The most characters of a message: one that quotes something very long is cut.
+/// The most characters of a message; a longer one, which quotes a long text, is cut.
 const LONGEST: usize = 600;
 
-/// What is wrong in a file.
+/// An error in a file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{path}{}: {fault}", .fault.line.map(|line| format!(":{line}")).unwrap_or_default())]
 pub struct FileError {
     /// The path of the file as the caller gave it, or the name of a file that comes with the program.
     pub path: String,
-    /// What is wrong in the file, and where.
+    /// The fault in the file, with its place.
     pub fault: Fault,
 }
 
-/// What is wrong in the content of a file, and where.
+/// A fault in the content of a file, with its place.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{problem}")]
 pub struct Fault {
@@ -23,7 +23,7 @@ pub struct Fault {
     pub line: Option<usize>,
     /// The key at fault as a path, such as `plane/17/normal`, or a part of a file without keys, such as `triangle 5`.
     pub key: Option<String>,
-    /// What is wrong, in words that name the key or part, and what to do.
+    /// The description of the fault, which names the key or part, and says what to do.
     pub problem: String,
 }
 
@@ -34,10 +34,10 @@ impl FileError {
     }
 }
 
-/// Why a light or a background, which has a name or a file, could not be taken.
+/// The reason why a light or a background, which has a name or a file, could not be loaded.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NameOrFileError {
-    /// The text is no name that is known, and no file; the message says what is known.
+    /// The text is neither a known name nor a file; the message lists the known names.
     #[error("{0}")]
     Unknown(String),
     /// The file is at fault.
@@ -68,8 +68,8 @@ impl Fault {
         Self { line: Some(line), ..Self::whole(problem) }
     }
 
-    /// Makes a fault of the value at a key's path, or of what encloses it where the value is missing. The problem names the
-    /// key in the words of a person.
+    /// Makes a fault of the value at a key's path, or of the enclosing value where that value is missing. The problem
+    /// names the key in a person's words.
     pub(super) fn key(key: impl Display, problem: impl Display) -> Self {
         Self { key: Some(key.to_string()), ..Self::whole(problem) }
     }
@@ -80,14 +80,14 @@ impl Fault {
         Self::key(&part, format!("{part}: {problem}"))
     }
 
-    /// Returns the same fault for something that is part of another: `path` comes before its key, and `words` before its
+    /// Returns the same fault for a part of something else: `path` comes before its key, and `words` before its
     /// problem.
     pub(super) fn within(self, path: &str, words: &str) -> Self {
         let key = self.key.map(|key| path.to_owned() + &key);
         Self { key, problem: words.to_owned() + &self.problem, ..self }
     }
 
-    /// Names the file. The message becomes one line, cut to what a person reads.
+    /// Adds the name of the file. The message becomes one line, cut to a readable length.
     pub(super) fn in_file(self, path: impl Display) -> FileError {
         let mut problem = self.problem;
         if problem.contains(['\n', '\r']) {

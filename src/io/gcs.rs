@@ -1,8 +1,8 @@
-//! Designs of Gem Cut Studio, `.gcs`: XML, read by `read`, written by `write`. The format is published nowhere; what is
-//! known of it stands in docs/formats.md.
+//! Designs of Gem Cut Studio, `.gcs`: XML, read by `read`, written by `write`. The format is published nowhere;
+//! docs/formats.md collects what is known of it.
 //!
-//! Angles in a file are polar: 0 the table, 90 the girdle, 180 the culet. A stone reaches 1 across and is centred in z.
-//! What a file says besides the stone is kept as remarks under the names of its attributes.
+//! Angles in a file are polar: 0 the table, 90 the girdle, 180 the culet. A stone reaches 1 across and is centred in
+//! z. Statements of a file that are not about the stone are kept as remarks under the names of their attributes.
 
 mod facets;
 mod guard;
@@ -21,10 +21,10 @@ pub const MAX_BYTES: usize = 16 << 20;
 /// The name of the root element.
 const ROOT: &str = "GemCutStudio";
 
-/// The version of the format that is known.
+/// The version of the format that the reader knows.
 const VERSION: &str = "1000";
 
-/// The attributes of `<render>` besides the index, and what Gem Cut Studio writes there if nobody has chosen. Such a value
+/// The attributes of `<render>` besides the index, with the values that Gem Cut Studio writes by default. A default
 /// is not kept as a remark.
 const RENDER: [(&str, Option<&str>); 5] = [
     ("material", None),
@@ -37,7 +37,7 @@ const RENDER: [(&str, Option<&str>); 5] = [
 /// The key of the remark about `<color>`, as "r g b", and the value for white.
 const COLOUR: (&str, &str) = ("color", "1 1 1");
 
-/// How far into a file its root element is looked for, in bytes.
+/// The number of bytes at the start of a file in which its root element is sought.
 const ROOT_WITHIN: usize = 4096;
 
 /// Returns whether a file is a design of Gem Cut Studio, by its root element.

@@ -1,5 +1,5 @@
-//! Designs of GemCad in its binary form, `.gem`: planes and outlines, little-endian, in a frame whose y is the negative
-//! of ours. The format is published nowhere; what is known of it stands in docs/formats.md.
+//! Designs of GemCad in its binary form, `.gem`: planes and outlines, little-endian, in a frame whose y is the
+//! negative of ours. The format is published nowhere; docs/formats.md collects what is known of it.
 //!
 //! Reading trusts the planes and skips the outlines; writing makes the outlines anew.
 
@@ -29,8 +29,8 @@ const END: f64 = -99999.0;
 /// The number that follows the index of refraction; its meaning is unknown.
 const UNKNOWN: u32 = 0x7fff;
 
-/// How far the block from which GemCad cuts reaches along each axis. Where the facets do not reach the axis within the
-/// block, its faces bound the stone that a file stores.
+/// The distance that the block from which GemCad cuts reaches along each axis. Where the facets do not reach the axis
+/// within the block, its faces bound the stone that a file stores.
 const BLANK: f64 = 17.0 / 15.0;
 
 /// Coordinates this near to the block's faces lie on them: stored corners are off by less.
@@ -39,7 +39,7 @@ const ON_BLANK: f64 = 1e-9;
 /// The number of lines at the top of a design, and of lines at its end.
 const LINES: usize = 4;
 
-/// A facet as it stands in the file.
+/// A facet of the file.
 struct Raw<'a> {
     /// The byte offset at which the facet begins.
     at: usize,
@@ -48,14 +48,14 @@ struct Raw<'a> {
     tier: i32,
     /// The facet's name, a tab, and its instructions.
     label: &'a [u8],
-    /// Whether the facet's outline ends at the block from which GemCad cuts.
+    /// True where the facet's outline ends at the block from which GemCad cuts.
     on_blank: bool,
 }
 
 /// Reads a design of GemCad; `label` is the path of the file, which names a design that does not name itself.
 ///
 /// # Errors
-/// When the file is no such design; the error has the offset at fault where there is one.
+/// Fails where the file is no such design; the error has the offset at fault where there is one.
 pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
     check_size(bytes.len(), MAX_BYTES as u64)?;
     let mut warnings = WarningList::default();

@@ -1,4 +1,5 @@
-//! Reads and writes goal files: TOML that says what a design is to be good at, which of its numbers may change, and what must hold.
+//! Reads and writes goal files: TOML with the measures of a search, the numbers of the design that may change, and
+//! the limits.
 
 use super::file_error::{Fault, FileError};
 use super::toml_text::TomlText;
@@ -12,7 +13,7 @@ const MAX_BYTES: u64 = 1 << 20;
 /// Reads a goal file.
 ///
 /// # Errors
-/// When the file cannot be read or is no goal; the error names path and, where it is known, the line.
+/// Fails where the file cannot be read or is no goal; the error names path and, where possible, the line.
 pub fn read(path: &Path) -> Result<Goal, FileError> {
     let goal = text::read(path, MAX_BYTES).and_then(|text| goal(&text));
     goal.map_err(|fault| fault.in_file(path.display()))
@@ -21,9 +22,9 @@ pub fn read(path: &Path) -> Result<Goal, FileError> {
 /// Writes a goal to a file that [`read`] reads as the same goal.
 ///
 /// # Errors
-/// When the file cannot be written.
+/// Fails where the file cannot be written.
 pub fn write(goal: &Goal, path: &Path) -> Result<(), Failure> {
-    // Infinite numbers, which TOML has, are refused by the goal's own check.
+    // The goal's own check refuses infinite numbers, which TOML could hold.
     let text = toml::to_string(goal).map_err(|error| Failure::Output(error.to_string()))?;
     write_whole(path, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(path, e)))?;
     Ok(())

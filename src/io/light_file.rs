@@ -1,4 +1,4 @@
-//! Reads and writes light files: TOML with a name, and what shines.
+//! Reads and writes light files: TOML with a name and the sources of light.
 
 use super::file_error::{Fault, FileError};
 use super::text;
@@ -12,11 +12,10 @@ const MAX_BYTES: u64 = 1 << 20;
 /// The longest name of a light, in characters.
 const LONGEST_NAME: usize = 60;
 
-/// Reads a light file. If the light names a panorama, that file is not looked for; its path begins at the light's own
-/// folder.
+/// Reads a light file. A panorama that the light names is not opened; its path begins at the light's own folder.
 ///
 /// # Errors
-/// When the file cannot be read or is no light; the error names path, line and key.
+/// Fails where the file cannot be read or is no light; the error names path, line and key.
 pub fn read(path: &Path) -> Result<Light, FileError> {
     let light = text::read(path, MAX_BYTES).and_then(|text| light(&text));
     light.map_err(|fault| fault.in_file(path.display()))
@@ -33,7 +32,7 @@ fn light(text: &str) -> Result<Light, Fault> {
 /// Returns the text of a light file that [`read`] reads as the same light.
 ///
 /// # Errors
-/// When the path of its panorama is not Unicode.
+/// Fails where the path of its panorama is not Unicode.
 pub fn text(light: &Light) -> Result<String, toml::ser::Error> {
     toml::to_string(light)
 }

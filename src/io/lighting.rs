@@ -1,4 +1,4 @@
-//! Loads the light that stones are seen in: one that comes with the program, a light file, or a panorama.
+//! Loads the light of a scene: one that comes with the program, a light file, or a panorama.
 
 use super::{NameOrFileError, light_file, nearest, panorama};
 use crate::scene::{LIGHTS, Light, light};
@@ -10,7 +10,7 @@ impl Lighting {
     /// Loads a light by its name, from a light file, or from a panorama alone.
     ///
     /// # Errors
-    /// When no light has the name, or the file is at fault.
+    /// Fails where no light has the name, or the file is at fault.
     pub fn load(name_or_file: &str) -> Result<Self, NameOrFileError> {
         let file = PathBuf::from(name_or_file);
         let (light, folder) = match light(&name_or_file.to_ascii_lowercase()) {

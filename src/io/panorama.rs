@@ -1,6 +1,6 @@
-//! Reads panoramas and photographs as linear light: OpenEXR, Radiance HDR, PNG, JPEG, recognised by what they hold.
+//! Reads panoramas and photographs as linear light: OpenEXR, Radiance HDR, PNG, JPEG, recognised by their content.
 //!
-//! Headers may lie: sides are limited, and a file must be large enough to hold what its header promises.
+//! Headers may lie: sides are limited, and a file must be large enough to hold the pixels that its header promises.
 
 #[cfg(feature = "exr")]
 mod exr;
@@ -19,7 +19,7 @@ pub const LARGEST: (u32, u32) = (16_384, 8192);
 /// The most pixels that a byte of a file can stand for: deflate packs 1032 bytes into one, run lengths and JPEG fewer.
 const PIXELS_A_BYTE: u64 = 1100;
 
-/// The number of pixels, 48 MiB of light, that any header may promise.
+/// The number of pixels, 48 MiB of light, that any header may promise, however small the file.
 const FREE_PIXELS: u64 = 1 << 22;
 
 /// The first bytes of an OpenEXR file.
@@ -33,19 +33,19 @@ const ENDINGS: [&str; 5] = ["exr", "hdr", "png", "jpg", "jpeg"];
 pub struct LoadedPanorama {
     /// The light, finite and not below 0.
     pub panorama: Panorama,
-    /// What is unusual about the file, in words that name it.
+    /// Warnings about unusual content of the file, each with its name.
     pub warnings: Vec<String>,
 }
 
-/// The light of a file, and what is unusual about the file.
+/// The light of a file, and warnings about the file.
 type Raw = (Panorama, Vec<String>);
 
 /// Returns whether a path holds a picture, by its first bytes or else by the ending of its name.
 pub fn is_picture(path: &Path) -> bool {
     let mut start = Vec::new();
     let read = |file: File| file.take(4).read_to_end(&mut start);
-    // Whoever reads the path next reports that it cannot be read. A pipe is not opened, since that would keep its writer
-    // waiting.
+    // The next reader of the path reports that it cannot be read. A pipe is not opened here, since that would keep
+    // its writer waiting.
     let _ = path.is_file().then(|| File::open(path).and_then(read));
     let starts: [&[u8]; 4] = [&EXR, b"#?R", b"\x89PNG", b"\xff\xd8\xff"];
     let is_called_so =
@@ -56,7 +56,7 @@ pub fn is_picture(path: &Path) -> bool {
 /// Reads a panorama of all directions. One that is not twice as wide as high gives a warning.
 ///
 /// # Errors
-/// When the file is no picture that can be read; the error names the file and what to do.
+/// Fails where the file is no picture that can be read; the error names the file and what to do.
 pub fn read(path: &Path) -> Result<LoadedPanorama, FileError> {
     let mut reading = read_photo(path)?;
     let Panorama { width, height, .. } = reading.panorama;
@@ -70,11 +70,11 @@ pub fn read(path: &Path) -> Result<LoadedPanorama, FileError> {
     Ok(reading)
 }
 
-/// Reads a picture of any shape as linear light. Files of eight and sixteen bits are taken as sRGB, with white at 1; what is
-/// transparent is dark.
+/// Reads a picture of any shape as linear light. Files of eight and sixteen bits are taken as sRGB, with white at 1;
+/// transparent pixels are dark.
 ///
 /// # Errors
-/// When the file is no picture that can be read; the error names the file and what to do.
+/// Fails where the file is no readable picture; the error names the file and what to do.
 pub fn read_photo(path: &Path) -> Result<LoadedPanorama, FileError> {
     let label = path.display();
     let (mut panorama, mut warnings) = raw(path).map_err(|fault| fault.in_file(&label))?;
@@ -134,7 +134,8 @@ fn damaged(error: impl std::fmt::Display) -> Fault {
     ))
 }
 
-/// Turns values that are not finite or are below 0 to darkness; returns the number of pixels that held such values.
+/// Replaces values that are not finite or are below 0 by darkness; returns the number of pixels that held such
+/// values.
 fn mend(pixels: &mut [[f32; 3]]) -> usize {
     let mut count = 0;
     for pixel in pixels {

@@ -1,5 +1,5 @@
-//! Writes drawings as PDF: lines and faces as paths, and text as text, which can be found and copied. The fonts are the
-//! program's own; of each, the file holds the letters that are used.
+//! Writes drawings as PDF: lines and faces as paths, and text as text, which can be searched and copied. The fonts
+//! are the program's own; the file holds only the letters of each font that are used.
 //!
 //! Source: ISO 32000-1, PDF 1.7; sections are named where they are used.
 
@@ -77,7 +77,7 @@ mod tests {
         <rect width='100' height='50' fill='#ffffff' stroke='#000000'/><path d='M1,1L9,9' stroke='#ff0000'/>\
         <text x='10' y='20' font-size='8'>Größe 96-12</text></svg>";
 
-    /// Returns what all compressed streams of a PDF hold, one after the other.
+    /// Returns the contents of all compressed streams of a PDF, one after the other.
     fn streams(pdf: &[u8]) -> Vec<String> {
         let find = |from: usize, what: &[u8]| {
             pdf[from..].windows(what.len()).position(|window| window == what).map(|at| from + at)

@@ -25,7 +25,7 @@ pub(super) const SRGB: Chromaticities = Chromaticities {
 /// 255 everywhere, the file holds none. `description` goes into the file as text.
 ///
 /// # Errors
-/// When the file system refuses, or the number of pixels does not fit the size.
+/// Fails where the file system refuses, or the number of pixels does not fit the size.
 pub fn write_rgba_png(
     path: &Path,
     rgba: &[u8],
@@ -57,15 +57,15 @@ pub(super) fn without_cover(rgba: &[u8]) -> Vec<u8> {
     rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
 }
 
-/// How the light of a picture becomes what a screen shows.
+/// The settings by which the light of a picture becomes the picture on a screen.
 pub struct Finish<'a> {
-    /// How the light is developed.
+    /// The settings by which the light is developed.
     pub develop: Develop,
-    /// Whether [`fxaa`](crate::picture::fxaa()) smooths the developed picture, which is then held as a whole.
+    /// True where [`fxaa`](crate::picture::fxaa()) smooths the developed picture, which is then held as a whole.
     pub fxaa: bool,
-    /// What is drawn over it.
+    /// The overlays that are drawn over it.
     pub overlays: &'a [Overlay],
-    /// The scene that overlays are drawn of; without it there are none.
+    /// The scene that overlays are drawn from; without it no overlay is drawn.
     pub lit_scene: Option<LitScene<'a>>,
 }
 
@@ -125,7 +125,7 @@ impl Finish<'_> {
     /// holds no cover where the background is opaque, or where every pixel is covered.
     ///
     /// # Errors
-    /// When the file system refuses, or `watch` stops the work.
+    /// Fails where the file system refuses, or `watch` stops the work.
     pub fn write_png(
         &self,
         path: &Path,
@@ -151,7 +151,7 @@ impl Finish<'_> {
 /// Writes a picture as OpenEXR, as it is: premultiplied linear sRGB, in the channels R, G, B and A of 32 bits.
 ///
 /// # Errors
-/// When the file system refuses, the light cannot be read, or the picture has no pixels.
+/// Fails where the file system refuses, the light cannot be read, or the picture has no pixels.
 #[cfg(feature = "exr")]
 pub fn write_linear_exr<L: LightRows>(path: &Path, light: &mut L, description: &str) -> Result<(), WriteError>
 where

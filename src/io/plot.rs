@@ -18,13 +18,13 @@ pub const PLOT_SIZE: (u32, u32) = (1000, 680);
 /// The width of a map's scale of colours.
 const SCALE_WIDTH: i32 = 150;
 
-/// About how many lines of equal value a map has.
+/// The approximate number of lines of equal value on a map.
 const LINES: f64 = 8.0;
 
 /// The colour of places without a value.
 const NOTHING: RGBColor = RGBColor(225, 225, 225);
 
-/// Why nothing can be plotted.
+/// The reason why a plot cannot be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PlotError {
     /// An axis with fewer than two values, or whose values do not rise or fall throughout.
@@ -33,7 +33,7 @@ pub enum PlotError {
         /// The label of the axis.
         label: String,
     },
-    /// No number at any place.
+    /// There is no number at any place.
     #[error("there is no number to plot")]
     Nothing,
     /// The library that draws has failed.
@@ -47,7 +47,7 @@ pub enum PlotError {
 /// An axis of a plot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlotAxis {
-    /// What stands beside it.
+    /// The label beside it.
     pub label: String,
     /// Its places, which rise or fall throughout.
     pub values: Vec<f64>,
@@ -57,7 +57,7 @@ impl PlotAxis {
     /// Checks that the axis can be plotted.
     ///
     /// # Errors
-    /// [`PlotError::Axis`] where it has fewer than two values, or they do not rise or fall throughout.
+    /// Fails with [`PlotError::Axis`] where it has fewer than two values, or they do not rise or fall throughout.
     pub fn check(&self) -> Result<(), PlotError> {
         self.ends().map(drop)
     }
@@ -97,7 +97,7 @@ impl PlotAxis {
 /// places; `None` where there is no value. `unit` stands beside the scale of colours.
 ///
 /// # Errors
-/// A [`PlotError`]: an axis that does not rise or fall, or no number.
+/// Fails with a [`PlotError`] for an axis that does not rise or fall, or no number.
 pub fn heat_map(
     title: &str,
     (x, y): (&PlotAxis, &PlotAxis),
@@ -152,7 +152,7 @@ fn draw_map(
     let (last_x, last_y) = (x.values.len(), y.values.len());
     let from = |k: usize, (i, j): (usize, usize)| [(across[k % last_x], up[k / last_x]), (across[i], up[j])];
     let cell = |k: usize| from(k, (k % last_x + 1, k / last_x + 1));
-    // Each cell reaches to the far corner, and the next ones cover it, so that no paper shines through between cells.
+    // Each cell reaches to the far corner, and the next ones cover it, so that no background shows between cells.
     let filled = values.iter().enumerate().filter_map(|(k, value)| Some((k, (*value)?)));
     let filled =
         filled.map(|(k, value)| Rectangle::new(from(k, (last_x, last_y)), colour(value, range).filled()));
@@ -160,7 +160,7 @@ fn draw_map(
     for line in lines((x, y), values, levels) {
         chart.draw_series([PathElement::new(line, WHITE.stroke_width(1))]).map_err(failed)?;
     }
-    // These cells hide lines that the search for lines drew where there is no value.
+    // These cells hide the lines that the library drew where there is no value.
     let empty = values.iter().enumerate().filter(|(_, value)| value.is_none());
     chart.draw_series(empty.map(|(k, _)| Rectangle::new(cell(k), NOTHING.filled()))).map_err(failed)?;
     Ok(())
@@ -209,7 +209,7 @@ fn drawn(size: (u32, u32), draw: impl FnOnce(&Area) -> Result<(), PlotError>) ->
     Ok(text)
 }
 
-/// Formats a number beside an axis: rounded, as steps are sums.
+/// Formats a number beside an axis. It is rounded, because ticks are sums of steps.
 fn number(value: &f64) -> String {
     format!("{}", (value * 1e6).round() / 1e6 + 0.0)
 }
@@ -247,8 +247,8 @@ pub fn map_colour(value: f64, range: &Range<f64>) -> [u8; 3] {
     [red, green, blue]
 }
 
-/// Returns the lines of equal value between the places, whose values are as in [`heat_map`]. Where places have no value, the
-/// lines mean nothing.
+/// Returns the lines of equal value between the places, whose values are as in [`heat_map`]. Where places have no
+/// value, the lines have no meaning.
 pub fn lines((x, y): (&PlotAxis, &PlotAxis), values: &[Option<f64>], levels: &[f64]) -> Vec<Vec<(f64, f64)>> {
     // A place without a value takes that of the place before it, so that lines end near it.
     let mut last = values.iter().flatten().copied().next().unwrap_or(0.0);

@@ -31,11 +31,11 @@ impl Write for SharedFile {
 }
 
 impl PngFile {
-    /// Begins a picture of eight-bit red, green and blue. `description` goes into the file as text: which tracer made the
-    /// picture, and what it left unresolved.
+    /// Begins a picture of eight-bit red, green and blue. `description` goes into the file as text: the tracer of the
+    /// picture, and the light that it left unresolved.
     ///
     /// # Errors
-    /// When the file system refuses.
+    /// Fails where the file cannot be written.
     pub fn begin(path: &Path, size: (u32, u32), description: &str) -> Result<Self, WriteError> {
         Self::of_colour(path, size, png::ColorType::Rgb, description)
     }
@@ -58,15 +58,15 @@ impl PngFile {
     /// Adds pixels, from left to right and top to bottom.
     ///
     /// # Errors
-    /// When the file system refuses.
+    /// Fails where the file system refuses.
     pub fn push(&mut self, pixels: &[u8]) -> Result<(), WriteError> {
         self.stream.write_all(pixels).map_err(|e| WriteError::io(&self.path, e))
     }
 
-    /// Brings the picture to its place.
+    /// Moves the finished picture to its path.
     ///
     /// # Errors
-    /// When the file system refuses, or pixels are missing.
+    /// Fails where the file system refuses, or pixels are missing.
     pub fn finish(self) -> Result<(), WriteError> {
         let Self { path, stream, file } = self;
         stream.finish().map_err(|e| WriteError::io(&path, e))?;
@@ -81,7 +81,7 @@ impl PngFile {
 /// Writes an sRGB picture as PNG; `fill` pushes its rows. See [`PngFile`].
 ///
 /// # Errors
-/// When the file system refuses, or `fill` returns an error.
+/// Fails where the file system refuses, or `fill` returns an error.
 pub fn write_png<E: From<WriteError>>(
     path: &Path,
     size: (u32, u32),

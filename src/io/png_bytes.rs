@@ -2,7 +2,7 @@
 
 use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, SrgbRenderingIntent};
 
-/// Encodes rows of `data` as PNG with these texts, each a keyword and what it says; RGBA is marked as sRGB.
+/// Encodes rows of `data` as PNG with these texts, each a keyword and a text; RGBA is marked as sRGB.
 pub(super) fn png(
     [width, height]: [u32; 2],
     (colour, depth): (ColorType, BitDepth),

@@ -1,4 +1,4 @@
-//! Reads and writes scene files: TOML, format 1, with stones of several cuts, materials and sizes, and how they lie.
+//! Reads and writes scene files: TOML, format 1, with stones of several cuts, materials and sizes, and their places.
 //!
 //! Lengths are in mm, angles in degrees. Every error names file, line and key, and says what was expected.
 
@@ -39,19 +39,20 @@ pub struct SceneFile {
     pub name: String,
     /// The name of a light that comes with the program, or the path of a light file, the scene's folder included.
     pub light: Option<PathBuf>,
-    /// How the stones are laid out; `None` where each says where it is.
+    /// The layout of the stones; `None` where each states its own place.
     pub layout: Option<Layout>,
     /// The least distance between two stones of a layout, seen from the table, in mm.
     pub gap_mm: f64,
     /// The angle by which the light is turned about its axis, counter-clockwise seen from the axis's end, in degrees.
     pub light_turn: f64,
-    /// Whether the light's axis points up in pictures, with its azimuth 0 behind the middle; else it points to the eye.
+    /// True where the light's axis points up in pictures, with its azimuth 0 behind the middle; else it points to the
+    /// eye.
     pub light_upright: bool,
-    /// What lies behind the stones.
+    /// The background behind the stones.
     pub background: Option<BackgroundRef>,
-    /// How far behind the middle of all stones a world, pattern or photograph lies, in mm, from 0.
+    /// The distance of a world, pattern or photograph behind the middle of all stones, in mm, from 0.
     pub background_distance_mm: Option<f64>,
-    /// How much of its turn light takes where it is refracted, 0 (straight on) to 1 (physics).
+    /// The strength of refraction: the part of its turn that refracted light takes, 0 (straight on) to 1 (physics).
     pub strength: f64,
     /// The angle of view of a perspective, across the longer extent of the stones, in degrees; `None` for parallel rays.
     pub angle_of_view: Option<f64>,
@@ -65,14 +66,14 @@ pub struct SceneFile {
     pub ring: Option<RingEntry>,
 }
 
-/// What a scene file says of one body of metal: its mesh, its metal, and where it stands.
+/// A body of metal in a scene file: its mesh, its metal, and its place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MetalEntry {
     /// The path of its mesh from the scene's folder.
     pub mesh: String,
     /// The metal.
     pub metal: Metal,
-    /// How rough its surface is, 0 to 1.
+    /// The roughness of its surface, 0 to 1.
     pub roughness: f64,
     /// The length of the file's unit, in mm.
     pub scale: f64,
@@ -112,7 +113,7 @@ pub struct Entry {
 }
 
 impl SceneFile {
-    /// Returns the stones one by one: the place of each one's entry in `stones`, and how it is turned.
+    /// Returns the stones one by one: the place of each one's entry in `stones`, and its rotation.
     pub fn turns(&self) -> Vec<(usize, DQuat)> {
         let counted = self
             .stones
@@ -123,7 +124,8 @@ impl SceneFile {
         counted.enumerate().map(|(number, (k, entry))| (k, entry.turned(more(number)))).collect()
     }
 
-    /// Returns where the stones are, in mm. Seen from above, a circle of a radius around its axis holds each of them.
+    /// Returns the places of the stones, in mm. Seen from above, a circle around the axis of each, of its radius,
+    /// holds the stone.
     pub fn places_mm(&self, radii_mm: &[f64]) -> Vec<DVec3> {
         match self.layout {
             Some(layout) => {
@@ -166,18 +168,18 @@ impl MetalEntry {
 /// Reads a scene file.
 ///
 /// # Errors
-/// When the file cannot be read or is no scene; the error names path, line and key.
+/// Fails where the file cannot be read or is no scene; the error names path, line and key.
 pub fn read(path: &Path) -> Result<SceneFile, FileError> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let scene = text::read(path, MAX_BYTES).and_then(|text| scene(&text, Some(folder)));
     scene.map_err(|fault| fault.in_file(path.display()))
 }
 
-/// Reads a scene from the text of its file; `label` stands for its path in errors, `folder` is where files that it names
-/// are.
+/// Reads a scene from the text of its file; `label` stands for its path in errors, `folder` is the folder of the
+/// files that it names.
 ///
 /// # Errors
-/// As for [`read`].
+/// Fails where [`read`] does.
 pub fn parse(text: &str, label: &str, folder: Option<&Path>) -> Result<SceneFile, FileError> {
     scene(text, folder).map_err(|fault| fault.in_file(label))
 }
@@ -190,7 +192,7 @@ pub fn write(scene: &SceneFile) -> String {
     toml::to_string(&SceneForm::of(scene)).expect("a scene's form is text, numbers, lists and tables")
 }
 
-/// Returns whether a file is meant as a scene: it has a key that cut files lack. A file that cannot be read is none.
+/// Returns whether a file is a scene: it has a key that cut files lack. A file that cannot be read is none.
 pub fn is_scene(path: &Path) -> bool {
     text::read(path, MAX_BYTES).is_ok_and(|text| is_meant_as_scene(&text))
 }
@@ -214,7 +216,7 @@ fn scene(text: &str, folder: Option<&Path>) -> Result<SceneFile, Fault> {
     toml.read(|form: SceneForm| form.scene(text, folder))
 }
 
-/// Reads the name of a background; a file is looked for from the scene's folder.
+/// Reads the name of a background; a file is sought from the scene's folder.
 fn behind(given: &str, folder: Option<&Path>) -> Result<BackgroundRef, Fault> {
     BackgroundRef::read(given, folder.unwrap_or(Path::new("")))
         .map_err(|error| Fault::key("background", format!("background: {error}")))

@@ -12,13 +12,13 @@ const MAX_BYTES: u64 = 1 << 20;
 /// The longest name of a scope or band, in bytes: names are parts of files' names.
 const LONGEST_NAME: usize = 60;
 
-/// The names of what pictures and figures hold besides the bands, which no band may have.
+/// The names of values in pictures and figures besides the bands, which no band may have.
 const RESERVED: [&str; 5] = ["absorbed", "cover", "head", "undecided", "unresolved"];
 
 /// Reads a scope file.
 ///
 /// # Errors
-/// When the file cannot be read or is no scope; the error names path and, where it is known, the line.
+/// Fails where the file cannot be read or is no scope; the error names path and, where possible, the line.
 pub fn read(path: &Path) -> Result<Scope, FileError> {
     let scope = text::read(path, MAX_BYTES).and_then(|text| scope(&text));
     scope.map_err(|fault| fault.in_file(path.display()))
@@ -35,7 +35,7 @@ fn scope(text: &str) -> Result<Scope, Fault> {
 /// Returns the text of a scope file that [`read`] reads as the same scope.
 ///
 /// # Errors
-/// Never for a scope that is valid.
+/// Never fails for a valid scope.
 pub fn text(scope: &Scope) -> Result<String, toml::ser::Error> {
     toml::to_string(scope)
 }

@@ -16,8 +16,8 @@ pub fn is_standard(path: &Path) -> bool {
     path == Path::new(STANDARD)
 }
 
-/// Returns what comes by standard input, up to the size of the largest file that is read and a byte more. Standard input is
-/// read once and kept, so that callers can ask for it again.
+/// Returns the content of standard input, up to the size of the largest file that is read and a byte more. Standard
+/// input is read once and kept, so that callers can ask for it again.
 pub(super) fn input() -> io::Result<&'static [u8]> {
     static KEPT: OnceLock<Vec<u8>> = OnceLock::new();
     if let Some(kept) = KEPT.get() {

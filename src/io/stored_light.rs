@@ -1,4 +1,4 @@
-//! The linear light of a picture between tracing and writing: in memory, or in a temporary file where that would take much.
+//! The linear light of a picture between tracing and writing: in memory, or in a temporary file where it is large.
 
 use super::atomic::WriteError;
 use crate::picture::LightRows;
@@ -16,7 +16,7 @@ const PIXEL: usize = size_of::<[f32; 4]>();
 /// The number of bytes that are read at once.
 const READ: usize = 1 << 18;
 
-/// The light of a picture, which its rows are added to as they are traced, and read from afterwards.
+/// The light of a picture: rows are added as they are traced, and read afterwards.
 ///
 /// The light of a large picture lies in a file without a name in the system's folder for temporary files.
 pub struct StoredLight {
@@ -35,7 +35,7 @@ impl StoredLight {
     /// Makes room for a picture of a size, in pixels.
     ///
     /// # Errors
-    /// When the file system refuses a temporary file.
+    /// Fails where the file system refuses a temporary file.
     pub fn new(size: [u32; 2]) -> Result<Self, WriteError> {
         let pixels = size.map(u64::from).into_iter().product::<u64>();
         let store = match pixels > MOST_HELD {
@@ -48,7 +48,7 @@ impl StoredLight {
     /// Adds row `y`. Rows come from top to bottom; row 0 begins the picture anew.
     ///
     /// # Errors
-    /// When the file system refuses, or the row is not the next one.
+    /// Fails where the file system refuses, or the row is not the next one.
     pub fn push(&mut self, y: u32, row: &[[f32; 4]]) -> Result<(), WriteError> {
         if y == 0 {
             (self.rows, self.is_covered) = (0, true);
@@ -71,14 +71,14 @@ impl StoredLight {
         }
     }
 
-    /// Makes the error of a caller that takes rows out of their order.
+    /// Makes the error of a caller that adds rows in a wrong order.
     fn fault(&self, text: String) -> WriteError {
         let [width, height] = self.size;
         let picture = format!("the light of a picture of {width} by {height} pixels");
         WriteError::io(picture.as_ref(), io::Error::other(text))
     }
 
-    /// Whether the cover of every pixel is whole, as far as eight bits show.
+    /// Returns whether every pixel is fully covered, to the accuracy of eight bits.
     pub(super) fn is_covered(&self) -> bool {
         self.is_covered
     }
@@ -145,7 +145,7 @@ mod tests {
         (0..width).map(|x| [y as f32, x as f32 * 0.1, -1e-30, 1.0]).collect()
     }
 
-    /// Stores a picture whose rows say where they are.
+    /// Stores a picture in which each row holds its own number.
     fn stored(size: [u32; 2]) -> StoredLight {
         let mut light = StoredLight::new(size).unwrap();
         // The first rows are traced anew, as where a graphics card fails.

@@ -1,4 +1,4 @@
-//! Reads text that people wrote: of a sane size, in UTF-8, or an error that says what is wrong.
+//! Reads text that people wrote: of a sane size, in UTF-8, or with an error that says what is wrong.
 
 use super::file_error::Fault;
 use super::standard::{self, is_standard};
@@ -20,7 +20,7 @@ pub(super) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Fault> {
     within(content(path, limit)?, limit)
 }
 
-/// Reads a file as far as a byte beyond a limit, which shows a reader that there is more.
+/// Reads a file up to one byte beyond a limit; that byte shows a reader that the file is longer.
 pub(super) fn content(path: &Path, limit: u64) -> Result<Vec<u8>, Fault> {
     if path.metadata().map_err(unreadable)?.is_dir() {
         return Err("this is a directory; a file is expected".into());
@@ -30,7 +30,7 @@ pub(super) fn content(path: &Path, limit: u64) -> Result<Vec<u8>, Fault> {
     Ok(bytes)
 }
 
-/// Makes a fault of what the file system says of a file that cannot be read.
+/// Makes the fault of a file that the file system cannot read.
 pub(super) fn unreadable(error: std::io::Error) -> Fault {
     match error.kind() {
         ErrorKind::NotFound => "there is no such file".into(),
@@ -76,7 +76,7 @@ pub(crate) fn nearest<'k>(asked: &str, known: &[&'k str]) -> Option<&'k str> {
     let letters = asked.chars().count();
     let most = letters.div_ceil(3).min(3);
     let slips = |name: &&str| strsim::damerau_levenshtein(asked, name);
-    // Names of very different lengths are not compared, since what was asked may be as long as a file.
+    // Names of very different lengths are not compared, since the unknown name may be as long as a file.
     let alike = known.iter().copied().filter(|name| name.chars().count().abs_diff(letters) <= most);
     alike.min_by_key(slips).filter(|name| slips(name) <= most)
 }

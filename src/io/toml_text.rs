@@ -68,7 +68,7 @@ const MEANINGS: [(&str, &str); 55] = [
     ("file", "a picture: .hdr, .exr, .png or .jpg"),
 ];
 const RADIANCE: &str = "0 to 1e6; 1 is a white sheet in full light";
-/// How serde words what was expected, and the words of a person for it.
+/// Serde's words for the expected type, and the words that this program uses.
 const WORDS: [(&str, &str); 12] = [
     ("expected f64", "expected a number"),
     ("expected u32", "expected a whole number, 0 or more"),
@@ -107,7 +107,7 @@ impl<'t> TomlText<'t> {
         line_at(self.text, value.span().start)
     }
 
-    /// Reads the form of the text, and makes of it what the file says. A fault of the making gets the line of its key.
+    /// Reads the form of the text, and returns what `make` makes of it. A fault of `make` gets the line of its key.
     pub fn read<T: Deserialize<'t>, U>(self, make: impl FnOnce(T) -> Result<U, Fault>) -> Result<U, Fault> {
         self.read_beside(&[], |_| Ok(()), |form, ()| make(form)).map(|(made, _)| made)
     }
@@ -164,7 +164,7 @@ fn spans<'t>(table: &DeTable<'t>) -> DeTable<'t> {
     table.iter().map(copy).collect()
 }
 
-/// Makes a fault of what the parser says of a text that is not TOML.
+/// Makes a fault of the parser's error about a text that is not TOML.
 fn syntax(text: &str, error: &Error) -> Fault {
     let Some(span) = error.span() else {
         return Fault::whole(format!("this TOML cannot be read: {}", error.message()));
@@ -178,7 +178,7 @@ fn syntax(text: &str, error: &Error) -> Fault {
     Fault::line(line_at(text, start), problem)
 }
 
-/// Makes a fault of what serde says of a text that has not the form of its file, in the words of this program.
+/// Makes a fault of serde's error about a text that does not have the form of its file, in the words of this program.
 fn misshapen(text: &str, mut error: Error, further: &[&str]) -> Fault {
     // Without its text the error shows the path of its key on a line of its own: in `plane.normal`.
     error.set_input(None);
@@ -235,8 +235,8 @@ pub(super) fn meant(asked: &str, known: &[&str]) -> String {
     nearest(asked, known).map_or(String::new(), |key| format!("; did you mean `{key}`?"))
 }
 
-/// Returns serde's message with keys for fields, numbers for f64, and the meaning of the key. `further` are known keys of
-/// which serde does not know.
+/// Returns serde's message with keys for fields, numbers for f64, and the meaning of the key. `further` are known
+/// keys that serde does not know.
 fn reworded(message: &str, path: &str, further: &[&str]) -> String {
     if let Some(rest) = message.strip_prefix("unknown field ") {
         let mut keys = rest.split('`').skip(1).step_by(2);
@@ -254,7 +254,8 @@ fn reworded(message: &str, path: &str, further: &[&str]) -> String {
     plain + &meaning(table, path.rsplit('.').next().unwrap_or_default())
 }
 
-/// Returns the meaning of a key in brackets, where it is known; `table` is the table at the top of the file that it is in.
+/// Returns the meaning of a key in brackets, where it is known; `table` is the top table of the file that holds the
+/// key.
 fn meaning(table: &str, key: &str) -> String {
     let row = Family::of_key(table).and_then(|family| family.proportion(key));
     let found = MEANINGS.iter().find(|(known, _)| *known == key).map(|(_, meaning)| (*meaning).to_owned());

@@ -5,8 +5,8 @@ use std::ops::{Add, Mul, Sub};
 
 /// The affine function `constant + gradient · p` of a point `p` of the image plane.
 ///
-/// Within a beam every quantity but the direction has this form: the point on a facet, the distance to the next facet, the
-/// path length so far.
+/// Within a beam every quantity but the direction has this form: the point on a facet, the distance to the next
+/// facet, the length of the path so far.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Affine {
     /// The value at the image's origin.
@@ -27,7 +27,8 @@ impl Affine {
         self.constant + self.gradient.dot(p)
     }
 
-    /// Returns an upper bound on the size of the terms over an image of half extent `extent`: rounding errors scale with it.
+    /// Returns an upper bound on the size of the terms over an image of half extent `extent`; rounding errors are
+    /// proportional to it.
     #[inline]
     pub fn magnitude(&self, extent: f64) -> f64 {
         self.constant.abs() + extent * (self.gradient.x.abs() + self.gradient.y.abs())

@@ -22,13 +22,13 @@ impl Basis {
     /// The view through the pavilion: the stone is turned over about its y axis.
     pub const FACE_DOWN: Self = Self { right: DVec3::NEG_X, up: DVec3::Y, toward: DVec3::NEG_Z };
 
-    /// Returns this frame turned by the smallest rotation that takes `toward` to the unit vector `new`.
+    /// Returns this frame after the smallest rotation that takes `toward` to the unit vector `new`.
     pub fn aimed(&self, new: DVec3) -> Self {
         let turn = DQuat::from_rotation_arc(self.toward, new);
         Self { right: turn * self.right, up: turn * self.up, toward: new }
     }
 
-    /// Returns this frame turned by a rotation; without one, every digit stays.
+    /// Returns this frame after a rotation; the identity leaves every digit unchanged.
     pub fn turned(&self, by: DQuat) -> Self {
         if by == DQuat::IDENTITY {
             return *self;

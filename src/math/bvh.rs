@@ -1,27 +1,27 @@
-//! A bounding volume hierarchy: nested boxes around triangles, by which the first triangle that a ray meets is found without
-//! trying all.
+//! A bounding volume hierarchy: nested boxes around triangles, which show the first triangle that a ray meets without
+//! a test of all triangles.
 //!
-//! Two triangles never let a ray through along the edge that they share, however the numbers are rounded. `bvh_build` builds
-//! the hierarchy, `bvh_search` searches it. Sources: S. Woop, C. Benthin and I. Wald, *Watertight Ray/Triangle Intersection*, JCGT 2 (1), 2013, for
-//! triangles; T. Ize, *Robust BVH Ray Traversal*, JCGT 2 (2), 2013, for boxes.
+//! No ray passes between two triangles along the edge that they share, whatever the rounding. `bvh_build` builds the
+//! hierarchy, `bvh_search` searches it. Sources: S. Woop, C. Benthin and I. Wald, *Watertight Ray/Triangle
+//! Intersection*, JCGT 2 (1), 2013, for triangles; T. Ize, *Robust BVH Ray Traversal*, JCGT 2 (2), 2013, for boxes.
 
 use super::bvh_search::{Sheared, WideTree};
 use super::{Plane, bvh_build};
 use glam::DVec3;
 
-/// A box around triangles.
+/// A node of the hierarchy: a box around triangles.
 ///
-/// The nodes of a hierarchy stand depth first: the first half of a box follows the box itself.
+/// The nodes of a hierarchy are stored depth first: the first child of a box follows the box itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BvhNode {
-    /// The least coordinates.
+    /// The least coordinates of the box.
     pub low: DVec3,
-    /// The greatest coordinates.
+    /// The greatest coordinates of the box.
     pub high: DVec3,
-    /// In a box of boxes, how many nodes after it the second half stands; in a box of triangles, the place of its first
-    /// triangle in [`Bvh::order`].
+    /// In a box of boxes, the number of nodes from this node to its second child; in a box of triangles, the place of
+    /// its first triangle in [`Bvh::order`].
     pub start: u32,
-    /// How many triangles the box itself holds; 0 for a box of boxes.
+    /// The number of triangles that the box itself holds; 0 for a box of boxes.
     pub count: u32,
 }
 
@@ -30,25 +30,26 @@ pub struct BvhNode {
 pub struct Bvh {
     nodes: Vec<BvhNode>,
     order: Vec<u32>,
-    /// The same boxes in fours, and the corners of the triangles in the same order as `order`.
+    /// The same boxes in groups of four, and the corners of the triangles in the same order as `order`.
     wide: WideTree,
     depth: u32,
 }
 
-/// A triangle that a ray meets, and the distance at which it does.
+/// A triangle that a ray meets, and the distance at which the ray meets it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
-    /// The triangle, by its place in the list that [`Bvh::new`] was given.
+    /// The triangle, as its place in the list that was given to [`Bvh::new`].
     pub triangle: u32,
-    /// The distance from the ray's origin, in lengths of the ray's direction.
+    /// The distance from the ray's origin, in units of the length of the ray's direction.
     pub distance: f64,
 }
 
 impl Bvh {
-    /// Builds the boxes around triangles; a million take about a second. The same triangles give the same boxes.
+    /// Builds the boxes around triangles. This takes about a second for a million triangles. The same triangles
+    /// always give the same boxes.
     ///
     /// # Panics
-    /// Panics where a triangle names a corner that does not exist, or there are more than 2³² - 1 triangles.
+    /// Panics where a triangle names a corner that does not exist, or where there are more than 2³² - 1 triangles.
     pub fn new(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Self {
         let (nodes, order) = bvh_build::build(vertices, triangles);
         let corners_of = |&k: &u32| triangles[k as usize].map(|v| vertices[v as usize]);
@@ -62,7 +63,7 @@ impl Bvh {
         &self.nodes
     }
 
-    /// Returns the triangles in the order in which the boxes hold them, by their places in the list given to
+    /// Returns the triangles in the order in which the boxes hold them, as places in the list that was given to
     /// [`new`](Self::new).
     pub fn order(&self) -> &[u32] {
         &self.order
@@ -75,8 +76,8 @@ impl Bvh {
 
     /// Finds the first triangle that a ray meets at a distance above `after`, among those for which `keep` is true.
     ///
-    /// Distances are in lengths of `direction`; `after` may be negative. Of several triangles at one distance, the one that
-    /// stands first in [`order`](Self::order) is returned.
+    /// Distances are in units of the length of `direction`; `after` may be negative. Of several triangles at the same
+    /// distance, the one that is first in [`order`](Self::order) is returned.
     pub fn nearest(
         &self,
         origin: DVec3,
@@ -89,7 +90,7 @@ impl Bvh {
         Some(Hit { triangle: self.order[place], distance })
     }
 
-    /// Whether any corner of a triangle lies farther than `slack` beyond a plane.
+    /// Returns whether any corner of a triangle lies farther than `slack` beyond a plane.
     pub fn reaches_beyond(&self, plane: &Plane, slack: f64) -> bool {
         self.wide.reaches_beyond(plane, slack)
     }

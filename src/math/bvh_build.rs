@@ -1,4 +1,5 @@
-//! Builds the hierarchy of boxes around triangles; each box is halved where rays then have the least to try.
+//! Builds the hierarchy of boxes around triangles. Each box is divided where rays then have the fewest triangles to
+//! test (surface area heuristic).
 //!
 //! Source: I. Wald, *On fast Construction of SAH-based Bounding Volume Hierarchies*, IEEE Symposium on Interactive Ray
 //! Tracing, 2007.
@@ -7,17 +8,17 @@ use super::bvh::BvhNode;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// The number of slices of a box along each axis, in which its triangles are counted.
+/// The number of slices along each axis into which a box is divided to count its triangles.
 const BINS: usize = 16;
 
 /// The most triangles that one box holds itself.
 pub(super) const FULL: usize = 4;
 
-/// From this level down, boxes are halved by the number of triangles alone. So there are no more levels than this plus log2
-/// of that number.
+/// From this level down, boxes are divided by the number of triangles alone. So there are at most log2 of that number
+/// more levels than this.
 const LEVELS_BY_AREA: u32 = 30;
 
-/// Boxes of more triangles than this are halved on several cores at once.
+/// Boxes of more triangles than this are divided on several cores at once.
 const ALONE: usize = 1 << 13;
 
 /// A triangle and its box, as they are sorted while the hierarchy is built.
@@ -42,7 +43,7 @@ pub(super) fn build(vertices: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<BvhNode>
     (nodes, parts.iter().map(|p| p.triangle).collect())
 }
 
-/// Returns the boxes of some triangles, the first of which stands at `first` among all triangles.
+/// Returns the boxes of some triangles, which are at `first` and the places after it among all triangles.
 fn halve(parts: &mut [Part], first: u32, level: u32) -> Vec<BvhNode> {
     if parts.len() <= ALONE {
         let mut nodes = Vec::with_capacity(parts.len());
@@ -89,7 +90,7 @@ fn area(low: DVec3, high: DVec3) -> f64 {
     d.x * d.y + d.y * d.z + d.z * d.x
 }
 
-/// One slice of a box along one axis.
+/// One slice of a box along one axis: the box around its triangles, and their number.
 #[derive(Clone, Copy)]
 struct Bin {
     low: DVec3,
@@ -108,7 +109,8 @@ impl Bin {
         }
     }
 
-    /// Returns what it costs a ray that meets the surrounding box to try the triangles in here, up to a constant factor.
+    /// Returns the cost, up to a constant factor, of testing the triangles of the slice for a ray that meets the
+    /// surrounding box.
     fn cost(&self) -> f64 {
         if self.count == 0 { 0.0 } else { area(self.low, self.high) * self.count as f64 }
     }
@@ -116,15 +118,15 @@ impl Bin {
 
 /// Sorts triangles into two halves and returns the place where the second half begins.
 ///
-/// `None` where area decides nothing: from [`LEVELS_BY_AREA`] down, where no axis has a border with a finite cost, and where
-/// one box for all triangles costs no more.
+/// `None` where the area cannot decide: from [`LEVELS_BY_AREA`] down, where no axis has a border with a finite cost,
+/// and where one box for all triangles costs no more.
 fn parted(parts: &mut [Part], level: u32) -> Option<usize> {
     if level >= LEVELS_BY_AREA {
         return None;
     }
     let middle = |p: &Part| 0.5 * p.low + 0.5 * p.high;
     let (low, high) = super::bounds(parts.iter().map(middle));
-    // Axes without extent, or too long to divide by, give no slices.
+    // Axes without extent, or so long that the division fails, give no slices.
     let scale = (BINS as f64 * (1.0 - 1e-9)) / (high - low);
     let bin = |p: &Part, axis: usize| (((middle(p) - low) * scale)[axis] as usize).min(BINS - 1);
     let mut bins = [[Bin::EMPTY; BINS]; 3];
@@ -141,11 +143,11 @@ fn parted(parts: &mut [Part], level: u32) -> Option<usize> {
         .min_by(|a, b| a.2.total_cmp(&b.2))?;
     let whole = bounds(parts);
     let whole = area(whole.0, whole.1);
-    // Opening a box costs about as much as trying a triangle.
+    // The test of a box costs about as much as the test of a triangle.
     if parts.len() <= FULL && whole * (parts.len() as f64 - 1.0) <= cost {
         return None;
     }
-    // The order within each half is kept, so that the same triangles always come out in the same order.
+    // The order within each half is kept, so that the same triangles always give the same order.
     let (mut before, after): (Vec<Part>, Vec<Part>) = parts.iter().partition(|p| bin(p, axis) < border);
     let middle = before.len();
     before.extend(after);
@@ -153,7 +155,7 @@ fn parted(parts: &mut [Part], level: u32) -> Option<usize> {
     Some(middle)
 }
 
-/// Returns the border between slices that costs least, and its cost. Neither half is empty.
+/// Returns the border between slices with the least cost, and that cost. Neither half is empty.
 fn cheapest(bins: &[Bin; BINS]) -> Option<(usize, f64)> {
     let mut after = [Bin::EMPTY; BINS + 1];
     for k in (0..BINS).rev() {

@@ -1,7 +1,8 @@
-//! Searches a bounding volume hierarchy: four boxes, or four triangles, are tried side by side.
+//! Searches a bounding volume hierarchy. Four boxes, or four triangles, are tested side by side (SIMD).
 //!
-//! What the processor can do is found out when the program runs. Closures would not be compiled for it, so there are none in
-//! what is tried side by side. Sums are not fused, so that the answer does not depend on the processor.
+//! The instruction set of the processor is detected when the program runs. The compiler would not compile closures
+//! for it, so the code that runs side by side has none. Products and sums are not fused, so that the result does not
+//! depend on the processor.
 
 use super::Plane;
 use super::bvh::BvhNode;
@@ -10,32 +11,32 @@ use glam::{BVec3, DVec3};
 use pulp::{Arch, Simd, WithSimd};
 use std::sync::LazyLock;
 
-/// How many boxes or triangles are tried side by side.
+/// The number of boxes or triangles that are tested side by side.
 const SIDE: usize = 4;
 
-// All triangles that one box holds are tried at once.
+// All triangles that one box holds are tested at once.
 const _: () = assert!(FULL <= SIDE);
 
-/// One number for each of the boxes or triangles that are tried side by side.
+/// One number for each of the boxes or triangles that are tested side by side.
 type Four = [f64; SIDE];
 
-/// The bit of a box's content that says that it holds triangles.
+/// The bit of a box's content that marks a box of triangles.
 const IS_LEAF: u32 = 1 << 31;
 
-/// How much larger boxes are taken to be on all sides, as a part of the greatest distance of any triangle from the ray's
-/// origin: twice what rounding does to triangles that are not seen edge on.
+/// The length by which boxes are enlarged on all sides, as a part of the greatest distance of any triangle from the
+/// ray's origin: twice the rounding error of triangles that the ray does not meet edge on.
 const BOX_SLACK: f64 = 16.0 * f64::EPSILON;
 
-/// The greatest reciprocal of a direction's component, for rays along an axis.
+/// The greatest reciprocal of a component of a direction, for rays along an axis.
 const MOST_PER: DVec3 = DVec3::splat(1e200);
 
-/// The boxes that wait without taking memory from the heap; few rays need more.
+/// The number of waiting boxes that need no memory from the heap; few rays need more.
 const FEW_PENDING: usize = 24;
 
-/// The instructions that the processor has.
+/// The instruction set of the processor.
 static ARCH: LazyLock<Arch> = LazyLock::new(Arch::new);
 
-/// A tree of boxes in fours, around triangles in fours.
+/// A tree of boxes in groups of four, around triangles in groups of four.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct WideTree {
     boxes: Vec<FourBoxes>,
@@ -44,32 +45,32 @@ pub(super) struct WideTree {
 
 #[derive(Debug, Clone, PartialEq)]
 struct FourBoxes {
-    /// The least coordinates, then the greatest, axis by axis. A box that is not there holds no point.
+    /// The least coordinates, then the greatest, axis by axis. An unused place has a box that holds no point.
     bounds: [[Four; 3]; 2],
-    /// What is in each box: the place of its four boxes, or that of its triangles with [`IS_LEAF`].
+    /// The content of each box: the place of its four boxes, or that of its triangles with [`IS_LEAF`].
     content: [u32; SIDE],
 }
 
 #[derive(Debug, Clone, PartialEq)]
 struct FourTriangles {
-    /// The coordinates of each of the three corners, axis by axis.
+    /// The coordinates of each of the three corners of the triangles, axis by axis.
     corners: [[Four; 3]; 3],
-    /// The place of the first triangle in the order of the hierarchy.
+    /// The place of the first triangle of the group in the order of the hierarchy.
     first: u32,
-    /// The number of triangles.
+    /// The number of triangles in the group.
     count: u32,
 }
 
-/// A ray, with what turns triangles so that the ray runs along z.
+/// A ray, and the numbers by which triangles are turned so that the ray runs along z.
 pub(super) struct Sheared {
     origin: DVec3,
     axes: [usize; 3],
     shear: DVec3,
     per_component: DVec3,
-    /// Along which axes the ray runs upward.
+    /// True for the axes along which the ray's direction is positive.
     is_up: BVec3,
-    /// The origin moved so that boxes count as larger by [`BOX_SLACK`]: `before` for entering a box, `beyond` for leaving
-    /// it.
+    /// The origin, moved so that boxes count as larger by [`BOX_SLACK`]: `before` for entering a box, `beyond` for
+    /// leaving it.
     before: DVec3,
     beyond: DVec3,
 }
@@ -78,14 +79,15 @@ pub(super) struct Sheared {
 pub(super) type Found = (usize, f64);
 
 impl WideTree {
-    /// Gathers the boxes of a hierarchy of halves, and its triangles in the order in which the boxes hold them.
+    /// Gathers the boxes of a binary hierarchy in groups of four, with its triangles in the order in which the boxes
+    /// hold them.
     pub fn new(nodes: &[BvhNode], corners: &[[DVec3; 3]]) -> Self {
         let mut spans: Vec<(u32, u32)> = nodes.iter().map(|node| (node.start, node.count)).collect();
         for k in (0..nodes.len()).rev().filter(|&k| nodes[k].count == 0) {
             let (left, right) = (spans[k + 1], spans[k + nodes[k].start as usize]);
             spans[k] = (left.0, left.1 + right.1);
         }
-        // A box that is not there holds the first leaf, which is empty.
+        // An unused place refers to the first leaf, which is empty.
         let nothing = FourTriangles { corners: [[[0.0; SIDE]; 3]; 3], first: 0, count: 0 };
         let mut tree = Self { boxes: vec![], leaves: vec![nothing] };
         if !nodes.is_empty() {
@@ -94,13 +96,13 @@ impl WideTree {
         tree
     }
 
-    /// Finds the first triangle that a ray meets at a distance above `after`, among those for which `keep`, given their
-    /// places, is true; of several at one distance, the one of the first place.
+    /// Finds the first triangle that a ray meets at a distance above `after`, among those for whose places `keep` is
+    /// true. Of several triangles at the same distance, the one with the first place is returned.
     pub fn nearest(&self, ray: &Sheared, after: f64, keep: impl Fn(usize) -> bool) -> Option<Found> {
         ARCH.dispatch(Nearest { tree: self, ray, after, keep })
     }
 
-    /// Whether any corner lies farther than `slack` beyond a plane.
+    /// Returns whether any corner lies farther than `slack` beyond a plane.
     pub fn reaches_beyond(&self, plane: &Plane, slack: f64) -> bool {
         let is_beyond = |[x, y, z]: [f64; 3]| plane.distance(DVec3::new(x, y, z)) > slack;
         let highest = plane.normal.cmpge(DVec3::ZERO);
@@ -135,7 +137,7 @@ impl WideTree {
     }
 }
 
-/// A tree of fours that is being gathered from a hierarchy of halves.
+/// A tree of groups of four that is being gathered from a binary hierarchy.
 struct Gathering<'a> {
     nodes: &'a [BvhNode],
     /// The first triangle of each node, and the number of its triangles.
@@ -145,7 +147,8 @@ struct Gathering<'a> {
 }
 
 impl Gathering<'_> {
-    /// Opens the largest of some nodes until there are four or all are leaves; adds them as boxes and returns their place.
+    /// Opens the largest of some nodes until there are four or all are leaves. Adds them as a group of boxes and
+    /// returns its place.
     fn fill(&mut self, mut held: Vec<usize>) -> u32 {
         while held.len() < SIDE {
             let open = (0..held.len()).filter(|&i| self.spans[held[i]].1 as usize > SIDE);
@@ -171,7 +174,7 @@ impl Gathering<'_> {
         place as u32
     }
 
-    /// Adds what is in a node, and returns it as a box's content.
+    /// Adds the content of a node, and returns it as the content of a box.
     fn content(&mut self, node: usize) -> u32 {
         let (first, count) = self.spans[node];
         if count as usize > SIDE {
@@ -202,7 +205,7 @@ struct Nearest<'a, K> {
     keep: K,
 }
 
-/// Boxes that wait to be opened: what is in each, and the distance at which the ray enters it.
+/// The boxes that wait to be opened: the content of each, and the distance at which the ray enters it.
 struct Pending {
     content: [u32; FEW_PENDING],
     distance: [f64; FEW_PENDING],
@@ -232,7 +235,7 @@ impl Pending {
         Some((self.content[self.count], self.distance[self.count]))
     }
 
-    /// Adds the boxes that a ray meets, the nearest last.
+    /// Adds the boxes that a ray meets, the nearest of them last.
     #[inline(always)]
     fn push_sorted(&mut self, boxes: &FourBoxes, distances: &Four) {
         let (mut lanes, mut count) = ([0_usize; SIDE], 0);
@@ -281,7 +284,7 @@ impl<K: Fn(usize) -> bool> WithSimd for Nearest<'_, K> {
             }
             loop {
                 let Some((next, distance)) = pending.pop() else { return Some((best?, far)) };
-                // A box that lies behind the best triangle found meanwhile need not be opened.
+                // A box that lies behind the best triangle found since then need not be opened.
                 if distance <= far {
                     at = next;
                     break;
@@ -292,7 +295,8 @@ impl<K: Fn(usize) -> bool> WithSimd for Nearest<'_, K> {
 }
 
 impl Sheared {
-    /// Returns `None` for a direction of no length and where a number is not finite. `root` is the box around all triangles.
+    /// Prepares a ray; `None` for a direction of no length, and where a number is not finite. `root` is the box
+    /// around all triangles.
     pub fn new(origin: DVec3, direction: DVec3, root: &BvhNode) -> Option<Self> {
         let size = direction.abs();
         let z = if size.z >= size.x && size.z >= size.y { 2 } else { usize::from(size.y >= size.x) };
@@ -302,7 +306,7 @@ impl Sheared {
         }
         let along = direction[z];
         let shear = DVec3::new(direction[x] / along, direction[y] / along, 1.0 / along);
-        // Finite, so that it makes no NaN of 0.
+        // Finite, so that a product with 0 is not NaN.
         let per_component = direction.recip().clamp(-MOST_PER, MOST_PER);
         let is_up = per_component.cmpge(DVec3::ZERO);
         let far = (root.low - origin).abs().max((root.high - origin).abs()).max_element();
@@ -319,8 +323,8 @@ impl Sheared {
         })
     }
 
-    /// Returns the distances at which the ray meets triangles, from either side (Woop, Benthin and Wald, appendix A); NaN or
-    /// an infinity where it does not.
+    /// Returns the distances at which the ray meets triangles, from either side (Woop, Benthin and Wald, appendix A);
+    /// NaN or an infinity for a triangle that it does not meet.
     #[inline(always)]
     fn meets<S: Simd>(&self, simd: S, corners: &[[Four; 3]; 3]) -> Four {
         let mut distances = [f64::INFINITY; SIDE];
@@ -328,8 +332,8 @@ impl Sheared {
             let [x0, y0, z0] = self.turned(simd, &corners[0], row);
             let [x1, y1, z1] = self.turned(simd, &corners[1], row);
             let [x2, y2, z2] = self.turned(simd, &corners[2], row);
-            // Twice the areas between the ray and each edge. In the other triangle of an edge the area has the opposite
-            // sign, to the last bit.
+            // Twice the areas between the ray and each edge. For the other triangle at an edge, the area has the
+            // opposite sign and the same bits.
             let u = simd.sub_f64s(simd.mul_f64s(x2, y1), simd.mul_f64s(y2, x1));
             let v = simd.sub_f64s(simd.mul_f64s(x0, y2), simd.mul_f64s(y0, x2));
             let w = simd.sub_f64s(simd.mul_f64s(x1, y0), simd.mul_f64s(y1, x0));
@@ -338,7 +342,7 @@ impl Sheared {
                 simd.less_than_f64s(simd.min_f64s(simd.min_f64s(u, v), w), zero),
                 simd.greater_than_f64s(simd.max_f64s(simd.max_f64s(u, v), w), zero),
             );
-            // A triangle seen edge on has no area: the quotient is then no number, or infinite.
+            // A triangle that the ray meets edge on has no area, so the quotient is NaN or infinite.
             let sum = simd.add_f64s(simd.add_f64s(u, v), w);
             let uv = simd.add_f64s(simd.mul_f64s(u, z0), simd.mul_f64s(v, z1));
             let met = simd.div_f64s(simd.add_f64s(uv, simd.mul_f64s(w, z2)), sum);
@@ -368,8 +372,8 @@ impl Sheared {
         self.meets(pulp::Scalar, &triangle.map(|corner| corner.to_array().map(|c| [c; SIDE])))[0]
     }
 
-    /// Returns the distances at which the ray is first within boxes, from `after` on; infinite where it does not meet them
-    /// before it has come as far as `before`.
+    /// Returns the distances at which the ray enters boxes, at least `after`; infinite for a box that it does not
+    /// enter at a distance below `before`.
     #[inline(always)]
     fn enters<S: Simd>(&self, simd: S, boxes: &FourBoxes, after: f64, before: f64) -> Four {
         let mut distances = [f64::INFINITY; SIDE];
@@ -393,7 +397,7 @@ impl Sheared {
     }
 }
 
-/// Returns as many numbers from a place on as the processor takes side by side; what is missing is 0.
+/// Returns as many numbers, from a place on, as the processor takes side by side; places beyond the end give 0.
 #[inline(always)]
 fn load<S: Simd>(simd: S, numbers: &Four, place: usize) -> S::f64s {
     match S::as_simd_f64s(&numbers[place..]).0.first() {
@@ -402,7 +406,7 @@ fn load<S: Simd>(simd: S, numbers: &Four, place: usize) -> S::f64s {
     }
 }
 
-/// Puts numbers into their places from a place on.
+/// Stores the numbers of a row, from a place on.
 #[inline(always)]
 fn store<S: Simd>(simd: S, numbers: &mut Four, place: usize, row: S::f64s) {
     match S::as_mut_simd_f64s(&mut numbers[place..]).0.first_mut() {

@@ -3,17 +3,18 @@
 use super::{polygon, span};
 use glam::DVec2;
 
-/// Widths, or lengths, whose ratio is nearer to 1 than this count as equal: a hundred roundings of f32.
+/// Widths or lengths count as equal if their ratio differs from 1 by less than this: a hundred roundings of f32.
 const EQUAL: f64 = 1e-5;
 
-/// An outline whose mirror image leaves it by more than this, widths, has no mirror line. Designs are rounded more finely.
+/// An outline has no mirror line if its mirror image reaches beyond it by more than this many widths. Designs are
+/// rounded more finely.
 const MIRRORED: f64 = 1e-3;
 
-/// The two principal moments of an outline differ by at least this part of their sum where they set a direction. It is that
-/// of an ellipse whose length is 1.01 widths.
+/// Two principal moments of an outline set a direction if they differ by at least this part of their sum. It is the
+/// difference of an ellipse whose length is 1.01 widths.
 const LONG: f64 = 0.01;
 
-/// A side shorter than this, widths, may come of rounding.
+/// A side shorter than this many widths may result from rounding.
 const LEAST_SIDE: f64 = 0.01;
 
 /// Returns the convex hull of points, counter-clockwise (Andrew's monotone chain).
@@ -38,21 +39,21 @@ pub fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     lower
 }
 
-/// The width and length of a convex outline, which are the same however the outline is turned.
+/// The width and the length of a convex outline, which do not depend on the rotation of the outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Calipers {
     /// The least distance between two parallel lines that hold the outline.
     pub width: f64,
-    /// The distance between the two lines that hold the outline at right angles to those of the width. Where several
-    /// directions are equally narrow, it is the greatest of their lengths.
+    /// The distance between the two lines that hold the outline and are perpendicular to the lines of the width.
+    /// Where several directions are equally narrow, it is the greatest of their lengths.
     pub length: f64,
     /// The unit vector from one line of the width to the other, with x > 0, or x = 0 and y = 1.
     ///
-    /// Where several directions are equally narrow and equally long, it is the one nearest to +x.
+    /// Where several directions are equally narrow and equally long, it is the direction nearest to +x.
     pub across: DVec2,
     /// The centroid of the outline's area.
     ///
-    /// It moves no more than the corners do and turns with them, so that a stone finds the same middle again after rounding.
+    /// It moves no more than the corners do and turns with them, so that a stone has the same middle after rounding.
     /// The middle of a rectangle around the outline would jump where two directions are almost equally narrow.
     pub middle: DVec2,
 }
@@ -72,18 +73,20 @@ impl Calipers {
         let narrow = || all.iter().filter(|(w, ..)| *w <= width * (1.0 + EQUAL));
         let length = narrow().map(|(_, length, _)| *length).fold(0.0, f64::max);
         let long = narrow().filter(|(_, l, _)| *l >= length * (1.0 - EQUAL));
-        // Equal directions are sorted by their coordinates, so that the order of the corners decides nothing.
+        // Equal directions are sorted by their coordinates, so that the result does not depend on the order of the
+        // corners.
         let across =
             long.map(|(.., across)| *across).max_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)))?;
         Some(Self { width, length, across, middle: polygon::centroid(outline) })
     }
 
-    /// Measures a convex outline as people measure a stone: along its mirror line and square to it.
+    /// Measures a convex outline as people measure a stone: along its mirror line and perpendicular to it.
     ///
-    /// This is [`Calipers::of`] unless the outline is mirror symmetric and its narrowest direction is oblique to the mirror
-    /// line, as that of a kite is, which is narrowest square to a side. `width` is then the smaller of the two extents. An
-    /// outline that has a side on each side of its narrowest rectangle keeps that rectangle: a square without one corner. The
-    /// mirror line is one of the principal axes of the area, where these are set.
+    /// The result is that of [`Calipers::of`] unless the outline is mirror symmetric and its narrowest direction is
+    /// oblique to the mirror line. An example is a kite, which is narrowest perpendicular to a side. `width` is then
+    /// the smaller of the two extents. An outline that has a side on each side of its narrowest rectangle keeps that
+    /// rectangle; an example is a square without one corner. The mirror line is one of the principal axes of the
+    /// area, where these have definite directions.
     pub fn along_mirror(outline: &[DVec2]) -> Option<Self> {
         let least = Self::of(outline)?;
         if fills_its_sides(outline, &least) {
@@ -92,7 +95,8 @@ impl Calipers {
         Some(Self::in_mirror(outline, least.middle, least.width).unwrap_or(least))
     }
 
-    /// Measures an outline along its mirror line and square to it; `None` unless it has one and is wider so than `least`.
+    /// Measures an outline along its mirror line and perpendicular to it; `None` where it has no mirror line, or
+    /// where its width so measured does not exceed `least`.
     fn in_mirror(outline: &[DVec2], middle: DVec2, least: f64) -> Option<Self> {
         let axes = match principal_axis(outline, middle) {
             Some(axis) => vec![axis],
@@ -105,7 +109,7 @@ impl Calipers {
                 Some((axis, unlike(axis).into_iter().chain(unlike(axis.perp())).reduce(f64::min)?))
             })
             .collect();
-        // An outline that is almost of more turns has lines that are almost mirror lines besides its own.
+        // An outline with almost more rotations has lines that are almost mirror lines, besides its own.
         let best = mirrors.iter().map(|(_, unlike)| *unlike).fold(f64::INFINITY, f64::min);
         let mirrors = mirrors.into_iter().filter(|(_, unlike)| *unlike <= best.max(EQUAL * least));
         let measured = mirrors.map(|(axis, _)| {
@@ -114,7 +118,7 @@ impl Calipers {
             let (narrow, wide) = if one.0 <= other.0 { (one, other) } else { (other, one) };
             Self { width: narrow.0, length: wide.0, across: narrow.1, middle }
         });
-        // Of several mirror lines, as a triangle has, the one that shows the stone narrowest counts.
+        // Of several mirror lines, such as those of a triangle, the one that gives the least width counts.
         let found = measured.min_by(|a, b| a.width.total_cmp(&b.width))?;
         (found.width > least * (1.0 + EQUAL)).then_some(found)
     }
@@ -129,13 +133,14 @@ fn fills_its_sides(outline: &[DVec2], &Calipers { across, width, .. }: &Calipers
     })
 }
 
-/// Returns the direction in which the area of an outline extends farthest from its middle; `None` where no direction stands
-/// out.
+/// Returns the direction in which the area of an outline extends farthest from its middle; `None` where the area has
+/// no such direction.
 fn principal_axis(outline: &[DVec2], middle: DVec2) -> Option<DVec2> {
     let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
     for (&a, &b) in outline.iter().zip(outline.iter().cycle().skip(1)) {
         let (a, b) = (a - middle, b - middle);
-        // Twelve times the second moments of the triangle from the middle to this side, weighted by twice its area.
+        // Twelve times the second moments of the triangle between the middle and this side, weighted by twice its
+        // area.
         let (twice, c) = (a.perp_dot(b), a + b);
         xx += twice * (a.x * a.x + b.x * b.x + c.x * c.x);
         xy += twice * (a.x * a.y + b.x * b.y + c.x * c.y);
@@ -145,8 +150,9 @@ fn principal_axis(outline: &[DVec2], middle: DVec2) -> Option<DVec2> {
     (across.length() > LONG * (xx + yy)).then(|| DVec2::from_angle(0.5 * across.to_angle()))
 }
 
-/// Returns the directions from the middle of an outline to its corners and to the middles of its sides, one of which every
-/// mirror line has. There are none for a circle, which has mirror lines everywhere and is as wide as long.
+/// Returns the directions from the middle of an outline to its corners and to the middles of its sides; every mirror
+/// line has one of them. The list is empty for a circle, which has mirror lines everywhere and is as wide as it is
+/// long.
 fn sides_and_corners(outline: &[DVec2], middle: DVec2) -> Vec<DVec2> {
     let sides = outline.iter().zip(outline.iter().cycle().skip(1));
     let from_middle = |p: DVec2| p - middle;
@@ -158,11 +164,11 @@ fn sides_and_corners(outline: &[DVec2], middle: DVec2) -> Vec<DVec2> {
     marks.into_iter().filter_map(DVec2::try_normalize).collect()
 }
 
-/// Returns how far the mirror image of a convex outline, in a line through its middle with this normal, reaches beyond it;
-/// `None` where it is more than `most`.
+/// Returns the distance by which the mirror image of a convex outline, in a line through its middle with this normal,
+/// reaches beyond the outline; `None` where it is more than `most`.
 fn beyond_mirrored(outline: &[DVec2], middle: DVec2, normal: DVec2, most: f64) -> Option<f64> {
     let image = |p: &DVec2| *p - 2.0 * (*p - middle).dot(normal) * normal;
-    // The corners go round counter-clockwise, so that the outside lies to the right of each side.
+    // The corners are in counter-clockwise order, so the outside is to the right of each side.
     let beyond = |p: DVec2| {
         let sides = outline.iter().zip(outline.iter().cycle().skip(1));
         let outside = sides.filter_map(|(&a, &b)| Some((p - a).perp_dot((b - a).try_normalize()?)));
@@ -174,9 +180,9 @@ fn beyond_mirrored(outline: &[DVec2], middle: DVec2, normal: DVec2, most: f64) -
         .try_fold(0.0_f64, |worst, by| (by <= most).then(|| worst.max(by)))
 }
 
-/// Returns whichever of a direction and its opposite has x > 0, or x = 0 and y > 0.
+/// Returns a direction or its opposite, whichever has x > 0, or x = 0 and y > 0.
 fn rightward(direction: DVec2) -> DVec2 {
-    // Rounding must not decide which way an upright direction points.
+    // Rounding must not decide the sense of an upright direction.
     let x = if direction.x.abs() < f64::EPSILON { 0.0 } else { direction.x };
     if x < 0.0 || (x == 0.0 && direction.y < 0.0) { -direction } else { DVec2::new(x, direction.y) }
 }

@@ -1,18 +1,18 @@
-//! Integrals of exp(-f) over a convex polygon or an edge, f affine: how much light is left in a beam that is absorbed, and
-//! where it is.
+//! Integrals of exp(-f) over a convex polygon or an edge, with f affine: the amount of light that is left in a beam
+//! that is absorbed, and its centre.
 
 use super::Affine;
 use glam::DVec2;
 use std::ops::{Add, Mul};
 
-/// Triangles over which f varies by more than this are split, so that the series below converges quickly.
+/// Triangles over which f varies by more than this are divided, so that the series below converges quickly.
 const WIDEST: f64 = 1.0;
 
-/// Where f exceeds its least value by this, exp(-f) is below the rounding of the whole integral and is left out.
+/// Where f exceeds its least value by this much, exp(-f) is below the rounding of the whole integral and is left out.
 const NOTHING: f64 = 45.0;
 
-/// How often a triangle is halved at most. If f still varies too much after that, it varies by more than corners in f64 can
-/// tell apart.
+/// The greatest number of times that a triangle is halved. If f still varies too much after that, it varies by more
+/// than corners in f64 can resolve.
 const MOST_HALVINGS: u32 = 100;
 
 /// Returns the integral of exp(-f) over a convex polygon with counter-clockwise corners, to about 1e-15 of the whole.
@@ -34,7 +34,7 @@ fn triangle(corners: [DVec2; 3], f: Affine, nothing: f64, halvings: u32) -> f64 
     }
 }
 
-/// Adds the parts of a triangle over which f varies by little, and in which something is left.
+/// Adds the parts of a triangle over which f varies by little and exp(-f) is not negligible.
 fn divide(corners: [DVec2; 3], f: Affine, nothing: f64, halvings: u32, parts: &mut Vec<[DVec2; 3]>) {
     match halves(corners, f, nothing, halvings) {
         Halving::Nothing => {}
@@ -45,13 +45,13 @@ fn divide(corners: [DVec2; 3], f: Affine, nothing: f64, halvings: u32, parts: &m
     }
 }
 
-/// What to do with a triangle.
+/// The treatment of a triangle.
 enum Halving {
-    /// Nothing is left of exp(-f) in it.
+    /// The triangle is left out, because exp(-f) is negligible in it.
     Nothing,
-    /// The series converges quickly.
+    /// The triangle is kept whole, because the series converges quickly.
     Narrow,
-    /// It is divided.
+    /// The triangle is divided into these two.
     Wide([[DVec2; 3]; 2]),
 }
 
@@ -66,7 +66,7 @@ fn halves([a, b, c]: [DVec2; 3], f: Affine, nothing: f64, halvings: u32) -> Halv
     if high - low <= WIDEST || halvings == 0 {
         return Halving::Narrow;
     }
-    // Halve the edge along which f varies most.
+    // The edge along which f varies most is halved.
     let [p, q, r] = [[a, b, c], [b, c, a], [c, a, b]]
         .into_iter()
         .max_by(|x, y| (f.at(x[0]) - f.at(x[1])).abs().total_cmp(&(f.at(y[0]) - f.at(y[1])).abs()))
@@ -77,13 +77,14 @@ fn halves([a, b, c]: [DVec2; 3], f: Affine, nothing: f64, halvings: u32) -> Halv
 
 /// Returns the divided difference of exp at the negatives of N values.
 ///
-/// By the Hermite-Genocchi formula it is the mean of exp(-f) over a simplex with those values of f at its corners, divided by
-/// (N - 1)!; a value that is given twice weighs the mean by the coordinate of its corner, times (N - 1)! / N!. It is computed as
-/// a series in the complete homogeneous symmetric polynomials h_k, Σ h_k / (k + N - 1)!.
+/// By the Hermite-Genocchi formula this is the mean of exp(-f) over a simplex with those values of f at its corners,
+/// divided by (N - 1)!. A value that is given twice weights the mean by the coordinate of its corner, times (N - 1)!
+/// / N!. The result is computed as a series in the complete homogeneous symmetric polynomials h_k, Σ h_k / (k + N -
+/// 1)!.
 fn divided_difference<const N: usize>(values: [f64; N]) -> f64 {
     let mean = values.iter().sum::<f64>() / N as f64;
     let mut factorial: f64 = (1..N).map(|k| k as f64).product();
-    // h_k of the first value, of the first two, and so on, each computed from the one before.
+    // h_k of the first value, of the first two values, and so on, each computed from the one before.
     let mut polynomials = [1.0; N];
     let mut sum = 1.0 / factorial;
     for k in 1..18 {
@@ -98,12 +99,13 @@ fn divided_difference<const N: usize>(values: [f64; N]) -> f64 {
     sum * (-mean).exp()
 }
 
-/// An amount that is spread over a region of the image: its sum and its first moment, the sum times the centre.
+/// An amount that is spread over a region of the image: its sum and its first moment, which is the sum times the
+/// centre.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Moments {
-    /// The sum.
+    /// The sum of the amount over the region.
     pub sum: f64,
-    /// The integral of the place, weighed by the amount.
+    /// The integral of the position, weighted by the amount.
     pub first: DVec2,
 }
 
@@ -142,7 +144,7 @@ pub fn moments_of_decay(corners: &[DVec2], f: Affine) -> Moments {
 
 /// Returns the integral of exp(-f) along the edge from a to b, and its first moment.
 pub fn moments_along_edge(a: DVec2, b: DVec2, f: Affine) -> Moments {
-    // From where most is left, so that no exponential grows.
+    // The integral begins at the end where f is least, so that no exponential overflows.
     let (a, b) = if f.at(a) <= f.at(b) { (a, b) } else { (b, a) };
     let fall = f.at(b) - f.at(a);
     // The integrals of exp(-fall t) and t exp(-fall t) over t from 0 to 1.

@@ -1,24 +1,24 @@
-//! A solid in the making: a box from which half-spaces are cut one after the other.
+//! A solid that is being made: a box from which half-spaces are cut one after the other.
 //!
-//! Every corner is judged once to be above, on or below the cutting plane, and every facet follows that one judgement. So
-//! the outlines stay closed however the numbers are rounded.
+//! Every corner is classified once as above, on or below the cutting plane, and every facet follows that
+//! classification. So the outlines stay closed, whatever the rounding.
 
 use super::Plane;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// What a cut did to the solid.
+/// The result of a cut.
 pub(crate) enum DraftCut {
     /// The plane leaves the whole solid on its inner side.
     Missed,
-    /// A part was cut off.
+    /// A part of the solid was cut off.
     Done,
-    /// Nothing would be left; the solid stays as it was.
+    /// The cut would leave nothing; the solid stays as it was.
     Emptied {
-        /// Planes that together already leave nothing.
+        /// Planes that leave nothing together, even without the others.
         certificate: Vec<usize>,
     },
-    /// The new facet has no closed outline; the solid is broken and must be made anew.
+    /// The new facet has no closed outline. The solid is then broken and must be made anew.
     Unclosed,
 }
 
@@ -31,11 +31,11 @@ pub(crate) struct DraftFace {
     pub outline: Vec<u32>,
 }
 
-/// A solid in the making. Faces whose source is the number that [`cube`](Self::cube) was given, or one of the next five, are the
-/// sides of the box.
+/// A solid that is being made. Faces whose source is the number that was given to [`cube`](Self::cube), or one of the
+/// next five, are the sides of the box.
 #[derive(Debug, Clone)]
 pub(crate) struct Draft {
-    /// The corners, and places that once were corners.
+    /// The corners, including places that are no longer corners.
     pub vertices: Vec<DVec3>,
     /// The faces, in the order in which they were cut.
     pub faces: Vec<DraftFace>,
@@ -55,7 +55,7 @@ impl Draft {
         }
     }
 
-    /// Cuts off what lies outside a plane. Corners within the tolerance lie on the plane.
+    /// Cuts off the part outside a plane. Corners within the tolerance lie on the plane.
     pub fn cut(&mut self, source: usize, plane: &Plane, tolerance: f64) -> DraftCut {
         let height: Vec<f64> = self.vertices.iter().map(|&v| plane.distance(v)).collect();
         let live = || self.faces.iter().flat_map(|f| f.outline.iter().map(|&v| v as usize));
@@ -104,8 +104,8 @@ impl Draft {
         }
     }
 
-    /// Returns planes that together leave nothing: the new one, and those that meet at the corner least far above it. By the
-    /// duality of linear programming these already prove it.
+    /// Returns planes that leave nothing together: the new plane, and those that meet at the corner that is least far
+    /// above it. By the duality of linear programming these planes are a proof.
     fn certificate(&self, source: usize, height: &[f64]) -> Vec<usize> {
         let live = self.faces.iter().flat_map(|f| f.outline.iter().copied());
         let lowest = live.min_by(|&a, &b| height[a as usize].total_cmp(&height[b as usize]));
@@ -117,7 +117,7 @@ impl Draft {
     }
 }
 
-/// Returns the edges of an outline, in its direction.
+/// Returns the edges of an outline, in the direction of the outline.
 pub(super) fn directed_edges(outline: &[u32]) -> impl Iterator<Item = (u32, u32)> {
     outline.iter().copied().zip(outline.iter().copied().cycle().skip(1))
 }
@@ -138,7 +138,7 @@ fn trim(
         }
         let crosses = (at_a > tolerance && at_b < -tolerance) || (at_a < -tolerance && at_b > tolerance);
         if crosses {
-            // The edge's other facet meets it in the other direction: one corner serves both.
+            // The other facet at the edge runs along it in the opposite direction; one corner serves both.
             let (low, high) = (a.min(b), a.max(b));
             let corner = *split.entry((low, high)).or_insert_with(|| {
                 let (p, q) = (vertices[low as usize], vertices[high as usize]);
@@ -154,7 +154,7 @@ fn trim(
 
 /// Returns the outline of the new facet: the edges in the plane that belong to one facet only, in the opposite direction.
 ///
-/// `None` where they do not make one closed ring of three or more.
+/// `None` where these edges do not form one closed ring of three or more.
 fn close(edges: &[(u32, u32)]) -> Option<Vec<u32>> {
     let present: std::collections::HashSet<(u32, u32)> = edges.iter().copied().collect();
     let rim = edges.iter().filter(|&&(a, b)| !present.contains(&(b, a)));

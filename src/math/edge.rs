@@ -1,4 +1,4 @@
-//! An edge of a solid, as it is drawn.
+//! An edge of a solid, for drawing.
 
 use super::Pose;
 use glam::DVec3;
@@ -13,7 +13,7 @@ pub struct Edge {
 }
 
 impl Edge {
-    /// Returns where an edge of a body lies in the world.
+    /// Returns the edge of a body as an edge in the world.
     pub fn placed(&self, pose: &Pose) -> Self {
         Self { ends: self.ends.map(|v| pose.place(v)), normals: self.normals.map(|n| pose.turn * n) }
     }

@@ -2,7 +2,8 @@
 
 use glam::{DMat3, DVec3};
 
-/// The number of sweeps of Jacobi's rotations. Each sweep squares what is left off the diagonal, so five reach rounding.
+/// The number of sweeps of Jacobi's rotations. Each sweep squares the remainder off the diagonal, so five reach
+/// rounding.
 const SWEEPS: usize = 12;
 
 /// Returns the outer product a bᵀ.

@@ -1,8 +1,8 @@
-//! The range of numbers, the box of points, and how far points reach.
+//! The range of numbers, the bounding box of points, and the distance of the farthest point.
 
 use glam::DVec3;
 
-/// Returns the least and the greatest of some numbers; infinity and its negative where there are none.
+/// Returns the least and the greatest of some numbers; infinity and minus infinity where there are none.
 pub fn span(numbers: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let start = (f64::INFINITY, f64::NEG_INFINITY);
     numbers.into_iter().fold(start, |(low, high), x| (low.min(x), high.max(x)))

@@ -1,7 +1,7 @@
-//! Groups of things that are alike.
+//! Divides a list into groups of similar members.
 
-/// Groups things: each joins the first group whose first member is like it, or begins a group. Groups and their members stay
-/// in order.
+/// Groups things. Each thing joins the first group whose first member is similar to it, or begins a new group. Groups
+/// and their members stay in order.
 pub fn grouped<T>(things: impl IntoIterator<Item = T>, alike: impl Fn(&T, &T) -> bool) -> Vec<Vec<T>> {
     let mut groups: Vec<Vec<T>> = vec![];
     for thing in things {

@@ -1,8 +1,9 @@
 //! The convex hull of points in space, by Quickhull (C. B. Barber, D. P. Dobkin, H. Huhdanpaa, The Quickhull Algorithm
 //! for Convex Hulls, ACM Trans. Math. Softw. 22, 1996).
 //!
-//! Whether a point lies outside a facet is decided exactly (J. R. Shewchuk's predicates, crate `robust`), so the result
-//! is closed and convex whatever the points are: many in one plane, or nearly so, as the corners of a cut stone are.
+//! The test whether a point lies outside a facet is exact (J. R. Shewchuk's predicates, crate `robust`). So the
+//! result is closed and convex whatever the points are, even where many lie in one plane or nearly so, like the
+//! corners of a cut stone.
 
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
@@ -10,8 +11,8 @@ use std::collections::HashMap;
 
 /// Returns the triangles of the convex hull, as indices into the points, counter-clockwise seen from outside.
 ///
-/// Points on the hull that are not needed as its corners are left out, and of several points in one place only one is used.
-/// `None` where all points lie in one plane, or where a coordinate is not finite.
+/// Points on the hull that it does not need as corners are left out, and of several points in one place only one is
+/// used. `None` where all points lie in one plane, or where a coordinate is not finite.
 pub fn convex_hull(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     if points.iter().any(|p| !p.is_finite()) {
         return None;
@@ -25,7 +26,8 @@ pub fn convex_hull(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     Some(hull.faces.into_iter().filter(|face| face.is_left).map(|face| face.corners).collect())
 }
 
-/// Returns how far a point lies outside the plane through three others, which run counter-clockwise seen from outside.
+/// Returns a measure of the distance of a point outside the plane through three others, which are in
+/// counter-clockwise order seen from outside.
 ///
 /// The result is above 0 outside and 0 in the plane; its sign is exact.
 fn outside(points: &[DVec3], [a, b, c]: [u32; 3], point: u32) -> f64 {
@@ -40,30 +42,30 @@ struct Face {
     corners: [u32; 3],
     /// The face across each edge; edge k runs from corner k to the next.
     across: [u32; 3],
-    /// Points outside this face. Each point that is not yet known to lie within is in one such list.
+    /// The points outside this face. Each point that is not yet known to lie within the hull is in one such list.
     above: Vec<u32>,
-    /// Whether this is still a face of the hull.
+    /// True while this is still a face of the hull.
     is_left: bool,
 }
 
-/// A hull of some of the points.
+/// The convex hull of some of the points.
 struct Hull<'a> {
     points: &'a [DVec3],
     faces: Vec<Face>,
-    /// Faces that may have points outside.
+    /// The faces that may have points outside.
     open: Vec<u32>,
 }
 
-/// An edge between a face that a point sees and one that it does not see.
+/// An edge between a face that is visible from a point and one that is not.
 struct Rim {
-    /// The ends, in the order of the face that is seen.
+    /// The ends of the edge, in the direction of the visible face.
     ends: [u32; 2],
-    /// The face that is not seen.
+    /// The face that is not visible.
     beyond: u32,
 }
 
 impl<'a> Hull<'a> {
-    /// Makes a tetrahedron of four of the points; `None` where all lie in one plane.
+    /// Makes a tetrahedron from four of the points; `None` where all points lie in one plane.
     fn simplex(points: &'a [DVec3]) -> Option<Self> {
         let at = |i: u32| points[i as usize];
         let most = |size: &dyn Fn(u32) -> f64| {
@@ -79,7 +81,7 @@ impl<'a> Hull<'a> {
             _ => [a, b, c, d],
         };
         let [a, b, c, d] = corners;
-        // Face 0 lies opposite the last corner, which the other three share.
+        // Face 0 lies opposite the last corner, which the other three faces share.
         let faces =
             [([a, b, c], [1, 2, 3]), ([b, a, d], [0, 3, 2]), ([c, b, d], [0, 1, 3]), ([a, c, d], [0, 2, 1])];
         let face = |(corners, across)| Face { corners, across, above: vec![], is_left: true };
@@ -88,8 +90,8 @@ impl<'a> Hull<'a> {
         Some(hull)
     }
 
-    /// Puts each point that lies outside a face, from face `first` on, into the list of one such face; the other points lie
-    /// within.
+    /// Puts each point that lies outside a face, from face `first` on, into the list of one such face. The other
+    /// points lie within the hull.
     fn share(&mut self, points: Vec<u32>, first: usize) {
         for point in points {
             let all = self.points;
@@ -123,7 +125,7 @@ impl<'a> Hull<'a> {
             above.append(&mut face.above);
         }
         let first = self.faces.len();
-        // The rim is one closed line, so one of its edges begins at each of its corners, and one ends there.
+        // The rim is one closed line, so exactly one of its edges begins at each of its corners, and one ends there.
         let beginning: HashMap<u32, u32> =
             (first as u32..).zip(&rim).map(|(new, rim)| (rim.ends[0], new)).collect();
         let end: HashMap<u32, u32> =
@@ -138,7 +140,7 @@ impl<'a> Hull<'a> {
         self.share(above, first);
     }
 
-    /// Returns the faces that a point sees, starting from one of them, and the edges around those faces.
+    /// Returns the faces that are visible from a point, starting from one of them, and the edges around those faces.
     fn seen(&mut self, face: u32, point: u32) -> (Vec<u32>, Vec<Rim>) {
         let mut seen = vec![face];
         let mut rim = vec![];

@@ -1,10 +1,10 @@
-//! Triangles of a polytope's facets, for files and graphics cards.
+//! Divides a polytope's facets into triangles, for files and graphics cards.
 
 use super::{Basis, Facet, Polytope, polygon};
 use glam::{DVec2, DVec3};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
-/// Triangles cover an outline if their areas add up to its area within this part; the rest is rounding.
+/// Triangles cover an outline if their areas add up to its area within this part; a smaller difference is rounding.
 const CLOSED: f64 = 1e-9;
 
 /// A mesh of triangles that share corners.
@@ -18,9 +18,10 @@ pub struct Mesh {
     pub facets: Vec<u32>,
 }
 
-/// Cuts every facet into triangles between its own corners, by Delaunay's rule.
+/// Divides every facet into triangles between its own corners, by Delaunay's rule.
 ///
-/// Of all such cuts this one has the largest smallest angle, so that there are no slivers but those that the outline forces.
+/// Of all such divisions, this one has the largest smallest angle, so that the only slivers are those that the
+/// outline forces.
 pub fn triangulate(polytope: &Polytope) -> Mesh {
     let mut mesh = Mesh { vertices: polytope.vertices().to_vec(), triangles: vec![], facets: vec![] };
     for (i, facet) in polytope.facets().iter().enumerate() {
@@ -41,29 +42,29 @@ fn facet_triangles(polytope: &Polytope, facet: &Facet) -> Vec<[u32; 3]> {
         .collect()
 }
 
-/// Returns the Delaunay triangles of an outline; `None` where rounding keeps them from covering it, as corners in one line
-/// can.
+/// Returns the Delaunay triangles of an outline; `None` where rounding keeps them from covering it, which can happen
+/// with corners in one line.
 fn delaunay(flat: &[DVec2]) -> Option<Vec<[usize; 3]>> {
     let points = flat.iter().map(|p| Point2::new(p.x, p.y)).collect();
     let edges = (0..flat.len()).map(|i| [i, (i + 1) % flat.len()]).collect();
-    // Corners that coincide leave edges that begin where they end.
+    // Corners that coincide leave edges of zero length.
     let mut is_sound = true;
     let unfit = |_| is_sound = false;
     let cdt =
         ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(points, edges, unfit).ok()?;
     is_sound.then_some(())?;
-    // Loading merges equal points and so may renumber the rest: the outline is then degenerate.
+    // Loading merges equal points and so may renumber the others: the outline is then degenerate.
     (cdt.num_vertices() == flat.len()).then_some(())?;
     let triangles: Vec<[usize; 3]> = cdt
         .inner_faces()
         .map(|f| f.vertices().map(|v| v.index()))
-        // Along a chain of corners nearly in line, spade's hull adds slivers outside, which run the other way round.
+        // Along a chain of corners nearly in line, spade's hull adds slivers outside, which run in the other sense.
         .filter(runs_upward)
         .collect();
     (triangles.len() == flat.len() - 2 && same_area(flat, &triangles)).then_some(triangles)
 }
 
-/// Whether three places follow one another in the direction of the outline, starting from any of them.
+/// Returns whether three places follow one another in the direction of the outline, starting from any of them.
 fn runs_upward([a, b, c]: &[usize; 3]) -> bool {
     [a < b, b < c, c < a].iter().filter(|&&up| up).count() == 2
 }

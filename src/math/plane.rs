@@ -24,8 +24,8 @@ impl Plane {
 
     /// Makes the plane whose unit normal leans `slope` away from the +z axis toward `azimuth`, both in radians.
     ///
-    /// A slope of 0 is a table, π/2 a girdle facet, π a culet. Facet tables write a pavilion facet by its
-    /// angle b from the girdle plane, which is the slope π - b.
+    /// A slope of 0 gives a table, π/2 a girdle facet, π a culet. Facet tables describe a pavilion facet by its angle
+    /// b from the girdle plane; the slope is then π - b.
     pub fn from_slope(slope: f64, azimuth: f64, offset: f64) -> Self {
         let (sin, cos) = slope.sin_cos();
         Self::new(DVec3::new(sin * azimuth.cos(), sin * azimuth.sin(), cos), offset)
@@ -33,7 +33,7 @@ impl Plane {
 
     /// Returns the same half-space with a unit normal; `None` where the normal has no direction or a number is not finite.
     pub fn normalized(&self) -> Option<Self> {
-        // Scaling first keeps the square of a tiny or huge component from vanishing or overflowing.
+        // The scaling keeps the square of a tiny or huge component from vanishing or overflowing.
         let largest = self.normal.abs().max_element();
         let scaled = self.normal / largest;
         let length = scaled.length();
@@ -41,13 +41,13 @@ impl Plane {
         (unit.normal.is_finite() && unit.offset.is_finite()).then_some(unit)
     }
 
-    /// Returns where a plane of a body lies in the world.
+    /// Returns a plane of a body as a plane in the world.
     pub fn placed(&self, pose: &Pose) -> Self {
         let normal = pose.turn * self.normal;
         Self { normal, offset: self.offset * pose.scale + normal.dot(pose.at) }
     }
 
-    /// Returns how far `point` lies outside the half-space (negative inside), in units of the normal's length.
+    /// Returns the distance of `point` outside the half-space (negative inside), in units of the normal's length.
     pub fn distance(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.offset
     }

@@ -6,14 +6,15 @@ use glam::DVec2;
 /// Returns the signed area, positive for counter-clockwise corners.
 pub fn area(corners: &[DVec2]) -> f64 {
     let Some((&first, rest)) = corners.split_first() else { return 0.0 };
-    // Relative to one corner, so that a small polygon far from the origin keeps its digits.
+    // The area is computed relative to one corner, so that a small polygon far from the origin keeps its digits.
     rest.windows(2).map(|w| (w[0] - first).perp_dot(w[1] - first)).sum::<f64>() / 2.0
 }
 
-/// A polygon whose area is below this part of the square of its length is a line, but for rounding.
+/// A polygon whose area is below this part of the square of its length is a line up to rounding.
 const THINNEST: f64 = 1e-13;
 
-/// Returns the centre of area. Where the area vanishes, it is the mean of the corners; without corners, the origin.
+/// Returns the centroid of the area. Where the area vanishes, it is the mean of the corners; without corners, the
+/// origin.
 pub fn centroid(corners: &[DVec2]) -> DVec2 {
     let Some((&first, rest)) = corners.split_first() else { return DVec2::ZERO };
     let (mut moment, mut twice, mut square) = (DVec2::ZERO, 0.0, 0.0_f64);
@@ -25,13 +26,13 @@ pub fn centroid(corners: &[DVec2]) -> DVec2 {
         square = square.max(a.length_squared()).max(b.length_squared());
     }
     let mean = corners.iter().sum::<DVec2>() / corners.len() as f64;
-    // Below this the area is rounding, whose centre may lie anywhere.
+    // Below this limit the area is only rounding, and its centroid may lie anywhere.
     let is_area = twice.abs() > f64::MIN_POSITIVE && twice.abs() > THINNEST * square;
     if is_area { first + moment / (3.0 * twice) } else { mean }
 }
 
-/// Returns the point of a convex polygon, of this area, for a place of the unit square: places that are spread evenly give
-/// points that are spread evenly.
+/// Returns the point of a convex polygon with this area that belongs to a point of the unit square: points that are
+/// spread evenly over the square give points that are spread evenly over the polygon.
 pub fn point_in_polygon(corners: &[DVec2], area: f64, place: DVec2) -> DVec2 {
     let Some((&first, rest)) = corners.split_first() else { return DVec2::ZERO };
     let mut left = 2.0 * area * place.x;
@@ -40,7 +41,7 @@ pub fn point_in_polygon(corners: &[DVec2], area: f64, place: DVec2) -> DVec2 {
         let (a, b) = (w[0] - first, w[1] - first);
         let twice = a.perp_dot(b);
         if twice > 0.0 {
-            // Within the triangle, lines through `first` are chosen by area, then points on them by area.
+            // Within the triangle, a line through `first` is chosen by area, then a point on this line by area.
             let part = (left / twice).min(1.0);
             point = first + (a + (b - a) * part) * place.y.sqrt();
         }
@@ -52,14 +53,14 @@ pub fn point_in_polygon(corners: &[DVec2], area: f64, place: DVec2) -> DVec2 {
     point
 }
 
-/// Whether `p` lies inside by more than `margin` (a negative margin allows points that far outside).
+/// Returns whether `p` lies inside by more than `margin`. A negative margin allows points that far outside.
 pub fn contains(corners: &[DVec2], p: DVec2, margin: f64) -> bool {
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));
     corners.len() > 2
         && edges.into_iter().all(|(&a, &b)| (b - a).perp_dot(p - a) >= margin * (b - a).length())
 }
 
-/// Writes the part of a convex polygon where `keep` is not negative to `out`, which is emptied first.
+/// Writes the part of a convex polygon where `keep` is not negative into `out`, which is emptied first.
 pub fn clip(corners: &[DVec2], keep: Affine, out: &mut Vec<DVec2>) {
     out.clear();
     let Some(&last) = corners.last() else { return };

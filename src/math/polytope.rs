@@ -3,7 +3,7 @@
 use super::{Calipers, Plane, Pose, bounds, hull, polytope_build};
 use glam::{DVec2, DVec3};
 
-/// One face of a [`Polytope`].
+/// A facet of a [`Polytope`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Facet {
     /// The plane of the facet, with a unit normal that points outward.
@@ -14,14 +14,14 @@ pub struct Facet {
     pub neighbours: Vec<u32>,
     /// The place of the facet's plane among the planes that the polytope was built from.
     pub source: usize,
-    /// How much the facet scatters light: 0 polished, 1 as rough as can be. It changes no shape.
+    /// The frosting of the facet: 0 polished, 1 as rough as possible. It does not change the shape.
     pub frosting: f64,
 }
 
 /// A closed, bounded, convex solid, in which each edge is shared by exactly two facets.
 ///
-/// Facets stand in the order of the planes given. Lengths are in the unit of the planes. Tolerances scale with the largest
-/// offset, so the origin should lie in or near the solid.
+/// Facets are in the order of the given planes. Lengths are in the unit of the planes. Tolerances are proportional to
+/// the largest offset, so the origin should lie in or near the solid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polytope {
     pub(super) facets: Vec<Facet>,
@@ -42,7 +42,7 @@ impl Polytope {
         polytope_build::build(planes)
     }
 
-    /// Builds the same solid in the frame that a pose carries it to. Facets and corners keep their order.
+    /// Builds the same solid in the frame to which a pose carries it. Facets and corners keep their order.
     ///
     /// This is for a stone that is brought into the frame of all stones; scenes carry their stones by a pose instead.
     pub fn reframed(&self, pose: &Pose) -> Self {
@@ -52,24 +52,24 @@ impl Polytope {
         reframed
     }
 
-    /// Returns the same solid with the facet of each plane frosted so much as `of_plane` says for the place of the plane among
-    /// those that the polytope was built from: 0 polished, 1 as rough as can be.
+    /// Returns the same solid with frosted facets. `of_plane` gives the frosting of the facet of each plane, by the
+    /// place of the plane among those that the polytope was built from: 0 polished, 1 as rough as possible.
     pub fn frosted(mut self, of_plane: impl Fn(usize) -> f64) -> Self {
         self.facets.iter_mut().for_each(|facet| facet.frosting = of_plane(facet.source));
         self
     }
 
-    /// Whether a facet is frosted, so that no light that meets it can be followed exactly.
+    /// Returns whether a facet is frosted, so that light that meets it cannot be followed exactly.
     pub fn is_frosted(&self) -> bool {
         self.facets.iter().any(|facet| facet.frosting > 0.0)
     }
 
-    /// Returns the facets, in the order of the planes given.
+    /// Returns the facets, in the order of the given planes.
     pub fn facets(&self) -> &[Facet] {
         &self.facets
     }
 
-    /// Returns the corners, to which the outlines of facets refer.
+    /// Returns the corners, to which the outlines of the facets refer.
     pub fn vertices(&self) -> &[DVec3] {
         &self.vertices
     }
@@ -79,7 +79,7 @@ impl Polytope {
         &self.redundant
     }
 
-    /// Returns the places of given planes that coincide with an earlier one, as (dropped, kept).
+    /// Returns the places of given planes that coincide with an earlier one, as pairs (dropped, kept).
     pub fn merged(&self) -> &[(usize, usize)] {
         &self.merged
     }
@@ -94,7 +94,7 @@ impl Polytope {
         facet.outline.iter().map(|&v| self.vertices[v as usize])
     }
 
-    /// Returns half the sum of cross products around the outline: the outward normal times the area.
+    /// Returns half the sum of cross products around the outline, which is the outward normal times the area.
     fn vector_area(&self, facet: &Facet) -> DVec3 {
         let first = self.vertices[facet.outline[0] as usize];
         let fan = facet.outline[1..].windows(2);
@@ -108,26 +108,27 @@ impl Polytope {
         self.vector_area(facet).dot(facet.plane.normal)
     }
 
-    /// Returns the least distance between two parallel lines in a facet's plane that hold the facet.
+    /// Returns the width of a facet: the least distance between two parallel lines in its plane that hold it.
     pub fn facet_width(&self, facet: &Facet) -> f64 {
         let (u, v) = facet.plane.normal.any_orthonormal_pair();
         let flat = |corner: DVec3| DVec2::new(corner.dot(u), corner.dot(v));
         Calipers::of(&hull(self.corners(facet).map(flat).collect())).map_or(0.0, |found| found.width)
     }
 
-    /// Returns the area of all facets.
+    /// Returns the total area of all facets.
     pub fn surface_area(&self) -> f64 {
         self.facets.iter().map(|f| self.facet_area(f)).sum()
     }
 
     /// Returns the enclosed volume.
     pub fn volume(&self) -> f64 {
-        // Measured from one of its own corners, so that a solid far from the origin keeps its digits.
+        // The volume is measured from one of the solid's own corners, so that a solid far from the origin keeps its
+        // digits.
         let apex = self.vertices[0];
         self.facets.iter().map(|f| -f.plane.distance(apex) * self.facet_area(f)).sum::<f64>() / 3.0
     }
 
-    /// Returns the area of the outline seen along the unit vector `direction`, from either side.
+    /// Returns the area of the silhouette along the unit vector `direction`, which is the same from either side.
     pub fn silhouette_area(&self, direction: DVec3) -> f64 {
         self.facets.iter().map(|f| self.facet_area(f) * f.plane.normal.dot(direction).max(0.0)).sum()
     }

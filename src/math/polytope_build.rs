@@ -1,7 +1,7 @@
 //! Builds a [`Polytope`] by cutting a box with one half-space after the other (`draft`).
 //!
-//! Where up to sixteen planes of a brilliant meet, the result is
-//! therefore one corner and not a cluster.
+//! A draft classifies each corner only once. Where up to sixteen planes of a brilliant meet, the result is therefore
+//! one corner and not a cluster.
 
 use super::draft::{Draft, DraftCut, DraftFace, directed_edges};
 use super::{Facet, Plane, Polytope};
@@ -9,59 +9,59 @@ use glam::DVec3;
 use std::collections::HashMap;
 use std::ops::RangeInclusive;
 
-/// Two planes count as one when their unit normals and offsets differ by less than this, offsets relative to the largest: a
-/// hundredth of the last digit that cutters' files carry.
+/// Two planes count as one when their unit normals and offsets differ by less than this, with offsets relative to the
+/// largest: a hundredth of the last digit in cutters' files.
 const COINCIDENT: f64 = 1e-7;
 
-/// A corner this near to a plane, relative to the box, lies on it: far above rounding (1e-15), far below any edge
-/// that a file with nine digits can mean.
+/// A corner as near as this to a plane, relative to the box, lies on it: far above rounding (1e-15), far below any
+/// edge that a file with nine digits can describe.
 const ON_PLANE: f64 = 1e-10;
 
-/// The first box is this many times the largest offset; it grows eightfold while the solid touches it.
+/// The half side of the first box, in largest offsets. The box grows eightfold while the solid touches it.
 const FIRST_BOX: f64 = 4.0;
 
-/// A solid that still touches a box this many times the largest offset is called unbounded.
+/// The greatest half side of the box, in largest offsets. A solid that still touches such a box counts as unbounded.
 const LAST_BOX: f64 = 1e6;
 
-/// Facets whose area is below this part of the surface are rounding: some thousand roundings squared, and far below any
-/// facet meant.
+/// Facets whose area is below this part of the surface are only rounding. It is some thousand roundings squared, and
+/// far below any intended facet.
 const SLIVER: f64 = 1e-13;
 
-/// The largest offset must lie in this range, so that volumes neither overflow nor vanish.
+/// The range of the largest offset that is accepted, so that volumes neither overflow nor vanish.
 const SCALES: RangeInclusive<f64> = 1e-60..=1e60;
 
-/// Why half-spaces enclose no solid. Planes are numbered as given, from 0; messages count from 1.
+/// The reason why half-spaces enclose no solid. Planes are numbered as given, from 0; messages count from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{}", self.message(|plane| format!("plane {}", plane + 1)))]
 pub enum PolytopeError {
-    /// There are fewer than the four planes that a solid needs.
+    /// Fewer planes are given than the four that a solid needs.
     TooFew {
         /// The number of planes given.
         given: usize,
     },
     /// A number of the plane is NaN or infinite.
     NotFinite {
-        /// The plane.
+        /// The plane, counted from 0.
         plane: usize,
     },
     /// The plane is so far off, or all planes are so near, that areas and volumes cannot be computed.
     OutOfScale {
-        /// The plane that is farthest off.
+        /// The plane that is farthest off, counted from 0.
         plane: usize,
     },
-    /// The normal is the zero vector and has no direction.
+    /// The normal of the plane is the zero vector and has no direction.
     ZeroNormal {
-        /// The plane.
+        /// The plane, counted from 0.
         plane: usize,
     },
-    /// The solid is infinite.
+    /// The planes enclose an infinite solid.
     Unbounded {
         /// The planes whose facets are infinite.
         planes: Vec<usize>,
     },
     /// No point, or no volume, lies inside all half-spaces.
     Empty {
-        /// Some planes that already contradict one another.
+        /// Some planes that contradict one another even without the rest.
         planes: Vec<usize>,
     },
     /// Planes run so nearly through one point or line that no closed outline could be made.
@@ -72,7 +72,7 @@ pub enum PolytopeError {
 }
 
 impl PolytopeError {
-    /// Returns the error in words, with planes called by the names that `name` gives.
+    /// Returns the error in words; `name` gives the name of each plane.
     pub fn message(&self, name: impl Fn(usize) -> String) -> String {
         const MOST: usize = 8;
         let all = |planes: &[usize]| {
@@ -139,7 +139,7 @@ pub(super) fn build(planes: &[Plane]) -> Result<Polytope, PolytopeError> {
                 }
                 Some(open) => PolytopeError::Unbounded { planes: open },
             },
-            // The box itself may be what left nothing: a larger one shows whether it was.
+            // The box itself may be the reason why nothing was left; a larger box shows whether it was.
             Err(PolytopeError::Empty { planes: blamed }) => {
                 if blamed.iter().all(|&p| p < planes.len()) {
                     return Err(PolytopeError::Empty { planes: blamed });
@@ -149,7 +149,7 @@ pub(super) fn build(planes: &[Plane]) -> Result<Polytope, PolytopeError> {
             Err(other) => return whole.ok_or(other),
         };
         if let Some(solid) = whole {
-            // The solid does not close without its slivers, so they are part of it.
+            // The solid does not close without its slivers, so they belong to it.
             return Ok(solid);
         }
         half *= 8.0;
@@ -159,8 +159,8 @@ pub(super) fn build(planes: &[Plane]) -> Result<Polytope, PolytopeError> {
     }
 }
 
-/// Returns the planes of facets that are nothing but rounding: these planes run through an edge or a corner of what the
-/// others enclose.
+/// Returns the planes of facets that are only rounding. Such planes run through an edge or a corner of the solid that
+/// the others enclose.
 fn slivers(solid: &Polytope) -> Vec<usize> {
     let least = SLIVER * solid.surface_area();
     let is_sliver = |facet: &&Facet| solid.facet_area(facet) < least;
@@ -186,7 +186,7 @@ fn validate(planes: &[Plane]) -> Result<Vec<Plane>, PolytopeError> {
     }
 }
 
-/// Splits the planes into those to cut with and (dropped, kept) pairs that coincide.
+/// Divides the planes into those that cut, and (dropped, kept) pairs of planes that coincide.
 ///
 /// The planes are sorted along one axis, so that only planes near one another are compared.
 fn merge(planes: &[Plane]) -> (Vec<usize>, Vec<(usize, usize)>) {
@@ -207,7 +207,7 @@ fn merge(planes: &[Plane]) -> (Vec<usize>, Vec<(usize, usize)>) {
             }
         }
     }
-    // A chain of near planes is merged into its first member.
+    // Each plane of a chain of near planes is merged into the first member of the chain.
     let root = |mut i: usize| {
         while let Some(first) = twin[i] {
             i = first;
@@ -220,7 +220,7 @@ fn merge(planes: &[Plane]) -> (Vec<usize>, Vec<(usize, usize)>) {
 }
 
 fn cut_box(planes: &[Plane], kept: &[usize], half: f64) -> Result<Draft, PolytopeError> {
-    // A smaller tolerance may close what a larger one could not.
+    // The solid may close at a smaller tolerance though it did not at a larger one.
     let mut failed = 0;
     for tolerance in [ON_PLANE, ON_PLANE * 1e-2, ON_PLANE * 1e-4] {
         match cut_with(planes, kept, half, tolerance * half) {

@@ -1,18 +1,19 @@
-//! The pose of a body: how the frame in which it was built lies in the world.
+//! The pose of a body: the transform from the frame in which it was built to the world.
 
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
-/// Where a body lies: it is turned about its origin and scaled, then moved.
+/// The transform of a body: a rotation about its origin and a scale, then a translation.
 ///
-/// The body stays as it was built; rays are carried into its frame, and what they find there is carried back.
+/// The body itself does not change. Rays are carried into its frame, and the points and directions found there are
+/// carried back.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
-    /// The place of the body's origin.
+    /// The place of the body's origin in the world.
     pub at: DVec3,
-    /// The rotation of the body.
+    /// The rotation of the body about its origin.
     pub turn: DQuat,
-    /// The length in the world of the body's unit, above 0.
+    /// The length of the body's unit in the world, above 0.
     #[serde(default = "unscaled")]
     pub scale: f64,
 }
@@ -22,7 +23,7 @@ fn unscaled() -> f64 {
 }
 
 impl Pose {
-    /// The pose of a body that stays as it is.
+    /// The pose that changes nothing.
     pub const STILL: Self = Self { at: DVec3::ZERO, turn: DQuat::IDENTITY, scale: 1.0 };
 
     /// Returns the pose of a body that is only turned.
@@ -30,19 +31,19 @@ impl Pose {
         Self { turn, ..Self::STILL }
     }
 
-    /// Returns the place of a point of the body.
+    /// Returns the place in the world of a point of the body.
     #[inline]
     pub fn place(&self, point: DVec3) -> DVec3 {
         self.turn * point * self.scale + self.at
     }
 
-    /// Returns the point of the body that lies at a place.
+    /// Returns the point of the body at a place in the world.
     #[inline]
     pub fn unplace(&self, place: DVec3) -> DVec3 {
         self.turn.inverse() * (place - self.at) / self.scale
     }
 
-    /// Returns the pose of a body that is carried by `first` and then by this pose.
+    /// Returns the pose that carries a body first by `first` and then by this pose.
     pub fn after(&self, first: &Self) -> Self {
         Self { at: self.place(first.at), turn: self.turn * first.turn, scale: self.scale * first.scale }
     }

@@ -1,7 +1,9 @@
-//! Numbers whose bits look random, made of other numbers, so that nothing depends on the order of work.
+//! Pseudorandom numbers that are computed from other numbers, so that the result does not depend on the order of
+//! work.
 
-/// Returns a number whose bits look random, another for each number: the output function of SplitMix64 (G. L. Steele, D. Lea
-/// and C. H. Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014) after one step of `GAMMA`.
+/// Returns a number whose bits look random and that differs for each input: the output function of SplitMix64 (G. L.
+/// Steele, D. Lea and C. H. Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014) after one step of
+/// `GAMMA`.
 pub(crate) fn mixed(number: u64) -> u64 {
     let z = number.wrapping_add(GAMMA);
     let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -12,7 +14,7 @@ pub(crate) fn mixed(number: u64) -> u64 {
 /// The step of SplitMix64 from one number of a sequence to the next.
 pub(crate) const GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// Returns a number from 0 to below 1, out of random bits.
+/// Returns a number from 0 to below 1 from random bits.
 pub(crate) fn unit(bits: u64) -> f64 {
     (bits >> 11) as f64 / (1_u64 << 53) as f64
 }

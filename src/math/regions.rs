@@ -4,14 +4,14 @@ use super::{Plane, Surface, TriangleMeshError};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// A triangle lies in a plane if none of its corners is farther from it than this part of the solid's size: some ten
-/// roundings of the f32 in which files hold corners.
+/// A triangle lies in a plane if none of its corners is farther from it than this part of the solid's size: about ten
+/// roundings of the f32 in which files store corners.
 const FLAT: f64 = 1e-6;
 
 /// The cosine of the greatest angle between a triangle of a facet and the facet's plane.
 ///
-/// The angle is far more than rounding turns any triangle but a sliver, and less than a fold. A sliver belongs to the plane
-/// in which it lies, whichever way it seems to face.
+/// The angle is far greater than rounding turns any triangle but a sliver, and less than a fold. A sliver belongs to
+/// the plane in which it lies, whatever the direction of its normal.
 const NOT_FOLDED: f64 = 0.9;
 
 /// The mark of a triangle that has no facet yet.
@@ -20,12 +20,12 @@ const NONE: u32 = u32::MAX;
 /// Returns the facet of each triangle. Facets are numbered in the order of their first triangles.
 ///
 /// # Errors
-/// Returns [`TriangleMeshError::Open`] where the surface is open.
+/// Fails with [`TriangleMeshError::Open`] where the surface is open.
 pub(super) fn regions(surface: &Surface) -> Result<Vec<u32>, TriangleMeshError> {
     let neighbours = neighbours(&surface.triangles)?;
     let twice_areas: Vec<DVec3> = (0..surface.triangles.len()).map(|t| twice_area(surface, t)).collect();
     let size = surface.vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
-    // Facets grow from the largest triangles outward, as the planes of these are known best.
+    // Facets grow from the largest triangles outward, because their planes are the most accurate.
     let mut seeds: Vec<u32> = (0..surface.triangles.len() as u32).collect();
     let area = |k: u32| twice_areas[k as usize].length_squared();
     seeds.par_sort_by(|&a, &b| area(b).total_cmp(&area(a)));
@@ -69,7 +69,7 @@ pub(super) fn planes_of(surface: &Surface, facets: &[u32]) -> Vec<Plane> {
     }
     let plane = |(area, middle, weight): (DVec3, DVec3, f64)| {
         let normal = area.normalize_or(DVec3::Z);
-        // A facet without area is never met, so any plane will do.
+        // A facet without area is never met by a ray, so any plane serves.
         let middle = if weight > 0.0 { middle / weight } else { DVec3::ZERO };
         Plane { normal, offset: normal.dot(middle) }
     };
@@ -83,8 +83,8 @@ fn twice_area(surface: &Surface, triangle: usize) -> DVec3 {
 /// Returns the triangle across each edge of each triangle. Every edge must have as many triangles on one side as on the
 /// other.
 pub(super) fn neighbours(triangles: &[[u32; 3]]) -> Result<Vec<[u32; 3]>, TriangleMeshError> {
-    // Each entry holds an edge, whether its triangle runs along it from the higher corner, the triangle, and the edge's
-    // place there.
+    // Each entry holds an edge, then true if its triangle runs along it from the higher corner, then the triangle,
+    // and the place of the edge in the triangle.
     let edges_of = |(k, t): (usize, &[u32; 3])| {
         let t = *t;
         [0, 1, 2].map(|i| {

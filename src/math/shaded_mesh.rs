@@ -1,29 +1,29 @@
-//! A shaded surface, ready to be met by rays.
+//! The triangles of an opaque body with normals for shading, in boxes by which rays find them.
 //!
-//! Rays meet the triangles, so that the outline of a body is that of its triangles; the normals at their corners only turn
-//! what is reflected.
+//! Rays meet the flat triangles, so the outline of a body is that of its triangles. The normals at the corners change
+//! only the direction of reflected light.
 
 use super::extent::{bounds, reach};
 use super::{Ball, Bvh, Hit, ShadedSurface};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// How far from its start a ray meets nothing, as a share of the surface's size: there it would meet the surface that it has
-/// just left, by rounding.
+/// The distance from a ray's start within which it meets nothing, as a part of the surface's size: there, because of
+/// rounding, it would meet the surface that it has just left.
 const AWAY: f64 = 1e-10;
 
-/// Why triangles cannot be traced.
+/// The reason why triangles cannot be traced.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ShadedSurfaceError {
-    /// There are no triangles.
+    /// The list of triangles is empty.
     #[error("there are no triangles")]
     Empty,
     /// A triangle names a corner that does not exist.
     #[error("triangle {triangle} names corner {corner}, and there are {count}; both are counted from 0")]
     NoCorner {
-        /// The triangle, from 0.
+        /// The triangle, counted from 0.
         triangle: usize,
-        /// The corner that it names.
+        /// The corner that the triangle names.
         corner: u32,
         /// The number of corners.
         count: usize,
@@ -31,12 +31,12 @@ pub enum ShadedSurfaceError {
     /// A coordinate is NaN, or too large to be traced.
     #[error("corner {corner} is at {at}; coordinates must be numbers from -{LARGEST:e} to {LARGEST:e}")]
     NotFinite {
-        /// The corner, from 0.
+        /// The corner, counted from 0.
         corner: usize,
         /// The coordinates given for it.
         at: DVec3,
     },
-    /// There are normals, but not one for each point.
+    /// The number of normals is neither 0 nor the number of points.
     #[error("there are {normals} normals for {points} points: give one for each, or none")]
     Normals {
         /// The number of normals.
@@ -44,7 +44,7 @@ pub enum ShadedSurfaceError {
         /// The number of points.
         points: usize,
     },
-    /// All points are one point.
+    /// All points lie in one place.
     #[error("all corners are at the same place")]
     NoExtent,
 }
@@ -66,17 +66,17 @@ pub struct ShadedMesh {
 /// The two normals at a point of a surface, of length 1 and on the same side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfaceNormals {
-    /// The normal of the triangle.
+    /// The normal of the flat triangle.
     pub flat: DVec3,
-    /// The normal by which light is reflected.
+    /// The normal by which light is reflected, interpolated between the corners.
     pub shading: DVec3,
 }
 
 impl ShadedMesh {
-    /// Puts boxes around the triangles of a surface.
+    /// Builds the boxes around the triangles of a surface.
     ///
     /// # Errors
-    /// As for [`ShadedSurface::check`].
+    /// Fails where [`ShadedSurface::check`] does.
     pub fn new(surface: ShadedSurface) -> Result<Self, ShadedSurfaceError> {
         surface.check()?;
         let bvh = Bvh::new(&surface.points, &surface.corners);
@@ -106,14 +106,14 @@ impl ShadedMesh {
         self.bounds
     }
 
-    /// Returns the first triangle that a ray meets, from either side; not the one that it has just `left`, nor one that the
-    /// ray's start lies on but for rounding.
+    /// Returns the first triangle that a ray meets, from either side. Where the ray has just `left` a triangle, that
+    /// triangle is passed over, and so are those that contain the ray's start up to rounding.
     pub fn meet(&self, origin: DVec3, direction: DVec3, left: Option<u32>) -> Option<Hit> {
         let away = if left.is_some() { AWAY * self.ball.radius } else { 0.0 };
         self.bvh.nearest(origin, direction, away, |triangle| Some(triangle) != left)
     }
 
-    /// Returns the normals at a point of a triangle, on the side of its corners' order.
+    /// Returns the normals at a point of a triangle, on the side from which its corners run counter-clockwise.
     pub fn normals(&self, triangle: u32, point: DVec3) -> SurfaceNormals {
         let corners = self.surface.corners[triangle as usize];
         let [a, b, c] = corners.map(|v| self.surface.points[v as usize]);
@@ -122,7 +122,7 @@ impl ShadedMesh {
         if self.surface.normals.is_empty() {
             return SurfaceNormals { flat, shading: flat };
         }
-        // Areas of the three parts around the point, each opposite its corner.
+        // The areas of the three parts around the point, each opposite its corner.
         let share = |p: DVec3, q: DVec3| (p - point).cross(q - point).dot(flat).max(0.0);
         let shares = [share(b, c), share(c, a), share(a, b)];
         let normals = corners.map(|v| self.surface.normals[v as usize]);
@@ -159,7 +159,7 @@ impl ShadedSurface {
     }
 }
 
-/// Returns a normal of length 1 on the side of another; nothing where it has no length.
+/// Returns a normal of length 1 on the same side as `of`; the zero vector where it has no length.
 fn side(normal: DVec3, of: DVec3) -> DVec3 {
     let normal = normal.normalize_or_zero();
     if normal.dot(of) < 0.0 { -normal } else { normal }

@@ -1,5 +1,5 @@
-//! Triangles with a normal at each point, as surfaces that reflect have them: smooth where normals go on, with creases where
-//! points are doubled.
+//! Triangles with a normal at each point, for surfaces that reflect: smooth where neighbouring triangles share a
+//! point, creased where several points share a place.
 
 use super::Pose;
 use glam::DVec3;
@@ -13,15 +13,16 @@ pub struct ShadedSurface {
     pub points: Vec<DVec3>,
     /// The corners of each triangle, by their places in `points`, counter-clockwise seen from outside.
     pub corners: Vec<[u32; 3]>,
-    /// The outward unit normal at each point.
+    /// The outward unit normal at each point; empty where the normals of the triangles serve instead.
     pub normals: Vec<DVec3>,
 }
 
 impl ShadedSurface {
-    /// Makes a surface of triangles, with normals that are smooth but for creases: edges where the cosine of the angle
-    /// between the two triangles' normals is less than `least_cos`.
+    /// Makes a surface of triangles whose normals are smooth except at creases, which are edges where the cosine of
+    /// the angle between the two triangles' normals is less than `least_cos`.
     ///
-    /// Points in one place become one, and triangles that lose a corner by that are left out. All coordinates must be finite.
+    /// Points in one place become one, and triangles that lose a corner in this way are left out. All coordinates
+    /// must be finite.
     pub fn creased(points: &[DVec3], triangles: &[[u32; 3]], least_cos: f64) -> Self {
         let (points, triangles) = welded(points, triangles);
         let areas: Vec<DVec3> =
@@ -51,9 +52,11 @@ impl ShadedSurface {
         self.corners[number].map(|k| self.points[k as usize])
     }
 
-    /// Returns the enclosed volume, which has a meaning for a closed surface alone; it is negative where that is inside out.
+    /// Returns the enclosed volume. It is meaningful only for a closed surface, and negative for one that is turned
+    /// inside out.
     pub fn volume(&self) -> f64 {
-        // Measured from one of its own points, so that a surface far from the origin keeps its digits.
+        // The volume is measured from one of the surface's own points, so that a surface far from the origin keeps
+        // its digits.
         let Some(&apex) = self.points.first() else { return 0.0 };
         let cone = |number| {
             let [a, b, c] = self.triangle(number).map(|v| v - apex);
@@ -62,7 +65,7 @@ impl ShadedSurface {
         (0..self.corners.len()).map(cone).sum()
     }
 
-    /// Returns the surface where a pose carries it.
+    /// Returns the surface as a pose carries it into the world.
     pub fn placed(&self, pose: &Pose) -> Self {
         Self {
             points: self.points.iter().map(|&point| pose.place(point)).collect(),
@@ -77,12 +80,12 @@ fn area_vector([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a) / 2.0
 }
 
-/// Makes one point of all that lie in one place, and leaves out triangles that have two corners in one place.
+/// Merges points that lie in one place, and leaves out triangles that have two corners in one place.
 fn welded(points: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let mut places = BTreeMap::new();
     let mut kept = vec![];
     let mut weld = |k: u32| {
-        // Adding 0 makes 0 of -0.
+        // Adding 0 turns -0 into 0.
         let point = points[k as usize] + 0.0;
         *places.entry(point.to_array().map(f64::to_bits)).or_insert_with(|| {
             kept.push(point);
@@ -94,8 +97,8 @@ fn welded(points: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<DVec3>, Vec<[u32; 3]
     (kept, triangles)
 }
 
-/// Divides the triangles around a point into groups that no crease separates. Those without area join none, because they face
-/// nowhere and would join any two.
+/// Divides the triangles around a point into groups that no crease separates. Triangles without area join no group,
+/// because they have no normal and would connect any two groups.
 fn smooth_groups(fan: &[usize], triangles: &[[u32; 3]], areas: &[DVec3], least_cos: f64) -> Vec<Vec<usize>> {
     let go_on = |a: usize, b: usize| {
         let shared = triangles[a].iter().filter(|corner| triangles[b].contains(corner)).count();

@@ -1,14 +1,14 @@
-//! A glass shape ready to be traced and drawn: its function, and triangles for whatever needs corners and edges.
+//! A glass shape for tracing and drawing: its function, and triangles for the code that needs corners and edges.
 
 use super::{Edge, ImplicitSurface, Surface};
 use glam::DVec3;
 
-/// The steps that a quarter turn is cut into: lines drawn over a picture need no more.
+/// The number of steps into which a quarter turn is divided; lines drawn over a picture need no more.
 const FINENESS: usize = 8;
 
 /// A solid with a smooth surface.
 ///
-/// Rays meet its function. Its triangles only say how far the solid reaches and how it is drawn.
+/// Rays meet the surface of its function. Its triangles only show its extent, and serve for drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SmoothSolid {
     field: ImplicitSurface,
@@ -17,7 +17,7 @@ pub struct SmoothSolid {
 }
 
 impl SmoothSolid {
-    /// Makes the solid and cuts its surface into triangles.
+    /// Makes the solid, and divides its surface into triangles.
     pub fn new(field: ImplicitSurface) -> Self {
         let surface = field.surface(FINENESS);
         let corners = around(&field, &surface);
@@ -34,17 +34,17 @@ impl SmoothSolid {
         &self.surface
     }
 
-    /// Returns points between which the whole solid lies.
+    /// Returns points whose convex hull contains the whole solid.
     pub fn corners(&self) -> &[DVec3] {
         &self.corners
     }
 
-    /// Returns the lines between the triangles, each once, with the surface's normals at both ends.
+    /// Returns the lines between the triangles, each once, with the normals of the surface at both ends.
     pub fn edges(&self) -> Vec<Edge> {
         let Surface { vertices, triangles, .. } = &self.surface;
         let normals: Vec<DVec3> = vertices.iter().map(|v| self.field.normal(*v)).collect();
         let sides = triangles.iter().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
-        // Each line has a triangle on either side, and the two run along it in opposite directions.
+        // Each line has a triangle on either side, and the two triangles run along it in opposite directions.
         let edge = |[a, b]: [&u32; 2]| {
             let [a, b] = [*a as usize, *b as usize];
             (a < b).then(|| Edge { ends: [vertices[a], vertices[b]], normals: [normals[a], normals[b]] })
@@ -53,7 +53,7 @@ impl SmoothSolid {
     }
 }
 
-/// Returns the corners of the triangles, moved outward by as much as the triangles may lie inside the surface.
+/// Returns the corners of the triangles, moved outward by the greatest depth of the triangles below the surface.
 fn around(field: &ImplicitSurface, surface: &Surface) -> Vec<DVec3> {
     let off = field.deviation(FINENESS);
     surface.vertices.iter().map(|v| *v + field.normal(*v) * off).collect()

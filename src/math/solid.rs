@@ -6,18 +6,19 @@ use glam::DVec3;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// A solid that is borrowed from its owner.
+/// A solid, borrowed from its owner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SolidRef<'a> {
-    /// Convex, between planes.
+    /// A convex solid between planes.
     Convex(&'a Polytope),
-    /// Within triangles.
+    /// A solid within triangles.
     Triangles(&'a Arc<TriangleMesh>),
-    /// Within a smooth surface.
+    /// A solid within a smooth surface.
     Smooth(&'a SmoothSolid),
 }
 
-/// The error where a convex stone between planes is needed: only that has facets to name and draw, and exact beams.
+/// The error where a convex stone between planes is needed: only its facets can be named and drawn, and only its light can
+/// be followed as exact beams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("exact beams and drawings are for convex stones between planes, and this is not one: use rays")]
 pub struct NotConvex;
@@ -32,7 +33,7 @@ pub struct PosedSolid<'a> {
 }
 
 impl<'a> PosedSolid<'a> {
-    /// Returns the corners in the world; for a smooth solid, points that it lies between.
+    /// Returns the corners in the world; for a smooth solid, points whose convex hull contains it.
     pub fn vertices(&self) -> impl Iterator<Item = DVec3> + use<'a> {
         let Self { solid, pose } = *self;
         solid.vertices().iter().map(move |&v| pose.place(v))
@@ -47,21 +48,21 @@ impl<'a> PosedSolid<'a> {
         (low + at, high + at)
     }
 
-    /// Returns a ball around the solid, a little larger than it must be, for rounding.
+    /// Returns a ball around the solid, slightly enlarged to allow for rounding.
     pub fn ball(&self) -> Ball {
         let Ball { middle, radius } = self.solid.ball();
         Ball { middle: self.pose.place(middle), radius: radius * self.pose.scale * (1.0 + 1e-5) }
     }
 
-    /// Returns a distance from the world's origin that no corner exceeds: that of the farthest corner where the solid is not
-    /// moved.
+    /// Returns a distance from the world's origin that no corner exceeds; for a solid that is not moved, the distance
+    /// of the farthest corner.
     pub fn reach(&self) -> f64 {
         self.solid.reach() * self.pose.scale + self.pose.at.length()
     }
 }
 
 impl<'a> SolidRef<'a> {
-    /// Returns the corners; for a smooth solid, points that it lies between.
+    /// Returns the corners; for a smooth solid, points whose convex hull contains it.
     pub fn vertices(self) -> &'a [DVec3] {
         match self {
             Self::Convex(polytope) => polytope.vertices(),
@@ -93,7 +94,7 @@ impl<'a> SolidRef<'a> {
         if let Self::Triangles(mesh) = self { mesh.reach } else { reach(self.vertices()) }
     }
 
-    /// Returns the solid as triangles; those of a smooth solid approximate its surface from within, and `None` means that they
+    /// Returns the solid as triangles. Those of a smooth solid approximate its surface from within; `None` where they
     /// enclose nothing.
     pub fn mesh(self) -> Option<Arc<TriangleMesh>> {
         match self {
@@ -103,7 +104,8 @@ impl<'a> SolidRef<'a> {
         }
     }
 
-    /// Whether both are one solid in memory, so that what is built for one of them serves the other as well.
+    /// Returns whether both are the same solid in memory, so that data built for one of them serves the other as
+    /// well.
     pub fn is_same(self, other: Self) -> bool {
         match (self, other) {
             (Self::Convex(a), Self::Convex(b)) => std::ptr::eq(a, b),
@@ -147,7 +149,8 @@ impl<'a> SolidRef<'a> {
     pub fn rim(self, facet: u32) -> Vec<[DVec3; 2]> {
         let sides: Vec<[DVec3; 2]> =
             self.triangles_of(facet).into_iter().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
-        // A side within the facet belongs to another of its triangles as well, which runs along it in the other direction.
+        // An edge inside the facet belongs to another of its triangles as well, which runs along it in the other
+        // direction.
         let key = |ends: [DVec3; 2]| ends.map(|v| v.to_array().map(f64::to_bits));
         let all: BTreeSet<_> = sides.iter().map(|ends| key(*ends)).collect();
         sides.into_iter().filter(|[a, b]| !all.contains(&key([*b, *a]))).collect()
@@ -174,7 +177,7 @@ fn edges_of_polytope(polytope: &Polytope) -> Vec<Edge> {
     for (k, facet) in (0..).zip(polytope.facets()) {
         let corners: Vec<DVec3> = polytope.corners(facet).collect();
         for (i, &other) in facet.neighbours.iter().enumerate() {
-            // The other facet has the edge too, so only the first of the two adds it.
+            // The other facet has the same edge, so only the first of the two adds it.
             if other >= k {
                 edges.push(Edge {
                     ends: [corners[i], corners[(i + 1) % corners.len()]],

@@ -1,13 +1,13 @@
-//! Surfaces of triangles over shared corners, closed or not.
+//! Surfaces of triangles with shared corners, closed or open.
 
 use super::bounds;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// Triangles over shared corners. Each triangle belongs to a group, which may have a name.
+/// Triangles with shared corners. Each triangle belongs to a group, which may have a name.
 ///
-/// A surface from a file may be open and have gaps, copies or turned triangles. A surface that [`Surface::mend`] returns has
-/// none of these.
+/// A surface from a file may be open and have gaps, copies or triangles that face inward. A surface that
+/// [`Surface::mend`] returns has none of these faults.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Surface {
     /// The corners.
@@ -49,14 +49,15 @@ impl Surface {
         (0..self.triangles.len()).map(|t| self.area_vector(t).length()).sum()
     }
 
-    /// Returns the enclosed volume, which has a meaning for a closed surface alone; it is negative where that is inside out.
+    /// Returns the enclosed volume. It is meaningful only for a closed surface, and negative for one that is turned
+    /// inside out.
     pub fn volume(&self) -> f64 {
         let (low, high) = self.bounds();
-        // Measuring from the middle keeps the digits of a surface far from the origin.
+        // The middle as apex keeps the digits of a surface far from the origin.
         self.volume_of(0..self.triangles.len(), (low + high) / 2.0)
     }
 
-    /// Returns the volume of the cones between triangles and an apex.
+    /// Returns the volume of the pyramids between triangles and an apex.
     pub(super) fn volume_of(&self, triangles: impl Iterator<Item = usize>, apex: DVec3) -> f64 {
         let cone = |t: usize| {
             let [a, b, c] = self.corners(t).map(|v| v - apex);

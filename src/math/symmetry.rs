@@ -1,10 +1,11 @@
-//! The rotations and mirrors that leave a stone, seen along one axis, as it is.
+//! The rotations and mirror images under which a stone, seen along one axis, looks the same.
 
 use super::{Affine, Basis, Plane};
 use glam::{DMat2, DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// Two planes count as one if their normals and offsets differ by less than this: the copy of a beam is then off by no more.
+/// Two planes count as one if their normals and offsets differ by less than this: the copy of a beam then differs by
+/// no more.
 const SAME: f64 = 1e-9;
 
 /// The symmetry of a picture: `turns` rotations about its origin and, with a mirror line, as many reflections.
@@ -17,11 +18,11 @@ pub struct Symmetry {
 }
 
 impl Symmetry {
-    /// The symmetry of a picture that only a full turn leaves as it is.
+    /// The symmetry of a picture that only a full turn leaves unchanged.
     pub const NONE: Self = Self { turns: 1, mirror: None };
 
-    /// Returns the symmetry that all `planes` share, seen along `view.toward`, and that leaves the direction `fixed` as it
-    /// is too.
+    /// Returns the symmetry that all `planes` share, seen along `view.toward`, and that leaves the direction `fixed`
+    /// unchanged too.
     pub fn of(planes: impl Iterator<Item = Plane>, view: &Basis, fixed: DVec3) -> Self {
         let rings = rings(planes, view);
         let lean = view.project(fixed);
@@ -31,7 +32,7 @@ impl Symmetry {
             return Self { turns: 1, mirror: holds.then_some(mirror) };
         }
         let Some(smallest) = rings.iter().min_by_key(|r| r.azimuths.len()) else { return Self::NONE };
-        // A rotation permutes every ring, so its order divides the number of facets in each.
+        // A rotation permutes every ring, so its order divides the number of facets in each ring.
         let common = rings.iter().fold(0, |g, r| gcd(g, r.azimuths.len()));
         let turned = |n: usize| rings.iter().all(|r| r.is_same(|a| a + TAU / n as f64));
         let turns = (1..=common).rev().find(|&n| common.is_multiple_of(n) && turned(n)).unwrap_or(1);
@@ -58,8 +59,8 @@ impl Symmetry {
         copies
     }
 
-    /// Returns half-planes whose common part is one domain, a wedge at the origin. Each keeps the points where its function
-    /// is not negative.
+    /// Returns half-planes whose intersection is one domain, a wedge at the origin. Each half-plane contains the
+    /// points where its function is not negative.
     pub fn domain(&self) -> Vec<Affine> {
         let order = self.order();
         if order == 1 {
@@ -69,12 +70,12 @@ impl Symmetry {
         let side = |angle: f64| Affine::new(0.0, DVec2::from_angle(angle).perp());
         let start = side(first);
         let end = side(first + TAU / f64::from(order)) * -1.0;
-        // Two copies split the plane in two: one line is enough.
+        // With two copies the plane is divided in two, so one line is enough.
         if order == 2 { vec![start] } else { vec![start, end] }
     }
 }
 
-/// Facets that differ in azimuth alone.
+/// Facets that differ only in azimuth.
 struct Ring {
     /// The normal's component along the axis, its component away from the axis, and the plane's offset.
     key: [f64; 3],
@@ -84,7 +85,7 @@ struct Ring {
 
 impl Ring {
     fn is_same(&self, map: impl Fn(f64) -> f64) -> bool {
-        // The nearer a normal lies to the axis, the less its azimuth matters.
+        // The nearer a normal is to the axis, the less its azimuth matters.
         let tolerance = SAME / self.key[1].max(SAME);
         self.azimuths.iter().all(|&a| {
             let image = map(a).rem_euclid(TAU);
@@ -97,7 +98,8 @@ impl Ring {
     }
 }
 
-/// Returns the rings of facets around the view axis. Facets square to the axis have no azimuth and are left out.
+/// Returns the rings of facets around the view axis. Facets perpendicular to the axis have no azimuth and are left
+/// out.
 fn rings(planes: impl Iterator<Item = Plane>, view: &Basis) -> Vec<Ring> {
     let mut rings: Vec<Ring> = Vec::new();
     for plane in planes {

@@ -1,4 +1,4 @@
-//! A closed mesh of triangles, ready to be traced: its facets, their planes, and boxes around its triangles.
+//! A closed mesh of triangles for tracing: its facets, their planes, and boxes around its triangles.
 
 use super::extent::reach;
 use super::regions::{neighbours, planes_of, regions};
@@ -6,8 +6,8 @@ use super::{Ball, Bvh, Edge, Plane, Polytope, Pose, Surface, triangulate};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// How far a solid may reach beyond the plane of a facet and still count as lying behind it, as a share of its radius: what
-/// rounding to f32 does to corners, and less than a pixel of any picture.
+/// The distance by which a solid may reach beyond the plane of a facet and still count as lying behind it, as a part
+/// of its radius: the rounding of corners to f32, and less than a pixel of any picture.
 const BEYOND: f64 = 1e-6;
 
 /// A closed solid of triangles, which need not be convex. Neighbouring triangles in one plane form one facet.
@@ -16,7 +16,7 @@ pub struct TriangleMesh {
     surface: Surface,
     facets: Vec<u32>,
     planes: Vec<Plane>,
-    /// Whether the solid reaches beyond the plane of each facet.
+    /// True for each facet beyond whose plane the solid reaches.
     is_overtopped: Vec<bool>,
     bvh: Bvh,
     /// A ball around all corners.
@@ -25,10 +25,10 @@ pub struct TriangleMesh {
     pub(super) reach: f64,
 }
 
-/// Why triangles enclose no solid.
+/// The reason why triangles enclose no solid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TriangleMeshError {
-    /// There are fewer than the four triangles that a solid needs.
+    /// The surface has fewer than the four triangles that a solid needs.
     #[error("{0} triangles enclose nothing; at least four are needed")]
     TooFew(usize),
     /// A triangle names a corner that does not exist.
@@ -36,7 +36,7 @@ pub enum TriangleMeshError {
     NoCorner {
         /// The triangle, counted from 0.
         triangle: usize,
-        /// The corner that it names.
+        /// The corner that the triangle names.
         corner: u32,
         /// The number of corners.
         count: usize,
@@ -65,11 +65,12 @@ pub enum TriangleMeshError {
 const LARGEST: f64 = 1e60;
 
 impl TriangleMesh {
-    /// Finds the facets of a surface and puts boxes around its triangles; a million take a few seconds.
+    /// Finds the facets of a surface and builds the boxes around its triangles. This takes a few seconds for a
+    /// million triangles.
     ///
     /// # Errors
-    /// Returns an error where the triangles enclose nothing. It names triangles and corners by their places in the lists
-    /// given.
+    /// Fails where the triangles enclose nothing. The error names triangles and corners by their places in the lists
+    /// that were given.
     pub fn new(surface: Surface) -> Result<Self, TriangleMeshError> {
         checked(&surface)?;
         let facets = regions(&surface)?;
@@ -79,10 +80,10 @@ impl TriangleMesh {
         if volume > 0.0 { Ok(mesh) } else { Err(TriangleMeshError::InsideOut(volume)) }
     }
 
-    /// Makes the mesh of a surface each of whose groups is one facet, flat and with at least one triangle.
+    /// Makes the mesh of a surface in which each group is one facet, flat and with at least one triangle.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// Fails where [`new`](Self::new) does.
     pub fn of_groups(surface: Surface) -> Result<Self, TriangleMeshError> {
         checked(&surface)?;
         neighbours(&surface.triangles)?;
@@ -99,7 +100,7 @@ impl TriangleMesh {
         Self::of_parts(surface, mesh.facets, polytope.planes().collect())
     }
 
-    /// Builds the same solid in the frame that a pose carries it to. Facets and triangles keep their order.
+    /// Builds the same solid in the frame to which a pose carries it. Facets and triangles keep their order.
     ///
     /// This is for a mesh that is brought into the frame of all stones; scenes carry their meshes by a pose instead.
     pub fn reframed(&self, pose: &Pose) -> Self {
@@ -108,7 +109,7 @@ impl TriangleMesh {
         Self::of_parts(Surface::new(vertices, self.surface.triangles.clone()), self.facets.clone(), planes)
     }
 
-    /// Puts boxes and a ball around the triangles of known facets.
+    /// Builds the boxes and the ball around the triangles of known facets.
     fn of_parts(surface: Surface, facets: Vec<u32>, planes: Vec<Plane>) -> Self {
         let bvh = Bvh::new(&surface.vertices, &surface.triangles);
         let (ball, reach) = (Ball::around(&surface.vertices), reach(&surface.vertices));
@@ -132,7 +133,8 @@ impl TriangleMesh {
         &self.facets
     }
 
-    /// Returns the names of the facets, where the surface has one group with a name for each facet; else none.
+    /// Returns the names of the facets, where the surface has one group with a name for each facet; otherwise an
+    /// empty list.
     pub fn facet_names(&self) -> Vec<&str> {
         let Surface { names, groups, .. } = &self.surface;
         if names.len() != self.planes.len() || names.iter().any(String::is_empty) {
@@ -150,8 +152,8 @@ impl TriangleMesh {
         &self.planes
     }
 
-    /// Whether light that leaves the solid by a facet may meet the solid again: it never does where the whole solid lies
-    /// behind the facet's plane.
+    /// Returns whether light that leaves the solid through a facet may meet the solid again. It never does where the
+    /// whole solid lies behind the facet's plane.
     pub fn is_overtopped(&self, facet: usize) -> bool {
         self.is_overtopped[facet]
     }
@@ -164,7 +166,7 @@ impl TriangleMesh {
     /// Returns the edges between facets, each once, in pieces that are sides of triangles.
     pub fn edges(&self) -> Vec<Edge> {
         let Surface { vertices, triangles, .. } = &self.surface;
-        // The surface has been closed since the mesh was made.
+        // The surface was checked to be closed when the mesh was made.
         let beside = neighbours(triangles).unwrap_or_default();
         let facet = |k: u32| self.facets[k as usize];
         let edge = |k: u32, i: usize| {

@@ -1,4 +1,5 @@
-//! The bow tie: how much more of an observer's head one sees toward the short axis of a stone than toward its long axis.
+//! The bow tie: the obstruction by an observer's head toward the short axis of a stone less that toward its long
+//! axis.
 
 use super::exit_sight::ExitSight;
 use super::interval::Interval;
@@ -71,7 +72,7 @@ pub(super) fn bow_tie(beams: &Beams, polytope: &Polytope, head_deg: f64) -> Opti
         copies.iter().map(|copy| face.cos_twice(outline.iter().map(|&p| *copy * p))).sum()
     };
     let order = f64::from(beams.symmetry.order());
-    // Light by its weight: that of the whole face, from the head, and not followed.
+    // Three sums of light by its weight: over the whole face, from the head, and unresolved.
     let [mut all, mut head, mut open] = [[0.0; 2]; 3];
     let mut found = 0.0;
     for beam in beams.iter() {
@@ -90,7 +91,7 @@ pub(super) fn bow_tie(beams: &Beams, polytope: &Polytope, head_deg: f64) -> Opti
         }
         found += if beam.open { beam.onward * beam.area * order } else { 0.0 };
     }
-    // What was lost in slivers counts as if all of it were toward each axis.
+    // Light that was lost in slivers counts in full toward each axis.
     let lost = (beams.unresolved() * beams.silhouette_area - found).max(0.0);
     let of_axis = |k: usize| {
         let whole = Some(all[k]).filter(|whole| *whole > 0.0)?;

@@ -1,4 +1,4 @@
-//! The proportions of a round brilliant, measured on the stone: of a design, a cutter's file or a scan alike.
+//! The proportions of a round brilliant, measured on the stone, whether it is a design, a cutter's file or a scan.
 
 use super::facet_deviations::{FacetClasses, LeaningFacet, NotEightfold, OCTANTS, facet_deviations};
 use crate::cut::{BrilliantProportions, Outline};
@@ -11,7 +11,7 @@ use std::f64::consts::FRAC_PI_8;
 /// around the middle of the outline; lengths are in percent of the diameter.
 ///
 /// # Errors
-/// [`NotEightfold`] where the stone is no round brilliant of eight mains.
+/// Fails with [`NotEightfold`] where the stone is no round brilliant of eight mains.
 pub fn brilliant_proportions(stone: &Stone) -> Result<BrilliantProportions, NotEightfold> {
     facet_deviations(stone)?;
     let FacetClasses { crown, pavilion } = FacetClasses::of(stone)?;

@@ -1,9 +1,9 @@
 //! The figures of one view by exact beams, and an estimate of the light that the beams leave.
 //!
-//! All places of the light that is left are divided into strata of equal weight, with two rays in each, so that the scatter
-//! within the strata gives the variance of the sum (W. G. Cochran, Sampling Techniques, 3rd ed. 1977, chapter 5). Every
-//! number of a ray follows from its stratum and from how many strata there were before, so that figures repeat on any number
-//! of cores.
+//! The places of all light that is left are divided into strata of equal weight, with two rays in each, so that the
+//! scatter within the strata gives the variance of the sum (W. G. Cochran, Sampling Techniques, 3rd ed. 1977, chapter
+//! 5). Every number of a ray follows from its stratum and from the number of strata before, so that figures repeat on
+//! any number of cores.
 
 use super::figures::{Figures, Zones, by_summed_beams};
 use crate::math::Polytope;
@@ -14,26 +14,28 @@ use crate::trace::{Stopped, Watch};
 use glam::DVec2;
 use rayon::prelude::*;
 
-/// The strata of the first estimate, which says how many are needed.
+/// The number of strata of the first estimate, which shows how many are needed.
 const FIRST: u64 = 128;
 
-/// How many times as many strata as all before the next estimate has at most, because the first ones say it only roughly.
+/// The greatest number of strata of the next estimate, as a multiple of all before, because the first ones show the
+/// need only roughly.
 const GROWTH: u64 = 7;
 
 /// The number of strata after which no more are sampled, whatever the error is.
 const MOST: u64 = 1 << 20;
 
-/// The most strata that are sampled before the watch is asked again.
+/// The most strata that are sampled before the watch is called again.
 const MOST_AT_ONCE: u64 = 1 << 14;
 
-/// Strata that are sampled as one piece of work. It does not depend on the number of cores, as the result must not.
+/// The number of strata that are sampled as one piece of work. It must not depend on the number of cores, since the
+/// result must not.
 const PIECE: u64 = 64;
 
-/// How many times as large as that of light the standard error of areas may be. Much more area is undecided than light is
-/// left, so the same error would take many times the rays.
+/// The factor by which the standard error of areas may exceed that of light. The undecided area is much larger than
+/// the light that is left, so the same error would take many times the rays.
 const OF_AREAS: f64 = 10.0;
 
-/// How many times as many strata are taken as all estimates together say are needed, so that few are needed after them.
+/// The factor by which more strata are taken than all estimates together demand, so that few are needed after them.
 const SPARE: f64 = 1.03;
 
 /// An estimate of the light that exact beams have left, by rays.
@@ -80,7 +82,7 @@ impl Estimate {
         self.standard_errors().into_iter().fold(0.0, f64::max)
     }
 
-    /// Returns the mean of two estimates that have nothing in common, the second with this weight.
+    /// Returns the mean of two independent estimates, the second with this weight.
     fn and(self, other: Self, weight: f64) -> Self {
         let mean = |a: f64, b: f64| a * (1.0 - weight) + b * weight;
         let variance = |a: f64, b: f64| a * (1.0 - weight).powi(2) + b * weight.powi(2);
@@ -121,7 +123,7 @@ impl Estimate {
 /// brought to ten times that, as a part of the silhouette. Errors are larger where two million rays do not suffice.
 ///
 /// # Errors
-/// [`Stopped`] when `watch` asks to stop.
+/// Fails with [`Stopped`] when `watch` asks to stop.
 pub fn by_beams_and_rays(
     polytope: &Polytope,
     summed: &SummedBeams,
@@ -151,11 +153,11 @@ pub fn by_beams_and_rays(
 }
 
 impl Figures {
-    /// Adds what was estimated to what is certain.
+    /// Adds an estimate to the exact figures.
     fn take_in(&mut self, mut estimate: Estimate) {
         let add = |to: &mut Zones, from: &Zones| to.iter_mut().zip(from).for_each(|(a, b)| *a += b);
         add(&mut self.transmitted, &estimate.transmitted);
-        // All areas together are known exactly, so the estimated ones are never more than what was undecided.
+        // The sum of all areas is known exactly, so the estimated ones are never more than the undecided area.
         let area = estimate.strongest_exit_area.iter().sum::<f64>();
         let excess = (area / self.strongest_exit_undecided).max(1.0);
         estimate.strongest_exit_area.iter_mut().for_each(|zone| *zone /= excess);
@@ -192,7 +194,7 @@ impl Sampler<'_> {
         let n = strata as f64;
         let mean = |k: usize| sums.means[k] / n;
         let of_products = |k: usize| sums.products[k] / (n * n);
-        // Where no ray has come, one may have been about to.
+        // Where no ray has hit, the next one might have.
         let one_ray = |whole: f64| (whole / (2.0 * n)).powi(2);
         let [of_light, of_area] = self.tail.most_of_a_ray().map(one_ray);
         let covariance = |k: usize| match k.is_multiple_of(bands + 1) {
@@ -225,8 +227,8 @@ impl Sampler<'_> {
         sums
     }
 
-    /// Leaves in `values` what the ray of a number says: light by bands, area by bands, light that is absorbed, light that is not
-    /// followed.
+    /// Writes to `values` the result of the ray with this number: light by bands, area by bands, absorbed light,
+    /// unresolved light.
     fn ray(&self, (stratum, strata): (u64, u64), number: u64, values: &mut [f64]) {
         let bands = self.bands;
         values.fill(0.0);

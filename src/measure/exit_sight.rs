@@ -1,9 +1,10 @@
-//! What an eye sees by exits: the head, the dome or what lies below, how bright it is, and which colours it parts.
+//! The view of an eye through an exit: the head, the dome or the space below, its brightness, and the colours that
+//! the eye tells apart.
 
 use crate::scene::elevation_deg;
 use crate::trace::beam::{Beam, Beams};
 
-/// What the eye sees along an exit.
+/// The part of the surroundings that the eye sees through an exit.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum ExitSight {
     Below,
@@ -33,12 +34,13 @@ pub(super) fn brightness(beams: &Beams, head_deg: f64) -> Vec<f64> {
     bright
 }
 
-/// Whether a beam's exit counts for the brightness: it has been inside and comes from the dome beside the head.
+/// Returns whether a beam's exit counts for the brightness: its light has been inside and comes from the dome beside
+/// the head.
 pub(super) fn shines(beam: &Beam, beams: &Beams, head_deg: f64) -> bool {
     !beam.is_surface() && beam.weight > 0.0 && ExitSight::of(beam, beams, head_deg) == ExitSight::Dome
 }
 
-/// Returns the part of a fan's colours that an eye sees apart, 0 to 1; `fan` is in radians.
+/// Returns the part of a fan's colours that an eye tells apart, 0 to 1; `fan` is in radians.
 pub(super) fn seen_apart(fan: f64, blur_deg: f64) -> f64 {
     let blur = blur_deg.to_radians();
     if fan > blur { 1.0 - blur / fan } else { 0.0 }

@@ -1,28 +1,29 @@
-//! The face as an eye sees it: cells as large as the eye resolves, each with the mean brightness of the exact beams in it.
+//! The face at the resolution of an eye: cells as large as the eye resolves, each with the mean brightness of the
+//! exact beams in it.
 //!
-//! The mean over a square is a blur that exact polygons can be put through without a sample: each polygon is clipped to the
-//! cells that it meets.
+//! The mean over a square is a blur that can be computed exactly for polygons, without samples: each polygon is
+//! clipped to the cells that it meets.
 
 use super::interval::Interval;
 use crate::math::{Affine, area, clip};
 use crate::trace::beam::Beams;
 use glam::{DMat2, DVec2, IVec2};
 
-/// The least side of a cell, girdle radii, which bounds the number of cells. Cells are larger than the eye resolves in
-/// stones of more than 72 mm.
+/// The least side of a cell, girdle radii, which bounds the number of cells. In stones of more than 72 mm, cells are
+/// larger than the eye resolves.
 const LEAST_SIDE: f64 = 0.002;
 
 /// A cell that holds less than this part of its own area of the face counts as empty: rounding can leave a corner in it.
 const EMPTY: f64 = 1e-9;
 
-/// What an eye sees through one cell.
+/// The brightness that an eye sees in one cell.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct EyeCell {
     /// The part of the silhouette's area that lies in the cell.
     pub area: f64,
-    /// The mean brightness that is known, over that part.
+    /// The mean of the resolved brightness over that part.
     pub light: f64,
-    /// The light that is still inside, over that part: the mean brightness is at most `light + rest`.
+    /// The mean of the light that is still inside, over that part: the mean brightness is at most `light + rest`.
     pub rest: f64,
 }
 
@@ -88,7 +89,7 @@ impl EyeGrid {
             (low, high) = (low.min(corner), high.max(corner));
         }
         let [first, last] = [low, high].map(|p| (p / side).floor().as_ivec2());
-        // A corner on a border may be carried across it by rounding.
+        // Rounding may carry a corner on a border across it.
         let (first, last) = (first - IVec2::ONE, last + IVec2::ONE);
         let size = (last - first + IVec2::ONE).as_u64vec2();
         let cells = vec![EyeCell::default(); (size.x * size.y) as usize];
@@ -126,8 +127,8 @@ impl EyeGrid {
         Interval::from(sum(|cell| cell.light), sum(|cell| cell.rest))
     }
 
-    /// Returns Σ a^(3/2) over the patches of these cells, where a is the area of a patch as a part of the silhouette's. Cells that
-    /// share a side are of one patch.
+    /// Returns Σ a^(3/2) over the patches of these cells, where a is the area of a patch as a part of the
+    /// silhouette's. Cells that share a side belong to one patch.
     ///
     /// √a is the diameter of a patch as a part of the face's, each that of a circle of the same area. So for all cells the sum is the mean
     /// diameter of the patches, weighted by area. Two patches that join never have a smaller sum, so it grows with the cells.
@@ -153,8 +154,9 @@ impl EyeGrid {
         sum
     }
 
-    /// Returns the mean diameter of the patches that are brighter or darker than the mean of the face, weighted by area, as
-    /// a part of the face's diameter. Cells whose side of the mean is not certain are once left out and once counted as both.
+    /// Returns the mean diameter of the patches that are brighter or darker than the mean of the face, weighted by
+    /// area, as a part of the face's diameter. Cells that may be on either side of the mean are left out for the one
+    /// bound and counted as both for the other.
     pub fn patch_size(&self) -> Interval {
         let mean = self.mean();
         let brightness = |k: usize| self.cells[k].brightness();
@@ -162,7 +164,7 @@ impl EyeGrid {
             self.sizes(|k| brightness(k).least > mean.most) + self.sizes(|k| brightness(k).most < mean.least);
         let possible = self.sizes(|k| brightness(k).most >= mean.least)
             + self.sizes(|k| brightness(k).least <= mean.most);
-        // Together they never are larger than the face.
+        // The sum of both kinds of patches is never larger than the face.
         Interval { least: certain.min(1.0), most: possible.min(1.0) }
     }
 }
@@ -209,11 +211,12 @@ fn cells_of(corners: &[DVec2], side: f64) -> (IVec2, IVec2) {
     ((range.0 / side).floor().as_ivec2(), (range.1 / side).floor().as_ivec2())
 }
 
-/// Returns the standard deviation of a brightness over the face, divided by its mean, of its parts: their areas, the light that is
-/// known of each and the light that is still inside it.
+/// Returns the standard deviation of a brightness over the face, divided by its mean. The parts of the face have an
+/// area, a resolved brightness, and light that is still inside.
 ///
-/// What is unknown of a part lies between 0 and the light r that is still inside. So the mean b is at most b + Σ a r, and
-/// the deviation differs from that of the known light by at most √(Σ a r²), by the triangle inequality.
+/// The unresolved brightness of a part lies between 0 and the light r that is still inside. So the mean b is at most
+/// b + Σ a r, and the deviation differs from that of the resolved light by at most √(Σ a r²), by the triangle
+/// inequality.
 pub(super) fn rms_contrast(parts: impl Iterator<Item = EyeCell>) -> Interval {
     let [mut mean, mut square, mut rest, mut rest_square] = [0.0; 4];
     for EyeCell { area, light: b, rest: r } in parts {

@@ -1,5 +1,5 @@
-//! Measures of the pattern that an eye sees on the face: contrast and fire at the scale of what it resolves, patches, crushed ice,
-//! bow tie and fish eye.
+//! Measures of the pattern that an eye sees on the face: contrast and fire at the eye's resolution, patches, crushed
+//! ice, bow tie and fish eye.
 //!
 //! They need the stone's size, as the eye resolves less of a small stone. Formulas are in docs/optics.md, "Pattern".
 
@@ -14,24 +14,26 @@ use crate::math::Polytope;
 use crate::trace::beam::{Beam, Beams};
 use serde::{Deserialize, Serialize};
 
-/// What an eye resolves, mm: one minute of arc at 250 mm.
+/// The resolution of an eye, mm: one minute of arc at 250 mm.
 pub const EYE_RESOLVES_MM: f64 = 250.0 * std::f64::consts::PI / (180.0 * 60.0);
 
-/// How many times as large as what the eye resolves a thing must be before its shape is seen: letters of a line that is just
-/// read are five times as high as their strokes are wide (H. Snellen, Optotypi ad visum determinandum, 1862).
+/// The size of a thing whose shape an eye recognises, as a multiple of the eye's resolution: letters of a line that
+/// is just legible are five times as high as their strokes are wide (H. Snellen, Optotypi ad visum determinandum,
+/// 1862).
 pub const SHAPE_IS_SEEN: f64 = 5.0;
 
-/// The angle in degrees by which a stone usually rocks for scintillation.
+/// The default angle in degrees by which a stone rocks for scintillation.
 pub const ROCK_DEG: f64 = 3.0;
 
-/// How large the stone is, and what the eye resolves.
+/// The size of the stone and the resolution of the eye.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PatternSettings {
-    /// What the eye resolves, mm, above 0; [`EYE_RESOLVES_MM`] unless the stone is seen from another distance.
+    /// The resolution of the eye, mm, above 0; [`EYE_RESOLVES_MM`] unless the stone is seen from another distance.
     pub resolves_mm: f64,
     /// The girdle radius in mm, above 0.
     pub unit_mm: f64,
-    /// By how many degrees, above 0 and at most 45, the stone rocks for scintillation; `None` leaves scintillation out.
+    /// The angle by which the stone rocks for scintillation, degrees, above 0 and at most 45; `None` leaves
+    /// scintillation out.
     pub rock_deg: Option<f64>,
 }
 
@@ -41,7 +43,7 @@ impl PatternSettings {
         Self { resolves_mm: EYE_RESOLVES_MM, unit_mm, rock_deg: None }
     }
 
-    /// Returns what the eye resolves, in girdle radii.
+    /// Returns the resolution of the eye, in girdle radii.
     pub(super) fn resolves(&self) -> f64 {
         self.resolves_mm / self.unit_mm
     }
@@ -50,18 +52,19 @@ impl PatternSettings {
 /// The measures of the pattern on the face.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PatternMeasures {
-    /// The contrast of the face after it was averaged over squares as large as what the eye resolves.
+    /// The contrast of the face after averaging over squares of the eye's resolution.
     pub eye_contrast: Interval,
     /// The mean diameter of the patches of such squares that are all brighter, or all darker, than the mean of the face,
     /// weighted by area; as a part of the face's diameter. Diameters are those of circles of the same area.
     pub patch_size: Interval,
-    /// The part of the face in virtual facets of the strongest exits that are smaller than a circle of [`SHAPE_IS_SEEN`] times
-    /// what the eye resolves.
+    /// The part of the face in virtual facets of the strongest exits that are smaller than a circle of
+    /// [`SHAPE_IS_SEEN`] times the eye's resolution.
     pub crushed_ice: Interval,
-    /// The part of the fire from virtual facets that are at least as large as a circle of what the eye resolves; as a part of
-    /// the silhouette's light.
+    /// The part of the fire from virtual facets that are at least as large as a circle of the eye's resolution; as a
+    /// part of the silhouette's light.
     pub fire_seen: Interval,
-    /// The obstruction toward the face's short axis less that toward its long axis, -1 to 1; `None` where the face has no area.
+    /// The obstruction toward the face's short axis less that toward its long axis, -1 to 1; `None` where the face
+    /// has no area.
     pub bow_tie: Option<Interval>,
     /// The part of the table through which one sees the girdle, reflected once in the pavilion; `None` where no table is seen.
     pub fish_eye: Option<Interval>,
@@ -90,7 +93,7 @@ impl PatternMeasures {
     }
 }
 
-/// Returns the fire of virtual facets that are at least as large as a circle of what the eye resolves, girdle radii.
+/// Returns the fire of virtual facets that are at least as large as a circle of the eye's resolution, girdle radii.
 fn fire_seen(
     areas: &[Interval],
     beams: &Beams,
@@ -99,7 +102,7 @@ fn fire_seen(
 ) -> Interval {
     let limit = std::f64::consts::FRAC_PI_4 * resolves * resolves;
     let share = f64::from(beams.symmetry.order()) / beams.silhouette_area;
-    // Light that was not followed has no fire either where nothing is dispersed.
+    // Where the material has no dispersion, unresolved light has no fire either.
     let most = if settings.has_dispersion() { beams.unresolved() } else { 0.0 };
     let mut fire = Interval { least: 0.0, most };
     for (beam, area) in beams.iter().zip(areas) {
@@ -135,7 +138,7 @@ fn fish_eye(beams: &Beams, polytope: &Polytope) -> Option<Interval> {
         } else if zones.is_girdle(&facets[beam.facet as usize]) && after_pavilion() {
             girdle += beam.area;
         }
-        // The next facet of what was not followed may be the pavilion's or the girdle's.
+        // The next facet of unresolved light may be the pavilion's or the girdle's.
         if beam.open && (under_table(&beam) || in_pavilion(&beam)) {
             open += beam.area;
         }

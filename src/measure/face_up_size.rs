@@ -1,4 +1,4 @@
-//! Spread: how large a stone looks from above for its weight.
+//! Spread: the size of a stone as seen from above, for its weight.
 
 use crate::cut::round_diameter;
 use crate::math::{Calipers, Polytope, hull};
@@ -9,11 +9,11 @@ use std::f64::consts::PI;
 /// The volume, the area seen from above and the outline's perimeter of a round brilliant with table 57 %, crown 34.0°,
 /// pavilion 40.7°, star length 50 %, lower halves 80 %, girdle 2.5 % in 96 facets, and no culet, in girdle radii.
 ///
-/// It is the stone against which GIA's weight ratio compares: I. Reinitz, R. Geurts, A. Gilbertson and T. Rapaport, on the
-/// cut grade of round brilliants. The number of girdle facets is ours.
+/// GIA's weight ratio compares with this stone: I. Reinitz, R. Geurts, A. Gilbertson and T. Rapaport, on the cut
+/// grade of round brilliants. The number of girdle facets is our own choice.
 const REFERENCE: [f64; 3] = [1.632_614_073_561_201, 3.139_350_203_046_868, 6.282_063_901_781_019];
 
-/// How large a stone looks from above for its weight.
+/// The size of a stone as seen from above, for its weight.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct FaceUpSize {
     /// The area of the stone seen from above, mm².
@@ -24,8 +24,8 @@ pub struct FaceUpSize {
     pub carats: Option<f64>,
     /// The area seen from above divided by the weight, mm²/ct.
     pub mm2_per_carat: Option<f64>,
-    /// By how much the area seen from above is greater than that of the reference brilliant of the same weight, percent of
-    /// the latter. It is the same in all sizes and materials.
+    /// The percentage by which the area seen from above exceeds that of the reference brilliant of the same weight.
+    /// It is the same in all sizes and materials.
     pub spread_percent: f64,
     /// The volume divided by that of the reference brilliant of the same mean width: GIA's weight ratio. `None` where the
     /// outline is not round.

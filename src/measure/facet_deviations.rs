@@ -1,4 +1,4 @@
-//! How far the facets of an eightfold round brilliant deviate from their class, in azimuth and slope.
+//! The deviations of the facets of an eightfold round brilliant from their class, in azimuth and slope.
 //!
 //! The classes are found from the geometry alone, so that a scan without names is measured like a design. The definitions are in
 //! docs/optics.md, "Facet deviations".
@@ -42,7 +42,7 @@ pub struct ClassDeviations {
     pub worst_slope: FacetDeviation,
 }
 
-/// Why a stone has no eightfold classes.
+/// The reason why a stone has no eightfold classes.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NotEightfold {
     /// The crown or the pavilion has another number of facets.
@@ -53,11 +53,11 @@ pub enum NotEightfold {
     Facets {
         /// `crown` or `pavilion`.
         part: &'static str,
-        /// What bounds the part.
+        /// The borders of the part, in words.
         between: &'static str,
         /// The number of facets.
         found: usize,
-        /// The number of a round brilliant.
+        /// The number of facets in a round brilliant.
         wanted: usize,
     },
     /// The facets that should be one class do not lie one in each octant, or two in each for halves.
@@ -74,7 +74,7 @@ pub enum NotEightfold {
 /// Returns the deviations of all classes, from the table to the culet.
 ///
 /// # Errors
-/// [`NotEightfold`] where the stone is no round brilliant of eight mains.
+/// Fails with [`NotEightfold`] where the stone is no round brilliant of eight mains.
 pub fn facet_deviations(stone: &Stone) -> Result<Vec<ClassDeviations>, NotEightfold> {
     let FacetClasses { crown, pavilion } = FacetClasses::of(stone)?;
     let (star, rest) = crown.split_at(OCTANTS);
@@ -103,7 +103,7 @@ impl Mains {
     /// Finds the mains of a stone.
     ///
     /// # Errors
-    /// [`NotEightfold`] where the stone is no round brilliant of eight mains.
+    /// Fails with [`NotEightfold`] where the stone is no round brilliant of eight mains.
     pub fn of(stone: &Stone) -> Result<Self, NotEightfold> {
         let pavilion = FacetClasses::of(stone)?.pavilion;
         let mains = &pavilion[..OCTANTS];
@@ -232,7 +232,7 @@ fn deviations(
     })
 }
 
-/// Returns the median, which one facet that deviates does not move; 0 of nothing.
+/// Returns the median, on which one deviating facet has no effect; 0 for an empty list.
 pub(super) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     let (half, count) = (values.len() / 2, values.len());

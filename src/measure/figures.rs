@@ -7,15 +7,15 @@ use crate::trace::beam::{BeamSums, Beams, SummedBeams};
 /// A number for each band of a scope, in the scope's order.
 pub type Zones = Vec<f64>;
 
-/// The shares that the light of one view takes, as fractions of the silhouette.
+/// The shares of the light of one view, as fractions of the silhouette.
 ///
-/// `surface`, `transmitted`, `absorbed` and the light that was not followed (see [`uncertain`](Self::uncertain)) add up to
-/// 1, and so do `strongest_exit_area` and `strongest_exit_undecided`.
+/// `surface`, `transmitted`, `absorbed` and the light that was not followed (see [`uncertain`](Self::uncertain)) add
+/// up to 1, and so do `strongest_exit_area` and `strongest_exit_undecided`.
 ///
-/// From beams, glare is exact. Transmitted and absorbed light may each be too low by up to `unresolved`, and the areas
-/// of strongest exits by up to `strongest_exit_undecided`. Where what the beams have left is estimated, each of these
-/// contains its estimated part: without it, it is certainly not too high. From rays, `standard_error` is the error of
-/// sampling.
+/// From beams, glare is exact. Transmitted and absorbed light may each be too low by up to `unresolved`, and the
+/// areas of strongest exits by up to `strongest_exit_undecided`. Where the light that the beams left is estimated,
+/// each of these contains its estimated part; without that part it is certainly not too high. From rays,
+/// `standard_error` is the error of sampling.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figures {
     /// Area of the silhouette, in squared girdle radii.
@@ -56,7 +56,7 @@ impl Figures {
         }
     }
 
-    /// Returns the part of the light of which nothing is known, not even by an estimate.
+    /// Returns the part of the light that is neither followed nor estimated.
     pub fn uncertain(&self) -> f64 {
         self.estimate.as_ref().map_or(self.unresolved, |estimate| estimate.unresolved)
     }
@@ -92,7 +92,7 @@ pub fn by_beams(beams: &Beams, scope: &Scope) -> Figures {
     Figures::of_sums(BeamSums::of(beams, scope), beams.silhouette_area)
 }
 
-/// Returns the figures of beams that were summed up. They are those of [`by_beams`], with the same digits.
+/// Returns the figures of summed beams, which equal those of [`by_beams`] to the last digit.
 pub fn by_summed_beams(summed: &SummedBeams) -> Figures {
     Figures::of_sums(summed.sums.clone(), summed.open.silhouette_area)
 }

@@ -1,4 +1,5 @@
-//! Hearts and arrows as numbers: the figures of each octant's arrow and heart, and how far they depart from eightfold symmetry.
+//! Hearts and arrows as numbers: the figures of each octant's arrow and heart, and their departure from eightfold
+//! symmetry.
 //!
 //! The regions are unions of exact virtual facets, so that no figure is sampled. The definitions are in docs/optics.md, "Hearts
 //! and arrows".
@@ -40,7 +41,7 @@ pub enum OctantUnit {
     Degrees,
 }
 
-/// How far an octant departs from the others.
+/// The departure of an octant from the others.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct OctantDeparture {
     /// The number of the octant, 1 to 8.
@@ -49,7 +50,7 @@ pub struct OctantDeparture {
     pub by: f64,
 }
 
-/// One figure of all octants.
+/// One figure, with its value in each octant.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OctantFigure {
     /// The figure's name.
@@ -122,7 +123,7 @@ pub struct HeartsAndArrows {
     pub hearts: EightfoldPattern,
 }
 
-/// Why there are no figures of hearts and arrows.
+/// The reason why there are no figures of hearts and arrows.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum HeartsError {
     /// The stone is no eightfold brilliant.
@@ -139,7 +140,7 @@ pub enum HeartsError {
 /// The symmetry of the stone is not used, whatever the options say, so that each octant is traced by itself.
 ///
 /// # Errors
-/// [`HeartsError`] where the stone is no round brilliant of eight mains, or `watch` asks to stop.
+/// Fails with [`HeartsError`] where the stone is no round brilliant of eight mains, or `watch` asks to stop.
 pub fn hearts_and_arrows(
     stone: &Stone,
     medium: Medium,
@@ -165,7 +166,7 @@ pub fn hearts_and_arrows(
     Ok(HeartsAndArrows { camera_deg, ring_deg, arrows, hearts })
 }
 
-/// Returns the arrows: all that shows the viewer's camera or ring.
+/// Returns the arrows: all cells that show the viewer's camera or ring.
 fn arrows(
     beams: &Beams,
     stone: &Stone,
@@ -203,7 +204,7 @@ fn arrows(
     pattern(&octants, figures, (beams, frame), mains.names.clone())
 }
 
-/// Returns the hearts: all that shows the viewer's ring.
+/// Returns the hearts: all cells that show the viewer's ring.
 fn hearts(
     beams: &Beams,
     frame: &OctantFrame,
@@ -242,7 +243,7 @@ fn hearts(
     pattern(&octants, figures, (beams, frame), between)
 }
 
-/// Returns how far a region reaches from its nearest to its farthest point from the stone's axis.
+/// Returns the distance along the radius from a region's nearest to its farthest point, seen from the stone's axis.
 fn extent(region: &Region) -> f64 {
     region.outer(OctantSide::Both) - region.inner()
 }
@@ -274,7 +275,7 @@ fn pattern(
     let percent = |area: f64| 100.0 * area / face(beams, frame);
     let whole: f64 = octants.iter().map(OctantPattern::area).sum();
     let of_octant = median(octants.iter().map(OctantPattern::area).collect());
-    // In percent of an area; a stone without any of the pattern departs by nothing.
+    // Departures are in percent of an area; a stone without the pattern has the departure 0.
     let part = |difference: f64, area: f64| if area > 0.0 { 100.0 * difference / area } else { 0.0 };
     let mut differences = [[0.0; OCTANTS]; OCTANTS];
     for a in 0..OCTANTS {

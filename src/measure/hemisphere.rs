@@ -1,4 +1,4 @@
-//! The light that a stone sends upward under an even sky, seen from all around.
+//! The light that a stone sends upward under an even sky, in all directions.
 
 use crate::math::SolidRef;
 use crate::scene::{Lean, Medium, View};
@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 /// The number of lattices whose scatter gives the standard error.
 const LATTICES: u32 = 8;
 
-/// The rays of one piece of work.
+/// The number of rays in one piece of work.
 const PIECE: u32 = 4096;
 
 /// The steps of a lattice in four dimensions that fills space evenly: powers of the root above 1 of x⁵ = x + 1 (M. Roberts,
@@ -28,13 +28,13 @@ pub struct SampledNumber {
     pub standard_error: f64,
 }
 
-/// Returns the light that leaves a stone upward under an even hemisphere of light, without glare, where light that leaves at
-/// the angle θ from the axis counts by cosᵖ θ. The unit is what a white sheet of a round stone's outline sends, counted
-/// alike.
+/// Returns the light that leaves a stone upward under an even hemisphere of light, without glare, where light that
+/// leaves at the angle θ from the axis is weighted by cosᵖ θ. The unit is the light, weighted alike, that a white
+/// sheet of a round stone's outline sends.
 ///
-/// With p = 2 it is the weighted light return of T. S. Hemphill, I. M. Reinitz, M. L. Johnson and J. E. Shigley, *Modeling
-/// the appearance of the round brilliant cut diamond*, Gems & Gemology 34 (1998), as far as its definition is known
-/// (docs/optics.md, "Measures"); their unit is another.
+/// With p = 2 it is the weighted light return of T. S. Hemphill, I. M. Reinitz, M. L. Johnson and J. E. Shigley,
+/// *Modeling the appearance of the round brilliant cut diamond*, Gems & Gemology 34 (1998), as far as its definition
+/// is known (docs/optics.md, "Measures"); they use another unit.
 ///
 /// Light is reversible, so rays come from eyes at all angles, `rays` of them on each of eight lattices. The same input gives the
 /// same number.
@@ -62,10 +62,10 @@ pub fn hemisphere_return<'a>(
     SampledNumber { value, standard_error: (scatter / (n * (n - 1.0))).sqrt() }
 }
 
-/// Returns what one ray of a number stands for.
+/// Returns the light that one ray of a number stands for.
 fn returned((tracer, solid): (&StoneTracer, SolidRef), power: f64, number: u32) -> f64 {
     let [x, y, height, turn] = STEPS.map(|step| (0.5 + step * f64::from(number)).fract());
-    // Eyes are spread evenly over the hemisphere, whose area by height is even.
+    // Eyes are spread evenly over the hemisphere: equal steps of height have equal areas.
     let view = View { tilt: height.acos(), azimuth: turn * TAU, lean: Lean::Eye, ..View::default() };
     let camera = Camera::new(&view, solid);
     let Some(half) = camera.reach(solid) else { return 0.0 };

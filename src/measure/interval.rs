@@ -1,4 +1,4 @@
-//! Intervals of numbers whose error is known.
+//! Intervals that certainly hold a number.
 
 use serde::{Deserialize, Serialize};
 use std::ops::Add;
@@ -23,7 +23,7 @@ impl Interval {
         f64::midpoint(self.least, self.most)
     }
 
-    /// Returns by how much the middle may be off.
+    /// Returns the greatest error of the middle.
     pub fn error(self) -> f64 {
         (self.most - self.least) / 2.0
     }

@@ -1,6 +1,7 @@
-//! Measures: numbers that say how well a cut handles light, each as the interval in which it certainly lies.
+//! Measures: numbers for the light of a cut, each as the interval in which it certainly lies.
 //!
-//! They are sums over the exact beams of one view. What the beams leave unresolved widens the intervals; nothing is sampled.
+//! They are sums over the exact beams of one view. Light that the beams leave unresolved widens the intervals;
+//! nothing is sampled.
 //! Their formulas are in docs/optics.md, "Measures".
 
 use super::exit_sight::{ExitSight, brightness, seen_apart};
@@ -13,7 +14,8 @@ use crate::scene::DomeLight;
 use crate::trace::beam::{Beam, Beams};
 use serde::{Deserialize, Serialize};
 
-/// The angle in degrees that an eye's pupil of 3.3 mm fills at 250 mm. Colours that spread over less reach it together.
+/// The angle in degrees that an eye's pupil of 3.3 mm fills at 250 mm. Colours that spread over less enter the eye
+/// together.
 pub const PUPIL_DEG: f64 = 0.76;
 
 /// Returns the angle in degrees that a pupil of this diameter, mm, fills at 250 mm.
@@ -25,7 +27,7 @@ pub fn pupil_deg(diameter_mm: f64) -> f64 {
 /// the ASET's blue cone.
 pub const MEASURES_HEAD_DEG: f64 = 15.0;
 
-/// By which light, head and eye the measures are taken.
+/// The light, head and eye by which the measures are taken.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MeasureSettings {
     /// The domes whose light is weighed.
@@ -36,13 +38,13 @@ pub struct MeasureSettings {
     pub blur_deg: f64,
     /// The refractive indices at the red and at the violet end of the light whose spread is measured.
     pub indices: [f64; 2],
-    /// How large the stone is and what the eye resolves; `None` leaves out the measures of the pattern.
+    /// The size of the stone and the resolution of the eye; `None` leaves out the measures of the pattern.
     #[serde(default)]
     pub pattern: Option<PatternSettings>,
 }
 
 impl MeasureSettings {
-    /// Whether the indices differ, so that light has colours to spread.
+    /// Returns whether the indices differ, so that light is dispersed.
     pub fn has_dispersion(&self) -> bool {
         self.indices[0] != self.indices[1]
     }
@@ -68,7 +70,8 @@ impl MeasureSettings {
     }
 }
 
-/// The light of a dome that reaches the eye, as a part of what a white sheet in place of the stone would send under an even dome.
+/// The light of a dome that reaches the eye, as a part of the light that a white sheet in the stone's place would
+/// send under an even dome.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct DomeReturn {
     /// The dome.
@@ -113,7 +116,7 @@ pub struct LightMeasures {
     pub absorbed: Interval,
     /// The measures of the pattern on the face, where the settings want them.
     pub pattern: Option<PatternMeasures>,
-    /// What changes as the stone rocks. It needs beams of other views, so [`of`](Self::of) leaves it out.
+    /// The change of the face as the stone rocks. It needs beams of other views, so [`of`](Self::of) leaves it out.
     pub scintillation: Option<Scintillation>,
     /// The part of the light that was not followed to its end.
     pub unresolved: f64,
@@ -137,7 +140,7 @@ impl LightMeasures {
                     sums.windowing += if crosses && sight == ExitSight::Below { energy } else { 0.0 };
                 }
             }
-            // Light that has entered and was not followed at all may cross the stone.
+            // Light that has entered and was not followed at all may cross the stone without a reflection.
             let waits = if beam.is_surface() && beam.open { beam.onward * beam.area * share } else { 0.0 };
             sums.waiting += waits;
         }
@@ -223,7 +226,7 @@ impl ExitSums {
             obstruction: open(self.head),
             extinction,
             contrast,
-            // Light that was not followed has no fire either where nothing is dispersed.
+            // Where the material has no dispersion, unresolved light has no fire either.
             fire: if settings.has_dispersion() { open(self.fire) } else { Interval::from(0.0, 0.0) },
             spread_deg: (weights > 0.0).then(|| (angles / weights).to_degrees()),
             absorbed,
@@ -247,7 +250,8 @@ fn extinction(beams: &Beams, head_deg: f64) -> Interval {
 
 /// Returns the contrast of the face under an even dome with a head.
 ///
-/// Through a beam that was not split further the brightness is the same everywhere, but for what is still inside.
+/// The brightness is the same everywhere in a beam that was not split further, except for the light that is still
+/// inside.
 fn contrast(beams: &Beams, head_deg: f64) -> Interval {
     let share = f64::from(beams.symmetry.order()) / beams.silhouette_area;
     let bright = brightness(beams, head_deg);

@@ -9,13 +9,13 @@ use std::cmp::Ordering;
 use std::fmt;
 use std::str::FromStr;
 
-/// One of the [`LightMeasures`] by its name.
+/// The name of one of the [`LightMeasures`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum MeasureName {
     /// Light of a dome that has been inside the stone.
     Return(DomeLight),
-    /// All light of a dome that reaches the eye.
+    /// All light of a dome that reaches the eye, with the glare of the outer surface.
     ReturnWithGlare(DomeLight),
     /// [`LightMeasures::leakage`].
     Leakage,
@@ -49,18 +49,18 @@ pub enum MeasureName {
     ScintillationSize,
 }
 
-/// What must be known, besides light and head, for a measure to be taken.
+/// The settings that a measure needs besides light and head.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum MeasureNeeds {
-    /// Nothing else.
+    /// No other setting.
     Light,
-    /// The stone's size and what the eye resolves ([`MeasureSettings::pattern`]).
+    /// The stone's size and the eye's resolution ([`MeasureSettings::pattern`]).
     Pattern,
     /// The stone after it has rocked as well ([`PatternSettings::rock_deg`](super::PatternSettings::rock_deg)).
     Rocking,
 }
 
-/// Why a text names no measure.
+/// The reason why a text names no measure.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
     "'{0}' is no measure: give leakage, windowing, obstruction, extinction, contrast, fire, absorbed, eye-contrast, \
@@ -70,7 +70,7 @@ pub enum MeasureNeeds {
 )]
 pub struct NoMeasure(pub String);
 
-/// Returns what is said of the weighted light return, which people may look for among these measures.
+/// Returns a hint about the weighted light return, which people may look for among these measures.
 fn hint(text: &str) -> &'static str {
     match text {
         "wlr" => "; wlr is sampled and has no bound, so only `measure --measures --wlr` takes it",
@@ -78,15 +78,15 @@ fn hint(text: &str) -> &'static str {
     }
 }
 
-/// What the names of all returns begin with.
+/// The beginning of the names of all returns.
 const RETURN: &str = "return-";
 
-/// What the names of returns with glare end with.
+/// The end of the names of returns with glare.
 const WITH_GLARE: &str = "+glare";
 
 impl MeasureName {
-    /// Returns which of two values of this measure is the better one: `Greater` where more is better. Where it is a matter of taste,
-    /// as with contrast and the size of patches, none is.
+    /// Returns which of two values of this measure is the better one: `Greater` where more is better; `None` where it
+    /// is a matter of taste, as with contrast and the size of patches.
     pub fn better(self) -> Option<Ordering> {
         match self {
             Self::Return(_) | Self::ReturnWithGlare(_) | Self::Fire | Self::FireSeen => {
@@ -139,7 +139,7 @@ impl MeasureName {
         returns.chain(Self::OTHERS.map(|(_, measure)| measure)).filter(|name| name.needs() <= known).collect()
     }
 
-    /// Returns what must be known for this measure to be taken.
+    /// Returns the settings that this measure needs.
     pub fn needs(self) -> MeasureNeeds {
         match self {
             Self::EyeContrast
@@ -187,8 +187,8 @@ impl MeasureName {
 }
 
 impl PatternSettings {
-    /// Returns the usual settings for a stone of this girdle radius in mm that rocks by `rock_deg`, as far as these measures need
-    /// them; `None` where they need none, as patterns take time.
+    /// Returns the usual settings for a stone of this girdle radius in mm that rocks by `rock_deg`, as far as these
+    /// measures need them; `None` where they need none, because patterns take time.
     pub fn needed_by<'a>(
         measures: impl IntoIterator<Item = &'a MeasureName>,
         unit_mm: f64,

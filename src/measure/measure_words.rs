@@ -1,9 +1,10 @@
-//! Measures in words: their names on screen and paper, what they mean, and their values.
+//! Measures in words: their names on screen and paper, their meanings, and their values.
 
 use super::{Interval, MeasureName, MeasureSettings, PatternSettings, ROCK_DEG};
 use crate::scene::DomeLight;
 
-/// Returns the measures that can be chosen: the usual ones and those of the pattern that an eye sees, also as the stone rocks.
+/// Returns the measures that can be chosen: the usual ones and those of the pattern that an eye sees, also while the
+/// stone rocks.
 pub fn all() -> Vec<MeasureName> {
     let pattern = PatternSettings { rock_deg: Some(ROCK_DEG), ..PatternSettings::usual(1.0) };
     MeasureName::all(&MeasureSettings { pattern: Some(pattern), ..MeasureSettings::usual([1.0; 2]) })
@@ -46,7 +47,7 @@ fn dome_name(dome: DomeLight) -> String {
     }
 }
 
-/// Says what a measure counts.
+/// Returns the meaning of a measure, in whole sentences.
 pub fn meaning(measure: MeasureName) -> &'static str {
     match measure {
         MeasureName::Return(_) => {

@@ -3,17 +3,17 @@
 use super::figures::Figures;
 use crate::scene::Scope;
 
-/// The part of the light that may usually stay unresolved where nothing is estimated. Face up it takes a few hundredths of
-/// a second, tilted some seconds.
+/// The default part of the light that may stay unresolved where nothing is estimated. It takes a few hundredths of a
+/// second face up, and some seconds for a tilted stone.
 pub const UNRESOLVED: f64 = 1.5e-4;
 
-/// The usual standard error of figures whose rest is estimated.
+/// The default standard error of figures whose rest is estimated.
 pub const STANDARD_ERROR: f64 = 1e-4;
 
 /// The default number of rays along each side of one lattice, for figures by rays.
 pub const LATTICE: u32 = 256;
 
-/// How far light is followed, and with how many rays.
+/// The limits to which light is followed, and the number of rays.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
     /// The part of the light that may stay unresolved, above 0 and below 1. Beams are followed until no more than this
@@ -23,7 +23,7 @@ pub struct Bounds {
     /// The standard error, a part of the silhouette's light, to which rays estimate in each zone the light that beams have
     /// left; above 0. `None` where nothing is estimated. Figures by rays alone do not use it.
     pub standard_error: Option<f64>,
-    /// Whether polarisation is followed; without it, every surface sees unpolarised light.
+    /// True where polarisation is followed; without it, every surface gets unpolarised light.
     pub polarised: bool,
     /// Rays along each side of a lattice, 1 to 16,384. Beams do not use it.
     pub lattice: u32,
@@ -42,12 +42,12 @@ impl Bounds {
         Self { unresolved: Some(unresolved), standard_error: None, ..Self::default() }
     }
 
-    /// Returns the part of its light that a ray may leave unresolved: less than matters beside the standard error.
+    /// Returns the part of its light that a ray may leave unresolved: little beside the standard error.
     pub fn left_by_rays(&self) -> f64 {
         self.unresolved.unwrap_or(self.standard_error.map_or(UNRESOLVED, |error| error.max(UNRESOLVED)))
     }
 
-    /// Returns the part of the light that beams may leave unresolved: all of it where only an estimate was asked for.
+    /// Returns the part of the light that beams may leave unresolved: all of it where only an estimate was requested.
     pub fn left_by_beams(&self) -> f64 {
         self.unresolved.unwrap_or(if self.standard_error.is_some() { 1.0 } else { UNRESOLVED })
     }
@@ -69,7 +69,7 @@ pub struct Measured {
     glare_return: f64,
 }
 
-/// One zone of a scope, as parts of the silhouette.
+/// A zone of a scope, whose numbers are parts of the silhouette.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Zone {
     /// Light of this zone that the outer surface reflects.
@@ -147,11 +147,12 @@ impl Measured {
         })
     }
 
-    /// Returns how far off a share of light may be.
+    /// Returns the error of a share of light.
     ///
-    /// With beams alone, a share may be too low by this much and is never too high. With an estimate of what beams have
-    /// left, it is twice the largest standard error; a share is then certainly no lower than without its estimated part, and no
-    /// higher than that by more than [`Figures::unresolved`]. With rays, it is what they leave and twice the standard error.
+    /// With beams alone, a share may be too low by this much and is never too high. With an estimate of the light
+    /// that beams leave, it is twice the largest standard error; a share is then certainly no lower than without its
+    /// estimated part, and no higher than that by more than [`Figures::unresolved`]. With rays, it is the light that
+    /// they leave and twice the standard error.
     pub fn error(&self) -> f64 {
         let absorbed = self.figures.estimate.as_ref().map_or(0.0, |estimate| estimate.absorbed_error);
         let share = self.figures.standard_error.max(self.light_return_error.unwrap_or(0.0)).max(absorbed);

@@ -1,4 +1,4 @@
-//! Floor 4: figures. They say how much light comes from where, each with its error.
+//! Floor 4: figures. They state the shares of the light by its origin, each with its error.
 //!
 //! [`measure`](crate::measure()) takes a design to its figures in one call.
 

@@ -1,4 +1,5 @@
-//! A pattern of the image, cut into octants: convex pieces, the regions that they join to, and how far two octants differ.
+//! A pattern of the image, cut into octants: convex pieces, the regions that they join to, and the difference of two
+//! octants.
 
 use super::facet_deviations::OCTANTS;
 use crate::math::{Affine, area, centroid, clip, span};
@@ -6,7 +7,7 @@ use crate::trace::beam::Beams;
 use glam::DVec2;
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_8};
 
-/// Pieces smaller than this, squared girdle radii, come of rounding where a piece touches the border of an octant.
+/// Pieces smaller than this, squared girdle radii, arise from rounding where a piece touches the border of an octant.
 const LEAST_AREA: f64 = 1e-14;
 
 /// Points nearer to a line than this, girdle radii, lie on it: a thousand roundings of the corners of beams.
@@ -16,10 +17,10 @@ const ON_LINE: f64 = 1e-9;
 /// shaft and head of an arrow do, stay apart, also where small pieces lie at the point.
 const JOINED: f64 = 2e-2;
 
-/// Areas that differ by less than this part are the same but for rounding.
+/// Areas that differ by less than this part are equal except for rounding.
 const ALIKE: f64 = 1e-7;
 
-/// Where the octants of a stone lie, seen along its axis.
+/// The place of a stone's octants, seen along its axis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OctantFrame {
     /// The middle of the stone.
@@ -30,7 +31,7 @@ pub(super) struct OctantFrame {
     pub azimuth: f64,
 }
 
-/// What a pattern has at one cell of the map of strongest exits.
+/// The kind of a cell of the map of strongest exits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum CellKind {
     /// The cell is part of the pattern, and of this layer of it. Only pieces of one layer join.
@@ -100,12 +101,13 @@ pub(super) struct OctantPattern {
     pieces: Vec<PatternPiece>,
     /// The area of all cells that are certainly part of the pattern, squared girdle radii.
     pub certain: f64,
-    /// The area of all cells of which unresolved light leaves open whether they are part of it.
+    /// The area of all cells that may or may not be part of it, since unresolved light leaves that open.
     pub undecided: f64,
 }
 
 impl OctantPattern {
-    /// Returns the parts of a pattern in all octants. `kind` is asked with the ids of each cell's outline and strongest exit.
+    /// Returns the parts of a pattern in all octants. `kind` is called with the ids of each cell's outline and
+    /// strongest exit.
     pub fn of(beams: &Beams, frame: &OctantFrame, kind: impl Fn(u32, u32) -> CellKind) -> [Self; OCTANTS] {
         let mut octants: [Self; OCTANTS] = Default::default();
         let mut clipped = [vec![], vec![]];
@@ -128,7 +130,7 @@ impl OctantPattern {
         octants
     }
 
-    /// Returns the area, counting cells that are not certain by what is known of them.
+    /// Returns the area, in which undecided cells count by their strongest exit so far.
     pub fn area(&self) -> f64 {
         self.pieces.iter().map(|piece| piece.area).sum()
     }
@@ -144,8 +146,9 @@ impl OctantPattern {
         (self.area() + other.area() - 2.0 * both).max(0.0)
     }
 
-    /// Returns the regions of one layer, the largest first. Of several that are largest but for rounding, as mirror images are, the
-    /// first is the one that lies farthest to the counter-clockwise side, so that octants that are alike name the same.
+    /// Returns the regions of one layer, the largest first. Where several are largest except for rounding, as mirror
+    /// images are, the first is the one that lies farthest to the counter-clockwise side, so that equal octants name
+    /// equal regions.
     pub fn regions(&self, layer: u8) -> Vec<Region<'_>> {
         let pieces: Vec<&PatternPiece> = self.pieces.iter().filter(|piece| piece.layer == layer).collect();
         let mut open: Vec<usize> = (0..pieces.len()).collect();

@@ -33,11 +33,12 @@ struct Tally {
 
 /// Samples the figures under a scope with point rays, on `LATTICES` shifted lattices of `side` × `side` points.
 ///
-/// In a perspective view, the figures are fractions of what the eye sees. An eye that is not in front of the whole stone
-/// sees nothing, and all its figures are 0. The same input gives the same figures. `side` is from 1 to 16,384.
+/// In a perspective view, the figures are fractions of the silhouette as the eye sees it. An eye that is not in front
+/// of the whole stone sees nothing, and all its figures are 0. The same input gives the same figures. `side` is from
+/// 1 to 16,384.
 ///
 /// # Errors
-/// [`Stopped`] when `watch` stops the work.
+/// Fails with [`Stopped`] when `watch` stops the work.
 pub fn by_rays<'a>(
     solid: impl Into<SolidRef<'a>>,
     medium: Medium,
@@ -80,7 +81,7 @@ pub fn by_rays<'a>(
 /// Samples the same figures as [`by_rays`] on a graphics card.
 ///
 /// # Errors
-/// [`Stopped`] when `watch` stops the work, or a [`GpuError`], each turned into `E`.
+/// Fails with [`Stopped`] when `watch` stops the work, or a [`GpuError`], each turned into `E`.
 #[cfg(feature = "gpu")]
 pub fn by_gpu<'a, E: From<Stopped> + From<GpuError>>(
     gpu: &Gpu,
@@ -132,7 +133,7 @@ fn over_lattices<E: From<Stopped>>(
         let shift = DVec2::new(0.754_877_666_246_693, 0.569_840_290_998_053) * f64::from(k + 1);
         lattices.push(see(half, shift - shift.floor(), done)?);
     }
-    // The outline of triangles is known only from the rays that meet them.
+    // The outline of triangles is known only by the rays that meet them.
     let hits: u32 = lattices.iter().map(|t| t.hits).sum();
     let each = (2.0 * half / f64::from(side)).powi(2) / f64::from(LATTICES);
     Ok(summary(&lattices, known.unwrap_or(f64::from(hits) * each)))

@@ -1,4 +1,5 @@
-//! Scintillation: how much the brightness of the face changes, and in patches of which size, as the stone rocks.
+//! Scintillation: the change of the brightness of the face as the stone rocks, and the size of the patches that
+//! change.
 
 use super::exit_sight::brightness;
 use super::eye_grid::EyeGrid;
@@ -11,15 +12,15 @@ use serde::Serialize;
 
 /// The number of directions into which the stone rocks, evenly around it.
 ///
-/// A wave of 1 to 11 periods around the stone averages to 0 over twelve directions, so their mean is that over all directions up to
-/// the 12th wave for stones of 1, 2, 3, 4 or 6 repeats, and up to the 24th for those of 8. Four or eight directions are all alike to
-/// a brilliant, whose facets repeat every 45 degrees.
+/// A wave of 1 to 11 periods around the stone averages to 0 over twelve directions, so their mean is that over all
+/// directions up to the 12th wave for stones of 1, 2, 3, 4 or 6 repeats, and up to the 24th for those of 8. Four or
+/// eight directions would be equivalent for a brilliant, whose facets repeat every 45 degrees.
 const DIRECTIONS: u32 = 12;
 
-/// The part of the face's mean brightness by which a place must change to count as one that changes.
+/// The part of the face's mean brightness by which a place must change to count as changing.
 const CHANGES: f64 = 0.5;
 
-/// What changes as the stone rocks, under an even dome with the observer's head.
+/// The change of the face as the stone rocks, under an even dome with the observer's head.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Scintillation {
     /// The mean change of the brightness of a place, up or down, as a part of the face's mean brightness. `most` is infinite where
@@ -34,7 +35,7 @@ pub struct Scintillation {
 pub fn rocked_views(view: &View, rock_deg: f64) -> Vec<View> {
     let basis = view.basis();
     let rocked = |direction: &DVec2| {
-        // The axis lies in the image; a turn is given in the frame before it.
+        // The axis lies in the image, and is given in the frame before the turn.
         let axis = view.turn * basis.lift(*direction);
         View {
             turn: DQuat::from_axis_angle(axis.normalize_or(glam::DVec3::X), rock_deg.to_radians())
@@ -71,7 +72,7 @@ impl Scintillation {
 struct Changes {
     /// The cells of the other view, whose patches are measured.
     grid: EyeGrid,
-    /// How much the brightness of each cell changes, up or down.
+    /// The change of the brightness of each cell, up or down.
     of: Vec<Interval>,
     /// The part of each cell that is covered in both views, as a part of the face.
     common: Vec<f64>,
@@ -128,7 +129,8 @@ mod tests {
     use super::*;
     use crate::scene::Side;
 
-    /// What repeats n times around a stone and is its own mirror image changes as cos(n φ), cos(2n φ) and so on.
+    /// A quantity of a stone that repeats n times around it and is its own mirror image varies as cos(n φ), cos(2n φ)
+    /// and so on.
     #[test]
     fn the_mean_over_directions_is_that_over_all_of_them_for_slow_waves() {
         for wave in 1..12 {
@@ -151,7 +153,7 @@ mod tests {
                 assert!((angle - 3.0).abs() < 1e-9, "{angle}");
                 let lean = |view: &View| view.basis().toward.dot(view.zenith());
                 assert!((lean(other) - lean(&view)).abs() < 1e-12);
-                // What lies on the axis stays in its place of the image.
+                // A point on the axis stays in its place of the image.
                 let axis = view.basis().lift(direction);
                 assert!(other.basis().project(axis).distance(direction) < 1e-12);
             }

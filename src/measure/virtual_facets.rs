@@ -1,7 +1,8 @@
-//! Virtual facets as wholes: all of the face through which light has met the same facets.
+//! Virtual facets as wholes: all parts of the face through which light has met the same facets.
 //!
-//! Beams are stored of one domain of the picture's symmetry, whose borders cut virtual facets in parts. Parts are of one
-//! virtual facet if they have met the same facets; a part in another copy of the domain has met the images of the facets.
+//! Stored beams cover one domain of the picture's symmetry, whose borders cut virtual facets in parts. Parts belong
+//! to one virtual facet if they have met the same facets; a part in another copy of the domain has met the images of
+//! the facets.
 
 use super::interval::Interval;
 use crate::math::random_bits::{GAMMA, mixed};
@@ -15,12 +16,12 @@ use std::f64::consts::FRAC_PI_4;
 pub(super) struct VirtualFacets<'a> {
     beams: &'a Beams,
     order: usize,
-    /// For each beam, the hash of its list in each copy of the domain, the domain itself first.
+    /// The hash of each beam's list in each copy of the domain, the domain itself first.
     hashes: Vec<u64>,
 }
 
 impl<'a> VirtualFacets<'a> {
-    /// Finds out which parts belong together. `polytope` must be the stone that was traced.
+    /// Finds the parts that belong together. `polytope` must be the stone that was traced.
     pub fn of(beams: &'a Beams, polytope: &Polytope) -> Self {
         let copies = beams.symmetry.copies();
         let images: Vec<Vec<u64>> = copies.iter().map(|copy| images(polytope, &beams.view, copy)).collect();
@@ -46,7 +47,7 @@ impl<'a> VirtualFacets<'a> {
         own.map(|hash| sums.get(hash).copied().unwrap_or_default()).collect()
     }
 
-    /// Returns the area of each beam's virtual facet, and by how much it may be larger because parts of it were not followed.
+    /// Returns the area of each beam's virtual facet, as an interval, because unfollowed parts may make it larger.
     pub fn areas(&self) -> Vec<Interval> {
         let beams = self.beams;
         let areas = self.wholes(&beams.iter().map(|beam| beam.area).collect::<Vec<_>>());

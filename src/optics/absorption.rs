@@ -1,7 +1,7 @@
-//! How light fades on its way through a coloured stone: the law of Beer and Lambert, per wavelength.
+//! The fading of light on its way through a coloured stone: the law of Beer and Lambert, per wavelength.
 //!
 //! Coefficients are Napierian (base e) and per millimetre of stone: T = exp(-a l) (J. H. Lambert 1760, A. Beer 1852).
-//! Decadic absorbance, as some sources print it, must be divided by 0.4343 first.
+//! Decadic absorbance, which some sources print, must first be divided by 0.4343.
 
 use super::dispersion::VISIBLE_NM;
 use super::strata::basis;
@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 /// The largest coefficient that is accepted, per mm: metals reach 1e5.
 pub const MOST_PER_MM: f64 = 1e6;
 
-/// An absorption spectrum: straight lines between samples, level outside them. Without samples the stone is clear, with one
-/// it is grey.
+/// An absorption spectrum: straight lines between samples, and constant outside them. Without samples the stone is
+/// clear; with one sample it is grey.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(try_from = "Vec<(f64, f64)>", into = "Vec<(f64, f64)>")]
 pub struct Absorption {
@@ -20,10 +20,10 @@ pub struct Absorption {
     samples: Vec<(f64, f64)>,
 }
 
-/// Why an absorption spectrum is refused. Samples are counted from 1.
+/// The reason why an absorption spectrum is refused. Samples are counted from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum AbsorptionError {
-    /// The wavelength is not a positive number.
+    /// The wavelength of the sample is not a positive number.
     #[error("absorption sample {sample} has a wavelength of {nm} nm: give a positive number")]
     Wavelength {
         /// The number of the sample.
@@ -41,7 +41,7 @@ pub enum AbsorptionError {
         /// The coefficient given, per mm.
         per_mm: f64,
     },
-    /// The wavelength does not exceed that of the sample before.
+    /// The wavelength of the sample does not exceed that of the sample before.
     #[error(
         "absorption sample {sample} ({nm} nm) follows one at {previous} nm: list wavelengths in increasing \
          order, each once"
@@ -56,7 +56,7 @@ pub enum AbsorptionError {
     },
 }
 
-/// The least share of light that a spectrum made of a colour leaves.
+/// The least share of light that is left at any wavelength by a spectrum made of a colour.
 const LEAST_LEFT: f64 = 1e-4;
 
 impl TryFrom<Vec<(f64, f64)>> for Absorption {
@@ -74,11 +74,11 @@ impl From<Absorption> for Vec<(f64, f64)> {
 }
 
 impl Absorption {
-    /// Makes a spectrum through (nm, coefficient per mm) samples.
+    /// Makes a spectrum that runs through these samples: (wavelength in nm, coefficient per mm).
     ///
     /// # Errors
-    /// Names the first sample whose wavelength is not positive, whose coefficient is not from 0 to [`MOST_PER_MM`], or whose
-    /// wavelength does not exceed that of the sample before.
+    /// The error names the first sample whose wavelength is not positive, whose coefficient is not from 0 to
+    /// [`MOST_PER_MM`], or whose wavelength does not exceed that of the sample before.
     pub fn new(samples: Vec<(f64, f64)>) -> Result<Self, AbsorptionError> {
         let mut previous = 0.0;
         for (&(nm, per_mm), sample) in samples.iter().zip(1..) {
@@ -101,13 +101,16 @@ impl Absorption {
         Self { samples: Vec::new() }
     }
 
-    /// Makes a smooth spectrum of a stone in which daylight takes on a colour, linear sRGB, after a path in mm.
+    /// Makes a smooth spectrum of a stone that gives daylight this colour, linear sRGB, after a path of `mm`
+    /// millimetres.
     ///
-    /// The light that is left is the mixture of the spectra of red, green and blue ([`basis`]) that looks like the colour.
-    /// Parts of the colour beyond 0 to 1 are cut off, and at every wavelength a ten-thousandth of the light is left.
+    /// The share of light that is left is the mixture of the spectra of red, green and blue ([`basis`]) that looks
+    /// like the colour. Colour components are clamped to 0 to 1, and at every wavelength at least a ten-thousandth of
+    /// the light is left.
     ///
     /// # Errors
-    /// [`AbsorptionError`] for a path that is not longer than 0, or so short that a coefficient exceeds [`MOST_PER_MM`].
+    /// Fails with [`AbsorptionError`] for a path that is not longer than 0, or so short that a coefficient exceeds
+    /// [`MOST_PER_MM`].
     pub fn of_colour(colour: DVec3, mm: f64) -> Result<Self, AbsorptionError> {
         let colour = colour.clamp(DVec3::ZERO, DVec3::ONE);
         if colour == DVec3::ONE {
@@ -121,23 +124,24 @@ impl Absorption {
         Self::new((first..=last).step_by(5).map(sample).collect())
     }
 
-    /// Returns this spectrum with all coefficients times a factor, at most [`MOST_PER_MM`] each; `factor` is at least 0.
+    /// Returns this spectrum with all coefficients multiplied by `factor`, which is at least 0, and limited to
+    /// [`MOST_PER_MM`].
     pub fn scaled(&self, factor: f64) -> Self {
         let scaled = |&(nm, per_mm): &(f64, f64)| (nm, (per_mm * factor).clamp(0.0, MOST_PER_MM));
         Self { samples: self.samples.iter().map(scaled).collect() }
     }
 
-    /// Whether nothing is absorbed at any wavelength, so that a tracer may leave absorption out.
+    /// Returns whether the stone absorbs nothing at any wavelength, so that a tracer may leave absorption out.
     pub fn is_clear(&self) -> bool {
         self.samples.iter().all(|&(_, per_mm)| per_mm == 0.0)
     }
 
-    /// Returns the (nm, coefficient per mm) samples.
+    /// Returns the samples: (wavelength in nm, coefficient per mm).
     pub fn samples(&self) -> &[(f64, f64)] {
         &self.samples
     }
 
-    /// Returns the coefficient at a wavelength, per mm, >= 0.
+    /// Returns the absorption coefficient at a wavelength, per mm, >= 0.
     pub fn coefficient(&self, wavelength_nm: f64) -> f64 {
         let above = self.samples.partition_point(|&(nm, _)| nm <= wavelength_nm);
         let (before, after) = self.samples.split_at(above);

@@ -1,10 +1,11 @@
-//! The sRGB encoding: converts linear light to what a file or a screen holds, once at the end, and back.
+//! The sRGB encoding. Linear light is encoded once, at the end, for a file or a screen; the inverse decodes it again.
 //!
 //! Source: IEC 61966-2-1:1999, §5.2 (its two-piece curve, with its printed constants).
 
 use glam::DVec3;
 
-/// Linear light in the sRGB primaries, white at (1, 1, 1); may exceed 1 until it is encoded.
+/// A colour as linear light in the sRGB primaries, with white at (1, 1, 1). Components may exceed 1 until they are
+/// encoded.
 pub type LinearRgb = DVec3;
 
 /// The shares of linear sRGB's red, green and blue in luminance (IEC 61966-2-1:1999).
@@ -28,13 +29,13 @@ const STEPS: usize = 4096;
 
 /// Encodes linear light in 8 bits without computing a power.
 ///
-/// A component takes a look-up and a comparison; the result is that of the formula, rounded, for every input. Make one
-/// encoder and keep it: it is 6 kB and stays in the nearest cache.
+/// A component takes a look-up and a comparison; the result is that of the formula, rounded, for every input. The
+/// encoder should be made once and kept: it has 6 kB, which fit in the nearest cache.
 #[derive(Debug, Clone)]
 pub struct SrgbEncoder {
     /// The code at the lower end of each step.
     code: [u8; STEPS],
-    /// The least linear value of each code; beyond 255 a NaN, which no value reaches.
+    /// The least linear value of each code; beyond code 255 NaN, which no value reaches.
     least: [f64; 257],
 }
 
@@ -75,8 +76,8 @@ fn rounded(linear: f64) -> u8 {
     (encoded_from_linear(linear).clamp(0.0, 1.0) * 255.0).round() as u8
 }
 
-/// Returns the least linear value >= 0 that rounds to `code`: the inverse formula gives it but for the last bits, which are
-/// found by trial.
+/// Returns the least linear value >= 0 that rounds to `code`. The inverse formula gives all but its last bits, which
+/// are found by trial.
 fn least_linear(code: u8) -> f64 {
     let mut linear = linear_from_encoded((f64::from(code) - 0.5).max(0.0) / 255.0);
     while linear > 0.0 && rounded(linear) >= code {

@@ -1,15 +1,16 @@
-//! How a refractive index depends on wavelength, in the forms in which such laws are published.
+//! Laws of dispersion: the refractive index as a function of the wavelength, in the forms in which such laws are
+//! published.
 //!
 //! Every law is written with the wavelength L in micrometres, as its source prints it. Every function takes nanometres.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::ops::RangeInclusive;
 
-/// The range of wavelengths in nm within which every law must give an index, and which may hold no resonance: that of the
-/// tables of the CIE 1931 observer, beyond which nothing is seen.
+/// The range of wavelengths in nm within which every law must give an index and must have no resonance: the range of
+/// the tables of the CIE 1931 observer, beyond which the eye sees nothing.
 pub const VISIBLE_NM: RangeInclusive<f64> = 360.0..=830.0;
 
-/// The spectral lines that gemmology and optics name, in nm (in air).
+/// The spectral lines by which gemmology and optics name wavelengths, in nm (in air).
 pub mod line {
     /// Sodium D, the mean of the doublet, at which a gem's index is quoted.
     pub const SODIUM_D: f64 = 589.3;
@@ -25,9 +26,10 @@ pub mod line {
     pub const HELIUM_D: f64 = 587.6;
 }
 
-/// A law of dispersion: the index by wavelength.
+/// A law of dispersion: the refractive index as a function of the wavelength.
 ///
-/// A law made by hand should come from a trusted source. [`Dispersion::checked`] tests any law, and deserialising calls it.
+/// A law made by hand should come from a trusted source. [`Dispersion::checked`] tests any law; deserialising does so
+/// too.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields, remote = "Self")]
 pub enum Dispersion {
@@ -74,10 +76,10 @@ pub enum Dispersion {
     },
 }
 
-/// Why a law of dispersion is refused.
+/// The reason why a law of dispersion is refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DispersionError {
-    /// The formula gives no real index of at least 1.
+    /// The law gives no real index of at least 1 at a wavelength.
     #[error(
         "the dispersion gives no refractive index of 1 or more at {nm} nm (n² = {n_squared}): check its \
          coefficients, which belong to wavelengths in micrometres"
@@ -94,7 +96,7 @@ pub enum DispersionError {
         /// The wavelength given, in nm.
         nm: f64,
     },
-    /// A term is infinite at a wavelength of visible light.
+    /// A term of the law is infinite at a wavelength of visible light.
     #[error(
         "the dispersion has a resonance at {nm:.1} nm, in visible light (360 to 830 nm): check whether its \
          source prints C squared (use `rational`) or not (use `sellmeier`)"
@@ -132,7 +134,7 @@ impl Dispersion {
     /// Returns the index at a wavelength in nm, at least 1.
     ///
     /// # Errors
-    /// Returns an error where the law gives no index that is real, finite and at least 1.
+    /// Fails where the law gives no index that is real, finite and at least 1.
     pub fn try_index(&self, wavelength_nm: f64) -> Result<f64, DispersionError> {
         if !(wavelength_nm > 0.0 && wavelength_nm.is_finite()) {
             return Err(DispersionError::Wavelength { nm: wavelength_nm });
@@ -144,10 +146,11 @@ impl Dispersion {
         Err(DispersionError::NoIndex { nm: wavelength_nm, n_squared })
     }
 
-    /// Returns the law if it gives an index throughout visible light.
+    /// Returns the law itself, if it gives an index throughout visible light.
     ///
     /// # Errors
-    /// Names a resonance in visible light, a wavelength there without an index, or an Abbe number that is not above 0.
+    /// The error names a resonance in visible light, a wavelength there without an index, or an Abbe number that is
+    /// not above 0.
     pub fn checked(self) -> Result<Self, DispersionError> {
         if let Self::Abbe { v_d, .. } = self
             && !(v_d > 0.0 && v_d.is_finite())
@@ -163,7 +166,8 @@ impl Dispersion {
         Ok(self)
     }
 
-    /// Returns the dispersion as gem tables print it, n(430.8 nm) - n(686.7 nm). Panics as [`Dispersion::index`] does.
+    /// Returns the dispersion n(430.8 nm) - n(686.7 nm), which gem tables print. Panics as [`Dispersion::index`]
+    /// does.
     pub fn dispersion_b_g(&self) -> f64 {
         self.index(line::FRAUNHOFER_G) - self.index(line::FRAUNHOFER_B)
     }
@@ -175,7 +179,7 @@ impl Dispersion {
         (spread != 0.0).then(|| (self.index(line::HELIUM_D) - 1.0) / spread)
     }
 
-    /// Returns the square of the index. A negative index gives a negative square, so that it is refused.
+    /// Returns the square of the index. A negative index gives a negative square, so that the law is refused.
     fn n_squared(&self, nm: f64) -> f64 {
         let l2 = 1.0 / per_um2(nm);
         let signed_square = |n: f64| n * n.abs();
@@ -209,7 +213,8 @@ impl Dispersion {
     }
 }
 
-// `remote = "Self"` makes the derived functions inherent ones, so that the two traits below can add the check.
+// `remote = "Self"` makes the derived functions inherent functions of the type, so that the two trait implementations
+// below can add the check.
 impl Serialize for Dispersion {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         Self::serialize(self, serializer)

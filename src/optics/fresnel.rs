@@ -1,4 +1,4 @@
-//! Fresnel's formulae: how much light a surface reflects, and with what phase.
+//! Fresnel's formulae: the share of light that a surface reflects, and the phase of the reflected light.
 //!
 //! Source: M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999): §1.5.2, eq. 21 for the amplitudes,
 //! §1.5.4, eq. 60 for the phases of total reflection. Their convention is kept:
@@ -37,20 +37,20 @@ impl Fresnel {
         0.5 * (self.reflectance_s() + self.reflectance_p())
     }
 
-    /// Returns the transmitted amplitude of s, normalised to flux: its square is exactly what [`Self::reflectance_s`]
-    /// leaves.
+    /// Returns the transmitted amplitude of s-polarised light, normalised to flux: its square is exactly 1 -
+    /// [`Self::reflectance_s`].
     ///
-    /// It is real and not negative, as in Born & Wolf's eq. 20: refraction shifts no phase.
+    /// The amplitude is real and not negative, as in Born & Wolf's eq. 20: refraction shifts no phase.
     pub fn transmission_s(&self) -> f64 {
         (1.0 - self.reflectance_s()).sqrt()
     }
 
-    /// Returns the transmitted amplitude of p, normalised to flux as [`Self::transmission_s`] is.
+    /// Returns the transmitted amplitude of p-polarised light, normalised to flux as [`Self::transmission_s`] is.
     pub fn transmission_p(&self) -> f64 {
         (1.0 - self.reflectance_p()).sqrt()
     }
 
-    /// Whether all light is reflected.
+    /// Returns whether the surface reflects all light.
     pub fn is_total(&self) -> bool {
         self.cos_t.is_none()
     }
@@ -63,8 +63,8 @@ impl Fresnel {
 
 /// Returns Fresnel's coefficients for light that meets a surface at an angle of cosine `cos_i`.
 ///
-/// `cos_i` is in 0..=1; rounding beyond is clamped. `eta` is the incident index / the transmitted index, > 0. Exactly at the
-/// critical angle, and at grazing incidence, all light is reflected.
+/// `cos_i` is in 0..=1; values slightly beyond, from rounding, are clamped. `eta` is the incident index / the
+/// transmitted index, > 0. Exactly at the critical angle, and at grazing incidence, all light is reflected.
 #[inline]
 pub fn fresnel(cos_i: f64, eta: f64) -> Fresnel {
     let cos_i = cos_i.clamp(0.0, 1.0);
@@ -81,7 +81,8 @@ pub fn fresnel(cos_i: f64, eta: f64) -> Fresnel {
 
 /// Returns the reflected share of unpolarised power; `None` where reflection is total.
 ///
-/// This is [`Fresnel::reflectance`] without complex numbers, with one root and one division, for the tracers' inner loops.
+/// This is [`Fresnel::reflectance`] without complex numbers, with one square root and one division, for the tracers'
+/// inner loops.
 #[inline]
 pub fn reflectance(cos_i: f64, eta: f64) -> Option<f64> {
     let cos_i = cos_i.clamp(0.0, 1.0);

@@ -1,20 +1,21 @@
-//! Frosted surfaces of transparent media: microscopic facets that reflect and refract, with slopes by the law of Trowbridge and
-//! Reitz (GGX).
+//! Frosted surfaces of transparent media. Their microscopic facets reflect and refract; the slopes of the facets
+//! follow the law of Trowbridge and Reitz (GGX).
 //!
-//! The model is that of B. Walter et al., *Microfacet Models for Refraction through Rough Surfaces*, EGSR 2007, with Smith's
-//! masking, and with all light that meets more than one microscopic facet followed on, as E. Heitz et al., *Multiple-Scattering
-//! Microfacet BSDFs with the Smith Model*, SIGGRAPH 2016, do: a ray walks among the facets until it leaves them on one side.
-//! Every walk carries all of its light, so that the surface loses none. Written from the papers' formulas.
+//! The model is that of B. Walter et al., *Microfacet Models for Refraction through Rough Surfaces*, EGSR 2007, with
+//! Smith's masking. Light that meets more than one microscopic facet is followed on, as in E. Heitz et al.,
+//! *Multiple-Scattering Microfacet BSDFs with the Smith Model*, SIGGRAPH 2016: a ray walks among the facets until it
+//! leaves them on one side. Every walk carries all of its light, so that the surface loses none. The code was written
+//! from the papers' formulas.
 
 use super::fresnel::reflectance;
 use super::microfacets::{hidden, visible_normal};
 use super::snell::{cos_transmitted, reflect, refract};
 use glam::DVec3;
 
-/// The least width of the law of slopes of a surface that is frosted at all.
+/// The least width of the law of slopes that a frosted surface may have.
 const LEAST_ALPHA: f64 = 1e-3;
 
-/// The most microscopic facets that a ray meets; fewer than one ray in a million meets as many.
+/// The most microscopic facets that a ray may meet; fewer than one ray in a million meets as many.
 const MOST_MET: usize = 100;
 
 /// The least cosine between a ray and a microscopic facet that it meets, against rounding.
@@ -33,29 +34,30 @@ pub struct FrostedSurface {
 /// Light that a frosted surface has scattered.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrostedScatter {
-    /// The direction in which it goes on, of length 1.
+    /// The direction in which the light goes on, of length 1.
     pub direction: DVec3,
-    /// Whether it has passed to the other side.
+    /// True where the light has passed to the other side of the surface.
     pub passes: bool,
 }
 
 impl FrostedSurface {
-    /// Makes a surface that is frosted so much, above 0 to 1: the law's width α.
+    /// Makes a frosted surface. `frosting`, above 0 to 1, is the width α of the law of slopes.
     pub fn new(frosting: f64) -> Self {
         Self { alpha: frosting.clamp(LEAST_ALPHA, 1.0) }
     }
 
-    /// Returns the side, in radians, of a square of directions that is small beside the lobe into which the surface scatters: a
-    /// sixty-fourth of a square with the side 2 α.
+    /// Returns the side, in radians, of a square of directions that is small compared with the lobe into which the
+    /// surface scatters light: its area is a sixty-fourth of the area of a square with the side 2 α.
     pub fn spread(&self) -> f64 {
         0.25 * self.alpha
     }
 
-    /// Scatters light that arrives in a direction of length 1, at a surface whose unit normal points to the side that it comes
-    /// from. `eta` is incident index / transmitted index. `first` decides about the first microscopic facet, `more` about all
-    /// else: numbers from 0 to below 1. All light goes on in the direction that is returned.
+    /// Scatters light that arrives in a direction of length 1 at a surface whose unit normal points to the side that
+    /// the light comes from. `eta` is incident index / transmitted index. Two random numbers from 0 to below 1 decide
+    /// the path: `first` decides about the first microscopic facet, `more` about all further ones. All light goes on
+    /// in the direction that is returned.
     ///
-    /// `None` where the light meets too many facets, or the direction does not arrive.
+    /// `None` where the light meets too many facets, or does not travel towards the surface.
     pub fn scatter(
         &self,
         arriving: DVec3,
@@ -74,7 +76,8 @@ impl FrostedSurface {
             return Some(FrostedScatter { direction: arriving, passes: true });
         }
         let (mut eta, mut passes) = (eta, false);
-        // The share of the surface that lies below the ray; `way.z` counts away from the surface, on the ray's side of it.
+        // The share of the surface that lies below the ray; `way.z` is positive where the ray runs away from the surface,
+        // on the ray's side of it.
         let mut below = 1.0;
         let mut luck = Some(first);
         for _ in 0..MOST_MET {
@@ -101,15 +104,16 @@ impl FrostedSurface {
     }
 }
 
-/// Returns the share of the surface below the place where a ray meets the next microscopic facet, 1 or more where it meets none.
-/// `up` is the cosine of its way away from the surface, `below` the share of the surface below its beginning, and `chance` a
-/// number from 0 to below 1. (Heitz et al. 2016, section 4.1: a ray is not met between two heights with a probability of the
-/// quotient of these shares to the power of Smith's Λ, which is below 0 on the way down.)
+/// Returns the share of the surface below the place where a ray meets the next microscopic facet; 1 or more where the
+/// ray meets none. `up` is the cosine between the ray and the normal, positive on the way away from the surface,
+/// `below` the share of the surface below the ray's beginning, and `chance` a random number from 0 to below 1. (Heitz
+/// et al. 2016, section 4.1: a ray meets nothing between two heights with a probability of the quotient of these
+/// shares to the power of Smith's Λ, which is below 0 on the way down.)
 fn next_below(alpha: f64, up: f64, below: f64, chance: f64) -> f64 {
     let lambda = hidden(alpha, up);
     match up > 0.0 {
         true => below * chance.powf(-1.0 / lambda),
-        // On the way down, every ray meets a facet.
+        // A ray on its way down always meets a facet.
         false => (below * chance.powf(1.0 / (1.0 + lambda))).min(HIGHEST),
     }
 }

@@ -2,14 +2,14 @@
 
 use super::{Dispersion, Material};
 
-/// The source of the real ones: numbers at the d line as the trade and makers quote them (for BK7, SF10 and SF11 the sheets
-/// of SCHOTT).
+/// The source of the real materials: numbers at the d line as the trade and the makers quote them (for BK7, SF10 and
+/// SF11, the data sheets of SCHOTT).
 const QUOTED: &str = "index and Abbe number as quoted at the d line";
 
-/// The source of those that are stranger than any real glass.
+/// The source of the invented glasses, which are stranger than any real glass.
 const INVENTED: &str = "invented, for its looks";
 
-/// The name, n_d, V_d and, where it is known, the density in g/cm³ of each real material.
+/// The real materials: name, n_d, V_d and, where it is known, the density in g/cm³.
 const REAL: [(&str, f64, f64, Option<f64>); 8] = [
     ("water", 1.333, 55.7, Some(0.998)),
     ("fused silica", 1.458, 67.7, Some(2.20)),
@@ -21,7 +21,7 @@ const REAL: [(&str, f64, f64, Option<f64>); 8] = [
     ("SF11", 1.785, 25.4, Some(4.74)),
 ];
 
-/// The name, n_d and V_d of each invented glass, with more dispersion than any real one.
+/// The invented glasses: name, n_d and V_d. They have more dispersion than any real glass.
 const STRANGE: [(&str, f64, f64); 4] = [
     ("rainbow glass", 1.55, 8.0),
     ("fire crystal", 2.2, 12.0),

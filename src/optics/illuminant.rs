@@ -1,4 +1,4 @@
-//! The lights under which things are seen: spectra of the CIE's illuminants, and their whites.
+//! Illuminants: the CIE's spectra of the lights under which people look at things, and their whites.
 //!
 //! Source: CIE 15:2004, §3 and tables T.1, T.2. The components of daylight are D. B. Judd, D. L. MacAdam and
 //! G. Wyszecki's (J. Opt. Soc. Am. 54, 1031, 1964).
@@ -11,10 +11,10 @@ use std::{fmt, ops::RangeInclusive, str::FromStr};
 /// The correlated colour temperatures of daylight for which the CIE gives a spectrum, in kelvin.
 pub const DAYLIGHT_KELVIN: RangeInclusive<f64> = 4000.0..=25000.0;
 
-/// The temperature of D65 in kelvin: 6500 K when c2 was taken as 0.014380 m K (CIE 15:2004, note 5).
+/// The temperature of D65 in kelvin. It was 6500 K when c2 was taken as 0.014380 m K (CIE 15:2004, note 5).
 const D65_KELVIN: f64 = 6500.0 * 1.4388 / 1.4380;
 
-/// A light, given by its relative spectrum. It is written `D65`, `A`, `E` or `5000 K`, in files as in text.
+/// A light, given by its relative spectrum. Its name is `D65`, `A`, `E` or `5000 K`, in files as in text.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum Illuminant {
@@ -30,7 +30,7 @@ pub enum Illuminant {
     Daylight(f64),
 }
 
-/// Why a text does not name an illuminant.
+/// The reason why a text does not name an illuminant.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum IlluminantError {
     /// The text is neither a name nor a temperature.
@@ -41,7 +41,7 @@ pub enum IlluminantError {
         /// The text given.
         text: String,
     },
-    /// Daylight of this temperature has no spectrum.
+    /// The CIE gives no spectrum for daylight of this temperature.
     #[error("daylight of {kelvin} K has no spectrum: give 4000 to 25000 K, or D65, A or E")]
     Temperature {
         /// The temperature given, in kelvin.
@@ -79,7 +79,8 @@ const S2: [f64; 54] = [
 ];
 
 impl Illuminant {
-    /// Returns the relative spectral power at a wavelength > 0, 100 at 560 nm. Daylight has none outside 300 to 830 nm.
+    /// Returns the relative spectral power at a wavelength > 0, 100 at 560 nm. Daylight has no power outside 300 to
+    /// 830 nm.
     pub fn power(&self, nm: f64) -> f64 {
         match *self {
             Self::D65 => daylight(D65_KELVIN, nm),
@@ -96,7 +97,8 @@ impl Illuminant {
     }
 }
 
-/// Returns the power of illuminant A: Planck's law at 2848 K with c2 = 1.435e7 nm K, as first defined; 2856 K by today's c2.
+/// Returns the power of illuminant A: Planck's law at 2848 K with c2 = 1.435e7 nm K, as it was first defined; with
+/// today's c2 this is 2856 K.
 fn tungsten(nm: f64) -> f64 {
     let planck = |nm: f64| nm.powi(-5) / (1.435e7 / (2848.0 * nm)).exp_m1();
     100.0 * planck(nm) / planck(560.0)

@@ -1,4 +1,4 @@
-//! The materials that have a name: how each bends and absorbs light, and who measured it.
+//! Named materials: the refraction and the absorption of each, and the source of the numbers.
 
 use super::absorption::Absorption;
 use super::colour::LUMINANCE;
@@ -11,12 +11,12 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::LazyLock;
 
-/// The material of a stone, as far as light and weight are concerned.
+/// The material of a stone: its optical properties and its density.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Material {
     /// The name that the trade gives it; unique among [`materials`].
     pub name: String,
-    /// One line that says what it is, and what is left out.
+    /// A description in one line: the kind of material, and the properties that are left out.
     pub description: String,
     /// The index by wavelength.
     pub dispersion: Dispersion,
@@ -25,25 +25,25 @@ pub struct Material {
     /// Over a path, unpolarised light keeps the mean of the two transmittances, not the transmittance of the mean
     /// coefficient.
     pub absorption: [Absorption; 2],
-    /// The author of the measurement, and where it is printed.
+    /// The author of the measurement, and the place where it is printed.
     pub source: String,
-    /// The first and the last wavelength in nm for which the source vouches; beyond them the formula is extrapolated. `None`
-    /// where the source states no range.
+    /// The first and the last wavelength in nm of the range that the source covers; beyond it the formula is
+    /// extrapolated. `None` where the source states no range.
     pub valid_nm: Option<(f64, f64)>,
     /// The density in g/cm³; `None` where it is not known.
     pub density: Option<f64>,
-    /// Whether the colour is chosen to look like the gem's, and not measured.
+    /// True where the colour is chosen to look like the gem's and is not measured.
     pub colour_is_illustrative: bool,
 }
 
-/// The strata by which the colour of a path is found: as many as serve the narrowest bands.
+/// The strata by which the colour of daylight after a path is computed: narrow enough for the narrowest bands.
 static DAYLIGHT: LazyLock<Vec<Stratum>> = LazyLock::new(|| strata(64, &Illuminant::D65, true));
 
 impl Material {
     /// Makes a clear stone with one index for all wavelengths.
     ///
     /// # Errors
-    /// Returns an error for an index that is not a finite number of at least 1.
+    /// Fails for an index that is not a finite number of at least 1.
     pub fn from_index(name: &str, index: f64) -> Result<Self, DispersionError> {
         let dispersion = Dispersion::Constant(index).checked()?;
         let source = "a single index, given by the user";
@@ -53,7 +53,7 @@ impl Material {
     /// Makes a clear glass with an index n_d and an Abbe number V_d.
     ///
     /// # Errors
-    /// Returns an error for numbers that give no index somewhere in visible light.
+    /// Fails for numbers that give no index somewhere in visible light.
     pub fn from_abbe(name: &str, n_d: f64, v_d: f64) -> Result<Self, DispersionError> {
         let dispersion = Dispersion::Abbe { n_d, v_d }.checked()?;
         let source = "an index and an Abbe number, given by the user";
@@ -65,8 +65,8 @@ impl Material {
         self.dispersion.index(wavelength_nm)
     }
 
-    /// Returns the colour, linear sRGB, of daylight after a path inside in mm; white is (1, 1, 1). Parts may be negative where
-    /// the colour is beyond sRGB.
+    /// Returns the colour, linear sRGB, of daylight after a path inside the material in mm; white is (1, 1, 1).
+    /// Components may be negative where the colour is beyond sRGB.
     pub fn colour_after(&self, mm: f64) -> DVec3 {
         let light = |stratum: &Stratum| {
             let nm = stratum.at(0.5);
@@ -76,8 +76,8 @@ impl Material {
         DAYLIGHT.iter().map(light).sum()
     }
 
-    /// Returns the path inside, in mm, after which half of daylight's luminance is left, at most 1e9; `None` where the material
-    /// is clear, or clear to half of the light.
+    /// Returns the path inside the material, in mm, after which half of daylight's luminance is left, at most 1e9;
+    /// `None` where the material is clear, or where it always leaves more than half of the light.
     pub fn half_length(&self) -> Option<f64> {
         let shares = DVec3::from_array(LUMINANCE.map(f64::from));
         let is_dim = |mm: f64| self.colour_after(mm).dot(shares) < 0.5;
@@ -92,7 +92,8 @@ impl Material {
         Some(10.0_f64.powf(high))
     }
 
-    /// Whether the source vouches for the index at this wavelength; `false` where it states no range.
+    /// Returns whether the range that the source states contains this wavelength; `false` where the source states no
+    /// range.
     pub fn is_valid_at(&self, wavelength_nm: f64) -> bool {
         self.valid_nm.is_some_and(|(first, last)| (first..=last).contains(&wavelength_nm))
     }
@@ -124,12 +125,12 @@ impl Material {
     }
 }
 
-/// The error where no material has the name looked up.
+/// The error where no material has the name that was looked up.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub struct UnknownMaterial {
-    /// The name looked up.
+    /// The name that was looked up.
     pub name: String,
-    /// Names spelt much like it, the nearest first.
+    /// Names with a similar spelling, the nearest first.
     pub near: Vec<&'static str>,
 }
 
@@ -144,10 +145,10 @@ impl fmt::Display for UnknownMaterial {
     }
 }
 
-/// Finds the material of a name; case, spaces, hyphens and underscores do not matter.
+/// Finds the material with this name; case, spaces, hyphens and underscores do not matter.
 ///
 /// # Errors
-/// Returns [`UnknownMaterial`], which holds the names that come near.
+/// Fails with [`UnknownMaterial`], which holds similar names.
 pub fn material(name: &str) -> Result<&'static Material, UnknownMaterial> {
     let key = key(name);
     materials().iter().find(|m| self::key(&m.name) == key).ok_or_else(|| unknown(name))
@@ -269,7 +270,7 @@ fn unknown(name: &str) -> UnknownMaterial {
     let asked = key(name);
     let mut near: Vec<(usize, &str)> =
         materials().iter().map(|m| (strsim::levenshtein(&asked, &key(&m.name)), m.name.as_str())).collect();
-    // A slip in every third letter is still a slip; with more, it is another word.
+    // Up to one slip in three letters is taken for a misspelling; with more slips, the text is another word.
     near.retain(|&(slips, _)| slips <= asked.chars().count().div_ceil(3));
     near.sort_by_key(|&(slips, _)| slips);
     UnknownMaterial { name: name.to_owned(), near: near.into_iter().map(|(_, name)| name).collect() }

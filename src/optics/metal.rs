@@ -1,7 +1,7 @@
-//! Metals of jewellery: their complex indices, and how much light their surfaces reflect.
+//! Metals of jewellery: their complex refractive indices, and the share of light that their surfaces reflect.
 //!
-//! The indices are measured at room temperature. Between the wavelengths of a table they are interpolated along straight
-//! lines, beyond its ends they stay as they are.
+//! The indices were measured at room temperature. They are interpolated linearly between the wavelengths of a table,
+//! and are constant beyond its ends.
 //!
 //! | metal | source | accuracy |
 //! |---|---|---|
@@ -9,8 +9,8 @@
 //! | rhodium | J. H. Weaver, C. G. Olson and D. W. Lynch, *Phys. Rev. B* 15, 4115 (1977), doi:10.1103/PhysRevB.15.4115, as numbers in E. D. Palik (ed.), *Handbook of Optical Constants of Solids* (1985) | two decimals are printed |
 //! | platinum | A. D. Rakić et al., *Appl. Opt.* 37, 5271 (1998), doi:10.1364/AO.37.005271: the Brendel-Bormann model, fitted to the data of several authors | the samples differ more than the fit: by several percent of the reflectance |
 //!
-//! All were taken from M. N. Polyanskiy's refractiveindex.info database, which is in the public domain (CC0). Alloys for
-//! jewellery (18 carat gold, 950 platinum, sterling silver) look a little paler than the pure metals here.
+//! All numbers were taken from M. N. Polyanskiy's refractiveindex.info database, which is in the public domain (CC0).
+//! Alloys for jewellery (18 carat gold, 950 platinum, sterling silver) look a little paler than the pure metals here.
 
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
@@ -28,7 +28,7 @@ pub enum Metal {
     Rhodium,
 }
 
-/// Wavelength in nm, n and k.
+/// A row of a table: the wavelength in nm, n and k.
 type Row = [f64; 3];
 
 impl Metal {
@@ -74,14 +74,14 @@ impl Metal {
 pub fn metal_reflectance(cos_i: f64, index: Complex64) -> [f64; 2] {
     let cos_i = cos_i.clamp(0.0, 1.0);
     let square = index * index;
-    // The index times the cosine inside; its imaginary part is not negative.
+    // The index times the cosine of the angle inside the metal; its imaginary part is not negative.
     let inner = (square - (1.0 - cos_i * cos_i)).sqrt();
     let s = (cos_i - inner) / (cos_i + inner);
     let p = (square * cos_i - inner) / (square * cos_i + inner);
     [s.norm_sqr(), p.norm_sqr()]
 }
 
-/// Johnson and Christy 1972.
+/// The index of gold, by Johnson and Christy 1972.
 const GOLD: [Row; 18] = [
     [367.9, 1.48, 1.895],
     [381.5, 1.46, 1.933],
@@ -103,7 +103,7 @@ const GOLD: [Row; 18] = [
     [984.0, 0.22, 6.350],
 ];
 
-/// Johnson and Christy 1972.
+/// The index of silver, by Johnson and Christy 1972.
 const SILVER: [Row; 16] = [
     [367.9, 0.07, 1.657],
     [381.5, 0.05, 1.864],
@@ -123,7 +123,7 @@ const SILVER: [Row; 16] = [
     [821.1, 0.04, 5.727],
 ];
 
-/// Weaver, Olson and Lynch 1977, in Palik 1985.
+/// The index of rhodium, by Weaver, Olson and Lynch 1977, in Palik 1985.
 const RHODIUM: [Row; 17] = [
     [375.7, 1.20, 3.97],
     [387.5, 1.30, 4.09],
@@ -144,7 +144,7 @@ const RHODIUM: [Row; 17] = [
     [826.6, 2.78, 6.97],
 ];
 
-/// Rakić et al. 1998, Brendel-Bormann model.
+/// The index of platinum, by Rakić et al. 1998, Brendel-Bormann model.
 const PLATINUM: [Row; 14] = [
     [374.70, 1.6643, 2.6963],
     [397.46, 1.7225, 2.8323],

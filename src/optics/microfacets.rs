@@ -1,12 +1,13 @@
-//! Rough metal: a surface of microscopic mirrors, whose slopes are spread by the law of Trowbridge and Reitz (GGX).
+//! Rough metal: a surface of microscopic mirrors, whose slopes follow the law of Trowbridge and Reitz (GGX).
 //!
-//! Light that the mirrors reflect once follows B. Walter et al., *Microfacet Models for Refraction through Rough Surfaces*,
-//! EGSR 2007, with Smith's masking and shadowing correlated by height (E. Heitz, *Understanding the Masking-Shadowing Function
-//! in Microfacet-Based BRDFs*, JCGT 3 (2), 2014). Its directions are sampled by E. Heitz, *Sampling the GGX Distribution of
-//! Visible Normals*, JCGT 7 (4), 2018. Light that the mirrors reflect more than once, which that model loses, is given back by
-//! C. Kulla and A. Conty, *Revisiting Physically Based Shading at Imageworks*, SIGGRAPH courses 2017, so that a surface that
-//! absorbs nothing loses nothing, and two directions can be exchanged. The numbers are derived from these models without their
-//! authors' code.
+//! Light that the mirrors reflect once follows B. Walter et al., *Microfacet Models for Refraction through Rough
+//! Surfaces*, EGSR 2007, with Smith's masking and shadowing correlated by height (E. Heitz, *Understanding the
+//! Masking-Shadowing Function in Microfacet-Based BRDFs*, JCGT 3 (2), 2014). Its directions are sampled by E. Heitz,
+//! *Sampling the GGX Distribution of Visible Normals*, JCGT 7 (4), 2018. That model loses light that the mirrors
+//! reflect more than once; it is added by the method of C. Kulla and A. Conty, *Revisiting Physically Based Shading
+//! at Imageworks*, SIGGRAPH courses 2017. So a surface that absorbs nothing loses no light, and the reflection stays
+//! reciprocal: the two directions can be exchanged. The numbers are derived from these models without their authors'
+//! code.
 //!
 //! Directions are in a frame whose z is the surface's normal, have length 1, and point away from the surface.
 
@@ -20,26 +21,28 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The roughness below which a surface is a mirror: its reflections are spread over less than 1/500 degree.
 const MIRROR: f64 = 0.004;
 
-/// The number of steps in the table of what one reflection returns.
+/// The number of steps in the table of the light that one reflection returns.
 const STEPS: usize = 64;
 
-/// The number of slopes along both axes, over which a value of that table is averaged.
+/// The number of slopes along each of both axes, over which a value of that table is averaged.
 const SLOPES: usize = 64;
 
-/// The most surfaces that are kept for the next picture; each has about a hundred numbers.
+/// The most rough surfaces that are kept for the next picture; each has about a hundred numbers.
 const MOST_KEPT: usize = 64;
 
 /// The number of angles over which reflectances are averaged.
 const ANGLES: usize = 32;
 
-/// A rough surface, whatever its metal.
+/// A rough surface of any metal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Roughness {
-    /// The width of the law of slopes: the square of the roughness; 0 for a mirror.
+    /// The width of the law of slopes, which is the square of the roughness; 0 for a mirror.
     alpha: f64,
-    /// The share of light that mirrors which absorb nothing send out at their first reflection, for cosines (k / STEPS)².
+    /// The share of light that leaves at the first reflection where the mirrors absorb nothing, for the cosines (k /
+    /// STEPS)².
     once: Vec<f64>,
-    /// What that leaves, averaged over even light between the cosines of each step; empty for a mirror.
+    /// The share of light that the first reflection loses, averaged over even light between the cosines of each step;
+    /// empty for a mirror.
     lost: Vec<f64>,
     /// The mean of `once` over even light from all sides.
     once_mean: f64,
@@ -50,23 +53,24 @@ pub struct Roughness {
 pub struct RoughMetal {
     roughness: Arc<Roughness>,
     index: Complex64,
-    /// The part of the light reflected several times that the metal does not absorb.
+    /// The share of the light reflected several times that the metal does not absorb.
     again: f64,
 }
 
 /// Light that a rough surface has reflected.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scattered {
-    /// The direction that it comes from, or goes to.
+    /// The direction that the light comes from or goes to.
     pub direction: DVec3,
-    /// The factor by which the light from there counts.
+    /// The factor by which the light from this direction counts.
     pub weight: f64,
     /// The density with which this direction is drawn, per steradian; infinite for a mirror.
     pub density: f64,
 }
 
 impl Roughness {
-    /// Makes a surface of this roughness, 0 (a mirror) to 1: the square root of the law's width, as in most programs.
+    /// Makes a surface of this roughness, 0 (a mirror) to 1. The roughness is the square root of the law's width, as
+    /// in most programs.
     pub fn new(roughness: f64) -> Self {
         let roughness = roughness.clamp(0.0, 1.0);
         let alpha = if roughness < MIRROR { 0.0 } else { roughness * roughness };
@@ -80,12 +84,12 @@ impl Roughness {
         surface
     }
 
-    /// Returns the surface of this roughness, which all threads share: it takes a quarter of a million evaluations, and pictures
-    /// are traced in many strips and passes. The last few are kept.
+    /// Returns the surface of this roughness, which all threads share. Making it takes a quarter of a million
+    /// evaluations, and pictures are traced in many strips and passes, so the last few surfaces are kept.
     pub fn shared(roughness: f64) -> Arc<Self> {
         static KEPT: Mutex<VecDeque<(u64, Arc<Roughness>)>> = Mutex::new(VecDeque::new());
         let bits = roughness.to_bits();
-        // Surfaces are whole before they are kept, so a thread that has panicked leaves none that is wrong.
+        // Surfaces are complete before they are kept, so a thread that has panicked leaves no wrong surface behind.
         let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, surface)) = kept.iter().find(|(own, _)| *own == bits) {
             return Arc::clone(surface);
@@ -96,7 +100,7 @@ impl Roughness {
         surface
     }
 
-    /// Returns the share of light that leaves at the first reflection, towards this cosine.
+    /// Returns the share of light that leaves at the first reflection, in a direction with this cosine.
     pub(super) fn once(&self, cos: f64) -> f64 {
         let at = cos.clamp(0.0, 1.0).sqrt() * STEPS as f64;
         let step = (at as usize).min(STEPS - 1);
@@ -110,8 +114,9 @@ impl Roughness {
         (0..8).map(part).sum::<f64>() / 8.0
     }
 
-    /// Draws a direction of light that has met several microscopic mirrors, by two numbers from 0 to below 1. The density is
-    /// that of a table, whose steps are even; returned with the direction is the exact density divided by the table's.
+    /// Draws a direction of light that has met several microscopic mirrors, from two random numbers of at least 0 and
+    /// below 1. The direction is drawn by the density of a table with even steps; returned with it is the exact
+    /// density divided by the table's.
     fn several_times(&self, [u, v]: [f64; 2]) -> (DVec3, f64) {
         let mut left = u * (1.0 - self.once_mean);
         let mut step = 0;
@@ -128,11 +133,11 @@ impl Roughness {
         (DVec3::new(sin * x, sin * y, cos), exact)
     }
 
-    /// Returns this surface made of a metal with this complex index.
+    /// Returns this surface as that of a metal with this complex index.
     pub fn of_metal(self: &Arc<Self>, index: Complex64) -> RoughMetal {
         let even = |k: usize| ((k as f64 + 0.5) / ANGLES as f64).sqrt();
         let mean = (0..ANGLES).map(|k| unpolarised(even(k), index)).sum::<f64>() / ANGLES as f64;
-        // Each further reflection absorbs anew (Kulla and Conty, page 29).
+        // The metal absorbs light anew at each further reflection (Kulla and Conty, page 29).
         let again =
             mean * mean * self.once_mean / (1.0 - mean * (1.0 - self.once_mean)).max(f64::MIN_POSITIVE);
         RoughMetal { roughness: Arc::clone(self), index, again }
@@ -140,8 +145,8 @@ impl Roughness {
 }
 
 impl RoughMetal {
-    /// Draws a direction from which light comes that is reflected to `out`, by three numbers from 0 to below 1; `None` where
-    /// the light that is drawn is lost.
+    /// Draws a direction from which light arrives that the surface reflects to `out`, from three random numbers from
+    /// 0 to below 1; `None` where the light that is drawn is lost.
     pub fn sample(&self, out: DVec3, luck: [f64; 3]) -> Option<Scattered> {
         let Roughness { alpha, once_mean, .. } = *self.roughness;
         if alpha == 0.0 {
@@ -168,7 +173,8 @@ impl RoughMetal {
         Some(Scattered { direction, weight, density })
     }
 
-    /// Returns the light reflected to `out`, per light from `from`, per steradian, and per cosine of `from`; not for mirrors.
+    /// Returns the light reflected to `out` per light that arrives from `from`, per steradian and per cosine of
+    /// `from`. Not for mirrors.
     pub fn value(&self, out: DVec3, from: DVec3) -> f64 {
         let Roughness { alpha, once_mean, .. } = *self.roughness;
         let middle = (out + from) / (out + from).length();
@@ -186,13 +192,14 @@ fn unpolarised(cos_i: f64, index: Complex64) -> f64 {
     0.5 * (s + p)
 }
 
-/// Returns the share of light that leaves at the first reflection, averaged over the slopes that are seen from a cosine.
+/// Returns the share of light that leaves at the first reflection, averaged over the slopes that are visible from a
+/// direction with this cosine.
 fn once(alpha: f64, cos: f64) -> f64 {
     let cos = cos.max(1e-4);
     let out = DVec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
     let returned = |k: usize| {
         let [i, j] = [k % SLOPES, k / SLOPES].map(|i| (i as f64 + 0.5) / SLOPES as f64);
-        // Steep slopes are few and lose most: they are looked at more closely, and count for less.
+        // Steep slopes are few and lose most light, so they are sampled more densely and each sample counts for less.
         let middle = visible_normal(alpha, out, [1.0 - i * i, j]);
         let from = middle * (2.0 * out.dot(middle)) - out;
         let own = hidden(alpha, cos);
@@ -201,21 +208,22 @@ fn once(alpha: f64, cos: f64) -> f64 {
     (0..SLOPES * SLOPES).map(returned).sum::<f64>() / (SLOPES * SLOPES) as f64
 }
 
-/// Returns the density of normals of this cosine (Walter et al. 2007, eq. 33).
+/// Returns the density of normals with this cosine (Walter et al. 2007, eq. 33).
 fn slopes(alpha: f64, cos: f64) -> f64 {
     let square = alpha * alpha;
     let fall = cos * cos * (square - 1.0) + 1.0;
     square * FRAC_1_PI / (fall * fall)
 }
 
-/// Returns Smith's function Λ: the hidden over the seen area of mirrors, from a cosine (Heitz 2014, eq. 72).
+/// Returns Smith's function Λ: the hidden over the visible area of mirrors, seen from a direction with this cosine
+/// (Heitz 2014, eq. 72).
 pub(super) fn hidden(alpha: f64, cos: f64) -> f64 {
     let square = (cos * cos).max(1e-16);
     0.5 * ((1.0 + alpha * alpha * (1.0 - square) / square).sqrt() - 1.0)
 }
 
-/// Returns a normal among those that are seen from a direction, by two numbers: the half sphere that the stretched mirrors
-/// become is seen as two half discs (Heitz 2018, section 3).
+/// Returns a normal among those that are visible from a direction, from two random numbers. The stretched mirrors
+/// become a half sphere, which is seen as two half discs (Heitz 2018, section 3).
 pub(super) fn visible_normal(alpha: f64, out: DVec3, [u, v]: [f64; 2]) -> DVec3 {
     let stretched = unit(DVec3::new(alpha * out.x, alpha * out.y, out.z));
     let flat = stretched.truncate().length_squared();
@@ -229,7 +237,7 @@ pub(super) fn visible_normal(alpha: f64, out: DVec3, [u, v]: [f64; 2]) -> DVec3 
     unit(DVec3::new(alpha * normal.x, alpha * normal.y, normal.z.max(1e-9)))
 }
 
-/// Returns the square of the cosine at a place of the table.
+/// Returns the square of the cosine at a step of the table.
 fn square_cos(step: f64) -> f64 {
     (step / STEPS as f64).powi(4)
 }

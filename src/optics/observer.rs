@@ -1,4 +1,4 @@
-//! The eye of colorimetry: the CIE 1931 2 degree observer, sRGB's primaries, and adaptation to a white.
+//! The CIE 1931 2 degree observer, which is the eye of colorimetry; sRGB's primaries; and adaptation to a white.
 //!
 //! Sources: CIE 15:2004, table T.4 (5 nm); IEC 61966-2-1:1999 for primaries and white; K. M. Lam, *Metamerism and Colour
 //! Constancy* (1985) for the matrix of Bradford. A vector holds X, Y, Z or linear red, green, blue, in that order.
@@ -6,7 +6,7 @@
 use glam::{DMat3, DVec3};
 use std::ops::RangeInclusive;
 
-/// The wavelengths in nm at which the observer's table sees anything.
+/// The range of wavelengths in nm that the observer's table covers; outside it the observer sees nothing.
 pub const OBSERVER_NM: RangeInclusive<f64> = 380.0..=780.0;
 
 /// The step between two rows of the observer's table, in nm.
@@ -68,15 +68,16 @@ const BRADFORD: DMat3 =
 
 /// Returns the colour-matching functions x̄, ȳ, z̄ at a wavelength in nm, >= 0, with ȳ at most 1.
 ///
-/// They are straight lines between the table's rows, and 0 beyond [`OBSERVER_NM`].
+/// They are interpolated linearly between the table's rows, and 0 beyond [`OBSERVER_NM`].
 pub fn matching(nm: f64) -> DVec3 {
     DVec3::from_array([&X[..], &Y, &Z].map(|table| sampled(table, *OBSERVER_NM.start(), STEP_NM, nm)))
 }
 
 /// Returns XYZ of a spectrum between two wavelengths: the integral of `spectrum(nm)` times [`matching`] over nm.
 ///
-/// It is computed by Gauss's rule of three points from one whole nm to the next and to the borders. This is exact for a
-/// spectrum of straight lines with corners at whole nm. It is additive as well: the parts of a range add up to the range.
+/// The integral is computed by Gauss's rule of three points, from one whole nm to the next and to the borders. This
+/// is exact for a spectrum of straight lines with corners at whole nm. The result is additive as well: the parts of a
+/// range add up to the range.
 pub fn seen(from_nm: f64, to_nm: f64, spectrum: impl Fn(f64) -> f64) -> DVec3 {
     let (mut low, end) = (from_nm.max(*OBSERVER_NM.start()), to_nm.min(*OBSERVER_NM.end()));
     let at = |nm: f64| spectrum(nm) * matching(nm);
@@ -91,16 +92,16 @@ pub fn seen(from_nm: f64, to_nm: f64, spectrum: impl Fn(f64) -> f64) -> DVec3 {
     sum
 }
 
-/// Returns the matrix that adapts XYZ when the eye's white changes from `from_white` to `to_white`.
+/// Returns the matrix that adapts XYZ to a change of the eye's white from `from_white` to `to_white`.
 ///
-/// It carries the one white to the other, and scales Bradford's cone responses in between (J. von Kries, 1902). The whites
-/// are in XYZ, with all components > 0 and Y = 1.
+/// The matrix takes `from_white` to `to_white`, and scales Bradford's cone responses in between (J. von Kries, 1902).
+/// The whites are in XYZ, with all components > 0 and Y = 1.
 pub fn adaptation(from_white: DVec3, to_white: DVec3) -> DMat3 {
     let gains = (BRADFORD * to_white) / (BRADFORD * from_white);
     BRADFORD.inverse() * DMat3::from_diagonal(gains) * BRADFORD
 }
 
-/// Reads a table of even steps at a wavelength: straight lines between samples, 0 beyond them.
+/// Reads a table with even steps at a wavelength: linear between samples, 0 beyond the ends.
 pub(super) fn sampled(table: &[f64], start_nm: f64, step_nm: f64, nm: f64) -> f64 {
     let place = (nm - start_nm) / step_nm;
     let last = table.len() - 1;

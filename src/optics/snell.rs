@@ -7,14 +7,14 @@
 
 use glam::DVec3;
 
-/// How far rounding may take a unit length from 1, or a grazing n·d past 0. Anything farther is taken for a caller's
-/// mistake.
+/// The greatest distance of a unit vector's length from 1, or of a grazing n·d beyond 0, that counts as rounding.
+/// Anything greater counts as a caller's mistake.
 const ROUNDING: f64 = 1e-9;
 
 /// Reflection counts as total where cos² of the refraction angle is at or below this.
 ///
-/// The value is below every cos² that two different indices can give (their rounding is 1e-16), and far enough from 0 to
-/// divide by.
+/// The value is below every cos² that two different indices can give (their rounding is 1e-16), and far enough from 0
+/// that dividing by it is safe.
 const LEAST_COS_T_SQUARED: f64 = 1e-300;
 
 /// Returns the direction of the mirror-reflected ray, d + 2 cos_i n.
@@ -33,16 +33,16 @@ pub fn refract(d: DVec3, n: DVec3, eta: f64, (cos_i, cos_t): (f64, f64)) -> DVec
     d * eta + n * (eta * cos_i - cos_t)
 }
 
-/// Returns how the reflected direction changes when the ray's direction changes by `of_d` and the normal by `of_n`.
+/// Returns the change of the reflected direction when the ray's direction changes by `of_d` and the normal by `of_n`.
 ///
-/// This is the differential of [`reflect`]; it is the same for either sense of the normal.
+/// This is the differential of [`reflect`]; it is the same for a normal of either sign.
 #[inline]
 pub fn reflected_change(d: DVec3, n: DVec3, (of_d, of_n): (DVec3, DVec3)) -> DVec3 {
     of_d - n * (2.0 * (of_d.dot(n) + d.dot(of_n))) - of_n * (2.0 * d.dot(n))
 }
 
-/// Returns how the refracted direction changes when the ray's direction changes by `of_d`, the normal by `of_n` and eta by
-/// `of_eta`.
+/// Returns the change of the refracted direction when the ray's direction changes by `of_d`, the normal by `of_n` and
+/// eta by `of_eta`.
 ///
 /// This is the differential of [`refract`]; `cos_t` must be above 0.
 #[inline]
@@ -58,7 +58,7 @@ pub fn refracted_change(
     d * of_eta + of_d * eta + n * (of_eta * cos_i + eta * of_cos_i - of_cos_t) + of_n * (eta * cos_i - cos_t)
 }
 
-/// Panics on a caller's mistake, in debug builds alone.
+/// Panics on a caller's mistake, in debug builds only.
 #[inline]
 fn check(d: DVec3, n: DVec3, cos_i: f64) {
     debug_assert!(is_unit(d) && is_unit(n), "unit vectors are wanted, got d = {d}, n = {n}");
@@ -67,17 +67,18 @@ fn check(d: DVec3, n: DVec3, cos_i: f64) {
 
 /// Returns the cosine of the angle of refraction; `None` where reflection is total.
 ///
-/// Reflection is total beyond the critical angle and exactly at it, where the refracted ray would run along the surface and
-/// carry nothing through. This function alone decides, so that the tracers, [`fresnel`](super::fresnel()) and
-/// [`reflectance`](super::reflectance) agree. A `cos_i` slightly outside 0..=1 is taken as rounding.
+/// Reflection is total beyond the critical angle and exactly at it, where the refracted ray would run along the
+/// surface and carry no light through. Only this function decides between refraction and total reflection, so that
+/// the tracers, [`fresnel`](super::fresnel()) and [`reflectance`](super::reflectance) agree. A `cos_i` slightly
+/// outside 0..=1 is taken as rounding.
 #[inline]
 pub fn cos_transmitted(cos_i: f64, eta: f64) -> Option<f64> {
     let squared = cos_t_squared(cos_i, eta);
     (squared > LEAST_COS_T_SQUARED).then(|| squared.sqrt())
 }
 
-/// Returns 1 - eta² sin²(i), negative beyond the critical angle. The form of the sum makes equal indices give exactly
-/// cos²(i).
+/// Returns 1 - eta² sin²(i), negative beyond the critical angle. The sum is written so that equal indices give
+/// exactly cos²(i).
 #[inline]
 pub(super) fn cos_t_squared(cos_i: f64, eta: f64) -> f64 {
     let normal_part = eta * cos_i.clamp(0.0, 1.0);

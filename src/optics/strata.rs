@@ -1,4 +1,4 @@
-//! How a render samples the spectrum: strata of wavelength, and the colour of the light in each of them.
+//! Strata of wavelength, by which a render samples the spectrum, and the colour of the light in each stratum.
 //!
 //! Colours are linear sRGB. Components of a stratum's colour may be negative, because it is more saturated than any screen;
 //! only the sum over all strata is meant to be seen.
@@ -8,34 +8,35 @@ use super::observer::{D65_WHITE, OBSERVER_NM, SRGB_FROM_XYZ, adaptation, matchin
 use glam::{DMat3, DVec3};
 use std::{ops::RangeInclusive, sync::LazyLock};
 
-/// The wavelengths in nm from which strata are taken.
+/// The range of wavelengths in nm that is divided into strata.
 ///
-/// Of what the observer sees of an even spectrum (x̄ + ȳ + z̄), 0.08 % lies outside; this light counts toward the first and
-/// the last stratum.
+/// Of an even spectrum, 0.08 % of the observer's response (x̄ + ȳ + z̄) lies outside this range; that light counts
+/// toward the first and the last stratum.
 pub const SAMPLED_NM: RangeInclusive<f64> = 390.0..=720.0;
 
-/// The part of a stratum's share that depends on its width alone: it keeps the outermost of many strata from growing wide.
+/// The part of a stratum's share that depends only on its width. It keeps the outermost strata narrow where there are
+/// many.
 const EVEN: f64 = 0.1;
 
-/// The wavelength at which red ends and the width of that step, in nm. With [`BLUE_STEP`] it is chosen so that [`basis`] is
-/// positive everywhere.
+/// The wavelength at which red ends, and the width of that step, in nm. It is chosen together with [`BLUE_STEP`] so
+/// that [`basis`] is positive everywhere.
 const RED_STEP: (f64, f64) = (591.0, 6.0);
 
-/// The wavelength at which blue ends and the width of that step, in nm.
+/// The wavelength at which blue ends, and the width of that step, in nm.
 const BLUE_STEP: (f64, f64) = (489.0, 7.0);
 
-/// One range of wavelengths, sampled at one wavelength at a time.
+/// A stratum: a range of wavelengths, which each pass samples at one wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stratum {
     /// The shortest wavelength in nm.
     pub from_nm: f64,
     /// The longest wavelength in nm.
     pub to_nm: f64,
-    /// The linear sRGB, negative in parts, of light in this range alone: of the key light, then of D65 times the red, the
-    /// green and the blue [`basis`].
+    /// The linear sRGB of light in this range only, first of the key light, then of D65 times the red, the green and
+    /// the blue [`basis`]. Components may be negative.
     ///
-    /// Summed over all strata, the key light has Y = 1, and so have the three others together. A render multiplies the
-    /// responses by the radiance that it finds at [`Stratum::at`].
+    /// Summed over all strata, the key light has Y = 1, and so have the three others together. A render multiplies
+    /// the responses by the radiance at the wavelength [`Stratum::at`].
     pub response: [DVec3; 4],
 }
 
@@ -46,27 +47,28 @@ impl Stratum {
     }
 }
 
-/// The strata of a picture, each divided into shares that its sample passes take in turn: with every pass a picture sees
-/// other wavelengths, and after as many passes as there are shares it has seen all of them once.
+/// The strata of a picture, each divided into shares, which its sample passes take in turn: with every pass a picture
+/// samples other wavelengths, and after as many passes as there are shares it has sampled each share once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Strata {
     whole: Vec<Stratum>,
-    /// Stratum by stratum, from short wavelengths to long.
+    /// The shares of all strata, stratum by stratum, from short wavelengths to long.
     shares: Vec<Stratum>,
     /// The share that each pass takes.
     turns: Vec<u32>,
 }
 
-/// The most shares of all strata together: with more, shares are so narrow that no eye tells them apart.
+/// The most shares of all strata together: with more, shares are so narrow that no eye distinguishes them.
 const MOST_SHARES: u32 = 1024;
 
-/// The number of shares, evenly spread, that are white together to 1 %.
+/// The number of evenly spread shares whose sum is white to 1 %.
 const ENOUGH_SHARES: u64 = 32;
 
 impl Strata {
-    /// Divides the visible range as [`strata()`] does, and each of the `count` strata into `shares` parts of equal share. Where
-    /// these are more than 1024 together, there are fewer, by a whole number of times or nearly so, so that `shares` passes
-    /// see all alike. With one share every pass stands for whole strata.
+    /// Divides the visible range as [`strata()`] does, and each of the `count` strata into `shares` parts of equal
+    /// share. Where these are more than 1024 together, their number per stratum is divided by a whole number that
+    /// divides it, where there is a suitable one, so that `shares` passes sample all of them equally often. With one
+    /// share every pass stands for whole strata.
     pub fn new(count: u32, shares: u32, key: &Illuminant, adapted: bool) -> Self {
         let most = (MOST_SHARES / count.max(1)).max(1);
         let passes = shares.max(1);
@@ -75,7 +77,8 @@ impl Strata {
         let shares = passes / times;
         let whole = strata(count, key, adapted);
         let all = if shares == 1 { whole.clone() } else { strata(count * shares, key, adapted) };
-        // Passes in the order of their places in J. G. van der Corput's sequence (1935), in which any first few are evenly spread.
+        // The passes, in the order of their places in J. G. van der Corput's sequence (1935), any first few of which
+        // are evenly spread.
         let mut order: Vec<u32> = (0..shares).collect();
         order.sort_by_key(|k| k.reverse_bits());
         let mut turns = vec![0; shares as usize];
@@ -83,7 +86,7 @@ impl Strata {
         Self { whole, shares: all, turns }
     }
 
-    /// Divides the visible range as [`strata()`] does, and lets every pass see the middle wavelength of each stratum alone.
+    /// Divides the visible range as [`strata()`] does. Every pass samples only the middle wavelength of each stratum.
     pub fn of_middles(count: u32, key: &Illuminant, adapted: bool) -> Self {
         let whole = strata(count, key, adapted);
         let middle = |stratum: &Stratum| {
@@ -98,8 +101,8 @@ impl Strata {
         &self.whole
     }
 
-    /// Returns the shares, one of each stratum, that the sample pass of a number takes. Their responses are multiplied by the
-    /// number of shares, so that the mean over passes is that of whole strata.
+    /// Returns the shares, one of each stratum, that the sample pass with this number takes. Their responses are
+    /// multiplied by the number of shares, so that the mean over passes is that of whole strata.
     pub fn of_pass(&self, number: u32) -> impl Iterator<Item = Stratum> {
         let per = self.turns.len();
         let share = self.turns[number as usize % per] as usize;
@@ -110,17 +113,18 @@ impl Strata {
         })
     }
 
-    /// Returns the number of passes after which all shares have been seen once; 1 where every pass sees all.
+    /// Returns the number of passes after which each share has been taken once; 1 where every pass takes whole
+    /// strata.
     pub fn turns(&self) -> u32 {
         self.turns.len() as u32
     }
 
-    /// Whether white light has no tint to be seen after this many passes.
+    /// Returns whether white light has no visible tint after this many passes.
     pub fn is_white_after(&self, passes: u32) -> bool {
         self.turns.len() == 1 || self.whole.len() as u64 * u64::from(passes) >= ENOUGH_SHARES
     }
 
-    /// Returns the response of all strata together.
+    /// Returns the response summed over all strata.
     pub fn response(&self) -> [DVec3; 4] {
         [0, 1, 2, 3].map(|channel| self.whole.iter().map(|stratum| stratum.response[channel]).sum())
     }
@@ -144,15 +148,16 @@ pub fn basis(nm: f64) -> DVec3 {
 
 /// Divides the visible range into `count` strata (none for 0; 1 to 64 make sense), from short wavelengths to long.
 ///
-/// All strata have the same share, of which nine tenths are x̄ + ȳ + z̄ within [`SAMPLED_NM`] and one tenth is width.
-/// `adapted` makes the white of `key` (1, 1, 1), by [`adaptation`]; otherwise the white of D65 is.
+/// All strata have the same share. Nine tenths of the share are x̄ + ȳ + z̄ within [`SAMPLED_NM`], and one tenth is
+/// width. Where `adapted` is true, [`adaptation`] turns the white of `key` into (1, 1, 1); otherwise the white of D65
+/// is (1, 1, 1).
 pub fn strata(count: u32, key: &Illuminant, adapted: bool) -> Vec<Stratum> {
     let sight = Sight::new(key, adapted);
     let borders: Vec<f64> = (0..=count).map(|i| border(f64::from(i) / f64::from(count))).collect();
     borders.windows(2).map(|ends| sight.stratum(ends[0], ends[1])).collect()
 }
 
-/// The numbers that turn spectral power into colour.
+/// The factors and the matrix that turn spectral power into colour.
 struct Sight<'a> {
     key: &'a Illuminant,
     /// The factor that gives the key light Y = 1.
@@ -164,7 +169,8 @@ struct Sight<'a> {
 
 impl<'a> Sight<'a> {
     fn new(key: &'a Illuminant, adapted: bool) -> Self {
-        // D65 is adapted too: the white of its spectrum and the white that sRGB prints differ in the fifth decimal.
+        // The white of D65 is adapted too, because the white of its spectrum and the white that sRGB prints differ in
+        // the fifth decimal.
         let white = if adapted { key.white() } else { Illuminant::D65.white() };
         let gain = |light: &Illuminant| seen_all(|nm| light.power(nm)).y.recip();
         let rgb_from_xyz = SRGB_FROM_XYZ * adaptation(white, D65_WHITE);
@@ -172,7 +178,7 @@ impl<'a> Sight<'a> {
     }
 
     fn stratum(&self, from_nm: f64, to_nm: f64) -> Stratum {
-        // The first and the last stratum take in the light beyond their ends.
+        // The first and the last stratum include the light beyond their ends.
         let from = if from_nm > *SAMPLED_NM.start() { from_nm } else { *OBSERVER_NM.start() };
         let to = if to_nm < *SAMPLED_NM.end() { to_nm } else { *OBSERVER_NM.end() };
         let key = self.key_gain * seen(from, to, |nm| self.key.power(nm));
@@ -187,14 +193,14 @@ fn seen_all(spectrum: impl Fn(f64) -> f64) -> DVec3 {
     seen(*OBSERVER_NM.start(), *OBSERVER_NM.end(), spectrum)
 }
 
-/// Divides 1 into three overlapping parts, of long, middle and short wavelengths, by two logistic steps.
+/// Divides 1 into three overlapping parts, for long, middle and short wavelengths, by two logistic steps.
 fn shapes(nm: f64) -> DVec3 {
     let rise = |(at, width): (f64, f64)| 1.0 / (1.0 + ((at - nm) / width).exp());
     let (not_blue, red) = (rise(BLUE_STEP), rise(RED_STEP));
     DVec3::new(not_blue * red, not_blue * (1.0 - red), 1.0 - not_blue)
 }
 
-/// Returns the wavelength in nm below which a part, 0..=1, of all shares lies.
+/// Returns the wavelength in nm below which this part, 0..=1, of the total share lies.
 fn border(part: f64) -> f64 {
     /// The share below every whole nm from the start of [`SAMPLED_NM`], 0 to 1.
     static BELOW: LazyLock<Vec<f64>> = LazyLock::new(shares_below);
@@ -203,7 +209,8 @@ fn border(part: f64) -> f64 {
     SAMPLED_NM.start() + (upper - 1) as f64 + (part - low) / (high - low)
 }
 
-/// Returns the share below every whole nm, by trapezoids of 1 nm, which are exact where the observer is straight lines.
+/// Returns the share below every whole nm, by trapezoids of 1 nm, which are exact because the observer is linear in
+/// between.
 fn shares_below() -> Vec<f64> {
     let (start, width) = (*SAMPLED_NM.start(), SAMPLED_NM.end() - SAMPLED_NM.start());
     let sum = |nm: f64| matching(nm).element_sum();

@@ -1,4 +1,4 @@
-//! The weight of stones in carats. A carat is 0.2 g, the weight of 200 mm³ at 1 g/cm³.
+//! The weight of stones in carats. A carat is 0.2 g, which is the weight of 200 mm³ at 1 g/cm³.
 
 use super::Material;
 

@@ -1,4 +1,4 @@
-//! The background: what a picture shows where no stone covers it.
+//! The background: the colour of a picture where no stone covers it.
 
 use super::NameError;
 use super::drawing::hex;
@@ -9,10 +9,10 @@ use std::str::FromStr;
 /// The background behind the stones; colours are linear sRGB.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Background {
-    /// Nothing: the picture keeps its cover as transparency.
+    /// No background: the picture keeps its cover as transparency.
     #[default]
     Transparent,
-    /// One colour.
+    /// A single colour.
     Plain([f32; 3]),
     /// A gradient from one colour to another, even in linear light.
     Gradient {

@@ -1,11 +1,11 @@
-//! Glare: light that an eye or a lens spreads from the brightest points, as a glow and as the streaks of a star.
+//! Glare: light that an eye or a lens spreads around the brightest points, as a glow and as the streaks of a star.
 //!
 //! The glow is a sum of Gaussians, in the manner of G. Spencer, P. Shirley, K. Zimmerman and D. P. Greenberg,
 //! "Physically-Based Glare Effects for Digital Images", SIGGRAPH 1995. The streaks are exponentials along a direction,
 //! after the light streaks of M. Kawase, "Frame Buffer Postprocessing Effects in DOUBLE-S.T.E.A.L.", GDC 2003.
 //!
 //! Light that is spread is taken away from its own pixel, so that the picture's total light stays the same except for
-//! what spreads beyond the border.
+//! the part that spreads beyond the border.
 
 mod glare;
 mod grid;
@@ -53,11 +53,12 @@ const STREAK_WIDTH: f64 = 0.0007;
 /// The standard deviation over which a sparkle's surroundings are averaged, as a part of the picture's width.
 const SPARKLE: f64 = 0.008;
 
-/// The least standard deviation, in cells, that the finest detail may have on a halved grid to be shown well.
+/// The least standard deviation of the finest detail, in cells of a halved grid, at which it is still drawn well.
 const COARSEST: f64 = 1.3;
 
-/// The most cells of the grid on which glare is made, at some 32 bytes each. A grid that would have more is halved once
-/// more than its detail asks for; the finest detail is then at least a cell wide, except in pictures higher than wide.
+/// The most cells of the grid on which glare is made, at some 32 bytes each. A grid that would have more is halved
+/// more often than its detail demands; the finest detail is then at least a cell wide, except in pictures higher than
+/// wide.
 const MOST_CELLS: u64 = 8 << 20;
 
 /// The variance that halving a grid again and again and doubling it back adds, in square cells of the coarsest grid, for
@@ -68,8 +69,8 @@ impl Bloom {
     /// The most streaks that a star may have.
     pub const MOST_STREAKS: u32 = 32;
 
-    /// Returns the glare of a picture, whose pixels count as `exposed` says; `None` where nothing is bright enough. A
-    /// setting out of its range counts as the nearer end of the range, NaN as 0.
+    /// Returns the glare of a picture, whose pixels `exposed` converts to exposed light; `None` where no pixel is
+    /// bright enough. A setting out of its range counts as the nearer end of the range, NaN as 0.
     ///
     /// The light is read from top to bottom, some rows at a time; rows where two pieces touch are read twice.
     ///
@@ -101,7 +102,7 @@ impl Bloom {
     fn spread(&self, source: [LightGrid; 3], pixels: u32, halvings: u32) -> [LightGrid; 3] {
         let cell = f64::from(1_u32 << halvings);
         let width = f64::from(pixels) / cell;
-        // The halvings blur already, so the Gaussians blur by the rest.
+        // The halvings already blur, so the Gaussians add only the remaining blur.
         let softened = ALL_SOFTENED * (1.0 - cell.powi(-2));
         let rest = |sigma: f64| (sigma * sigma - softened).max(0.0).sqrt();
         let streaks = self.streaks.min(Self::MOST_STREAKS);
@@ -113,7 +114,7 @@ impl Bloom {
         let sparkling = sparkling(&source, SPARKLE * width);
         let length = within(self.streak_length, 1.0) * width;
         let [red, green, blue] = source;
-        // The colours are spread one after the other, so that less memory is held.
+        // The colours are spread one after the other, which takes less memory.
         [(red, TINT[0]), (green, TINT[1]), (blue, TINT[2])].map(|(mut steady, tint)| {
             let sparkle = steady.times(&sparkling);
             steady.add(&sparkle, -1.0);

@@ -59,7 +59,7 @@ pub fn trace<E: From<Stopped>>(
     Ok(())
 }
 
-/// Adds what one ray sees to the channels of a pixel.
+/// Adds the exits of one ray to the channels of a pixel.
 fn put_down(
     tracer: &StoneTracer,
     (origin, direction): (DVec3, DVec3),

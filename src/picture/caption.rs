@@ -1,4 +1,4 @@
-//! Captions of pictures in scopes: what the picture shows, how it was traced, and what each colour means.
+//! Captions of pictures in scopes: the subject of the picture, its tracer, and the meaning of each colour.
 
 use super::drawing::{Ink, Inks, REMARK, TITLE, Type, degrees, hex, page, printable, shortened, text_width};
 use crate::scene::Scope;
@@ -111,7 +111,7 @@ impl Caption {
                 y += if k > 0 { step } else { 0.0 };
                 texts = texts.add(line(sheet.remark, [x + field + gap, y], text));
             }
-            // Nothing stands beside words of several lines.
+            // Words of several lines fill their row.
             x = if lines.len() > 1 { left + sheet.room } else { x + wide + apart };
         }
         (fields, texts, y + step / 2.0)

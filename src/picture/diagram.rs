@@ -19,9 +19,9 @@ use glam::DVec2;
 use std::borrow::Cow;
 use svg::Document;
 
-/// Distance from the circle that holds the stone to where the ticks of the index begin.
+/// Distance from the circle that holds the stone to the beginning of the index's ticks.
 const TICKS: f64 = 8.0;
-/// Distance from that circle to where the longest ticks end.
+/// Distance from that circle to the ends of the longest ticks.
 const TICKS_END: f64 = TICKS + 11.0;
 
 /// Type of the tiers' names.
@@ -40,7 +40,7 @@ const MARKED: &str = "Marked are candidates of the audit: places that may not be
 /// hundred times finer than machines cut and far above rounding.
 const SAME_TIER: f64 = 1e-6;
 
-/// Draws the facet diagram in a style, which decides on its colours and on how much it shows.
+/// Draws the facet diagram in a style, which decides on its colours and on its parts.
 ///
 /// Every facet is a polygon with its name in `data-name` and as its title. Upright facets, which are seen edge on, are
 /// drawn with the crown.
@@ -79,7 +79,7 @@ fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
-/// All facets of one slope and one distance from the origin.
+/// The facets of one slope and one distance from the origin.
 #[derive(Debug, Clone, PartialEq)]
 struct Tier {
     /// The tier's number, from 1, in the order in which tiers first occur.
@@ -126,8 +126,8 @@ fn azimuth(radial: DVec2) -> f64 {
     if degrees > 359.995 { 0.0 } else { (degrees * 1e9).round() / 1e9 }
 }
 
-/// Returns the name that a tier's facets share once their numbers are removed, or all different names where they share
-/// none.
+/// Returns the common part of the names of a tier's facets without their numbers, or all different names where they
+/// have nothing in common.
 fn tier_name<'a>(names: impl Iterator<Item = Cow<'a, str>>) -> String {
     let mut different: Vec<String> = vec![];
     for name in names {
@@ -139,7 +139,7 @@ fn tier_name<'a>(names: impl Iterator<Item = Cow<'a, str>>) -> String {
     different.join(", ")
 }
 
-/// One of the two views: the crown from above on the left, the pavilion from below on the right.
+/// A view of the diagram: the crown from above on the left, or the pavilion from below on the right.
 struct View {
     aspect: DrawnAspect,
     style: DiagramStyle,
@@ -164,7 +164,7 @@ impl View {
         }
     }
 
-    /// Whether a facet is drawn in this view.
+    /// Returns whether a facet is drawn in this view.
     fn holds(&self, facet: &Facet) -> bool {
         self.aspect.shows(facet) || (self.is_crown() && !self.shows_below(facet))
     }
@@ -219,11 +219,11 @@ impl View {
         sheet.quiet_lines(&coarse, "index", 1.3);
     }
 
-    /// Returns the index's numbers and where they stand; a small diagram has none.
+    /// Returns the index's numbers and their places; a small diagram has none.
     fn index(&self) -> Vec<(DVec2, String)> {
         let number = |k: i32| {
             let (text, angle) = (degrees(45.0 * f64::from(k)), self.on_paper(45.0 * f64::from(k)));
-            // The box of the text decides how far out it must stand in this direction.
+            // The box of the text decides its distance from the ring in this direction.
             let half = DVec2::new(text_width(&text, INDEX.size), INDEX.size) / 2.0;
             let toward = DVec2::from_angle(angle.to_radians()).abs();
             (self.polar(self.style.radius + TICKS_END + 5.0 + half.dot(toward), angle), text)

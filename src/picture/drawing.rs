@@ -1,7 +1,7 @@
 //! Technical drawings: a sheet with a stone, dimension lines, arrows and text on it.
 //!
-//! Coordinates are those of the drawing, y down; a unit is a pixel where the drawing is shown 1000 wide. A sheet keeps
-//! track of how far its contents reach, so that nothing is clipped. Text is set in Ubuntu Light, with which `io`
+//! Coordinates are those of the drawing, y down; a unit is a pixel where the drawing is shown 1000 wide. A sheet
+//! records the box of its contents, so that nothing is clipped. Text is set in Ubuntu Light, with which `io`
 //! rasterises; other viewers fall back on their own sans-serif, of about the same widths.
 
 mod hatching;
@@ -40,7 +40,7 @@ const ARROW: DVec2 = DVec2::new(9.0, 2.6);
 /// Length below which a dimension has its arrows outside.
 pub(super) const ROOM_FOR_ARROWS: f64 = 26.0;
 
-/// The colour of marks: amber, which is seen on white paper and on a dark screen.
+/// The colour of marks: amber, which is visible on white paper and on a dark screen.
 const MARK: [u8; 3] = [0xe0, 0x8a, 0x00];
 
 /// Cosine below which a facet counts as seen edge on: the rounding of a unit normal.
@@ -80,17 +80,17 @@ pub(super) struct DrawnAspect {
 }
 
 impl DrawnAspect {
-    /// Returns where a point of the stone lies on the sheet.
+    /// Returns the place of a point of the stone on the sheet.
     pub fn at(&self, p: DVec3) -> DVec2 {
         self.on_sheet(self.basis.project(p))
     }
 
-    /// Returns where image coordinates, in radii, lie on the sheet.
+    /// Returns the place of image coordinates, in radii, on the sheet.
     pub fn on_sheet(&self, image: DVec2) -> DVec2 {
         self.place + (image - self.centre) * DVec2::new(self.scale, -self.scale)
     }
 
-    /// Whether a facet faces the eye.
+    /// Returns whether a facet faces the eye.
     pub fn shows(&self, facet: &Facet) -> bool {
         facet.plane.normal.dot(self.basis.toward) > EDGE_ON
     }
@@ -112,7 +112,7 @@ pub(super) struct Sheet {
     texts: Group,
     frame: Frame,
     inks: Inks,
-    /// Whether facets are hatched.
+    /// True where facets are hatched.
     is_hatched: bool,
 }
 
@@ -194,7 +194,7 @@ impl Sheet {
         self.stone.append(lines.set("stroke-width", width));
     }
 
-    /// Draws an extension line, which leads from a dimension to what it measures.
+    /// Draws an extension line, which leads from a dimension to the measured point.
     pub fn extension(&mut self, a: DVec2, b: DVec2) {
         [a, b].into_iter().for_each(|p| self.frame.include(p));
         self.extensions.append(segments(&[(a, b)]));
@@ -214,7 +214,7 @@ impl Sheet {
             .append(Path::new().set("d", data).set("fill", self.inks.of(Ink::Accent)).set("stroke", "none"));
     }
 
-    /// Outlines a facet that is to be noticed.
+    /// Outlines a marked facet.
     pub fn mark_outline(&mut self, corners: &[DVec2]) {
         let mut data = String::new();
         for (k, &corner) in corners.iter().enumerate() {
@@ -225,7 +225,7 @@ impl Sheet {
         self.dimensions.append(outline.set("stroke", hex(MARK)).set("stroke-width", 2.2));
     }
 
-    /// Draws a ring around a corner that is to be noticed.
+    /// Draws a ring around a marked corner.
     pub fn mark_corner(&mut self, at: DVec2) {
         let ring = Circle::new().set("cx", coordinate(at.x)).set("cy", coordinate(at.y)).set("r", 5);
         let ring = ring.set("class", "marked-corner").set("fill", "none");
@@ -334,7 +334,7 @@ impl Sheet {
         frame
     }
 
-    /// Returns the finished drawing: a heading over what was drawn, remarks under it, white space on all sides.
+    /// Returns the finished drawing: a heading above the contents, remarks below, and white space on all sides.
     pub fn document(mut self, title: &str, subtitle: &str, remarks: &[String]) -> Document {
         let drawn = self.frame;
         let legend = self.is_hatched.then(|| hatching::LEGEND.to_owned());
@@ -354,7 +354,7 @@ impl Sheet {
         self.finish(title, frame, MARGIN)
     }
 
-    /// Returns the drawing without a heading, as wide as what was drawn, with a margin of paper on all sides.
+    /// Returns the drawing without a heading, as wide as its contents, with a margin of paper on all sides.
     pub fn bare(self, title: &str, margin: f64) -> Document {
         let frame = self.frame;
         self.finish(title, frame, margin)

@@ -1,5 +1,5 @@
-//! Rough pictures of bodies in full resolution: outlines and what hangs behind are as fine as in a finished picture, and only
-//! the light in the bodies is rough.
+//! Rough pictures of bodies in full resolution: outlines and the backplate are as fine as in a finished picture, and
+//! only the light in the bodies is rough.
 
 use super::Linear;
 use crate::scene::Film;
@@ -8,37 +8,38 @@ use crate::trace::sampling::{LitScene, colour};
 use glam::{DAffine2, DMat2, DVec2, DVec3, IVec2};
 use rayon::prelude::*;
 
-/// Which body is seen at a point, by its index in the scene; `None` beside all bodies.
+/// The body at a point, by its index in the scene; `None` beside all bodies.
 type SeenBody = Option<u32>;
 
-/// A picture with few pixels, and what is in sight at each.
+/// A picture with few pixels, and the body at each.
 struct RoughPicture<'a> {
     picture: &'a Linear,
     /// The places of its rays in its pixels, 0 to 1.
     shift: DVec2,
     bodies: Vec<SeenBody>,
-    /// For each pixel, what it and the fifteen pixels from one before it to two after it both ways show, where they show the
-    /// same.
+    /// For each pixel, the body that it and the fifteen pixels from one before it to two after it both ways show,
+    /// where all show the same.
     agreed: Vec<Option<SeenBody>>,
 }
 
 /// A picture that is being enlarged.
 struct Enlargement<'a> {
     rough: RoughPicture<'a>,
-    /// From the pixels of the large picture to those of the rough one.
+    /// The map from the pixels of the large picture to those of the rough one.
     rough_from_fine: DAffine2,
     lit_scene: LitScene<'a>,
     first: FirstBodies<'a>,
     white: &'a [DVec3; 4],
 }
 
-/// Returns a rough picture with as many pixels as the film of `lit_scene`, which shows the same. `rough_film` is the film of
-/// the picture, `shift` the place of its rays in its pixels, 0 to 1, and `white` the response of light that goes straight to
-/// the eye (`SamplePass::whole`).
+/// Returns a rough picture with as many pixels as the film of `lit_scene`, which has the same subject. `rough_film`
+/// is the film of the picture, `shift` the place of its rays in its pixels, 0 to 1, and `white` the response to light
+/// that goes straight to the eye (`SamplePass::whole`).
 ///
-/// A pixel that shows a body has the light of this body in the nearest pixels of the rough picture, interpolated. A body too
-/// small to be seen in any of these has their mean. A pixel beside all bodies shows what is behind them. Where all rough
-/// pixels around agree on a body, so do the fine ones between them; the others are looked at one by one.
+/// A pixel that shows a body has the light of this body in the nearest pixels of the rough picture, interpolated. A
+/// body too small to appear in any of these has their mean. A pixel beside all bodies shows the backdrop. Where all
+/// rough pixels around agree on a body, the fine ones between them show it too; for the others, the body is found one
+/// by one.
 pub fn enlarged(
     rough: &Linear,
     (rough_film, shift): (&Film, DVec2),
@@ -78,7 +79,7 @@ impl Enlargement<'_> {
         (0..).zip(&arounds).map(pixel).collect()
     }
 
-    /// Returns what is seen behind all bodies at a point of the picture, in pixels.
+    /// Returns the backdrop at a point of the picture, in pixels.
     fn backdrop(&self, at: DVec2) -> [f32; 4] {
         let environment = &self.lit_scene.environment;
         if !environment.backdrop {
@@ -92,9 +93,9 @@ impl Enlargement<'_> {
 
 /// The four rough pixels around a point.
 struct Around {
-    /// The number of each, where it lies in the picture, and its share of the point.
+    /// The number of each pixel in the picture, and its share of the point.
     pixels: [(Option<usize>, f32); 4],
-    /// What all of them, and those next to them, show.
+    /// The body that all of them, and those next to them, show.
     agreed: Option<SeenBody>,
 }
 
@@ -154,12 +155,13 @@ impl<'a> RoughPicture<'a> {
         [red * per, green * per, blue * per, 1.0]
     }
 
-    /// Returns the mean of those rough pixels around a point whose body is taken; `None` where none is.
+    /// Returns the mean of those rough pixels around a point whose body `is_taken` accepts; `None` where there is
+    /// none.
     fn mean(&self, around: &Around, is_taken: impl Fn(SeenBody) -> bool) -> Option<[f32; 4]> {
         let (mut sum, mut all) = ([0.0; 4], 0.0);
         for (number, share) in around.pixels {
             let Some(k) = number.filter(|k| is_taken(self.bodies[*k])) else { continue };
-            // Pixels that the point almost touches count even where their share is 0.
+            // Pixels that the point almost touches contribute even where their share is 0.
             let share = share + 1e-4;
             all += share;
             sum.iter_mut().zip(self.picture.pixels[k]).for_each(|(sum, light)| *sum += share * light);

@@ -4,7 +4,7 @@ use crate::scene::Panorama;
 use glam::DVec2;
 use rayon::prelude::*;
 
-/// Scales a picture to fill a size: it is shown as large as possible around its middle and cut where it is longer.
+/// Scales a picture to fill a size: as large as possible around its middle, and cut where it is longer.
 pub fn filling(picture: &Panorama, size: [u32; 2]) -> Panorama {
     let [width, height] = size.map(|side| f64::from(side.max(1)));
     let scale = |p: &Panorama| (f64::from(p.width) / width).min(f64::from(p.height) / height);

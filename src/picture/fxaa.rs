@@ -1,7 +1,7 @@
 //! Fast approximate antialiasing. It finds a finished picture's jagged edges by their contrast, follows each to both
-//! ends, and smooths it as far as a straight edge there would cover each pixel (the method of T. Lottes, FXAA, NVIDIA
-//! white paper, 2009). Edges are looked for in encoded values, in which contrasts are as people see them; pixels are mixed in
-//! linear light, in which an edge that covers half of a pixel has half of its light.
+//! ends, and smooths it by the part of each pixel that a straight edge there would cover (the method of T. Lottes,
+//! FXAA, NVIDIA white paper, 2009). Edges are sought in encoded values, whose contrasts are those that people see;
+//! pixels are mixed in linear light, in which an edge that covers half of a pixel has half of its light.
 
 use crate::optics::{SrgbEncoder, linear_from_encoded};
 use crate::picture::LUMINANCE;
@@ -13,7 +13,7 @@ const LEAST_CONTRAST: f32 = 1.0 / 32.0;
 /// Contrast below which a pixel is left alone, as a part of the brightest pixel around.
 const LEAST_PART: f32 = 1.0 / 8.0;
 
-/// How many pixels an edge is followed to either side.
+/// The number of pixels for which an edge is followed to either side.
 const FARTHEST: i32 = 12;
 
 /// The greatest part of its neighbour that is mixed into a pixel that stands out alone.
@@ -36,7 +36,7 @@ pub fn fxaa(rgba: &mut [u8], width: u32) {
     rgba.copy_from_slice(&smooth);
 }
 
-/// Returns how bright a pixel looks over black, 0 to 1.
+/// Returns the brightness of a pixel over black, 0 to 1.
 fn luma([r, g, b, cover]: &[u8; 4]) -> f32 {
     let parts = [r, g, b].into_iter().zip(LUMINANCE);
     parts.map(|(code, share)| f32::from(*code) * share).sum::<f32>() * f32::from(*cover) / (255.0 * 255.0)
@@ -67,7 +67,7 @@ impl Picture<'_> {
         mixed(own, other, part, &self.encoder)
     }
 
-    /// Returns how much of which neighbour is to be mixed into a pixel: the part, and the step to the neighbour. Returns
+    /// Returns the part of a neighbour that is to be mixed into a pixel, and the step to that neighbour. Returns
     /// `None` where there is too little contrast.
     fn shift(&self, x: i32, y: i32) -> Option<(f32, [i32; 2])> {
         let at = |dx: i32, dy: i32| self.luma(x + dx, y + dy);
@@ -102,7 +102,7 @@ impl Picture<'_> {
             step: (other - middle).abs() / 4.0,
         };
         let alone = (2.0 * sides.iter().sum::<f32>() + corners.iter().sum::<f32>()) / 12.0 - middle;
-        // Beside a straight edge a third of the weights differ, and nothing stands out alone.
+        // Beside a straight edge a third of the weights differ, and no pixel is isolated.
         let alone = (1.5 * alone.abs() / range - 0.5).clamp(0.0, 1.0);
         let alone = alone * MOST_ALONE;
         Some((self.cover(&edge, middle).max(alone), across))
@@ -113,15 +113,16 @@ impl Picture<'_> {
     fn cover(&self, edge: &Edge, luma: f32) -> f32 {
         let [(to_one, one), (to_other, other)] = [-1, 1].map(|way| self.end(edge, way));
         let (near, end) = if to_one < to_other { (to_one, one) } else { (to_other, other) };
-        // Only where brightness at the nearer end changes toward the other side's does the straight edge cut the pixel.
+        // The straight edge cuts the pixel only where the brightness at the nearer end changes toward the other
+        // side's.
         if (end < 0.0) == (luma < edge.middle) {
             return 0.0;
         }
         0.5 - near / (to_one + to_other)
     }
 
-    /// Follows an edge one way. Returns how far it goes, in pixels, and how the brightness at its end differs from its
-    /// middle.
+    /// Follows an edge one way. Returns its length that way, in pixels, and the difference of the brightness at its
+    /// end from the edge's middle.
     fn end(&self, edge: &Edge, way: i32) -> (f32, f32) {
         let mut off = 0.0;
         for k in 1..=FARTHEST {

@@ -1,4 +1,4 @@
-//! The program's icon: a stone from above, each facet as bright as it is turned to a light.
+//! The program's icon: a stone from above, each facet shaded by its angle to a light.
 
 use super::drawing::{DrawnAspect, between, hex, page};
 use crate::math::{Basis, Facet};
@@ -23,7 +23,7 @@ const LINE_WIDTH: f64 = 3.0;
 /// Direction toward the light; not a unit vector.
 const LIGHT: DVec3 = DVec3::new(-0.8, 1.0, 0.9);
 
-/// How much a facet's shade changes, as a part of the range of shades, for a change of 1 in the cosine toward the light.
+/// The change of a facet's shade, as a part of the range of shades, for a change of 1 in the cosine toward the light.
 const CONTRAST: f64 = 1.6;
 
 /// Draws the facets of a stone that are seen from above, without a background.

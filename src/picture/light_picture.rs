@@ -1,4 +1,4 @@
-//! A small picture of a light, by which a list shows what shines from where.
+//! A small picture of a light, which shows in lists where its sources are.
 
 use crate::optics::SrgbEncoder;
 use crate::scene::{Light, toward};

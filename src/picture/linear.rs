@@ -35,7 +35,7 @@ impl Linear {
 
 /// The linear light of a picture as [`Linear`] holds it, read some rows at a time, so that it need not be in memory.
 pub trait LightRows {
-    /// Why rows cannot be read.
+    /// The reason why rows cannot be read.
     type Error;
 
     /// Returns the number of pixels across and down.
@@ -44,7 +44,7 @@ pub trait LightRows {
     /// Returns the pixels of some rows, row by row.
     ///
     /// # Errors
-    /// When the light cannot be read.
+    /// Fails where the light cannot be read.
     fn rows(&mut self, rows: Range<u32>) -> Result<Cow<'_, [[f32; 4]]>, Self::Error>;
 }
 

@@ -1,5 +1,4 @@
-//! Floor 4: pictures. A picture combines a view, a scope and a reading of the light; the tracing itself is done in
-//! `trace`.
+//! Floor 4: pictures. A picture combines a view, a scope and a reading of the light; `trace` does the tracing itself.
 
 mod background;
 mod bloom;

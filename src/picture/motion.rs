@@ -1,4 +1,4 @@
-//! What has moved between two pictures of bodies that stand still, for temporal antialiasing.
+//! The motion between two pictures of resting bodies under a moving eye, for temporal antialiasing.
 
 use super::MotionVector;
 use crate::scene::View;
@@ -7,8 +7,8 @@ use crate::trace::sampling::LitScene;
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;
 
-/// Returns which body each pixel of a picture shows, and where the same point was seen from another view on the same film. What
-/// hangs behind moves with the eye. Metal counts as background.
+/// Returns for each pixel of a picture the body that it shows, and the place of the same point in another view on the
+/// same film. The backplate moves with the eye. Metal counts as background.
 pub fn motion_of_view(lit_scene: &LitScene, before: &View) -> Vec<MotionVector> {
     let probe = SceneProbe::new(lit_scene);
     let eye = Camera::reaching(before, lit_scene.scene.reach());

@@ -1,6 +1,6 @@
-//! Why a text names nothing of what pictures have.
+//! The error of a text that names no tone, quality, overlay or background.
 
-/// Why a text names no tone, quality, overlay or background; the message says what does.
+/// The reason why a text names no tone, quality, overlay or background; the message lists the names.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NameError {
     /// The text names no tone.
@@ -14,7 +14,7 @@ pub enum NameError {
     Overlay {
         /// The text.
         asked: String,
-        /// The names that are known.
+        /// The known names.
         known: String,
     },
     /// The text names no colour, and no gradient of two.
@@ -26,7 +26,7 @@ pub enum NameError {
     Background(String),
 }
 
-/// Returns as much of a text as a person reads.
+/// Returns a text, cut to a readable length.
 fn start(text: &str) -> String {
     text.chars().take(30).collect()
 }

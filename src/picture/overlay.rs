@@ -1,4 +1,4 @@
-//! Overlays on a developed picture: edges, facets, and what becomes of the rays through the pixels' middles.
+//! Overlays on a developed picture: edges, facets, and the paths of the rays through the pixels' middles.
 //!
 //! Rays are those of sodium's D line, in the stone that they meet first. Light that goes on into another stone is not
 //! followed.
@@ -30,7 +30,7 @@ pub enum Overlay {
     Total,
 }
 
-/// All overlays with their names.
+/// The overlays with their names.
 const NAMES: [(&str, Overlay); 5] = [
     ("wireframe", Overlay::Wireframe),
     ("facets", Overlay::Facets),
@@ -42,7 +42,7 @@ const NAMES: [(&str, Overlay); 5] = [
 /// The number of rows drawn between two calls of the watch.
 const PIECE: usize = 16;
 
-/// How much of the picture a facet's colour hides.
+/// The part of the picture that a facet's colour hides.
 const TINT: f32 = 0.5;
 
 /// The number of bounces at the upper end of the scale.
@@ -63,8 +63,8 @@ impl Overlay {
         NAMES.map(|(name, _)| name)
     }
 
-    /// Returns what the colours of the scale mean, from the lowest. It is empty for wireframe and facets, which have no
-    /// scale.
+    /// Returns the meanings of the colours of the scale, from the lowest. It is empty for wireframe and facets, which
+    /// have no scale.
     pub fn legend(self) -> Vec<(String, Code)> {
         match self {
             Self::Wireframe | Self::Facets => vec![],
@@ -80,7 +80,7 @@ impl Overlay {
         }
     }
 
-    /// Returns the colour over the place that a ray meets, and how much of that place it hides.
+    /// Returns the colour over the place that a ray meets, and the part of that place that it hides.
     fn colour(self, sight: &SceneProbe, glance: &ProbeRay) -> Option<(Code, f32)> {
         match self {
             Self::Wireframe => None,
@@ -122,7 +122,7 @@ fn total_colour(count: u32) -> Code {
     viridis(f64::from(count) / f64::from(MOST_TOTAL))
 }
 
-/// What becomes of a ray inside the stone that it meets first.
+/// The path of a ray inside the stone that it meets first, in numbers.
 struct Fate {
     bounces: u32,
     unresolved: f64,
@@ -167,7 +167,7 @@ impl<'a> OverlayDrawing<'a> {
     /// beyond the height of the film stay as they are. See [`lay`].
     ///
     /// # Errors
-    /// [`Stopped`] when `watch` stops the work; the rows are then drawn over in part.
+    /// Fails with [`Stopped`] when `watch` stops the work; the rows are then drawn over in part.
     pub fn lay(&self, first: u32, rgba: &mut [u8], watch: Watch) -> Result<(), Stopped> {
         let [width, height] = self.size;
         let rows = rgba.chunks_exact_mut(4 * (width as usize).max(1));
@@ -198,7 +198,7 @@ impl<'a> OverlayDrawing<'a> {
 /// as [`develop`](super::develop()) makes it. Rows beyond the height of the scene's film stay as they are.
 ///
 /// # Errors
-/// [`Stopped`] when `watch` stops the work; the picture is then drawn over in part.
+/// Fails with [`Stopped`] when `watch` stops the work; the picture is then drawn over in part.
 pub fn lay(overlay: Overlay, lit_scene: &LitScene, rgba: &mut [u8], watch: Watch) -> Result<(), Stopped> {
     OverlayDrawing::new(overlay, lit_scene).lay(0, rgba, watch)
 }

@@ -1,5 +1,5 @@
-//! Backgrounds that the program draws itself: square drawings of 2048 units, black or coloured on white. Their edges lie
-//! on whole units, so that 2048 pixels show them crisp.
+//! Backgrounds that the program draws itself: square drawings of 2048 units, in black, white and colours. Their edges
+//! lie on whole units, so that 2048 pixels show them crisp.
 
 mod page;
 
@@ -20,13 +20,13 @@ pub enum Pattern {
     Page,
     /// Fine lines, of one colour across and of another down.
     Grid,
-    /// Fine lines, of one colour across and of another down.
+    /// Black squares, as on a chessboard.
     Checks,
     /// Black and white stripes that run across.
     Stripes,
     /// Black discs in rows.
     Dots,
-    /// One white line across a dark field, as in a spectroscope.
+    /// A white line across a dark field, as in a spectroscope.
     Slit,
 }
 
@@ -40,7 +40,7 @@ const STEP: u32 = 64;
 const HALF_SLIT: u32 = 5;
 
 impl Pattern {
-    /// All patterns with their names.
+    /// The patterns with their names.
     pub const NAMES: [(&str, Self); 6] = [
         ("page", Self::Page),
         ("grid", Self::Grid),

@@ -18,7 +18,7 @@ use svg::Document;
 const ROOM: DVec2 = DVec2::new(540.0, 640.0);
 /// Distance from the stone to the first dimension line, and from one dimension line to the next.
 const LEVEL: f64 = 30.0;
-/// Gap between the stone and an extension line, and how far extension lines run on beyond a dimension line.
+/// Gap between the stone and an extension line, and length by which extension lines exceed a dimension line.
 const GAP: f64 = 4.0;
 /// Gap between a dimension line and the text beside it.
 const BESIDE: f64 = 10.0;
@@ -27,7 +27,7 @@ const LINE: f64 = 20.0;
 
 /// Lengths shorter than this part of the width count as zero.
 const NOTHING: f64 = 1e-6;
-/// The x or y axis is taken as the direction of the width if the stone along it is wider than at its narrowest by no
+/// The x or y axis counts as the direction of the width if the stone along it is wider than at its narrowest by no
 /// more than this factor.
 const NEARLY_NARROWEST: f64 = 1.01;
 
@@ -170,12 +170,12 @@ impl<'a> Drawing<'a> {
         Self { sheet, stone, aspect, dimensions }
     }
 
-    /// Returns where a point of the profile, in radii, lies on the sheet.
+    /// Returns the place of a point of the profile, in radii, on the sheet.
     fn at(&self, x: f64, z: f64) -> DVec2 {
         self.aspect.on_sheet(DVec2::new(x, z))
     }
 
-    /// Returns how far the stone reaches to the right at a height where it has corners.
+    /// Returns the distance that the stone reaches to the right at a height where it has corners.
     fn reach(&self, z: f64) -> f64 {
         let near = |v: &&DVec3| (v.z - z).abs() <= NOTHING * self.dimensions.width.length();
         let corners = self.stone.polytope.vertices().iter().filter(near);
@@ -258,8 +258,8 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// Draws heights one below the other and returns where their text ends on the right. Where a height is too short for
-    /// arrows, the arrows of its neighbours mark its ends; an end without one gets a dot.
+    /// Draws heights one below the other and returns the right end of their text. Where a height is too short for
+    /// arrows, the arrows of its neighbours mark its ends; an end without an arrow gets a dot.
     fn chain(&mut self, x: f64, parts: &[(&str, Span)]) -> f64 {
         let y = |z: f64| self.at(0.0, z).y;
         let lines: Vec<(f64, f64)> = parts.iter().map(|(_, span)| (y(span.from), y(span.to))).collect();

@@ -37,7 +37,7 @@ impl<V: Value> Rows<V> {
         Self { first, count, width, channels, values }
     }
 
-    /// Returns the number of values in a row: one more than pixels, as an edge on the last pixel's right side ends
+    /// Returns the number of values in a row: one more than pixels, since an edge on the last pixel's right side ends
     /// there.
     fn stride_of(width: u32) -> usize {
         width as usize + 1
@@ -59,8 +59,8 @@ impl<V: Value> Rows<V> {
         ((y - self.first) as usize * self.channels + channel) * Self::stride_of(self.width)
     }
 
-    /// Adds the edges of a polygon, whose corners are in pixels, with this weight. Its corners may run either way round.
-    /// The values mean nothing before [`summed`](Self::summed) has been called.
+    /// Adds the edges of a polygon, whose corners are in pixels, with this weight. Its corners may run either way
+    /// round. The values have no meaning before [`summed`](Self::summed) has been called.
     pub fn add(&mut self, polygon: &[DVec2], channel: usize, weight: V) {
         let Some(&last) = polygon.last() else { return };
         let weight = if crate::math::area(polygon) < 0.0 { weight * -1.0 } else { weight };

@@ -1,17 +1,17 @@
-//! How the edges of renders are smoothed beside taking many samples of each pixel.
+//! The methods that smooth the edges of renders, besides many samples of each pixel.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-/// How the edges of a render are smoothed.
+/// The method that smooths the edges of a render.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub enum Smoothing {
-    /// Not at all.
+    /// No smoothing.
     #[default]
     None,
-    /// [`fxaa`](super::fxaa()) in the finished picture.
+    /// [`fxaa`](super::fxaa()) on the finished picture.
     Fxaa,
     /// Temporal antialiasing: earlier pictures are moved along with the bodies and blended in
     /// ([`TemporalHistory`](super::TemporalHistory)).
@@ -25,7 +25,7 @@ impl Smoothing {
     /// The range of the share of the newest picture.
     pub const NEWEST: RangeInclusive<f64> = 0.05..=1.0;
 
-    /// The usual share of the newest picture.
+    /// The default share of the newest picture.
     pub const USUAL_NEWEST: f64 = 0.5;
 }
 

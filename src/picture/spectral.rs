@@ -6,7 +6,7 @@ use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, Sampling
 use crate::trace::{Stopped, Watch};
 use std::ops::Range;
 
-/// The light that a picture does not show, as means over what it covers.
+/// The light that a picture does not show, as means over the area that the stones cover.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Remainder {
     /// The share of the light that was not followed to its end.
@@ -61,7 +61,7 @@ pub fn expose_rows<E: From<Stopped>, X: ProgressiveImage<E>>(
     Ok(sum.remainder())
 }
 
-/// Returns what an exposure of a whole picture has seen so far.
+/// Returns the state of a whole picture's exposure.
 ///
 /// # Errors
 /// The errors of the exposure.
@@ -79,7 +79,7 @@ pub fn seen<E: From<Stopped>, X: ProgressiveImage<E>>(
 /// A callback that receives the rows of a picture; its error ends the work.
 pub type EachRow<'a, E> = &'a mut dyn FnMut(u32, &[[f32; 4]]) -> Result<(), E>;
 
-/// Returns the picture of the rows that `work` hands out, with what it returns.
+/// Returns the picture of the rows that `work` hands out, and the result of `work`.
 fn collected<E, T>(
     lit_scene: &LitScene,
     work: impl FnOnce(EachRow<E>) -> Result<T, E>,
@@ -137,7 +137,7 @@ impl<'a, E: From<Stopped>> Sum<'a, E> {
         Ok(())
     }
 
-    /// Returns the light that the pixels do not show, as means over what they cover.
+    /// Returns the light that the pixels do not show, as means over the area that the stones cover.
     fn remainder(self) -> Remainder {
         let share = if self.cover > 0.0 { 1.0 / self.cover } else { 0.0 };
         let Remainder { unresolved, absorbed } = self.rest;

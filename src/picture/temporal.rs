@@ -1,24 +1,25 @@
-//! Temporal antialiasing: each picture of something that moves is blended with the ones before, which are first shifted
-//! to where the things that they show are now.
+//! Temporal antialiasing: each picture of moving bodies is blended with the ones before, which are first shifted to
+//! the present places of the bodies.
 //!
-//! Light that has changed since, such as a background seen through moving glass, is clamped to the range that the newest
-//! picture shows around the pixel, so that nothing leaves a trail (B. Karis, High-quality temporal supersampling,
-//! SIGGRAPH 2014 courses).
+//! Light that has changed since, such as a background seen through moving glass, is clamped to the range that the
+//! newest picture shows around the pixel, so that nothing leaves a trail (B. Karis, High-quality temporal
+//! supersampling, SIGGRAPH 2014 courses).
 
 use super::Linear;
 use glam::DVec2;
 use rayon::prelude::*;
 
-/// How far older light may lie outside the range that the newest picture shows around a pixel, as a part of that range.
+/// The distance by which older light may lie outside the range that the newest picture shows around a pixel, as a
+/// part of that range.
 const BEYOND: f32 = 0.25;
 
-/// The body seen at a pixel's middle, and its motion since the picture before.
+/// The body at a pixel's middle, and its motion since the picture before.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionVector {
-    /// The body that is seen, if any.
+    /// The body, if there is one.
     pub body: Option<u32>,
-    /// Where the same point of the body was seen in the picture before, in pixels from that picture's upper left, to the
-    /// right and down. It is not finite where the point was not seen.
+    /// The place of the same point of the body in the picture before, in pixels from that picture's upper left, to
+    /// the right and down. It is not finite where the point was not in sight.
     pub from: DVec2,
 }
 
@@ -110,8 +111,8 @@ impl Frames<'_> {
             .map(move |(x, y, by)| ((y * width + x) as usize, by))
     }
 
-    /// Returns the body that a pixel shows, and where it was seen before. A pixel beside a body counts as the body's
-    /// rim, which covers a part of the pixel.
+    /// Returns the body that a pixel shows, and its place in the picture before. A pixel beside a body counts as the
+    /// body's rim, which covers a part of the pixel.
     fn from(&self, k: usize) -> (Option<u32>, DVec2) {
         let Some(own) = self.moved.get(k) else { return (None, DVec2::NAN) };
         if own.body.is_some() {

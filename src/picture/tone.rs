@@ -1,4 +1,4 @@
-//! Tone curves: they bring light without bounds to what a screen can show.
+//! Tone curves, which compress light of any brightness to the range of a screen.
 
 use super::NameError;
 use super::linear::luminance;
@@ -18,18 +18,18 @@ pub enum Tone {
 
 /// The light at which compression begins (Khronos PBR Neutral).
 const COMPRESSED_FROM: f32 = 0.8;
-/// How fast bright colours lose their saturation (Khronos PBR Neutral).
+/// The rate at which bright colours lose their saturation (Khronos PBR Neutral).
 const DESATURATION: f32 = 0.15;
 
 /// Coefficients a to e of Narkowicz's fit: (a x² + b x) / (c x² + d x + e).
 const FILM: [f32; 5] = [2.51, 0.03, 2.43, 0.59, 0.14];
 
-/// Where the fit reaches 1: the greater root of (a − c) x² + (b − d) x − e.
+/// The light at which the fit reaches 1: the greater root of (a − c) x² + (b − d) x − e.
 const FILM_IS_WHITE: f32 = 7.241_62;
 
 impl Tone {
-    /// Returns what a screen shows of linear light that is not below 0: each channel from 0 to 1. `white` is the light
-    /// that [`Filmic`](Self::Filmic) shows as white; the other curves do not use it.
+    /// Returns the screen's values, each channel from 0 to 1, for linear light that is not below 0. `white` is the
+    /// light that [`Filmic`](Self::Filmic) shows as white; the other curves do not use it.
     pub fn shown(self, light: [f32; 3], white: f32) -> [f32; 3] {
         match self {
             Self::Linear => light.map(|c| c.min(1.0)),
@@ -39,9 +39,9 @@ impl Tone {
     }
 }
 
-/// Applies the Khronos PBR Neutral tone mapper (Khronos Group, 3D Commerce, 2024) without its toe. The toe takes off the
-/// 4 % that common surfaces reflect, but a diamond reflects 17 %, and dark light is what the contrast of a gem consists
-/// of.
+/// Applies the Khronos PBR Neutral tone mapper (Khronos Group, 3D Commerce, 2024) without its toe. The toe takes off
+/// the 4 % that common surfaces reflect, but a diamond reflects 17 %, and the contrast of a gem depends on its dark
+/// light.
 fn neutral(light: [f32; 3]) -> [f32; 3] {
     let peak = light[0].max(light[1]).max(light[2]);
     if peak < COMPRESSED_FROM {

@@ -1,5 +1,5 @@
-//! Pictures as drawings: the virtual facets themselves, as polygons of an SVG. Only one domain of a picture's symmetry is
-//! written out; its copies refer to it, and say which facet each facet of a path is in them.
+//! Pictures as drawings: the virtual facets themselves, as polygons of an SVG. Only one domain of a picture's
+//! symmetry is written out; its copies refer to it, and name the facets that replace those of a path.
 
 use super::drawing::{hex, page};
 use crate::math::{Basis, Plane};
@@ -78,7 +78,7 @@ struct Page<'a> {
     film: Film,
     /// The maps of the drawing that carry the first copy to each of the others.
     copies: Vec<DAffine2>,
-    /// For each of these, the facet that each facet is mapped to.
+    /// For each of these, the facet to which each facet is mapped.
     carried: Vec<Vec<u32>>,
 }
 
@@ -111,7 +111,7 @@ impl<'a> Page<'a> {
         let first = polygons.into_iter().fold(Group::new().set("id", class), Group::add);
         let numbered = (2..).zip(&self.copies);
         let copies = numbered.map(|(number, copy)| {
-            // Older programs know references by this name alone.
+            // Older programs know references only by this name.
             let copied = Use::new().set("xlink:href", format!("#{class}")).set("data-copy", number);
             copied.set("transform", matrix(copy))
         });

@@ -13,14 +13,14 @@ pub enum Picture {
     Diagram,
 }
 
-/// A scope, and the side of the stone that it looks at.
+/// A scope, and the side of the stone that it is for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scoped {
     /// The scope's structured light.
     pub scope: Scope,
     /// The side that the scope is made for; `None` for either.
     pub side: Option<Side>,
-    /// Whether an observer's head may be added. Scopes with a hole for the eye have their own.
+    /// True where an observer's head may be added. Scopes with a hole for the eye have their own.
     pub takes_head: bool,
 }
 
@@ -40,10 +40,10 @@ impl Scoped {
     }
 }
 
-/// A picture's name, and what makes the picture of its name.
+/// A picture's name, and the function that makes the picture.
 type NamedPicture = (&'static str, fn(&str) -> Picture);
 
-/// All pictures by name, in the order in which they are drawn.
+/// The pictures by name, in the order in which they are drawn.
 const PICTURES: [NamedPicture; 9] = [
     ("aset", |_| Picture::Scoped(Scoped::aset())),
     ("aset-white", |_| scoped(Scope::aset(ASET_CONE, Backing::White), None, true)),

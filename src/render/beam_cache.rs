@@ -21,7 +21,7 @@ pub struct BeamCache {
     round: u64,
 }
 
-/// Beams, what they are of, and the round in which they were used last.
+/// A set of beams, with the body, medium, view and options that they belong to, and the round of its last use.
 struct Kept {
     body: Arc<Body>,
     medium: Medium,
@@ -35,7 +35,7 @@ impl BeamCache {
     /// Returns the beams of a body that is a polytope; traces them unless they are kept.
     ///
     /// # Errors
-    /// [`Stopped`] when `watch` asks to stop.
+    /// Fails with [`Stopped`] when `watch` asks to stop.
     pub fn of(
         &mut self,
         (body, polytope): (&Arc<Body>, &Polytope),
@@ -76,7 +76,8 @@ impl BeamCache {
         Some(beams)
     }
 
-    /// Drops the sets whose last use is longest ago, until there are at most so many sets with at most so many beams.
+    /// Drops the sets that were not used for the longest time, until there are at most so many sets with at most so
+    /// many beams.
     fn shrink(&mut self, most_sets: usize, most_beams: usize) {
         let mut beams: usize = self.kept.iter().map(|kept| kept.beams.len()).sum();
         while self.kept.len() > most_sets || beams > most_beams {

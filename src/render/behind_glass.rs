@@ -1,4 +1,4 @@
-//! Refraction maps and liquid glass: what is seen behind glass.
+//! Traces refraction maps and panes of liquid glass, which show their background through glass.
 
 use super::job::{Job, MapProduct, PaneProduct};
 use super::renderer::{Output, RenderError};

@@ -8,10 +8,10 @@ use std::sync::{Arc, OnceLock};
 /// The graphics card that a renderer may use.
 #[derive(Clone, Default)]
 pub enum Card {
-    /// None: all work is done by the processor.
+    /// No card: the processor does all work.
     #[default]
     None,
-    /// The machine's card, which is opened when it is first needed and stays open until the program ends.
+    /// The machine's card, which is opened at its first use and stays open until the program ends.
     Machine,
     /// A card that is open already and quicker than the processor, such as one that draws the window.
     #[cfg(feature = "gpu")]
@@ -30,7 +30,7 @@ pub enum Backend {
     Card(Arc<Gpu>),
 }
 
-/// The machine's card, opened once.
+/// Returns the machine's card, which is opened once.
 #[cfg(feature = "gpu")]
 fn machine() -> Result<Arc<Gpu>, GpuError> {
     static CARD: OnceLock<Result<Arc<Gpu>, GpuError>> = OnceLock::new();
@@ -41,7 +41,7 @@ impl Card {
     /// Returns rays on the card, even one that is slower than the processor.
     ///
     /// # Errors
-    /// Says why there is no card.
+    /// Returns the reason why there is no card.
     pub fn any(&self) -> Result<Backend, NoCard> {
         match self {
             Self::None => Err(NoCard("no graphics card is used".to_owned())),
@@ -61,18 +61,18 @@ impl Card {
     }
 }
 
-/// Why there is no graphics card.
+/// The reason why there is no graphics card.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct NoCard(String);
 
 impl NoCard {
-    /// Returns why stones with frosted facets are never traced by a card.
+    /// Returns the reason why stones with frosted facets are never traced by a card.
     pub fn frosted() -> Self {
         Self("graphics cards do not scatter light at frosted facets yet".to_owned())
     }
 
-    /// Returns why scenes that hold metal are never traced by a card.
+    /// Returns the reason why scenes with metal are never traced by a card.
     pub fn metal() -> Self {
         Self("graphics cards do not reflect metal yet".to_owned())
     }
@@ -99,7 +99,7 @@ impl Backend {
         }
     }
 
-    /// Returns what the tracer is, without the name of the card.
+    /// Returns the kind of the tracer, without the name of the card.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Beams => "exact beams",
@@ -109,12 +109,12 @@ impl Backend {
         }
     }
 
-    /// Whether it is rays on the processor, which take longer than all else.
+    /// Returns whether the tracer is rays on the processor, which take longer than all others.
     pub fn is_slow(&self) -> bool {
         matches!(self, Self::Rays)
     }
 
-    /// Whether it is exact beams.
+    /// Returns whether the tracer is exact beams.
     pub fn is_beams(&self) -> bool {
         matches!(self, Self::Beams)
     }
@@ -128,7 +128,7 @@ impl Backend {
         }
     }
 
-    /// Whether it is a real graphics card, and not one in software.
+    /// Returns whether the tracer is a real graphics card, and not one in software.
     pub fn is_quick(&self) -> bool {
         match self {
             Self::Beams | Self::Rays => false,

@@ -58,13 +58,13 @@ struct FilmKeys {
 pub struct OutOfRange {
     /// The number's key in the job, or its name among the options.
     pub key: &'static str,
-    /// The value that was given.
+    /// The value of the number.
     pub value: f64,
     /// The range that is allowed, in words.
     pub range: &'static str,
 }
 
-/// Why a job makes no sense.
+/// The reason why a job is impossible.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum JobError {
     /// A number is out of its range.
@@ -75,7 +75,7 @@ pub enum JobError {
     Instance {
         /// The place of the stone among the instances, from 0.
         place: usize,
-        /// What is wrong with the stone.
+        /// The fault of the stone.
         error: Box<JobError>,
     },
     /// A number of a body of metal is out of its range.
@@ -83,7 +83,7 @@ pub enum JobError {
     Metal {
         /// The place of the body among the metals, from 0.
         place: usize,
-        /// What is wrong with it.
+        /// The fault of the body.
         error: OutOfRange,
     },
     /// The law of dispersion of a material gives no index.
@@ -97,15 +97,15 @@ pub enum JobError {
     Picture {
         /// The picture's key in the job.
         key: &'static str,
-        /// What is wrong with the picture.
+        /// The fault of the picture.
         error: PanoramaError,
     },
-    /// The light cannot be looked up.
+    /// The light has no map that could be looked up.
     #[error("surroundings.lighting: {0}")]
     Lighting(#[from] LightingError),
 }
 
-/// Refuses a number unless it is right.
+/// Refuses a number unless it is in its range.
 pub(super) fn demand(
     is_right: bool,
     key: &'static str,
@@ -147,8 +147,8 @@ fn rotation(key: &'static str, turn: DQuat) -> Result<(), OutOfRange> {
 }
 
 impl Job {
-    /// Checks every number that the product depends on. The film is not checked for figures and panes, nor the scene
-    /// beyond its bodies for scopes and figures, as these products have no use for them.
+    /// Checks every number that the product depends on. The film of figures and panes is not checked, nor the scene
+    /// of scopes and figures beyond its bodies, as these products do not use them.
     ///
     /// # Errors
     /// The [`JobError`] names the first number at fault, its value and its range.
@@ -287,7 +287,7 @@ fn check_scene(scene: &Scene) -> Result<(), JobError> {
         let of_instance = |error| JobError::Instance { place, error: Box::new(error) };
         check_pose(&instance.pose).map_err(|error| of_instance(error.into()))?;
         let dispersion = &instance.material.dispersion;
-        // The stones of a scene are often of one material, and editors plan many jobs a second.
+        // The stones of a scene often share a material, and editors plan many jobs a second.
         if checked != Some(dispersion) {
             dispersion.clone().checked().map_err(|error| of_instance(error.into()))?;
             checked = Some(dispersion);

@@ -1,4 +1,4 @@
-//! Gradients: how the measures of a design change with its proportions, the angles of its tiers and its index.
+//! Gradients: the derivatives of a design's measures by its proportions, the angles of its tiers and its index.
 
 use super::sweep::{Sweep, SweepError, SweptStone, VariedDesign, with_numbers};
 use super::sweep_key::SweepKey;
@@ -10,40 +10,42 @@ use crate::trace::Watch;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// By how much an angle in degrees or a part in percent is changed to find how the planes change with it. With differences of
-/// fourth order, the planes' changes are then right to about 1e-11.
+/// The change of an angle in degrees or of a part in percent by which the derivative of the planes is found. With
+/// differences of fourth order, it is then right to about 1e-11.
 const STEP: f64 = 0.01;
 
-/// The least angle of a tier, in degrees, whose changes have a side. A table that was measured may lean by less.
+/// The least angle of a tier, in degrees, that can be changed without crossing 0. A table that was measured may lean
+/// by less.
 pub const LEAST_TIER_DEG: f64 = 2.0 * STEP;
 
-/// The same for ratios, which are near 1.
+/// The same change of ratios, which are near 1.
 const RATIO_STEP: f64 = 1e-4;
 
-/// How one measure changes with some numbers of a design.
+/// The derivatives of one measure by some numbers of a design.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasureGradient {
     /// The measure.
     pub name: MeasureName,
-    /// Its value of the light that was followed: the least one, but for contrast, whose bounds are about it.
+    /// Its value for the traced light: the least one, except for contrast, whose bounds lie on both sides of it.
     pub value: f64,
-    /// The change per unit of each number, in the order of the keys.
+    /// The derivative by each number, per its unit, in the order of the keys.
     pub per: Vec<f64>,
 }
 
-/// How the planes of a stone's facets change with some numbers of its design.
+/// The derivatives of the planes of a stone's facets by some numbers of its design.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlaneChanges {
-    /// For each number the change of each facet's normal and offset per unit; `None` of the index, which changes no plane.
+    /// For each number, the derivative of each facet's normal and offset, per its unit; `None` for the index, which
+    /// changes no plane.
     of_keys: Vec<Option<Vec<(DVec3, f64)>>>,
 }
 
-/// A stone's measures, with how some of them change.
+/// A stone's measures, with the derivatives of some of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GradedStone {
     /// The measures and the weight.
     pub stone: SweptStone,
-    /// How the wanted measures change, in the order in which they were wanted.
+    /// The derivatives of the measures that were requested, in that order.
     pub gradients: Vec<MeasureGradient>,
 }
 
@@ -51,22 +53,23 @@ pub struct GradedStone {
 type NamedPlanes = HashMap<String, (DVec3, f64)>;
 
 impl PlaneChanges {
-    /// Returns how the normal and the offset of each facet change per unit of a number, which is named by its place among the keys;
-    /// `None` for the index, which changes no plane.
+    /// Returns the derivatives of the normal and the offset of each facet by a number, whose place among the keys is
+    /// `place`; `None` for the index, which changes no plane.
     pub fn of_key(&self, place: usize) -> Option<&[(DVec3, f64)]> {
         self.of_keys.get(place)?.as_deref()
     }
 }
 
 impl Sweep {
-    /// Returns the measures of the design, which stands at no point of the axes, and how they change with numbers of it.
+    /// Returns the measures of the design itself, which belongs to no point of the axes, and their derivatives by its
+    /// numbers.
     ///
-    /// The derivatives of the light are exact ([`MeasureName::derivatives`]), and so are those of the planes by the scale of a side. How
-    /// the planes follow from other numbers is taken from central differences of fourth order of the planes alone.
+    /// The derivatives of the light are exact ([`MeasureName::derivatives`]), and so are those of the planes by the
+    /// scale of a side. The derivatives of the planes by other numbers are central differences of fourth order.
     ///
     /// # Errors
-    /// A [`SweepError`]: a number that the design does not have, a measure without derivatives, or a stone that cannot be
-    /// made or traced.
+    /// Fails with a [`SweepError`] for a number that the design does not have, a measure without derivatives, or a stone
+    /// that cannot be made or traced.
     pub fn gradient(
         &self,
         keys: &[SweepKey],
@@ -76,10 +79,11 @@ impl Sweep {
         self.graded(&self.plane_changes(keys)?, names, watch)
     }
 
-    /// Measures the design, which stands at no point of the axes, and returns how some measures change as the planes change.
+    /// Measures the design itself, which belongs to no point of the axes, and returns the derivatives of some
+    /// measures for changes of the planes.
     ///
     /// # Errors
-    /// A [`SweepError`]: a measure without derivatives, or a stone that cannot be made or traced.
+    /// Fails with a [`SweepError`] for a measure without derivatives, or a stone that cannot be made or traced.
     pub fn graded(
         &self,
         changes: &PlaneChanges,
@@ -105,10 +109,12 @@ impl Sweep {
         Ok(GradedStone { stone: SweptStone::of(taken.measures, specimen), gradients: gradients? })
     }
 
-    /// Returns how the planes of the design, which stands at no point of the axes, change with some numbers.
+    /// Returns the derivatives of the planes of the design itself, which belongs to no point of the axes, by some
+    /// numbers.
     ///
     /// # Errors
-    /// A [`SweepError`]: a number that the design does not have, or a facet that is not there on both sides of the design.
+    /// Fails with a [`SweepError`] for a number that the design does not have, or a facet that is not there on both
+    /// sides of the design.
     pub fn plane_changes(&self, keys: &[SweepKey]) -> Result<PlaneChanges, SweepError> {
         let start = self.start();
         let specimen = Specimen::new(self.design.clone())?;
@@ -123,7 +129,7 @@ impl Sweep {
         Ok(PlaneChanges { of_keys: keys.iter().map(of_key).collect::<Result<_, _>>()? })
     }
 
-    /// Returns how each facet's normal and offset change per percent of the height of a side, exactly.
+    /// Returns the exact derivatives of each facet's normal and offset by the height of a side, per percent.
     fn changes_by_scale(&self, side: ScaledSide, stone: &Stone) -> Result<Vec<(DVec3, f64)>, SweepError> {
         if !self.design.cut.has_scalable_sides() {
             let (key, error) = (SweepKey::Scale(side).to_string(), ScaleError::NotScalable);
@@ -142,7 +148,8 @@ impl Sweep {
         Ok(stone.polytope.facets().iter().map(change).collect())
     }
 
-    /// Returns how each facet's normal and offset change with a number; `None` for the index, which changes no plane.
+    /// Returns the derivatives of each facet's normal and offset by a number; `None` for the index, which changes no
+    /// plane.
     fn changes_by(
         &self,
         start: &VariedDesign,
@@ -190,7 +197,8 @@ impl Sweep {
 /// Returns the planes of a design's facets by their names.
 fn named_planes(design: Design) -> Result<NamedPlanes, SweepError> {
     let of = |plane: &Plane| (plane.normal, plane.offset);
-    // Where the planes are known without the solid that they bound, it is not built: that would take longer than all else.
+    // Where the planes follow without the solid that they bound, the solid is not built: that would take longer than
+    // all other work.
     if let Cut::RoundBrilliant(_) | Cut::Planes(_) = &design.cut {
         let planes = design.facets().map_err(SpecimenError::from)?;
         return Ok(planes.iter().map(|(name, plane)| (name.clone(), of(plane))).collect());
@@ -201,7 +209,8 @@ fn named_planes(design: Design) -> Result<NamedPlanes, SweepError> {
     Ok(planes.map(|(k, facet)| (stone.name(k).into_owned(), of(&facet.plane))).collect())
 }
 
-/// Returns the value of a proportion, and a step that is small beside it. One that is not there is found by the step.
+/// Returns the value of a proportion, and a step that is small beside it. The step reports the fault where the cut
+/// lacks the proportion.
 fn proportion(cut: &Cut, key: &str) -> (f64, f64) {
     match cut.proportion(key) {
         Some(row) if row.unit == Unit::Ratio => ((row.get)(cut), RATIO_STEP),
@@ -210,12 +219,13 @@ fn proportion(cut: &Cut, key: &str) -> (f64, f64) {
     }
 }
 
-/// Returns the angle of a tier, degrees above 0; 0 where there is none, which setting it finds.
+/// Returns the angle of a tier, degrees above 0; 0 where the tier is missing, which setting its angle then reports.
 fn tier(cut: &Cut, name: &str) -> f64 {
     cut.settings().iter().find(|setting| setting.name == name).map_or(0.0, |setting| setting.angle.abs())
 }
 
-/// Returns the distance of a tier, and a step that is small beside those of all tiers. One that is not there is found by the step.
+/// Returns the distance of a tier, and a step that is small beside those of all tiers. The step reports the fault
+/// where the tier is missing.
 fn distance(cut: &Cut, name: &str) -> (f64, f64) {
     let settings = cut.settings();
     let largest = settings.iter().map(|setting| setting.distance.abs()).fold(0.0, f64::max);

@@ -1,5 +1,5 @@
-//! A picture, a map or figures as one value: what stands there, from where it is seen, on which film, what is made of it
-//! and in which quality. A job is plain data, so that a thread, a page or another machine can be sent it.
+//! Jobs: the request for a picture, a map or figures as one value, with the scene, the view, the film, the product
+//! and the quality. A job is plain data, so that it can be sent to a thread, a page or another machine.
 
 use super::Wanted;
 use super::surroundings::Surroundings;
@@ -18,26 +18,26 @@ use std::sync::Arc;
 /// One piece of work for a [`Renderer`](super::Renderer).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Job {
-    /// The stones. Scopes and figures take the first alone, in the frame of its body: its pose is left out.
+    /// The stones. Scopes and figures use only the first, in the frame of its body, without its pose.
     pub scene: Arc<Scene>,
     /// The view from which they are seen.
     pub view: View,
     /// The pixels of the picture; figures have none.
     pub film: Film,
-    /// What is made.
+    /// The product.
     pub product: Product,
-    /// How well it is made.
+    /// The accuracy of the product.
     pub quality: Quality,
 }
 
-/// What a [`Job`] makes.
+/// The product of a [`Job`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Product {
     /// A picture under light.
     Light(LightProduct),
     /// A picture in a scope.
     Scope(ScopeProduct),
-    /// A map of where the light of each pixel comes from.
+    /// A map that gives for each pixel the place in the background that its light comes from.
     RefractionMap(MapProduct),
     /// A traced pane of liquid glass.
     LiquidGlass(PaneProduct),
@@ -50,32 +50,33 @@ pub enum Product {
 /// A picture of stones under light.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LightProduct {
-    /// What is around the stones.
+    /// The surroundings of the stones: light, and background.
     pub surroundings: Surroundings,
     /// The number of bands of wavelengths, at least 1.
     pub wavelengths: u32,
-    /// Whether the eye is adapted to the light, so that a white sheet is white.
+    /// True where the eye is adapted to the light, so that a white sheet is white.
     pub adapted: bool,
-    /// The share of refraction's turning of light that is followed, 0 to 1; 1 is physics.
+    /// The strength of refraction: the part of its turn that refracted light takes, 0 to 1; 1 is physics.
     pub strength: f64,
-    /// Whether each pass takes another share of each band of wavelengths, so that together they show all hues; else all take
-    /// the middle wavelengths alone.
+    /// True where each pass takes another share of each band of wavelengths, so that together they show all hues;
+    /// else all passes take only the middle wavelengths.
     pub jitter: bool,
-    /// In which steps the picture is made.
+    /// The steps in which the picture is made.
     pub steps: Steps,
 }
 
 /// The steps in which a picture under light is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Steps {
-    /// Some rows after the other, each handed out when it is finished, so that little memory is held.
+    /// Some rows after the other, each handed out once it is finished, which takes little memory.
     Strips,
-    /// As a whole, shown after the first, the second, the fourth pass and so on, from when these passes together have seen
+    /// As a whole, shown after the first, the second, the fourth pass and so on, once these passes together have
     /// enough wavelengths that white is white.
     Passes {
         /// The number of the first pass. Passes of other numbers take other places in the pixels.
         first: u32,
-        /// The number of passes of which nothing is shown, because a picture as good is in sight; the last is always shown.
+        /// The number of first passes that are not shown, because a picture as good is in sight; the last is always
+        /// shown.
         hidden: u32,
     },
     /// By the beams of one wavelength, spread to the others to first order; for a picture that is about to change. Rays
@@ -93,25 +94,25 @@ pub struct ScopeProduct {
     pub scope: Scope,
     /// The stone's medium.
     pub medium: Medium,
-    /// Whether the energy includes glare.
+    /// Included where the energy contains glare.
     pub glare: Glare,
     /// The readings of the light; each becomes a picture of its own.
     pub readings: Vec<Reading>,
 }
 
-/// What a picture in a scope shows of the light.
+/// A reading of the light: the quantity that a picture in a scope shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Reading {
-    /// All light, by the energy of each band.
+    /// The energy of each band, of all light.
     Energy,
-    /// Only the strongest exit of each point.
+    /// The strongest exit of each point alone.
     Strongest,
 }
 
 /// A refraction map.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MapProduct {
-    /// What is around the stones; its backplate is left out.
+    /// The surroundings of the stones; their backplate is not used.
     pub surroundings: Surroundings,
     /// The plane on which places are mapped.
     pub plane: Backdrop,
@@ -121,7 +122,7 @@ pub struct MapProduct {
     pub places: u32,
     /// The number of wavelengths of the diffuse layer.
     pub shades: u32,
-    /// Whether the eye is adapted to the light.
+    /// True where the eye is adapted to the light.
     pub adapted: bool,
 }
 
@@ -130,13 +131,13 @@ pub struct MapProduct {
 pub struct PaneProduct {
     /// The outline and the strengths of the pane, in pixels of the picture.
     pub pane: GlassPane,
-    /// What lies behind it, in the size of the picture.
+    /// The background behind it, in the size of the picture.
     pub background: Arc<Panorama>,
     /// Distance between pane and background, as a part of the pane's shorter side, above 0.
     pub gap: f64,
     /// The number of bands of wavelengths.
     pub wavelengths: u32,
-    /// Whether the pane is compared with a drawn one.
+    /// True where the pane is compared with a drawn one.
     pub compares: bool,
 }
 
@@ -156,43 +157,43 @@ pub struct MeasuresProduct {
     pub settings: MeasureSettings,
     /// The stone's medium.
     pub medium: Medium,
-    /// The measures of which derivatives are wanted as well.
+    /// The measures whose derivatives are taken as well.
     #[serde(default)]
     pub derivatives: Vec<MeasureName>,
 }
 
-/// How well a job is done.
+/// The accuracy of a job, and its tracer.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Quality {
     /// The tracer to use, or the choice of the quickest.
     pub tracer: Wanted,
-    /// How far exact beams are followed.
+    /// The limits to which exact beams are followed.
     pub beams: BeamOptions,
     /// The standard error, a part of the silhouette's light, to which figures estimate by rays what beams have left, above
     /// 0; `None` where they estimate nothing. Pictures do not use it.
     pub standard_error: Option<f64>,
-    /// How far rays are followed.
+    /// The limits to which rays are followed.
     pub rays: RayOptions,
     /// The number of samples: passes of a picture under light, of a map's diffuse layer and of a pane; rays along each side
     /// of a pixel in a scope, and along each side of a lattice for figures. `None` is the usual number.
     pub samples: Option<u32>,
 }
 
-/// The usual share of the light that exact beams leave unresolved in a picture under light.
+/// The default share of the light that exact beams leave unresolved in a picture under light.
 const UNRESOLVED_LIGHT: f64 = 2e-3;
 
-/// The usual number of beams of one wavelength, at most. Without symmetry, reaching the bound would take many times as long
-/// as the rest of the work.
+/// The default limit of beams of one wavelength. Without symmetry, reaching the bound of unresolved light would take
+/// many times as long as the rest of the work.
 const MOST_BEAMS: usize = 100_000;
 
-/// The usual number of bounces inside a stone after which rays end.
+/// The default number of bounces inside a stone after which rays end.
 pub const USUAL_BOUNCES: u32 = 64;
 
-/// The usual end of rays: after this many bounces, or where no more than this weight is left.
+/// The default end of rays: after this many bounces, or where no more than this weight is left.
 const RAYS: RayOptions = RayOptions { polarised: true, most_bounces: USUAL_BOUNCES, least_weight: 5e-4 };
 
 impl Quality {
-    /// Returns the usual quality of pictures under light.
+    /// Returns the default quality of pictures under light.
     pub fn of_pictures(polarised: bool) -> Self {
         let (unresolved, most_beams) = (UNRESOLVED_LIGHT, MOST_BEAMS);
         Self {
@@ -204,7 +205,7 @@ impl Quality {
         }
     }
 
-    /// Returns the quality of figures that are followed to these bounds.
+    /// Returns the quality of figures within these bounds.
     pub fn of_figures(bounds: &Bounds, tracer: Wanted) -> Self {
         let Bounds { standard_error, polarised, lattice, .. } = *bounds;
         let (unresolved, least_weight) = (bounds.left_by_beams(), bounds.left_by_rays());
@@ -235,9 +236,9 @@ impl Job {
         }
     }
 
-    /// Returns a rough picture of this job in full size, as [`enlarged`] makes it; `None` where the job is no picture under light, or
-    /// one with metal, whose outlines are not looked for.
-    /// `film` is the picture's own, and `shift` the place of its rays in its pixels.
+    /// Returns a rough picture of this job in full size, as [`enlarged`] makes it; `None` where the job is no picture
+    /// under light, or has metal, whose outlines are not computed. `film` is the rough picture's own, and `shift` the
+    /// place of its rays in its pixels.
     pub fn enlarged(&self, rough: &Linear, (film, shift): (&Film, DVec2)) -> Option<Linear> {
         let Product::Light(light) = &self.product else { return None };
         if !self.scene.metals.is_empty() {
@@ -281,7 +282,7 @@ impl LightProduct {
 }
 
 impl MapProduct {
-    /// Traces what `work` makes of the survey of this map, with this many passes of the diffuse layer.
+    /// Traces the survey of this map with this many passes of the diffuse layer, and returns what `work` makes of it.
     pub(super) fn surveyed<T>(&self, passes: u32, work: impl FnOnce(&Survey) -> T) -> T {
         let strata = |count, shares| {
             Strata::new(count, shares, &self.surroundings.lighting.light.spectrum, self.adapted)

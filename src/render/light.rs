@@ -1,4 +1,4 @@
-//! Pictures under light: adds up their passes, in strips of rows or as a whole that grows clearer.
+//! Pictures under light: adds up their passes, in strips of rows or as a whole that is refined.
 
 use super::card::Backend;
 use super::job::{Job, LightProduct, Steps};
@@ -16,11 +16,11 @@ use crate::trace::sampling::{LitScene, ProgressiveImage, Sampling};
 use crate::trace::sampling::{RadiancePixel, SamplePass};
 use std::ops::Range;
 
-/// The share of a ray's light below which it goes on by chance, in a picture of one pass: so little that its noise is hardly
-/// seen.
+/// The share of a ray's light below which Russian roulette decides whether the ray goes on, in a picture of one pass:
+/// so little that the noise is hardly visible.
 const CHANCE_OF_ONE_PASS: f64 = 0.025;
 
-/// The greatest such share, in pictures of many passes, over which the noise of each is averaged.
+/// The greatest such share, for pictures of many passes, which average the noise.
 const MOST_CHANCE: f64 = 0.1;
 
 /// A picture under light that is being traced.
@@ -100,7 +100,7 @@ impl Exposure<'_> {
         seen(&self.lit_scene, &image)
     }
 
-    /// Takes the picture as a whole, and hands it out while it grows clearer.
+    /// Takes the picture as a whole, and hands it out after some of its passes.
     fn growing<E: From<RenderError>>(
         &self,
         backend: &Backend,

@@ -28,13 +28,13 @@ pub struct MeasureOptions {
     /// Half angle of an observer's head in front of the scope, in degrees. The head sends no light; 0, the default,
     /// means no head.
     pub head_deg: f64,
-    /// Wavelength in nm at which the material's index and absorption are taken; 589.3 by default.
+    /// The wavelength in nm at which the material's index and absorption are taken; 589.3 by default.
     pub wavelength_nm: f64,
     /// A refractive index to use instead of the material's.
     pub index: Option<f64>,
-    /// How far light is followed, and with how many rays.
+    /// The limits to which light is followed, and the number of rays.
     pub bounds: Bounds,
-    /// The tracer that is wanted; by default exact beams where they apply, and otherwise rays.
+    /// The tracer; by default exact beams where they apply, and otherwise rays.
     pub tracer: Wanted,
     /// The graphics card that rays may run on; none by default.
     pub card: Card,
@@ -78,8 +78,8 @@ pub enum MeasureError {
 /// Measures a design: builds its stone, traces its light and sums it up by the zones of a scope.
 ///
 /// # Errors
-/// Any [`MeasureError`]: the design makes no stone, an option is out of its range, or the tracer does not apply or
-/// fails.
+/// Fails with a [`MeasureError`] where the design makes no stone, an option is out of its range, or the tracer does not
+/// apply or fails.
 pub fn measure(design: &Design, options: &MeasureOptions) -> Result<Measured, MeasureError> {
     options.check()?;
     let specimen = Specimen::new(design.clone())?;

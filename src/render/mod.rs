@@ -1,5 +1,5 @@
-//! Floor 5: does jobs. A [`Job`] says as plain data what stands there, from where it is seen, on which film, what is made of
-//! it and how well; a [`Renderer`] makes it, by the tracer that [`Renderer::plan`] alone decides on.
+//! Floor 5: does jobs. A [`Job`] is plain data: the scene, the view, the film, the product and the quality. A
+//! [`Renderer`] makes the product, by the tracer that [`Renderer::plan`] alone chooses.
 
 mod beam_cache;
 mod behind_glass;

@@ -1,4 +1,4 @@
-//! Plans which tracer makes a picture or figures. No other place decides this.
+//! Plans which tracer makes a picture or figures. No other place of the program decides this.
 
 use super::card::{Backend, Card, NoCard};
 use super::check::JobError;
@@ -8,7 +8,7 @@ use crate::scene::{Projection, View};
 use crate::trace::ray::Camera;
 use serde::{Deserialize, Serialize};
 
-/// The tracer that a person or a program wants. clap prints these comments as the option's help.
+/// The tracer of a request. clap prints these comments as the option's help.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Wanted {
@@ -27,38 +27,39 @@ pub enum Wanted {
     Card,
 }
 
-/// What decides which tracers fit a picture or figures.
+/// The demands of a picture or of figures, which decide the tracers that fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Demands {
-    /// Why exact beams do not fit, or `None` where they fit.
+    /// The reason why exact beams do not fit, or `None` where they fit.
     pub against_beams: Option<Unfit>,
-    /// How much quicker a graphics card is than exact beams.
+    /// The gain by a graphics card over exact beams.
     pub card: CardWorth,
-    /// Why rays on the processor do what a card is wanted for; `None` where a card can do it, or it is refused.
+    /// The reason why rays on the processor replace a card for this job; `None` where a card can do it, or where a
+    /// request for it is refused.
     pub no_card: Option<NoCard>,
 }
 
-/// How much quicker a graphics card is than the processor for a piece of work.
+/// The gain by a graphics card over the processor for a piece of work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CardWorth {
-    /// The work is done on the processor alone.
+    /// No gain: only the processor can do the work.
     Nothing,
-    /// Quicker than rays on the processor, but not than exact beams.
+    /// A card is quicker than rays on the processor, but not than exact beams.
     Little,
-    /// Quicker than exact beams as well, as for pictures under light that have many wavelengths.
+    /// A card is quicker than exact beams as well, as for pictures under light that have many wavelengths.
     Much,
 }
 
-/// Why a job cannot be done, or not by exact beams.
+/// The reason why a job cannot be done, or not by exact beams.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Unfit {
-    /// The job makes no sense, whatever traces it.
+    /// The job is impossible for every tracer.
     #[error(transparent)]
     Job(#[from] JobError),
     /// The eye of a perspective is beside or inside the stone, so that no tracer can show it.
     #[error("the eye of the perspective is not in front of the whole stone; move it farther away")]
     Eye,
-    /// There is no stone.
+    /// The scene has no stone.
     #[error("the scene holds no stone")]
     NoStone,
     /// The view has a perspective.
@@ -77,7 +78,7 @@ pub enum Unfit {
         "the stone has frosted facets, which scatter light: trace by rays, and make no refraction map or measures of light of it"
     )]
     Frosted,
-    /// There are several bodies, a body that is not convex, a perspective, or a backplate.
+    /// The scene has several bodies, a body that is not convex, a perspective, or a backplate.
     #[error(
         "exact beams are for one convex stone, parallel rays and no world, pattern or photograph behind: trace by rays"
     )]
@@ -88,7 +89,7 @@ pub enum Unfit {
     /// Light is followed through fewer bounces than usual.
     #[error("exact beams cannot end after some bounces: trace by rays, or follow 64 bounces")]
     FewBounces,
-    /// Measures of light are wanted of what exact beams cannot trace, or by another tracer.
+    /// Measures of light are requested for something that exact beams cannot trace, or from another tracer.
     #[error(
         "measures of light are sums over exact beams: they need a convex stone between planes, parallel rays, and no other \
          tracer"
@@ -106,7 +107,7 @@ pub enum Unfit {
 pub struct Plan {
     /// The tracer, with the card that it runs on.
     pub backend: Backend,
-    /// Why no graphics card is used though one was wanted.
+    /// The reason why no graphics card is used though the job requests one.
     pub no_card: Option<NoCard>,
 }
 
@@ -114,10 +115,10 @@ impl Demands {
     /// Returns the demands of a job.
     ///
     /// # Errors
-    /// [`Unfit::NoStone`] and [`Unfit::Eye`] where a scope or figures have no stone, or an eye that cannot see it;
-    /// [`Unfit::Metal`] where metal stands in the scene of anything but a picture under light;
-    /// [`Unfit::OnlyBeams`] where measures of light are wanted of what beams do not trace; [`Unfit::Frosted`] for a
-    /// refraction map, or measures of light, of frosted facets.
+    /// Fails with [`Unfit::NoStone`] and [`Unfit::Eye`] where a scope or figures have no stone, or an eye that cannot
+    /// see it; [`Unfit::Metal`] where the scene has metal and the product is no picture under light;
+    /// [`Unfit::OnlyBeams`] where measures of light are requested of something that beams do not trace;
+    /// [`Unfit::Frosted`] for a refraction map, or measures of light, of frosted facets.
     pub fn of(job: &Job) -> Result<Self, Unfit> {
         match &job.product {
             Product::Light(light) => Ok(Self::of_light(job, light)),
@@ -135,8 +136,8 @@ impl Demands {
         }
     }
 
-    /// Returns the demands of stones with frosted facets: rays on the processor alone follow their light, or know what of it
-    /// they do not follow.
+    /// Returns the demands of stones with frosted facets: only rays on the processor follow their scattered light, or
+    /// count the part of it that they do not follow.
     fn frosted() -> Self {
         let (against_beams, no_card) = (Some(Unfit::Frosted), Some(NoCard::frosted()));
         Self { against_beams, card: CardWorth::Nothing, no_card }
@@ -189,7 +190,7 @@ impl Demands {
 /// Decides which tracer does the work. The card is opened only where it may be used.
 ///
 /// # Errors
-/// [`Unfit`] where exact beams are wanted and do not fit, or a card for what is never done by one.
+/// Fails with [`Unfit`] where exact beams are requested and do not fit, or a card for work that no card does.
 pub fn plan(demands: &Demands, wanted: Wanted, card: &Card) -> Result<Plan, Unfit> {
     if let (Wanted::Card, Some(why)) = (wanted, &demands.no_card) {
         return Ok(Plan { backend: Backend::Rays, no_card: Some(why.clone()) });

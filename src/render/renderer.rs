@@ -14,24 +14,24 @@ use crate::trace::gpu::GpuError;
 use crate::trace::{Stopped, Watch};
 use std::sync::Arc;
 
-/// Does jobs. It keeps the beams of the last ones, and does without a card that is lost.
+/// Does jobs. It keeps the beams of the last ones, and no longer uses a card that was lost.
 #[derive(Default)]
 pub struct Renderer {
     card: Card,
     pub(super) beams: BeamCache,
-    /// Whether the caller was notified that no card is used.
+    /// True once the caller was notified that no card is used.
     is_noted: bool,
 }
 
 /// A part of a product, handed out while the work goes on.
 #[derive(Debug)]
 pub enum Partial<'a> {
-    /// The processor does the work of a card that is missing or failed; the text says why. What was handed out before is
-    /// made anew.
+    /// The processor does the work of a card that is missing or failed; the text says why. All parts that were handed
+    /// out before are made anew.
     Note(&'a str),
     /// The rows of a picture in a scope follow.
     Begun {
-        /// What the picture shows.
+        /// The reading that the picture shows.
         reading: Reading,
         /// The tracer.
         backend: &'a Backend,
@@ -40,7 +40,7 @@ pub enum Partial<'a> {
     },
     /// Rows of a picture in a scope.
     Rows {
-        /// What the picture shows.
+        /// The reading that the picture shows.
         reading: Reading,
         /// Some rows of the picture, which say where they belong.
         rows: &'a Rows,
@@ -54,7 +54,7 @@ pub enum Partial<'a> {
         /// The linear light of its pixels, as in [`Linear`].
         pixels: &'a [[f32; 4]],
     },
-    /// A picture under light as it is so far.
+    /// The present state of a picture under light.
     Picture {
         /// The linear light of all pixels.
         picture: &'a Linear,
@@ -65,7 +65,7 @@ pub enum Partial<'a> {
     },
 }
 
-/// What a job has made.
+/// The result of a job.
 #[derive(Debug)]
 pub enum Output {
     /// A picture under light, and the light that it does not show.
@@ -74,9 +74,9 @@ pub enum Output {
     LightRows(Remainder),
     /// A picture in a scope, whose rows were handed out; holds the beams where exact beams traced it.
     Scope(Option<Arc<Beams>>),
-    /// A refraction map, and how much of the light it carries.
+    /// A refraction map, and the share of the light that it carries.
     RefractionMap(RefractionMap, Carried),
-    /// A traced pane and, where that was wanted, how a drawn one differs.
+    /// A traced pane and, where the job compares, the difference of a drawn one.
     LiquidGlass(Linear, Option<Cost>),
     /// The measured figures of a stone.
     Figures(Box<Measured>),
@@ -84,32 +84,32 @@ pub enum Output {
     Measures(Box<TakenMeasures>),
 }
 
-/// The measures of a stone's light, with the derivatives that were wanted.
+/// The measures of a stone's light, with the requested derivatives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TakenMeasures {
     /// The measures.
     pub measures: LightMeasures,
-    /// The derivatives, in the order in which they were wanted; `None` of a measure that has none.
+    /// The derivatives, in the order of the request; `None` for a measure that has none.
     pub derivatives: Vec<Option<MeasureDerivatives>>,
 }
 
-/// What a job has made, and how.
+/// The result of a job, with its tracer and its samples.
 pub struct Rendered {
-    /// What was made.
+    /// The result.
     pub output: Output,
     /// The tracer that made it.
     pub backend: Backend,
-    /// The number of samples that it took; see [`Quality`](super::Quality).
+    /// The number of its samples; see [`Quality`](super::Quality).
     pub samples: u32,
 }
 
-/// Why a job was not done.
+/// The reason why a job was not done.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
     /// The watch asked to stop.
     #[error(transparent)]
     Stopped(#[from] Stopped),
-    /// The job cannot be done as it is wanted.
+    /// No tracer can do the job in the requested way.
     #[error(transparent)]
     Unfit(#[from] Unfit),
     /// A pane of liquid glass cannot be traced.
@@ -127,7 +127,7 @@ pub enum RenderError {
 /// A callback that receives the parts of a product; its error ends the work.
 pub type EachPart<'a, E> = &'a mut dyn FnMut(Partial) -> Result<(), E>;
 
-/// Why work ended early: by itself, or by an error of the callback.
+/// The reason why work ended early: its own error, or an error of the callback.
 pub(super) enum Halt<E> {
     Render(RenderError),
     Each(E),
@@ -184,7 +184,8 @@ impl Renderer {
     /// Decides which tracer does a job.
     ///
     /// # Errors
-    /// [`Unfit`] where the job makes no sense, the stone cannot be seen, or the tracer that is wanted does not fit.
+    /// Fails with [`Unfit`] where the job is impossible, the stone cannot be seen, or the requested tracer does not
+    /// fit.
     pub fn plan(&self, job: &Job) -> Result<Plan, Unfit> {
         job.check()?;
         plan(&Demands::of(job)?, job.quality.tracer, &self.card)
@@ -198,7 +199,7 @@ impl Renderer {
     /// Does a job. Where a card fails, the processor does all of it again.
     ///
     /// # Errors
-    /// A [`RenderError`] or an error of `each`.
+    /// Fails with a [`RenderError`] or an error of `each`.
     pub fn run<E: From<RenderError>>(
         &mut self,
         job: &Job,
@@ -277,7 +278,7 @@ impl Rendered {
     /// Returns the picture under light, and the light that it does not show.
     ///
     /// # Errors
-    /// [`RenderError::OtherProduct`] of another product.
+    /// Fails with [`RenderError::OtherProduct`] for another product.
     pub fn light(self) -> Result<(Linear, Remainder), RenderError> {
         match self.output {
             Output::Light(picture, rest) => Ok((picture, rest)),
@@ -288,7 +289,7 @@ impl Rendered {
     /// Returns the light that a picture under light does not show, whose rows were handed out.
     ///
     /// # Errors
-    /// [`RenderError::OtherProduct`] of another product.
+    /// Fails with [`RenderError::OtherProduct`] for another product.
     pub fn remainder(self) -> Result<Remainder, RenderError> {
         match self.output {
             Output::LightRows(rest) => Ok(rest),
@@ -304,10 +305,10 @@ impl Rendered {
         }
     }
 
-    /// Returns the refraction map, and how much of the light it carries.
+    /// Returns the refraction map, and the share of the light that it carries.
     ///
     /// # Errors
-    /// [`RenderError::OtherProduct`] of another product.
+    /// Fails with [`RenderError::OtherProduct`] for another product.
     pub fn map(self) -> Result<(RefractionMap, Carried), RenderError> {
         match self.output {
             Output::RefractionMap(map, carried) => Ok((map, carried)),
@@ -315,10 +316,10 @@ impl Rendered {
         }
     }
 
-    /// Returns the traced pane and, where that was wanted, how a drawn one differs.
+    /// Returns the traced pane and, where the job compares, the difference of a drawn one.
     ///
     /// # Errors
-    /// [`RenderError::OtherProduct`] of another product.
+    /// Fails with [`RenderError::OtherProduct`] for another product.
     pub fn pane(self) -> Result<(Linear, Option<Cost>), RenderError> {
         match self.output {
             Output::LiquidGlass(picture, cost) => Ok((picture, cost)),
@@ -329,7 +330,7 @@ impl Rendered {
     /// Returns the figures.
     ///
     /// # Errors
-    /// [`RenderError::OtherProduct`] of another product.
+    /// Fails with [`RenderError::OtherProduct`] for another product.
     pub fn figures(self) -> Result<Measured, RenderError> {
         match self.output {
             Output::Figures(measured) => Ok(*measured),
@@ -340,7 +341,7 @@ impl Rendered {
     /// Returns the measures of light.
     ///
     /// # Errors
-    /// [`RenderError::OtherProduct`] of another product.
+    /// Fails with [`RenderError::OtherProduct`] for another product.
     pub fn measures(self) -> Result<TakenMeasures, RenderError> {
         match self.output {
             Output::Measures(measures) => Ok(*measures),

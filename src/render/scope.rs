@@ -112,7 +112,7 @@ impl Renderer {
             Backend::Beams => {
                 let (body, polytope) = job.convex()?;
                 let Quality { standard_error, beams: options, .. } = &job.quality;
-                // Pictures may have made the beams.
+                // The beams may exist already, made for pictures.
                 let made = match standard_error {
                     None => self.beams.kept(body, *medium, view, options),
                     Some(_) => None,
@@ -131,13 +131,13 @@ impl Renderer {
 }
 
 impl Job {
-    /// Returns the stone that scopes and figures are of.
+    /// Returns the stone of scopes and figures.
     pub(super) fn stone(&self) -> Result<SolidRef<'_>, Unfit> {
         self.scene.instances.first().map(|stone| stone.body.solid()).ok_or(Unfit::NoStone)
     }
 
-    /// Measures figures by beams that are not kept. With a standard error, rays measure what the beams leave, each as far as
-    /// the other makes it worth its time.
+    /// Measures figures by beams that are not kept. With a standard error, rays measure the light that the beams
+    /// leave; beams and rays share the work so that it takes the least time.
     fn summed(
         &self,
         polytope: &Polytope,
@@ -156,7 +156,7 @@ impl Job {
         }
     }
 
-    /// Traces the stone as it has rocked into each direction.
+    /// Traces the stone rocked into each direction.
     ///
     /// Rocked stones are seen without most of their symmetry, so ten times as much of their light may stay unresolved as in
     /// the view itself: the bounds of scintillation stay below its own range of a few percent, at a bearable time.

@@ -1,4 +1,4 @@
-//! What is around the stones of a picture: light, and what hangs behind.
+//! The surroundings of the stones in a picture: light, and the backplate.
 
 use crate::math::Basis;
 use crate::scene::{Film, Mipmap, View};
@@ -7,30 +7,30 @@ use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// What is around the stones of a picture.
+/// The surroundings of the stones in a picture.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Surroundings {
-    /// The light around the stones, ready to be looked up.
+    /// The light around the stones, with its map.
     pub lighting: Arc<Lighting>,
     /// The angle by which the light is turned about its axis, and a world about its vertical, radians.
     pub turn: f64,
-    /// Whether the light's axis points up in the picture, so that its horizon lies level behind the stones and its azimuth 0 in
-    /// the middle; else the axis points to the eye. Worlds stand upright in any case.
+    /// True where the light's axis points up in the picture, so that its horizon lies level behind the stones and its
+    /// azimuth 0 in the middle; else the axis points to the eye. Worlds stand upright in any case.
     pub is_upright: bool,
     /// The half angle of the observer's head, radians; 0 for no head.
     pub head: f64,
-    /// Whether pixels beside the stones show the light.
+    /// True where pixels beside the stones show the light.
     pub shows_light: bool,
     /// The picture behind the stones.
     pub backplate: Option<HungPicture>,
 }
 
-/// A picture that hangs behind the stones, and fills the film from there.
+/// A picture that hangs behind the stones and fills the film from there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HungPicture {
     /// The pixels, as linear light, with their coarser levels.
     pub picture: Arc<Mipmap>,
-    /// How many times as wide as the film it is.
+    /// The width of the picture as a multiple of the film's.
     pub span: f64,
     /// The distance behind the origin, in girdle radii.
     pub distance: f64,
@@ -39,7 +39,7 @@ pub struct HungPicture {
 }
 
 impl Surroundings {
-    /// Returns the plain surroundings of a light: nothing hangs behind, and pixels beside the stones are clear.
+    /// Returns the surroundings of a light alone: no picture hangs behind, and pixels beside the stones are clear.
     pub fn of(lighting: Arc<Lighting>) -> Self {
         let head = lighting.light.head.to_radians();
         Self { lighting, turn: 0.0, is_upright: false, head, shows_light: false, backplate: None }
@@ -48,7 +48,7 @@ impl Surroundings {
     /// Returns the frame of the light in a view, turned.
     fn light_basis(&self, view: &View) -> Basis {
         let rest = view.light_basis();
-        // A world is drawn upright as it is: its vertical axis is y.
+        // Worlds are drawn upright: their vertical axis is y.
         let is_world = self.lighting.light.world.is_some();
         let rest = match self.is_upright && !is_world {
             true => Basis { right: -rest.toward, up: -rest.right, toward: rest.up },

@@ -14,10 +14,10 @@ use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The points that are measured before they are handed out.
+/// The number of points that are measured before they are handed out.
 const AT_ONCE: usize = 64;
 
-/// A distance that was set is kept where it differs by no more than this part of it.
+/// The relative difference up to which a distance counts as the one that was set.
 const SAME_DISTANCE: f64 = 1e-9;
 
 /// A value at a place of an axis.
@@ -32,17 +32,17 @@ pub enum SweepValue {
 impl fmt::Display for SweepValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            // Steps of a range are sums; people read them to the digits that they mean.
+            // Steps of a range are sums, so numbers are rounded to the digits that people mean.
             Self::Number(number) => write!(f, "{}", (number * 1e9).round() / 1e9 + 0.0),
             Self::Name(name) => f.write_str(name),
         }
     }
 }
 
-/// One axis of a sweep.
+/// An axis of a sweep.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepAxis {
-    /// What varies.
+    /// The number or name that varies.
     pub key: SweepKey,
     /// Its values.
     pub values: Vec<SweepValue>,
@@ -78,18 +78,18 @@ pub struct Sweep {
     pub wavelength_nm: f64,
     /// The part of the light that may stay unresolved.
     pub unresolved: f64,
-    /// Whether polarisation is followed.
+    /// True where polarisation is followed.
     pub polarised: bool,
 }
 
-/// What a sweep finds at one point.
+/// The result of a sweep at one point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweptStone {
     /// The measures of the light.
     pub measures: LightMeasures,
     /// The weight in carats; `None` where the material's density is not known.
     pub carats: Option<f64>,
-    /// What is odd about the stone, such as a facet that no longer touches it, each in a sentence.
+    /// Warnings about the stone, such as a facet that no longer touches it, each in a sentence.
     pub warnings: Vec<String>,
 }
 
@@ -99,7 +99,7 @@ impl SweptStone {
     }
 }
 
-/// Why a point of a sweep has no measures.
+/// The reason why a point of a sweep has no measures.
 #[derive(Debug, thiserror::Error)]
 pub enum SweepError {
     /// The design does not make a stone there.
@@ -122,7 +122,7 @@ pub enum SweepError {
     NoProportion {
         /// The key as given.
         key: String,
-        /// The keys that there are, in words.
+        /// The keys of the cut, in words.
         known: String,
     },
     /// The cut has no tier of this name.
@@ -130,7 +130,7 @@ pub enum SweepError {
     NoTier {
         /// The key as given.
         key: String,
-        /// The tiers that there are, in words.
+        /// The tiers of the cut, in words.
         known: String,
     },
     /// A number where a name is needed, or a name where a number is.
@@ -140,13 +140,13 @@ pub enum SweepError {
         key: String,
         /// The value as given.
         value: String,
-        /// What is expected.
+        /// The kind of value that is expected.
         expected: &'static str,
     },
-    /// There is no such material.
+    /// The library has no such material.
     #[error(transparent)]
     Material(#[from] MaterialError),
-    /// Something has no derivatives; the text says what, and what to give.
+    /// A number has no derivatives; the text says which, and what to give instead.
     #[error("{0}")]
     NoDerivative(String),
     /// A facet that is not there on both sides of the design.
@@ -173,7 +173,7 @@ pub enum SweepError {
     Scale {
         /// The key as given.
         key: String,
-        /// Why not.
+        /// The reason.
         error: ScaleError,
     },
 }
@@ -184,7 +184,7 @@ pub(super) struct VariedDesign {
     pub design: Design,
     viewpoint: Viewpoint,
     index: Option<f64>,
-    /// Whether a tier has been moved, so that meets are to be followed.
+    /// True where a tier has been moved, so that meets have to be followed.
     moved: bool,
     /// The keys of distances that were set, and the distances.
     distances: Vec<(SweepKey, f64)>,
@@ -201,10 +201,10 @@ impl Sweep {
         SweepAxis::values_at(&self.axes, point)
     }
 
-    /// Checks that every axis varies something that the design has, and that its values are of its kind.
+    /// Checks that the design has the number of every axis, and that the values are of its kind.
     ///
     /// # Errors
-    /// A [`SweepError`] that names the axis. Points whose stone cannot be made are no errors of the sweep.
+    /// Fails with a [`SweepError`] that names the axis. Points whose stone cannot be made are no errors of the sweep.
     pub fn check(&self) -> Result<(), SweepError> {
         for (place, axis) in self.axes.iter().enumerate() {
             if self.axes[..place].iter().any(|before| before.key == axis.key) {
@@ -215,7 +215,7 @@ impl Sweep {
         let each = self.axes.iter().flat_map(|axis| axis.values.iter().map(|value| (&axis.key, value)));
         for (key, value) in each {
             match key {
-                // One scale after the other would multiply.
+                // Scales that were set one after the other would multiply.
                 SweepKey::Scale(_) => varied.factor(key, value).map(drop)?,
                 _ => varied.set(key, value)?,
             }
@@ -223,10 +223,10 @@ impl Sweep {
         Ok(())
     }
 
-    /// Measures the points with these numbers on all cores, and hands them out in the order in which they are given.
+    /// Measures the points of these numbers on all cores, and hands them out in the given order.
     ///
     /// # Errors
-    /// [`Stopped`] when `watch` asks to stop, or an error of `each`, each turned into `E`.
+    /// Fails with [`Stopped`] when `watch` asks to stop, or an error of `each`, each turned into `E`.
     pub fn run<E: From<Stopped>>(
         &self,
         points: impl IntoIterator<Item = usize>,
@@ -255,11 +255,11 @@ impl Sweep {
         Ok(())
     }
 
-    /// Returns the design as it is at a point, whose number is below [`count`](Self::count). Whether it makes a stone is not
-    /// checked.
+    /// Returns the design at a point, whose number is below [`count`](Self::count). It is not checked whether the
+    /// design makes a stone.
     ///
     /// # Errors
-    /// A [`SweepError`]: the design has nothing of an axis's key, or a meet cannot be followed.
+    /// Fails with a [`SweepError`] where the design lacks the number of an axis, or where a meet cannot be followed.
     pub fn design_at(&self, point: usize) -> Result<Design, SweepError> {
         Ok(self.varied(point)?.design)
     }
@@ -267,7 +267,7 @@ impl Sweep {
     /// Measures one point.
     ///
     /// # Errors
-    /// A [`SweepError`]: no stone, no index there, or a stone that exact beams do not trace.
+    /// Fails with a [`SweepError`] where there is no stone, no index there, or a stone that exact beams do not trace.
     pub fn point(&self, point: usize, watch: Watch) -> Result<SweptStone, SweepError> {
         let (taken, specimen) = self.taken(self.varied(point)?, vec![], watch)?;
         Ok(SweptStone::of(taken.measures, specimen))
@@ -346,7 +346,8 @@ impl VariedDesign {
         }
     }
 
-    /// Sets all numbers, and follows the meets. Sides are scaled first, so that angles and distances end as they are given.
+    /// Sets all numbers, and follows the meets. Sides are scaled first, so that angles and distances end at the given
+    /// values.
     fn set_all(mut self, numbers: &[(&SweepKey, &SweepValue)]) -> Result<Self, SweepError> {
         let (scales, others): (Vec<_>, Vec<_>) =
             numbers.iter().partition(|(key, _)| matches!(key, SweepKey::Scale(_)));
@@ -419,7 +420,7 @@ impl VariedDesign {
     }
 }
 
-/// Sets a proportion, which of a pair becomes the given one.
+/// Sets a proportion; of a pair, it becomes the one that the cut fixes.
 fn set_proportion(cut: &mut Cut, key: &str, value: f64) -> Result<(), SweepError> {
     let row = cut.proportion(key).and_then(|row| Some((row, row.give?)));
     let Some((_, give)) = row else {
@@ -457,7 +458,8 @@ fn distance_of(cut: &Cut, name: &str) -> Option<f64> {
 /// Returns a design with some of its numbers set, and its meets followed.
 ///
 /// # Errors
-/// A [`SweepError`]: the design has nothing of a key, or a meet cannot be followed. Whether it makes a stone is not checked.
+/// Fails with a [`SweepError`] where the design lacks a number, or where a meet cannot be followed. It is not checked
+/// whether the design makes a stone.
 pub fn with_numbers<'a>(
     design: &Design,
     numbers: impl IntoIterator<Item = (&'a SweepKey, f64)>,

@@ -1,20 +1,21 @@
-//! The keys of what a sweep, a gradient or a search varies.
+//! The keys of the numbers that a sweep, a gradient or a search varies.
 
 use crate::cut::ScaledSide;
 use std::fmt;
 
-/// What varies along an axis of a sweep.
+/// The number or name that varies along an axis of a sweep.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SweepKey {
     /// A proportion of the cut's family, by its key in cut files and in the unit of its row.
     Proportion(String),
     /// The angle of a tier, by its name: degrees from the girdle plane, above 0 on either side. Meets are followed.
     Tier(String),
-    /// The distance of a tier from the origin, by the tier's name, in the design's own unit. A tier whose distance follows from a meet
-    /// has none to give.
+    /// The distance of a tier from the origin, by the tier's name, in the design's own unit. A tier whose distance
+    /// follows from a meet cannot be set so.
     Distance(String),
-    /// The height of a side above or below the girdle, percent of what it is in the design, 10 to 1000: all its tiers move together, so that
-    /// every meet stays ([`scaled`](crate::cut::scaled)). It is set before angles and distances of tiers.
+    /// The height of a side above or below the girdle, percent of its height in the design, 10 to 1000: all its tiers
+    /// move together, so that every meet stays ([`scaled`](crate::cut::scaled)). It is set before angles and
+    /// distances of tiers.
     Scale(ScaledSide),
     /// The refractive index, 1 to 5, the same at all wavelengths.
     Index,
@@ -26,7 +27,7 @@ pub enum SweepKey {
     Azimuth,
 }
 
-/// What the keys of the angles and of the distances of tiers begin with.
+/// The prefixes of the keys of tiers: those of angles, and those of distances.
 const TIER: &str = "tier:";
 const DISTANCE: &str = "distance:";
 

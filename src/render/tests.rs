@@ -179,7 +179,7 @@ fn pane() -> Job {
     Job::of_pane(product, Quality::of_pictures(true))
 }
 
-/// Returns why a job is refused in whose JSON `value` stands at `pointer`: as it is read, or as it is planned.
+/// Returns the reason why a job is refused, when it is read or planned, if its JSON has `value` at `pointer`.
 fn refused(job: &Job, pointer: &str, value: &Value) -> String {
     let mut written = serde_json::to_value(job).unwrap();
     written.pointer_mut(pointer).unwrap_or_else(|| panic!("{pointer}")).clone_from(value);

@@ -19,7 +19,7 @@ pub enum Body {
 }
 
 impl Body {
-    /// Returns the shape, as tracers take it.
+    /// Returns the shape in the form that tracers take.
     pub fn solid(&self) -> SolidRef<'_> {
         match self {
             Self::Stone(stone) => SolidRef::Convex(&stone.polytope),
@@ -31,7 +31,7 @@ impl Body {
     /// Returns the stone, where facets are needed.
     ///
     /// # Errors
-    /// The solid is not a stone between planes.
+    /// Fails where the solid is not a stone between planes.
     pub fn stone(&self) -> Result<&Stone, NotConvex> {
         match self {
             Self::Stone(stone) => Ok(stone),
@@ -39,7 +39,7 @@ impl Body {
         }
     }
 
-    /// Whether the body has frosted facets, whose light only rays in pictures under light follow.
+    /// Returns whether the body has frosted facets, whose light only rays in pictures under light follow.
     pub fn is_frosted(&self) -> bool {
         matches!(self, Self::Stone(stone) if stone.polytope.is_frosted())
     }
@@ -53,7 +53,7 @@ impl Body {
         }
     }
 
-    /// Returns the name of a facet, by its place, as people read it: with spaces for underscores, or numbered from 1 where
+    /// Returns the name of a facet, by its place, for people: with spaces for underscores, or numbered from 1 where
     /// facets have no names.
     pub fn name(&self, facet: u32) -> String {
         match self {

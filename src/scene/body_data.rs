@@ -1,4 +1,4 @@
-//! A body as plain data, from which it is built again: planes, triangles, or the dimensions of a glass shape.
+//! A body as plain data: planes, triangles, or the dimensions of a glass shape. The body is built again from them.
 
 use super::{Body, Stone};
 use crate::cut::FROSTINGS;
@@ -16,7 +16,7 @@ pub(super) enum BodyData {
     Stone {
         planes: Vec<Plane>,
         names: Vec<String>,
-        /// How much each facet is frosted; missing where none is.
+        /// The frosting of each facet; missing where no facet is frosted.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
         frosting: Vec<f64>,
     },
@@ -26,7 +26,7 @@ pub(super) enum BodyData {
     Glass(ImplicitForm),
 }
 
-/// Why data make no body.
+/// The reason why data make no body.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum BodyDataError {
     #[error("{} planes have {} names: give one for each, or none", .planes, .names)]

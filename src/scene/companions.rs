@@ -1,4 +1,4 @@
-//! What stands beside a design and its copies: stones of other designs, and metal.
+//! Companions: the stones of other designs, and the metal, that stand beside a design and its copies.
 
 use super::{Instance, MetalInstance, Specimen};
 use crate::math::Pose;
@@ -43,7 +43,7 @@ impl PartialEq for Companions {
 }
 
 impl Companions {
-    /// Whether nothing stands beside the design.
+    /// Returns whether the design has no companions.
     pub fn is_empty(&self) -> bool {
         self.stones.is_empty() && self.metals.is_empty()
     }
@@ -53,7 +53,7 @@ impl Companions {
         self.carried(&Pose { scale: factor, ..Pose::STILL })
     }
 
-    /// Returns the same bodies, carried on from where they lie by a pose.
+    /// Returns the same bodies, carried on by a pose from their places.
     pub fn carried(&self, pose: &Pose) -> Self {
         let stone = |stone: &Companion| Companion { pose: pose.after(&stone.pose), ..stone.clone() };
         Self {
@@ -69,7 +69,7 @@ impl Companions {
         })
     }
 
-    /// Returns points between which all bodies lie.
+    /// Returns points whose box holds all bodies.
     pub fn vertices(&self) -> impl Iterator<Item = DVec3> + '_ {
         let corners = |stone: &'_ Companion| {
             let pose = stone.pose;

@@ -1,4 +1,4 @@
-//! Domes of light that a cut's light is weighed by.
+//! Domes of light, under which the light of a cut is weighed.
 
 use super::scope::elevation_deg;
 use glam::DVec3;
@@ -19,7 +19,7 @@ pub struct DomeLight {
     pub head_deg: f64,
 }
 
-/// Why a text is no dome.
+/// The reason why a text is no dome.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
     "'{0}' is no dome: give even, cos, cos2 or cos with another power from 0 to 20, and if you like a head's half angle in \
@@ -45,10 +45,11 @@ impl DomeLight {
         self.of_cosine(direction.dot(zenith))
     }
 
-    /// Returns how the [`radiance`](Self::radiance) changes with the direction, between the borders of head and horizon.
+    /// Returns the gradient of the [`radiance`](Self::radiance) by the direction, between the borders of head and
+    /// horizon.
     pub fn slope(&self, direction: DVec3, zenith: DVec3) -> DVec3 {
         let (cos, radiance) = (direction.dot(zenith), self.radiance(direction, zenith));
-        // At the horizon a power below 1 has no slope.
+        // At the horizon a power below 1 has no finite slope.
         if self.power == 0.0 || radiance == 0.0 || cos <= 0.0 {
             return DVec3::ZERO;
         }
@@ -66,7 +67,8 @@ impl DomeLight {
     }
 
     fn of_cosine(&self, cos: f64) -> f64 {
-        // A direction along the horizon may come out below 0 by rounding; powers of 0 and 1 keep every digit.
+        // Rounding may put a direction along the horizon below 0. Powers of 0 and 1 are computed so that they keep
+        // every digit.
         match self.power {
             0.0 => 1.0,
             1.0 => cos.max(0.0),

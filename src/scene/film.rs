@@ -1,4 +1,4 @@
-//! The film: the rectangle on which a picture is taken.
+//! The film: the rectangle of the image plane that a picture shows.
 
 use crate::math::{Basis, SolidRef};
 use glam::{DAffine2, DMat2, DVec2};
@@ -19,7 +19,7 @@ pub struct Film {
 }
 
 impl Film {
-    /// The film of what has no pixels, such as figures.
+    /// The film of products without pixels, such as figures.
     pub const NONE: Self = Self { size: [0; 2], pixel: 1.0, centre: DVec2::ZERO };
 
     /// Returns a film of `size` pixels around the origin.

@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// An instance: a stone in its place.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Instance {
-    /// The stone's body in its own frame. Instances of one body share it, and what tracers build for it.
+    /// The stone's body in its own frame. Instances of one body share it, and the data that tracers build for it.
     pub body: Arc<Body>,
     /// The pose that carries the body into the world.
     pub pose: Pose,
@@ -42,12 +42,12 @@ impl Scene {
         Self { instances: vec![stone], metals: vec![], unit_mm: specimen.unit_mm() }
     }
 
-    /// Whether a stone has frosted facets, whose light only rays in pictures under light follow.
+    /// Returns whether a stone has frosted facets, whose light only rays in pictures under light follow.
     pub fn is_frosted(&self) -> bool {
         self.instances.iter().any(|stone| stone.body.is_frosted())
     }
 
-    /// Returns how far the bodies reach from the origin.
+    /// Returns a distance from the origin that no body exceeds.
     pub fn reach(&self) -> f64 {
         let stones = self.instances.iter().map(|stone| stone.solid().reach());
         stones.chain(self.metals.iter().map(MetalInstance::reach)).fold(0.0, f64::max)
@@ -71,7 +71,7 @@ impl Scene {
         }
     }
 
-    /// Returns points between which all bodies lie.
+    /// Returns points whose box holds all bodies.
     pub fn vertices(&self) -> impl Iterator<Item = DVec3> + '_ {
         let stones = self.instances.iter().flat_map(|stone| stone.solid().vertices());
         stones.chain(self.metals.iter().flat_map(MetalInstance::vertices))
@@ -95,7 +95,7 @@ impl Instance {
         Self { body: Arc::clone(body), pose: Pose::STILL, material, label: label.to_owned() }
     }
 
-    /// Returns the same stone, carried on from where it lies by a pose.
+    /// Returns the same stone, carried on by a pose from its place.
     pub fn moved(self, pose: &Pose) -> Self {
         Self { pose: pose.after(&self.pose), ..self }
     }

@@ -13,7 +13,7 @@ pub enum Layout {
     Row,
     /// Around a circle, counter-clockwise from +x, with equal angles left free between neighbours.
     Ring,
-    /// As densely as possible, one stone after another, with the largest in the middle.
+    /// As densely as possible, with the largest stone in the middle; the others follow one after another.
     Parcel,
 }
 
@@ -69,7 +69,7 @@ fn row(radii: &[f64], gap: f64) -> Vec<DVec2> {
     radii.iter().map(place).collect()
 }
 
-/// Lays circles on the smallest circle, to rounding, on which no two come too near.
+/// Lays circles on the smallest circle, found to rounding, on which no two come too near.
 fn ring(radii: &[f64], gap: f64) -> Vec<DVec2> {
     let fits = |radius| around(radii, gap, radius).filter(|places| are_apart(radii, gap, places));
     let mut low = 0.0;
@@ -102,7 +102,7 @@ fn around(radii: &[f64], gap: f64, radius: f64) -> Option<Vec<DVec2>> {
         angle += touching(k) + spare;
         at
     };
-    // Two stones opposite one another have no spare angle but rounding.
+    // Two stones opposite each other may have a spare angle that is below 0 by rounding.
     (spare > -ROUNDING * PI).then(|| (0..count).map(place).collect())
 }
 
@@ -127,7 +127,7 @@ fn parcel(radii: &[f64], gap: f64) -> Vec<DVec2> {
     places
 }
 
-/// Returns where the next circle of a parcel goes.
+/// Returns the place of the next circle of a parcel.
 fn next(laid: &[(DVec2, f64)], radius: f64, gap: f64) -> DVec2 {
     let [(first, _), ..] = laid else { return DVec2::ZERO };
     let mut best = *first + DVec2::X * (laid[0].1 + radius + gap);

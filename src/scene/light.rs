@@ -1,4 +1,4 @@
-//! Light from all around, as data: domes, soft boxes, lamps, a panorama, a world.
+//! Light from all directions as data: domes, soft boxes, lamps, a panorama, a world.
 //!
 //! Directions are given by azimuth and elevation. All angles are degrees. Elevations are counted from the plane square to
 //! the light's axis; 90 lies along the axis. Radiance 1 is that of a white sheet in full light. A part with a colour of its
@@ -16,7 +16,7 @@ use std::path::PathBuf;
 pub struct Light {
     /// The light's name.
     pub name: String,
-    /// One line on what the light is good for.
+    /// The purpose of the light, in one line.
     #[serde(default)]
     pub description: String,
     /// The spectrum of parts without a colour.
@@ -50,15 +50,15 @@ fn daylight() -> Illuminant {
     Illuminant::D65
 }
 
-/// A belt of the sky between two elevations. Where `end` is given, the radiance changes from `radiance` to `end` in
+/// A belt of the sky between two elevations. With an `end`, the radiance changes from `radiance` to `end` in
 /// proportion to the sine of the elevation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dome {
-    /// The elevation where the belt begins, degrees.
+    /// The elevation at which the belt begins, degrees.
     #[serde(default = "nadir")]
     pub from: f64,
-    /// The elevation where the belt ends, degrees.
+    /// The elevation at which the belt ends, degrees.
     #[serde(default = "zenith")]
     pub to: f64,
     /// The width of its soft edges, degrees.
@@ -147,7 +147,7 @@ pub struct LampField {
     pub colour: Option<[u8; 3]>,
 }
 
-/// An HDR picture of the surroundings, and how it is used.
+/// An HDR picture of the surroundings, with its exposure and its turn.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PanoramaRef {
@@ -161,10 +161,10 @@ pub struct PanoramaRef {
     pub turn: f64,
 }
 
-/// What is wrong with a light.
+/// The fault in a light.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LightError {
-    /// A number that makes no sense for its key.
+    /// A number that is out of its key's range.
     #[error("{part} {number}: {key} is {value}; {wanted}")]
     Value {
         /// The kind of the part.
@@ -175,7 +175,7 @@ pub enum LightError {
         key: &'static str,
         /// The value as given.
         value: f64,
-        /// What is expected instead.
+        /// The expected range.
         wanted: &'static str,
     },
     /// More lamps than [`MOST_LAMPS`].
@@ -183,7 +183,7 @@ pub enum LightError {
     TooManyLamps {
         /// The number of lamps in all.
         count: u64,
-        /// The most lamps that there is room for.
+        /// The most lamps that a light can have.
         most: usize,
     },
     /// A light without any part that shines.
@@ -209,7 +209,7 @@ impl Light {
     /// Checks every number.
     ///
     /// # Errors
-    /// The first number at fault, too many lamps, or a light in which nothing shines.
+    /// The error names the first number that is wrong, or says that there are too many lamps or that no part shines.
     pub fn validate(&self) -> Result<(), LightError> {
         const ANGLE: &str = "give 0.5 to 180 degrees";
         const WIDTH: &str = "give 0 to 180 degrees";

@@ -1,4 +1,5 @@
-//! The lights that come with the program. A light from a publication says so; the others are chosen to show stones well.
+//! The lights that come with the program. A light from a publication names it; the others were chosen to show stones
+//! well.
 
 use super::light::{Dome, Lamp, LampField, Light, PanoramaRef, SoftBox};
 use super::worlds::World;
@@ -59,7 +60,7 @@ impl Light {
         }
     }
 
-    /// Soft boxes around a dim room, dark between them, as a jewellery photographer sets them up.
+    /// Returns soft boxes around a dim room, dark between them, as jewellery photographers use them.
     pub fn studio() -> Self {
         Self {
             head: 9.0,
@@ -82,7 +83,7 @@ impl Light {
         }
     }
 
-    /// The same radiance from every direction above the horizon.
+    /// Returns the same radiance from every direction above the horizon.
     pub fn dome() -> Self {
         Self {
             head: 10.0,
@@ -94,7 +95,7 @@ impl Light {
         }
     }
 
-    /// Radiance in proportion to the sine of the elevation, above the horizon.
+    /// Returns radiance in proportion to the sine of the elevation, above the horizon.
     pub fn cosine() -> Self {
         Self {
             head: 10.0,
@@ -107,7 +108,7 @@ impl Light {
         }
     }
 
-    /// A ring light around the lens.
+    /// Returns a ring light around the lens.
     pub fn ring() -> Self {
         Self {
             head: 12.0,
@@ -116,7 +117,7 @@ impl Light {
         }
     }
 
-    /// Eight small lamps over a dim dome.
+    /// Returns eight small lamps over a dim dome.
     pub fn lamps_on_dome() -> Self {
         let places = [(10.0, 70.0), (100.0, 62.0), (190.0, 74.0), (280.0, 66.0)];
         let lower = [(55.0, 48.0), (145.0, 40.0), (235.0, 52.0), (325.0, 36.0)];
@@ -128,7 +129,7 @@ impl Light {
         }
     }
 
-    /// A dark room full of small lamps.
+    /// Returns a dark room full of small lamps.
     pub fn fire() -> Self {
         Self {
             head: 8.0,
@@ -145,7 +146,7 @@ impl Light {
         }
     }
 
-    /// An office: panels in a ceiling, a window, pale walls.
+    /// Returns an office: panels in a ceiling, a window, pale walls.
     pub fn office() -> Self {
         let mut boxes = vec![];
         for (row, elevation) in [78.0, 58.0, 42.0].into_iter().enumerate() {
@@ -169,7 +170,7 @@ impl Light {
         }
     }
 
-    /// Sky, clouds and the sun.
+    /// Returns sky, clouds and the sun.
     pub fn daylight() -> Self {
         let sky = Dome { colour: Some([206, 221, 255]), ..rising(0.0, 90.0, 0.8, 0.22) };
         let ground = Dome { colour: Some([150, 146, 118]), ..belt(-90.0, 0.0, 3.0, 0.35) };
@@ -188,14 +189,14 @@ impl Light {
         }
     }
 
-    /// A light that is a panorama alone, named after its file.
+    /// Returns a light that is a panorama alone, named after its file.
     pub fn of_panorama(file: &Path) -> Self {
         let stem = file.file_stem().map_or_else(|| "panorama".into(), |stem| stem.to_string_lossy());
         let panorama = PanoramaRef { file: file.to_owned(), exposure: 0.0, turn: 0.0 };
         Self { panorama: Some(panorama), ..Self::named(&stem, "") }
     }
 
-    /// A light that is a world alone, which the program draws: behind the stones lies its best side.
+    /// Returns a light that is a world alone, which the program draws: its best side lies behind the stones.
     pub fn of_world(world: World) -> Self {
         let description = match world {
             World::Sunset => {
@@ -207,7 +208,7 @@ impl Light {
         Self { world: Some(world), ..Self::named(world.name(), description) }
     }
 
-    /// The same radiance from everywhere: a stone that absorbs no light vanishes in it.
+    /// Returns the same radiance from everywhere: a stone that absorbs no light is invisible in it.
     pub fn white() -> Self {
         Self {
             dome: vec![belt(-90.0, 90.0, 0.0, 1.0)],

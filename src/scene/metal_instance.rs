@@ -6,7 +6,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// The roughness of a metal that is polished by hand.
+/// The roughness of hand-polished metal.
 pub const POLISHED: f64 = 0.1;
 
 /// A body of metal, such as the mounting of a stone.
@@ -22,7 +22,7 @@ pub struct MetalInstance {
     pub pose: Pose,
     /// The metal.
     pub metal: Metal,
-    /// How rough its surface is, from 0, a mirror, to 1: the square root of the width of GGX's law.
+    /// The roughness of its surface, from 0, a mirror, to 1: the square root of the width of GGX's law.
     pub roughness: f64,
     /// The name of the body; may be empty.
     pub label: String,
@@ -34,7 +34,7 @@ impl MetalInstance {
         Self { mesh: Arc::clone(mesh), pose: Pose::STILL, metal, roughness: POLISHED, label: String::new() }
     }
 
-    /// Returns the same body, carried on from where it lies by a pose.
+    /// Returns the same body, carried on by a pose from its place.
     pub fn moved(self, pose: &Pose) -> Self {
         Self { pose: pose.after(&self.pose), ..self }
     }

@@ -1,4 +1,4 @@
-//! Pictures with coarser levels, so that light from a whole stretch of them is found by a few look-ups.
+//! Pictures with coarser levels, by which the mean over a long stretch takes few look-ups.
 
 use super::Panorama;
 use glam::{DVec2, DVec3, Vec2, Vec3};
@@ -78,8 +78,8 @@ impl Mipmap {
         sum / taps
     }
 
-    /// Returns in which level a stretch of this length, in pixels, is looked up in single precision, and how often, as
-    /// [`along`](Self::along) does.
+    /// Returns the level in which a stretch of this length, in pixels, is looked up in single precision, and the
+    /// number of look-ups, as [`along`](Self::along) takes them.
     #[inline]
     pub fn taps(&self, length: f32) -> (usize, u32) {
         if length <= 1.0 {

@@ -1,4 +1,4 @@
-//! Floor 2: the stones that are looked at, the viewpoint, and the light. Data only.
+//! Floor 2: stones, the viewpoint, and the light. Data only.
 
 mod body;
 mod body_data;

@@ -4,7 +4,8 @@ use super::Instance;
 use crate::math::{Ball, Plane, Polytope, PolytopeError, PosedSolid, SolidRef};
 use glam::DVec3;
 
-/// Stones that share no more than this part of their size only touch. It is far above what rounding does to a layout.
+/// Stones that share no more than this part of their size only touch. It is far above the rounding errors of a
+/// layout.
 const TOUCHING: f64 = 1e-8;
 
 /// Returns the first two stones, by their places in the list, that share some space. Stones that only touch do not overlap.
@@ -27,7 +28,8 @@ pub fn overlapping(stones: &[Instance]) -> Option<(usize, usize)> {
     pairs.filter(|&(i, j)| are_near(i, j)).find(meet)
 }
 
-/// Returns whether a plane square to `line` has `a` behind it and `b` before it. For most pairs of stones this is so.
+/// Returns whether a plane square to `line` has `a` behind it and `b` before it, which is so for most pairs of
+/// stones.
 fn is_between(a: &PosedSolid, b: &PosedSolid, line: DVec3) -> bool {
     let is_line = line != DVec3::ZERO;
     is_line
@@ -44,8 +46,8 @@ fn planes<'a>(solid: &PosedSolid<'a>) -> Option<impl Iterator<Item = Plane> + us
 
 /// Returns whether some point lies at least `depth` inside all planes of two stones.
 ///
-/// The planes are taken about `middle`, a point within one stone, where the polytope's tolerances are fine. A common part
-/// that is too thin to be built counts as none.
+/// The planes are taken about `middle`, a point within one stone, where the polytope's tolerances are fine. A common
+/// part that is too thin to be built counts as none.
 fn share(planes: impl Iterator<Item = Plane>, middle: DVec3, depth: f64) -> bool {
     let moved = |p: Plane| Plane::new(p.normal, p.offset - p.normal.dot(middle) - depth);
     let planes: Vec<Plane> = planes.map(moved).collect();
@@ -67,7 +69,7 @@ fn cross(a: &PosedSolid, b: &PosedSolid, middle: DVec3) -> bool {
     mesh_a.surface().triangles.iter().any(|t| {
         (0..3).any(|i| {
             let [from, to] = [t[i], t[(i + 1) % 3]].map(|v| corners[v as usize]);
-            // The first surface on the edge's way is met before the edge ends, or it is met from inside.
+            // The first surface on the edge's way lies before the edge's end, or it is hit from inside.
             let hit = mesh_b.bvh().nearest(from, to - from, 0.0, |_| true);
             hit.is_some_and(|hit| hit.distance < 1.0 || speed(hit.triangle, to - from) > 0.0)
         })

@@ -26,7 +26,7 @@ struct PanoramaData {
     pixels: Vec<[f32; 3]>,
 }
 
-/// Why data make no panorama.
+/// The reason why data make no panorama.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PanoramaError {
     /// The picture has no pixel, or not as many as its size says.
@@ -46,7 +46,7 @@ pub enum PanoramaError {
     Colour {
         /// The place of the pixel, row by row from 0.
         place: usize,
-        /// The colour that was given.
+        /// The colour.
         colour: [f32; 3],
     },
 }
@@ -68,7 +68,7 @@ impl Panorama {
     /// Checks that there is a colour for each pixel, and at least one pixel.
     ///
     /// # Errors
-    /// [`PanoramaError::Size`] where this is not so.
+    /// Fails with [`PanoramaError::Size`] where the numbers differ, or where there is no pixel.
     pub fn check(&self) -> Result<(), PanoramaError> {
         let Self { width, height, ref pixels } = *self;
         if pixels.is_empty() || u64::from(width) * u64::from(height) != pixels.len() as u64 {
@@ -150,7 +150,7 @@ impl Panorama {
             let [high, low] = rows.map(|y| pixel(columns[0], y).lerp(pixel(columns[1], y), part.x));
             high.lerp(low, part.y).as_dvec3()
         };
-        // Most places have all four pixels around them, which saves the search for those beyond the edge.
+        // Most places have all four pixels around them, so they skip the search for pixels beyond the edge.
         let last = i64::from(self.height) - 1;
         if (0..width - 1).contains(&left) && (0..last).contains(&top) {
             return mean([left, left + 1], [top, top + 1]);

@@ -23,7 +23,7 @@ pub struct Band {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scope {
-    /// A short name, which `--views` takes and which files bear.
+    /// A short name, which `--views` takes and which files have in their names.
     pub name: String,
     /// The bands in rising order. The first begins at -90: light that leaks out below meets it.
     #[serde(rename = "band")]
@@ -33,7 +33,7 @@ pub struct Scope {
 /// The most bands that a scope may have.
 pub const MOST_BANDS: usize = 64;
 
-/// The reason why a scope makes no sense.
+/// The reason why a scope is not valid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ScopeError {
     /// The first band does not begin at -90 degrees, so that no band takes the light from below.
@@ -81,25 +81,26 @@ pub enum ScopeError {
 /// The light behind the stone, which colours leaked light and the surroundings of the stone.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Backing {
-    /// No light from behind: leakage looks dark.
+    /// No light from behind: leakage is dark.
     #[default]
     Black,
-    /// Lit from behind: leakage looks white.
+    /// Lit from behind: leakage is white.
     White,
 }
 
-/// Whether a scope's picture holds glare, the light that the stone's outer surface reflects.
+/// The choice whether a scope's picture holds glare, the light that the stone's outer surface reflects.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Glare {
-    /// Only light that has been inside the stone is shown: the zones have the colours that graders are taught.
+    /// Only light that has been inside the stone: the zones have the colours that graders learn.
     #[default]
     LeftOut,
-    /// All light is shown, as a camera in the scope records it: the crown's glare tints the colours behind it.
+    /// All light, as a camera in the scope records it: the crown's glare tints the colours behind it.
     Included,
 }
 
 impl Glare {
-    /// Returns whether light is shown; `is_glare` says that it was reflected by the outer surface and has not been inside.
+    /// Returns whether light is included; `is_glare` says that the outer surface reflected it and it has not been
+    /// inside.
     pub fn shows(self, is_glare: bool) -> bool {
         !is_glare || self == Self::Included
     }
@@ -183,7 +184,7 @@ impl Scope {
         (self, Some(k))
     }
 
-    /// Returns the places of the bands from the horizon up that send light; black ones send none.
+    /// Returns the places of the bands from the horizon up that send light; black bands send none.
     pub fn shining(&self) -> impl Iterator<Item = usize> + Clone + '_ {
         let bands = self.bands.iter().enumerate();
         bands.filter(|(_, b)| b.from >= 0.0 && b.colour != BLACK).map(|(k, _)| k)
@@ -201,7 +202,7 @@ impl Scope {
     /// [`MOST_BANDS`].
     ///
     /// # Errors
-    /// The first of these that does not hold, with the name of the band at fault.
+    /// The error names the first of these conditions that does not hold, and the band at fault.
     pub fn validate(&self) -> Result<(), ScopeError> {
         let scope = || self.name.clone();
         let from = self.bands.first().map_or(f64::NAN, |b| b.from);
@@ -250,12 +251,13 @@ pub fn elevation_deg(direction: DVec3, zenith: DVec3) -> f64 {
 
 /// The elevation, degrees, up to which Ideal-Scope's light behind the stone reaches.
 ///
-/// It lies above what ideal cuts leak (40 degrees below the horizon and lower), and below the 21 degrees from which an
-/// eighth of the light of their arrows' shafts comes, which graders see dark (docs/optics.md, "Ideal-Scope's hole").
+/// It lies above the light that ideal cuts leak (40 degrees below the horizon and lower), and below the 21 degrees
+/// from which an eighth of the light of their arrows' shafts comes, which graders see dark (docs/optics.md,
+/// "Ideal-Scope's hole").
 const BACKLIGHT_END: f64 = -30.0;
 
-/// Half angles, degrees, of the camera's and the ring's cones in a hearts and arrows viewer. No standard fixes them; these
-/// are taken from one implementation and show the patterns well.
+/// Half angles, degrees, of the camera's and the ring's cones in a hearts and arrows viewer. No standard fixes them;
+/// these are those of one implementation, and show the patterns well.
 pub const VIEWER_CONES_DEG: (f64, f64) = (5.3, 16.3);
 
 /// The full angle, degrees, of the observer's blue cone in the common ASET.

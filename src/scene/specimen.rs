@@ -18,7 +18,7 @@ pub struct Specimen {
     pub material: Material,
     /// Warnings about proportions that are possible but unusual.
     pub unusual: Vec<Warning>,
-    /// Warnings about the solid: what its owner may not have meant, in words.
+    /// Warnings about properties of the solid that its owner may not have meant, in words.
     pub warnings: Vec<String>,
     /// The greatest distance that the stone reaches from its axis, or along the axis from the origin, girdle radii. Views
     /// are fitted to it, so that the girdle keeps its size while the depth changes.
@@ -45,7 +45,7 @@ impl Specimen {
     /// Builds the stone.
     ///
     /// # Errors
-    /// The first thing at fault with the design.
+    /// The error names the first fault of the design.
     pub fn new(design: Design) -> Result<Self, SpecimenError> {
         let material = design.material.material().map_err(DesignError::from)?;
         let body = match &design.cut {
@@ -101,7 +101,7 @@ impl Specimen {
         Self { design, body: Arc::new(body), material, unusual, warnings, reach, frame, radius }
     }
 
-    /// Returns the shape, as tracers take it.
+    /// Returns the shape in the form that tracers take.
     pub fn solid(&self) -> SolidRef<'_> {
         self.body.solid()
     }
@@ -109,16 +109,16 @@ impl Specimen {
     /// Returns the stone with its facets and their names.
     ///
     /// # Errors
-    /// The solid is not a stone between planes.
+    /// Fails where the solid is not a stone between planes.
     pub fn stone(&self) -> Result<&Stone, NotConvex> {
         self.body.stone()
     }
 
-    /// Audits the stone: lists the places that may not be what its designer meant. The critical angle is that of the material
-    /// in sodium light; without a finite index there, none is compared.
+    /// Audits the stone: lists the places that may not be what its designer meant. The critical angle is that of the
+    /// material in sodium light; without a finite index there, no angle is compared with it.
     ///
     /// # Errors
-    /// The solid is not a stone between planes.
+    /// Fails where the solid is not a stone between planes.
     pub fn audit(&self) -> Result<Audit, NotConvex> {
         let stone = self.stone()?;
         // The planes that the stone was built from: those of the design, and then those of the block.
@@ -143,7 +143,7 @@ impl Specimen {
     /// Makes the specimen of another design. The solid is not built anew where the cut is the same.
     ///
     /// # Errors
-    /// The first thing at fault with the design.
+    /// The error names the first fault of the design.
     pub fn remade(&self, design: Design) -> Result<Self, SpecimenError> {
         if design.cut != self.design.cut {
             return Self::new(design);
@@ -210,7 +210,7 @@ fn odd(stone: &Stone, facets: &[(String, Plane)], given: usize) -> Vec<String> {
             "the stone lies beside its axis, x = y = 0, around which pictures are centred; move it there";
         told.push(what.to_owned());
     }
-    // Planes of the block that closes a stone are none of its facets.
+    // The planes of the block that closes a stone are not facets of it.
     let redundant = polytope.redundant().iter().filter(|&&i| i < given);
     let names: Vec<&str> = redundant.map(name).collect();
     if !names.is_empty() {
@@ -219,7 +219,7 @@ fn odd(stone: &Stone, facets: &[(String, Plane)], given: usize) -> Vec<String> {
     told
 }
 
-/// Returns a warning about frosted facets, whose light is not followed everywhere.
+/// Returns a warning about frosted facets, because not every picture and figure follows their light.
 fn scattering(stone: &Stone) -> Option<String> {
     let facets = (0..).zip(stone.polytope.facets());
     let names: Vec<_> =
@@ -248,7 +248,7 @@ fn meets_axis(stone: &Polytope) -> bool {
     low < high
 }
 
-/// Lists names in one line, and says how many more there are.
+/// Lists names in one line, and adds the number of the names that are left out.
 fn listed(names: &[&str]) -> String {
     const MOST: usize = 8;
     let shown = names.iter().take(MOST).map(|n| format!("'{n}'")).collect::<Vec<_>>().join(", ");

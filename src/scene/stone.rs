@@ -5,8 +5,8 @@ use crate::math::{Plane, Polytope, PolytopeError, Pose};
 use glam::DVec2;
 use std::borrow::Cow;
 
-/// A stone whose middle lies nearer to the axis than this part of its width is centred. This is more than the rounding to
-/// six digits in cutters' files, and less than can be seen.
+/// A stone whose middle lies nearer to the axis than this part of its width is centred. This is more than the
+/// rounding to six digits in cutters' files, and invisible.
 const CENTRED: f64 = 1e-4;
 
 /// A convex stone. Lengths are in girdle radii; +z points out of the table.
@@ -48,14 +48,14 @@ impl Stone {
         Self { polytope, names: vec![] }
     }
 
-    /// Returns the same stone in the frame of all stones, where it had a unit of its own.
+    /// Returns the same stone in the frame of all stones, if its own frame had another unit.
     ///
-    /// It is scaled so that half its diameter is 1, and moved so that its middle lies on the axis and the girdle's upper
-    /// edge at z = 0. Returns it with the pose that carries its own frame into that one.
+    /// The stone is scaled so that half its diameter is 1, and moved so that its middle lies on the axis and the
+    /// girdle's upper edge at z = 0. It is returned with the pose that carries its own frame into that one.
     pub fn girdled(&self) -> (Self, Pose) {
         let outline = Outline::of(&self.polytope);
         let scale = 2.0 / outline.diameter;
-        // A stone that lies on the axis but for the last digits is not shifted, so that no digit changes.
+        // A stone that lies on the axis except for the last digits is not shifted, so that no digit changes.
         let off =
             if outline.middle.length() > CENTRED * outline.width { outline.middle } else { DVec2::ZERO };
         let at = -scale * off.extend(outline.girdle_top);

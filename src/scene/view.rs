@@ -1,4 +1,4 @@
-//! A view: the direction from which a stone is seen, and how scope, stone and eye lean against one another.
+//! A view: the direction from which a stone is seen, and the lean of scope, stone and eye against one another.
 
 use crate::math::Basis;
 use glam::{DQuat, DVec3};
@@ -24,7 +24,7 @@ impl Side {
     }
 }
 
-/// The thing that moves when a view is tilted.
+/// The object that moves when a view is tilted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Lean {
     /// The stone leans, its table toward the azimuth; eye and scope stay.
@@ -52,21 +52,21 @@ pub enum Projection {
 pub struct View {
     /// The side that faces the eye while nothing is tilted.
     pub side: Side,
-    /// The thing that the tilt moves.
+    /// The object that the tilt moves.
     pub lean: Lean,
     /// The tilt, radians, -π/2 to π/2.
     pub tilt: f64,
     /// The azimuth, radians in the frame of a stone that is not turned, toward which the tilt leans.
     pub azimuth: f64,
-    /// The rotation of the stone under eye and light. The view is given in the stone's own frame, so that a stone which
-    /// turns keeps its geometry.
+    /// The rotation of the stone under eye and light. The view is given in the stone's own frame, so that a turning
+    /// stone keeps its geometry.
     pub turn: DQuat,
     /// Parallel rays or perspective.
     pub projection: Projection,
 }
 
 impl View {
-    /// Returns the view of a stone that is turned on, before the turn of this view.
+    /// Returns the view of a stone that is turned further, before the turn of this view.
     pub fn of_turned(&self, turn: DQuat) -> Self {
         Self { turn: self.turn * turn, ..*self }
     }
@@ -95,7 +95,7 @@ impl View {
         self.light_basis().toward
     }
 
-    /// Returns the frame in which light is given: its axis, and the other two axes of the image while nothing is tilted.
+    /// Returns the frame in which light is given: its axis, and the other two axes of the image before the tilt.
     pub fn light_basis(&self) -> Basis {
         match self.lean {
             Lean::Stone => self.basis(),
@@ -103,8 +103,8 @@ impl View {
         }
     }
 
-    /// Returns how many times larger a picture that hangs `behind` girdle radii behind the origin must be than one in the
-    /// image plane, to fill the view.
+    /// Returns the factor by which a picture that hangs `behind` girdle radii behind the origin must be larger than
+    /// one in the image plane, to fill the view.
     pub fn widening(&self, behind: f64) -> f64 {
         match self.projection {
             Projection::Orthographic => 1.0,

@@ -8,7 +8,7 @@ use glam::DQuat;
 pub struct Viewpoint {
     /// The side that faces the eye while nothing is tilted.
     pub side: Side,
-    /// The thing that the tilt moves.
+    /// The object that the tilt moves.
     pub lean: Lean,
     /// The tilt, degrees, -90 to 90.
     pub tilt_deg: f64,
@@ -24,7 +24,7 @@ impl Viewpoint {
         Self { side: side.unwrap_or(self.side), ..self }
     }
 
-    /// Returns the view, with angles in radians, as tracers take it.
+    /// Returns the view, with angles in radians, in the form that tracers take.
     pub fn view(&self) -> View {
         View {
             side: self.side,
@@ -40,7 +40,7 @@ impl Viewpoint {
     /// plain one. It is empty for the plain view, face up by parallel rays.
     pub fn suffix(&self) -> String {
         let mut suffix = String::new();
-        // Rounded, as numbers that come from radians have more digits than they mean.
+        // Numbers are rounded, because those that come from radians have meaningless last digits.
         let mut add =
             |what: &str, number: f64| suffix += &format!("-{what}-{}", (number * 1e6).round() / 1e6);
         if self.tilt_deg != 0.0 {

@@ -1,11 +1,11 @@
-//! What a design is worth by a goal, or why that cannot be said.
+//! The appraisal of a design by a goal, and the reasons why there is none.
 
 use super::goal::{GoalFault, GoalMaterial};
 use crate::measure::{Interval, MeasureName};
 use crate::render::SweepError;
 use crate::scene::SpecimenError;
 
-/// Why a design cannot be appraised, or a goal not be sought.
+/// The reason why a design cannot be appraised, or a search cannot begin.
 #[derive(Debug, thiserror::Error)]
 pub enum SearchError {
     /// The goal is at fault.
@@ -23,7 +23,7 @@ pub enum SearchError {
          pavilion_scale"
     )]
     NotOfDesign(String),
-    /// The design as it was given lies outside a range.
+    /// The design from before the search lies outside a range.
     #[error("vary: {key}: the design has {start}, which is not from {least} to {most}; widen the range")]
     StartOutside {
         /// The number.
@@ -35,15 +35,15 @@ pub enum SearchError {
         /// The greatest value of the range.
         most: f64,
     },
-    /// A measure that the design does not have, as a fish eye without a table.
+    /// A measure that the design does not have, such as a fish eye without a table.
     #[error("measure: the design has no {0}; leave it out of the goal")]
     NotMeasured(String),
-    /// A limit of something that the design does not have.
+    /// A limit of a figure that the design does not have.
     #[error("limit: {name}: there is no such figure; the design has {known}")]
     NoLimit {
-        /// The name as given.
+        /// The given name.
         name: String,
-        /// The names that there are, in words.
+        /// The known names, in words.
         known: String,
     },
     /// The design makes no stone.
@@ -55,13 +55,13 @@ pub enum SearchError {
     /// The design cannot be set or measured.
     #[error(transparent)]
     Sweep(#[from] SweepError),
-    /// Facets vanish, or the girdle comes to have others.
+    /// Facets vanish, or the girdle gets other facets.
     #[error("the stone no longer has all its facets")]
     Vanished,
-    /// Facets that met in a point do so no longer.
+    /// Facets that met in a point no longer do.
     #[error("the facets {0} no longer meet in a point")]
     Broken(String),
-    /// Whoever watches has stopped the work.
+    /// The caller's watch has stopped the work.
     #[error("stopped")]
     Stopped,
 }
@@ -77,13 +77,13 @@ pub struct GoalValue {
     pub tilt_deg: f64,
     /// The azimuth of the tilt, degrees.
     pub azimuth_deg: f64,
-    /// How much the value counts: its share of the measure's weight.
+    /// The share of the measure's weight that the value has.
     pub weight: f64,
     /// The value.
     pub value: Interval,
 }
 
-/// How well a design meets a goal.
+/// The measures of a design by a goal, and their weighted sum.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Appraisal {
     /// The sum of the weighted measures.
@@ -92,13 +92,13 @@ pub struct Appraisal {
     pub values: Vec<GoalValue>,
     /// The name of each limit on the geometry, and its figure.
     pub figures: Vec<(String, f64)>,
-    /// By how much each limit is kept; below 0 where it is not.
+    /// The margin by which each limit is kept; below 0 where it is not.
     pub(super) slacks: Vec<f64>,
-    /// How the total and each slack change over the whole range of each number.
+    /// The changes of the total and of each slack over the whole range of each number.
     pub(super) slopes: Option<Slopes>,
 }
 
-/// A limit is kept where no more than this is missing.
+/// A limit counts as kept where it is missed by no more than this.
 const KEPT: f64 = 1e-9;
 
 impl Appraisal {
@@ -108,7 +108,7 @@ impl Appraisal {
     }
 }
 
-/// How an appraisal changes over the whole range of each number.
+/// The changes of an appraisal over the whole range of each number.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Slopes {
     pub total: Vec<f64>,

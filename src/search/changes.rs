@@ -1,4 +1,4 @@
-//! What a search won and what it gave up for it, measure by measure.
+//! The changes by a search, measure by measure: which measures rose, and which fell.
 
 use super::appraisal::{Appraisal, GoalValue};
 use super::goal::GoalMaterial;
@@ -7,10 +7,10 @@ use super::outcome::SearchOutcome;
 use crate::measure::{Interval, MeasureName};
 use std::cmp::Ordering;
 
-/// Changes of a measure below this part of the face are none.
+/// Changes of a measure below this part of the face count as none.
 const SAME: f64 = 5e-5;
 
-/// A measure of the design as it was given and of the one that was found.
+/// A measure of the design before the search and of the found one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasureChange {
     /// The measure.
@@ -21,33 +21,33 @@ pub struct MeasureChange {
     pub tilt_deg: f64,
     /// The azimuth of the tilt, degrees.
     pub azimuth_deg: f64,
-    /// Its value in the design as it was given.
+    /// Its value in the design before the search.
     pub before: Interval,
-    /// Its value in the design that was found.
+    /// Its value in the found design.
     pub after: Interval,
-    /// Above 0 where more of it is better, below 0 where less is, and 0 where neither is.
+    /// Above 0 where more of the measure is better, below 0 where less is better, and 0 where neither is.
     pub wanted: f64,
 }
 
-/// A group of changes, as people read them.
+/// A group of changes under one title.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ChangeGroup {
-    /// Weighed by the goal, and better.
+    /// Measures of the goal that became better.
     Won,
-    /// Weighed by the goal, and worse.
+    /// Measures of the goal that became worse.
     GivenUp,
-    /// Weighed by the goal, and neither.
+    /// Measures of the goal that became neither better nor worse.
     AsItWas,
-    /// Not weighed, and worse.
+    /// Other measures that became worse.
     OtherWorse,
-    /// Not weighed, and better.
+    /// Other measures that became better.
     OtherBetter,
-    /// Not weighed, and different, of a measure of which neither more nor less is better.
+    /// Other measures that changed, of which neither more nor less is better.
     OtherTaste,
 }
 
 impl ChangeGroup {
-    /// All groups in the order in which they are read: what was lost before what was won beside it.
+    /// All groups in the order of reports, in which losses come before gains among the other measures.
     const ALL: [Self; 6] =
         [Self::Won, Self::GivenUp, Self::AsItWas, Self::OtherWorse, Self::OtherBetter, Self::OtherTaste];
 
@@ -74,8 +74,8 @@ impl ChangeGroup {
 }
 
 impl MeasureChange {
-    /// Returns all changes of a search in groups, those without a change left out. `start` is the appraisal of the design as it was
-    /// given.
+    /// Returns all changes of a search in groups, without measures that did not change. `start` is the appraisal of
+    /// the design before the search.
     pub fn grouped(
         start: &Appraisal,
         outcome: &SearchOutcome,
@@ -141,8 +141,8 @@ impl MeasureChange {
         gain.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
     }
 
-    /// Returns the material and the tilt in which the measure is taken, as they follow its name; empty where they are those of the
-    /// design, face up.
+    /// Returns the material and the tilt in which the measure is taken, as a text after its name; empty where they
+    /// are the design's own and face up.
     pub fn conditions(&self) -> String {
         let material = self.material.as_ref().map_or(String::new(), |name| format!(", {name}"));
         let tilt = match (self.tilt_deg, self.azimuth_deg) {

@@ -1,4 +1,4 @@
-//! Goals: what a design is to be good at, as a goal file says it.
+//! Goals: the measures of a search, its limits, and the numbers that may change, in the form of a goal file.
 
 use crate::cut::MaterialRef;
 use crate::measure::MeasureName;
@@ -10,7 +10,7 @@ use std::fmt;
 /// The most measures of a goal, each counted once for every material and view.
 const MOST_TERMS: usize = 200;
 
-/// What a design is to be good at, which of its numbers may change, and what must hold.
+/// A goal: the measures to raise or lower, the numbers of the design that may change, and the limits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Goal {
@@ -20,8 +20,8 @@ pub struct Goal {
     /// The measures that are weighed, at least one.
     pub measure: Vec<GoalMeasure>,
     /// The numbers that may change, with the least and the greatest value of each: keys of proportions, `tier:` or
-    /// `distance:` and the name of a tier, `crown_scale` and `pavilion_scale`. Where none is given, all that the design gives may
-    /// change within usual ranges, but for its outline and girdle.
+    /// `distance:` and the name of a tier, `crown_scale` and `pavilion_scale`. Where the map is empty, all numbers
+    /// that the design gives may change within usual ranges, except for its outline and girdle.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub vary: BTreeMap<String, [f64; 2]>,
     /// Limits on the geometry: keys of the cut's proportions, or [`LIMIT_NAMES`](super::LIMIT_NAMES).
@@ -35,26 +35,27 @@ pub struct Goal {
 pub struct GoalMeasure {
     /// The measure.
     pub of: MeasureName,
-    /// How much it counts: above 0 where more is better, below 0 where less is, 0 where it is only limited.
+    /// The weight of the measure: above 0 where more is better, below 0 where less is better, 0 where it is only
+    /// limited.
     #[serde(default = "one")]
     pub weight: f64,
-    /// The materials; that of the design where none is given.
+    /// The materials; `None` for that of the design.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<OneOrMore<GoalMaterial>>,
-    /// The tilts of the view, degrees, -90 to 90; face up where none is given.
+    /// The tilts of the view, degrees, -90 to 90; `None` for face up.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tilt: Option<OneOrMore<f64>>,
-    /// The azimuths of the tilts, degrees; 0 where none is given.
+    /// The azimuths of the tilts, degrees; `None` for 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub azimuth: Option<OneOrMore<f64>>,
-    /// The least value, in each material and view; none where it is left out.
+    /// The least value, in each material and view; `None` for no limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_least: Option<f64>,
-    /// The greatest value, in each material and view; none where it is left out.
+    /// The greatest value, in each material and view; `None` for no limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_most: Option<f64>,
-    /// By how much it may get worse than in the design as it was given, in each material and view: lower where the weight
-    /// is 0 or above, higher where it is below 0.
+    /// The loss that is allowed against the design before the search, in each material and view: downward where the
+    /// weight is 0 or above, upward where it is below 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub may_lose: Option<f64>,
 }
@@ -82,7 +83,7 @@ pub enum GoalMaterial {
 }
 
 impl GoalMaterial {
-    /// Returns the material as a design has it.
+    /// Returns the material in the form that designs have.
     pub fn reference(&self) -> MaterialRef {
         match self {
             Self::Index(index) => MaterialRef::Index(*index),
@@ -104,7 +105,7 @@ impl fmt::Display for GoalMaterial {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum OneOrMore<T> {
-    /// One value.
+    /// A single value.
     One(T),
     /// A list, which must not be empty.
     More(Vec<T>),
@@ -120,13 +121,13 @@ impl<T> OneOrMore<T> {
     }
 }
 
-/// What is wrong with a goal, and where.
+/// A fault in a goal, with its key.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{problem}")]
 pub struct GoalFault {
     /// The key at fault as a path, such as `measure/0/weight`.
     pub key: String,
-    /// What is wrong, and what to give.
+    /// The description of the fault, which says what to give.
     pub problem: String,
 }
 
@@ -135,18 +136,18 @@ fn one() -> f64 {
 }
 
 impl Goal {
-    /// Makes a goal that weighs measures of the design as it lies, face up.
+    /// Makes a goal that weighs measures of the design face up, in its own material.
     pub fn of(measures: impl IntoIterator<Item = (MeasureName, f64)>) -> Self {
         let measure = measures.into_iter().map(|(of, weight)| GoalMeasure::new(of, weight)).collect();
         Self { name: None, measure, vary: BTreeMap::new(), limit: BTreeMap::new() }
     }
 
-    /// Makes the goal where none is given: bright and fiery. Half of the brightness is that of a viewer whose head hides 10° about
-    /// the axis, half that of one who is far away.
+    /// Makes the default goal: bright and fiery. Half of the brightness is that of a viewer whose head hides 10°
+    /// about the axis, half that of one who is far away.
     ///
-    /// Its weights are ours. Among round brilliants of table 57 % in diamond it is greatest around a crown of 34° over a pavilion of
-    /// 41° and of 37° over 40.4°, within GIA's range for the best; a return without fire is greatest at crowns of 30° and less,
-    /// and a dome whose head is hidden to 15° wants pavilions of 42.5°.
+    /// The weights are our own choice. Among round brilliants of table 57 % in diamond the total is greatest around a
+    /// crown of 34° over a pavilion of 41° and of 37° over 40.4°, within GIA's range for the best; a return without
+    /// fire is greatest at crowns of 30° and less, and a dome whose head is hidden to 15° favours pavilions of 42.5°.
     pub fn usual() -> Self {
         let weighed = [
             (MeasureName::Return(DomeLight::of(2.0)), 0.5),
@@ -159,7 +160,7 @@ impl Goal {
     /// Checks that the goal has a measure to raise or lower, and that its numbers are in their ranges.
     ///
     /// # Errors
-    /// The first thing at fault.
+    /// The fault names the first key that is wrong.
     pub fn check(&self) -> Result<(), GoalFault> {
         let fault = |key: String, problem: &str| Err(GoalFault { key, problem: problem.to_owned() });
         for (place, measure) in self.measure.iter().enumerate() {
@@ -217,7 +218,7 @@ impl GoalMeasure {
         materials.saturating_mul(tilts).saturating_mul(azimuths)
     }
 
-    /// Returns the key at fault, and what to give there.
+    /// Returns the key of the first fault, and what to give there.
     fn fault(&self) -> Option<(&'static str, &'static str)> {
         let numbers = |list: &Option<OneOrMore<f64>>| list.as_ref().map_or(vec![], |all| all.all().to_vec());
         let limits = [self.at_least, self.at_most, self.may_lose];

@@ -4,13 +4,14 @@ use crate::scene::Stone;
 use glam::{DMat3, DVec3};
 use std::collections::{BTreeMap, HashMap};
 
-/// Facets meet in a corner where their planes pass one point by no more than this, girdle radii.
+/// The greatest distance of a point from planes that still meet in it, girdle radii.
 pub const MEETS_WITHIN: f64 = 1e-9;
 
-/// Vertices nearer to one another than this, girdle radii, are one corner that a file's digits have split; no loupe shows it.
+/// Vertices nearer to one another than this, girdle radii, are one corner that a file's rounding has split; no loupe
+/// shows it.
 const SPLIT: f64 = 1e-3;
 
-/// Three planes whose normals span a smaller volume than this make no certain point.
+/// Three planes whose normals span a smaller volume than this have no accurate common point.
 const FLAT: f64 = 1e-3;
 
 /// The facets of a stone, and its corners where four or more of them meet.
@@ -23,7 +24,8 @@ pub(super) struct KeptCorners {
 struct KeptCorner {
     /// The names of the facets that meet.
     facets: Vec<String>,
-    /// By how much they may miss one point: [`MEETS_WITHIN`], or as much as in the stone as it was given.
+    /// The greatest distance by which they may miss one point: [`MEETS_WITHIN`], or as much as in the stone before
+    /// the search.
     may_miss: f64,
 }
 
@@ -52,7 +54,7 @@ impl KeptCorners {
         Self { facets: stone.polytope.facets().len(), corners: many.filter_map(corner).collect() }
     }
 
-    /// Returns whether `stone` has as many facets.
+    /// Returns whether `stone` has as many facets as the stone of these corners.
     pub fn has_all_facets(&self, stone: &Stone) -> bool {
         stone.polytope.facets().len() == self.facets
     }
@@ -67,7 +69,8 @@ impl KeptCorners {
         self.corners.iter().find(|corner| !is_kept(corner)).map(|corner| &corner.facets[..])
     }
 
-    /// Returns by how much planes miss the corner that they belong to, at most, girdle radii; infinite where a facet is gone.
+    /// Returns the greatest distance by which planes miss the corner that they belong to, girdle radii; infinite
+    /// where a facet is gone.
     pub fn miss(&self, stone: &Stone) -> f64 {
         let planes = planes(stone);
         let each = self.corners.iter().map(|corner| miss(&corner.facets, &planes).unwrap_or(f64::INFINITY));
@@ -85,8 +88,8 @@ fn planes(stone: &Stone) -> HashMap<String, (DVec3, f64)> {
     facets.map(|(k, facet)| (stone.name(k).into_owned(), (facet.plane.normal, facet.plane.offset))).collect()
 }
 
-/// Returns by how much planes miss the point that three of them make: the greatest distance of one; `None` where a facet is
-/// not there, or no three make a point.
+/// Returns the greatest distance of a plane from the point that three of them make; `None` where a facet is missing,
+/// or no three planes make a point.
 fn miss(facets: &[String], planes: &HashMap<String, (DVec3, f64)>) -> Option<f64> {
     let found: Vec<(DVec3, f64)> =
         facets.iter().map(|name| planes.get(name).copied()).collect::<Option<_>>()?;

@@ -8,9 +8,9 @@ use crate::scene::{Specimen, Stone};
 
 /// The names of limits that any cut has, besides the keys of its proportions:
 ///
-/// - `above_critical`: by how many degrees the flattest facet of the pavilion is steeper than the critical angle, in the
-///   material of the goal with the lowest index;
-/// - `yield`: the volume in cubes of the width, as a part of that of the design as it was given;
+/// - `above_critical`: the degrees by which the flattest facet of the pavilion is steeper than the critical angle, in
+///   the material of the goal with the lowest index;
+/// - `yield`: the volume in cubes of the width, as a part of that of the design before the search;
 /// - the ratios of a cutter's sheet ([`SheetFigures`]), all measured on the stone.
 pub const LIMIT_NAMES: [&str; 9] = [
     "above_critical",
@@ -35,7 +35,7 @@ pub(super) struct GeometryLimit {
 enum LimitKind {
     /// A proportion of the cut's family.
     Proportion(&'static Proportion),
-    /// A ratio of the sheet, and what it is divided by.
+    /// A ratio of the sheet, and its divisor.
     Ratio(fn(&SheetFigures) -> f64, f64),
     /// Degrees above this critical angle, degrees.
     AboveCritical(f64),
@@ -51,7 +51,7 @@ impl GeometryLimit {
         goal.limit.iter().map(|(name, given)| limit(name, given.ends())).collect()
     }
 
-    /// Returns the value of what is limited.
+    /// Returns the value of the limited figure.
     pub fn value(&self, cut: &Cut, stone: &Stone) -> f64 {
         match self.kind {
             LimitKind::Proportion(row) => (row.get)(cut),

@@ -1,29 +1,30 @@
-//! Looks for better designs near a place: by slopes (SLSQP: D. Kraft, 1988) and without them (COBYLA: M. J. D. Powell, 1994).
+//! Climbs to better designs near a place: by slopes (SLSQP: D. Kraft, 1988) and without them (COBYLA: M. J. D.
+//! Powell, 1994).
 //!
-//! Both are the crates of R. Lafage (`slsqp`, `cobyla`), after NLopt. They minimise, so totals change their sign here. They
-//! have no way to be stopped from outside: a trial that is stopped answers with one number everywhere, on which they settle.
+//! Both are the crates of R. Lafage (`slsqp`, `cobyla`), after NLopt. They minimise, so totals change their sign
+//! here. They cannot be stopped from outside, so a stopped trial returns one number everywhere, on which they settle.
 
 use super::run::Trials;
 use cobyla::RhoBeg;
 use std::cell::RefCell;
 
-/// Places are found to this part of a number's range.
+/// The accuracy of places, as a part of a number's range.
 const PLACE_TOLERANCE: f64 = 1e-5;
 
-/// A total that changes by less than this is found.
+/// The change of the total below which a climb ends.
 const TOTAL_TOLERANCE: f64 = 1e-6;
 
-/// By how much a place that makes no stone is worse than the best.
+/// The difference by which a place without a stone counts as worse than the best.
 const NO_STONE: f64 = 1.0;
 
-/// The last place that was tried, with what was found there.
+/// The last place that was tried, with its result.
 struct LastTried {
     places: Vec<f64>,
     has_slopes: bool,
     found: Tried,
 }
 
-/// What was found at a place.
+/// The result at a place.
 #[derive(Debug, Clone)]
 struct Tried {
     total: f64,
@@ -31,7 +32,7 @@ struct Tried {
     slopes: Option<super::appraisal::Slopes>,
 }
 
-/// A solver asks for the total and for each slack by itself; all of them are found at once.
+/// The results of the last place. A solver requests the total and each slack by itself, but all are computed at once.
 struct Memory<'a> {
     trials: &'a Trials<'a>,
     last: RefCell<Option<LastTried>>,
@@ -105,7 +106,8 @@ pub(super) fn climb(trials: &Trials, from: &[f64], most: usize) -> Vec<f64> {
     }
 }
 
-/// Feels its way from a place without slopes, first by steps of this part of each range, and returns the place where it ends.
+/// Climbs from a place without slopes, first by steps of this part of each range, and returns the place where it
+/// ends.
 pub(super) fn feel(trials: &Trials, from: &[f64], step: f64, most: usize) -> Vec<f64> {
     let memory = memory(trials);
     let total = |places: &[f64], (): &mut ()| memory.tried(places, false, |found| -found.total);

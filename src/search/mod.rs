@@ -1,6 +1,6 @@
-//! Floor 6: finds better designs. A [`Goal`] says as plain data what a design is to be good at, which of its numbers may
-//! change, and what must hold; an [`Objective`] appraises a design by it, with derivatives where the light has them; a
-//! [`DesignSearch`] looks for the best, from everywhere and then from near.
+//! Floor 6: finds better designs. A [`Goal`] states as plain data the measures to raise or lower, the numbers of a
+//! design that may change, and the limits; an [`Objective`] appraises a design by it, with derivatives where the
+//! light has them; a [`DesignSearch`] scatters designs over all ranges, and then climbs from the best.
 
 mod appraisal;
 mod changes;

@@ -6,14 +6,14 @@ use crate::cut::{Cut, Design, MachineSetting, ScaledSide, Unit};
 use crate::math::Plane;
 use crate::render::{SweepKey, with_numbers};
 
-/// By how many degrees the angle of a tier may usually change, either way.
+/// The default range of a tier's angle to either side, degrees.
 const TIER_RANGE_DEG: f64 = 5.0;
 
-/// The angles that a tier keeps to: a table stays a table, and a girdle a girdle.
+/// The range that the angle of a leaning tier keeps to: a table stays a table, and a girdle a girdle.
 const TIER_ANGLES_DEG: [f64; 2] = [1.0, 89.0];
 
-/// The height of a side that changes by a scale, percent: as it is in the design, and how far it usually changes. At 80 and 125 a main
-/// of 41° would lie at 34.8 and 47.4°.
+/// The height of a side that changes by a scale, percent: its value in the design, and its default range. At 80 and
+/// 125 a main of 41° would lie at 34.8 and 47.4°.
 pub(super) const AS_IT_IS: f64 = 100.0;
 const SCALE_RANGE: [f64; 2] = [80.0, 125.0];
 
@@ -38,7 +38,7 @@ pub struct VariedNumber {
     pub least: f64,
     /// The greatest value, above the least.
     pub most: f64,
-    /// The value in the design as it was given, from `least` to `most`.
+    /// The value in the design before the search, from `least` to `most`.
     pub start: f64,
 }
 
@@ -48,8 +48,8 @@ impl VariedNumber {
         given_by(cut)
     }
 
-    /// Returns the numbers that a search changes where its goal names none: all that the cut gives, but for those of its outline
-    /// and girdle, which change what is sold rather than how it shines.
+    /// Returns the numbers that a search changes where its goal names none: all that the cut gives, except for those
+    /// of its outline and girdle, which change the kind of stone rather than its light.
     pub fn usual(cut: &Cut) -> Vec<Self> {
         let keeps_girdle = |number: &Self| !changes_girdle(cut, number);
         given_by(cut).into_iter().filter(keeps_girdle).collect()
@@ -77,7 +77,7 @@ impl VariedNumber {
         }
     }
 
-    /// Whether the number is an angle, degrees.
+    /// Returns whether the number is an angle, degrees.
     pub fn is_angle(&self, cut: &Cut) -> bool {
         match &self.key {
             SweepKey::Tier(_) => true,
@@ -98,7 +98,7 @@ impl VariedNumber {
     /// Returns the numbers that the goal names, or the usual ones.
     ///
     /// # Errors
-    /// The design does not have a number, there is none, or the design as it is given lies outside a range.
+    /// Fails where the design lacks a number, where there is none, or where the given design lies outside a range.
     pub(super) fn all(goal: &Goal, design: &Design) -> Result<Vec<Self>, SearchError> {
         let numbers = match goal.vary.is_empty() {
             true => Self::usual(&design.cut),
@@ -111,7 +111,7 @@ impl VariedNumber {
             return Err(SearchError::NoNumbers);
         }
         for number in &numbers {
-            // The design says best by itself which keys it does not have.
+            // The design itself reports best which keys it lacks.
             with_numbers(design, [(&number.key, number.start)])?;
         }
         Ok(numbers)
@@ -126,7 +126,7 @@ impl VariedNumber {
             SweepKey::Scale(_) => AS_IT_IS,
             _ => return Err(SearchError::NotOfDesign(name.to_owned())),
         };
-        // A key that the design does not have is refused by the design, with what it has.
+        // The design refuses a key that it lacks, and lists its own.
         let start = if start.is_nan() { least } else { start };
         if !(least..=most).contains(&start) {
             return Err(SearchError::StartOutside { key: name.to_owned(), start, least, most });
@@ -137,22 +137,22 @@ impl VariedNumber {
     /// Returns the value at a place from 0, the least, to 1, the greatest.
     pub(super) fn at(&self, place: f64) -> f64 {
         let value = self.least + place * (self.most - self.least);
-        // A number ends as people write it, without the last digits of rounding.
+        // The value is rounded to the digits that people write, without the last digits of rounding.
         ((value * WRITTEN).round() / WRITTEN).clamp(self.least, self.most)
     }
 
-    /// Returns the place of the design as it was given, 0 to 1.
+    /// Returns the place of the design before the search, 0 to 1.
     pub(super) fn start_place(&self) -> f64 {
         (self.start - self.least) / (self.most - self.least)
     }
 }
 
-/// Returns a number of a tier; not a number where there is no such tier.
+/// Returns a number of a tier; NaN where there is no such tier.
 fn of_tier(cut: &Cut, name: &str, number: impl Fn(&MachineSetting) -> f64) -> f64 {
     cut.settings().iter().find(|setting| setting.name == name).map_or(f64::NAN, number)
 }
 
-/// Whether a change of a number moves facets of the girdle, or makes it thicker.
+/// Returns whether a change of a number moves facets of the girdle, or makes it thicker.
 fn changes_girdle(cut: &Cut, number: &VariedNumber) -> bool {
     let SweepKey::Proportion(key) = &number.key else { return false };
     let Some(row) = cut.proportion(key) else { return false };

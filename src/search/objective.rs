@@ -14,10 +14,10 @@ use crate::scene::Specimen;
 use crate::trace::Watch;
 use rayon::prelude::*;
 
-/// The part of a number's range by which it is changed to find how the geometry changes with it.
+/// The part of a number's range by which it is changed for the derivatives of the geometry.
 const GEOMETRY_STEP: f64 = 1e-4;
 
-/// The part of a number's range by which it is changed to see whether it keeps all meets.
+/// The part of a number's range by which it is changed to test whether it keeps all meets.
 const MEET_STEP: f64 = 0.01;
 
 /// A goal for one design.
@@ -28,24 +28,26 @@ pub struct Objective {
     terms: Vec<Term>,
     limits: Vec<GeometryLimit>,
     corners: KeptCorners,
-    /// The numbers that were left as they are, because a change of them alone breaks a meet.
+    /// The numbers that stay unchanged, because a change of them alone breaks a meet.
     held: Vec<VariedNumber>,
     start: Appraisal,
     polarised: bool,
 }
 
 impl Objective {
-    /// Takes a goal for a design, and appraises the design as it is until no more than `unresolved` of the light is open.
+    /// Takes a goal for a design, and appraises the given design until no more than `unresolved` of the light is
+    /// open.
     ///
-    /// What may be lost counts from the design as it is measured until no more than `searched` is open, as designs are in a search, so
-    /// that one that loses nothing is never refused.
+    /// Allowed losses count from the given design as measured until no more than `searched` is open, like the designs
+    /// of a search, so that a design without a loss is never refused.
     ///
-    /// The meets that a design of tiers states, and those that its geometry shows, are followed from here on, but for stated ones
-    /// that contradict the design. Numbers that break a meet when they alone change are held. Where the goal names no number, a side of
-    /// which a tier is held changes by its scale as well, which moves all its tiers together.
+    /// The meets that a design of tiers states, and those that its geometry shows, are followed from here on, except
+    /// for stated ones that contradict the design. Numbers that break a meet when they alone change are held. Where
+    /// the goal names no number, a side with a held tier also changes by its scale, which moves all its tiers
+    /// together.
     ///
     /// # Errors
-    /// The goal or the design is at fault, or `watch` stops.
+    /// Fails where the goal or the design has a fault, or where `watch` stops.
     pub fn new(
         design: &Design,
         goal: &Goal,
@@ -87,7 +89,7 @@ impl Objective {
         Ok(new)
     }
 
-    /// Returns the design as it was given, with its meets.
+    /// Returns the design from before the search, with its meets.
     pub fn design(&self) -> &Design {
         &self.design
     }
@@ -102,7 +104,7 @@ impl Objective {
         &self.held
     }
 
-    /// Returns the appraisal of the design as it was given.
+    /// Returns the appraisal of the design from before the search.
     pub fn start(&self) -> &Appraisal {
         &self.start
     }
@@ -112,21 +114,23 @@ impl Objective {
         self.corners.count()
     }
 
-    /// Returns by how much the planes of a design miss the corners that are kept, at most, girdle radii: within 1e-9, or no more
-    /// than in the design as it was given, but for a tenth. It is infinite where the design makes no such stone.
+    /// Returns the greatest distance by which the planes of a design miss the kept corners, girdle radii: at most
+    /// 1e-9, or a tenth more than in the design before the search. It is infinite where the design makes no such
+    /// stone.
     pub fn miss_of_meets(&self, design: &Design) -> f64 {
         let specimen = Specimen::new(design.clone()).ok();
         let stone = specimen.as_ref().and_then(|specimen| specimen.stone().ok());
         stone.map_or(f64::INFINITY, |stone| self.corners.miss(stone))
     }
 
-    /// Returns where the design as it was given lies in the ranges of its numbers, each 0 to 1.
+    /// Returns the place of the design before the search in the ranges of its numbers, each 0 to 1.
     pub(super) fn start_places(&self) -> Vec<f64> {
         self.numbers.iter().map(VariedNumber::start_place).collect()
     }
 
-    /// Returns whether derivatives of all that counts help: extinction and contrast have them, but jump too often. A tier that is varied
-    /// beside the scale of its side does not follow it, which the slope by the scale does not know.
+    /// Returns whether the goal has useful derivatives: those of extinction and contrast exist, but jump too often. A
+    /// tier that is varied beside the scale of its side does not follow that scale, which the derivative by the scale
+    /// would ignore.
     pub(super) fn has_slopes(&self) -> bool {
         let cut = &self.design.cut;
         let is_beside = |scale: &VariedNumber| {
@@ -139,7 +143,7 @@ impl Objective {
     /// Returns the design at a place of the ranges, with its meets followed.
     ///
     /// # Errors
-    /// A meet cannot be followed.
+    /// Fails where a meet cannot be followed.
     pub(super) fn design_at(&self, places: &[f64]) -> Result<Design, SearchError> {
         let values = self.numbers.iter().zip(places).map(|(number, &place)| (&number.key, number.at(place)));
         Ok(with_numbers(&self.design, values)?)
@@ -148,7 +152,7 @@ impl Objective {
     /// Appraises the design at a place of the ranges.
     ///
     /// # Errors
-    /// There is no such stone, it does not keep the meets, or `watch` stops.
+    /// Fails where there is no such stone, where it does not keep the meets, or where `watch` stops.
     pub(super) fn appraise(
         &self,
         places: &[f64],
@@ -180,7 +184,7 @@ impl Objective {
         Ok(appraisal)
     }
 
-    /// Returns the figures that are limited, of a design that keeps its meets.
+    /// Returns the limited figures of a design that keeps its meets.
     fn figures(&self, design: &Design) -> Result<Vec<(String, f64)>, SearchError> {
         let specimen = Specimen::new(design.clone())?;
         let stone = specimen.stone().map_err(|_| SearchError::NotConvex)?;
@@ -224,7 +228,7 @@ impl Objective {
         }
     }
 
-    /// Adds up what was measured in each view.
+    /// Adds up the measures of all views.
     fn summed(
         &self,
         measured: &[(SweptStone, Vec<Vec<f64>>)],
@@ -238,7 +242,7 @@ impl Objective {
             let value = value.ok_or_else(|| SearchError::NotMeasured(term.name.to_string()))?;
             let (worse, better) =
                 if term.weight < 0.0 { (value.most, value.least) } else { (value.least, value.most) };
-            // A weight of 0 times an infinite end would be no number.
+            // A weight of 0 times an infinite end would be NaN.
             if term.weight != 0.0 {
                 (least, most) = (least + term.weight * worse, most + term.weight * better);
             }
@@ -259,7 +263,7 @@ impl Objective {
         Ok(Appraisal { total: Interval { least, most }, values, figures, slacks, slopes: None })
     }
 
-    /// Returns how total and slacks change, of which the light's part was measured.
+    /// Returns the changes of total and slacks; the part of the light was measured.
     fn slopes(&self, places: &[f64], measured: &[(SweptStone, Vec<Vec<f64>>)]) -> Slopes {
         let count = self.numbers.len();
         let (mut total, mut slacks) = (vec![0.0; count], vec![]);
@@ -282,8 +286,8 @@ impl Objective {
         Slopes { total, slacks }
     }
 
-    /// Returns the factor from a slope by the design at this place to a slope by the number. The number of a scale is in percent of
-    /// the given design's height, and the slope in percent of the height here.
+    /// Returns the factor from a slope by the design at this place to a slope by the number. A scale is in percent of
+    /// the height in the given design, but the slope is in percent of the height at this place.
     fn units_at(&self, places: &[f64], number: usize) -> f64 {
         match self.numbers[number].key {
             SweepKey::Scale(_) => AS_IT_IS / self.numbers[number].at(places[number]),
@@ -291,7 +295,8 @@ impl Objective {
         }
     }
 
-    /// Returns how the limited figures change over the range of a number; 0 where one side of the place makes no stone.
+    /// Returns the changes of the limited figures over the range of a number; 0 where one side of the place makes no
+    /// stone.
     fn figure_slopes(&self, places: &[f64], number: usize) -> Vec<f64> {
         if self.limits.is_empty() {
             return vec![];
@@ -310,7 +315,7 @@ impl Objective {
         }
     }
 
-    /// Drops meets that rounding alone breaks: they could be followed once, but not from the distances that they gave.
+    /// Drops meets that rounding alone breaks: they can be followed once, but not again from the resulting distances.
     fn drop_unsteady_meets(&mut self) {
         let start = self.start_places();
         while let Err(SearchError::Sweep(SweepError::Meet(error))) = self.design_at(&start) {
@@ -347,7 +352,7 @@ impl Objective {
         });
     }
 
-    /// Turns what may be lost against the start into limits.
+    /// Turns the allowed losses against the start into limits.
     fn limit_losses(&mut self, goal: &Goal) {
         let mut places = 0..;
         for measure in &goal.measure {
@@ -367,11 +372,12 @@ impl Objective {
     }
 }
 
-/// Follows all meets but those that cannot be followed, which are dropped: their tiers stay where they are.
+/// Follows all meets, and drops those that cannot be followed: their tiers stay where they are.
 ///
-/// Distances that meets have given can break another meet, so the meets are followed until nothing moves any more.
+/// Distances that follow from meets can break another meet, so the meets are followed until no tier moves any more.
 fn followed(mut tiers: Tiers) -> Tiers {
-    // Every pass but the last moves tiers or drops a meet; a design that never rests is left as the last pass made it.
+    // Every pass except the last moves tiers or drops a meet; a design that never settles is left in the state of the
+    // last pass.
     for _ in 0..2 * tiers.tiers.len() + 2 {
         let solved = tiers.solved();
         let is_failed = |outcome: &TierOutcome| matches!(outcome, TierOutcome::Failed(_));
@@ -384,7 +390,7 @@ fn followed(mut tiers: Tiers) -> Tiers {
     tiers
 }
 
-/// Measures one view; with `changes` also how its measures change with each number.
+/// Measures one view; with `changes`, also the derivatives of its measures by each number.
 fn taken(
     sweep: &Sweep,
     view: &GoalView,

@@ -1,4 +1,5 @@
-//! What a search changed besides what its goal weighs: a better design by one measure may be a worse one by another.
+//! The changes of measures that the goal of a search does not weigh: a better design by one measure may be a worse
+//! one by another.
 
 use super::appraisal::{GoalValue, SearchError};
 use super::outcome::SearchOutcome;
@@ -16,17 +17,18 @@ use std::cmp::Ordering;
 pub struct OtherMeasure {
     /// The measure.
     pub name: MeasureName,
-    /// Its value in the design as it was given.
+    /// Its value in the design before the search.
     pub before: Interval,
-    /// Its value in the design that was found.
+    /// Its value in the found design.
     pub after: Interval,
 }
 
 impl OtherMeasure {
-    /// Takes the usual measures of the design as it was given and of the one that was found, but for those that the goal weighs.
+    /// Takes the usual measures of the design before the search and of the found one, except for those that the goal
+    /// weighs.
     ///
     /// # Errors
-    /// One of the designs cannot be measured, or `watch` stops.
+    /// Fails where one of the designs cannot be measured, or where `watch` stops.
     pub fn all(
         search: &DesignSearch,
         outcome: &SearchOutcome,
@@ -69,8 +71,8 @@ impl OtherMeasure {
     }
 }
 
-/// Returns the classes of the design as it was given and of the one that was found, estimated after the ranges that GIA publishes of
-/// round brilliants of diamond; `None` where one of them is none.
+/// Returns the classes of the design before the search and of the found one, estimated after the ranges that GIA
+/// publishes for round brilliants of diamond; `None` where one of them is no such stone.
 pub fn estimated_classes(search: &DesignSearch, outcome: &SearchOutcome) -> Option<[CutClass; 2]> {
     let class = |design: &Design| {
         let specimen = Specimen::new(design.clone()).ok()?;

@@ -1,15 +1,15 @@
-//! What a search has found, and how far it is.
+//! The outcome of a search, and its progress.
 
 use super::appraisal::Appraisal;
 use crate::cut::Design;
 
-/// How far a search is. It is handed out for each design that was appraised. The threads of a search hand theirs out as they come, so
-/// that one with a smaller number may follow.
+/// The progress of a search, reported for each appraised design. Threads report in any order, so a report with a
+/// smaller number may follow.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SearchProgress {
     /// The number of designs that were appraised.
     pub appraised: usize,
-    /// The part of the work that is surely done, 0 to 1; a search that settles early jumps to 1.
+    /// The part of the work that is certainly done, 0 to 1; it jumps to 1 where a search settles early.
     pub part: f64,
     /// The total of the best design so far, which keeps all limits; `None` before there is one.
     pub best_total: Option<f64>,
@@ -17,7 +17,7 @@ pub struct SearchProgress {
     pub new_best: Option<Box<Design>>,
 }
 
-/// A point of the curve of progress: the best was found with this many designs appraised.
+/// A point of the curve of progress: the best design so far was found with this many designs appraised.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProgressPoint {
     /// The number of designs that had been appraised.
@@ -26,14 +26,14 @@ pub struct ProgressPoint {
     pub total: f64,
 }
 
-/// What a search has found.
+/// The result of a search.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SearchOutcome {
-    /// The best design, in the material of the design that was given; that design itself where nothing better was found.
+    /// The best design, in the material of the given design; that design itself where no better one was found.
     pub design: Design,
     /// Its appraisal.
     pub best: Appraisal,
-    /// Whether it keeps all limits; false only where no design was found that does.
+    /// True where it keeps all limits; false only where no design was found that does.
     pub keeps_limits: bool,
     /// The values of the numbers that changed, in the order of the numbers of the objective.
     pub values: Vec<f64>,
@@ -41,6 +41,6 @@ pub struct SearchOutcome {
     pub curve: Vec<ProgressPoint>,
     /// The number of designs that were appraised.
     pub appraised: usize,
-    /// Whether the search was stopped before its end.
+    /// True where the search was stopped before its end.
     pub was_stopped: bool,
 }

@@ -1,4 +1,4 @@
-//! The search: designs scattered over all ranges first, and then from the best of them to the best near them.
+//! The search: scatters designs over all ranges first, and then climbs from the best of them.
 
 use super::appraisal::{Appraisal, SearchError};
 use super::goal::Goal;
@@ -12,44 +12,46 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// The number of designs for each number that are tried to bring angles to multiples of their step.
+/// The number of designs, for each number, that are tried to bring angles to multiples of their step.
 const SNAPPED_FOR_EACH: usize = 12;
 
-/// How much a limit that is missed by 1 counts against the total, while designs are compared that keep none.
+/// The amount by which a limit that is missed by 1 reduces the total, for the comparison of designs of which none
+/// keeps all limits.
 const MISSED: f64 = 10.0;
 
-/// Of fewer numbers than this no slopes are taken: they cost more than the designs that they save.
+/// The number of numbers below which no slopes are taken: they would cost more than the designs that they save.
 const FEWEST_WITH_SLOPES: usize = 3;
 
 /// The first step of a search without slopes, a part of each range.
 const FELT_STEP: f64 = 0.005;
 
-/// The number of scattered designs after which the best of them is looked at for the first time; each time it takes twice as many.
+/// The number of scattered designs in the first batch, whose best is measured finely at once; each further batch is
+/// twice as large.
 const FIRST_BATCH: usize = 8;
 
-/// The number of places from which the search feels its way at last: one for each core of a small machine.
+/// The number of places from which the search climbs without slopes at the end: one for each core of a small machine.
 const FELT_TOPS: usize = 2;
 
 /// Designs are scattered over this many times each range and brought back to its ends, because the best often lies there.
 const WIDENED: f64 = 1.15;
 
-/// By how many times more light may stay unresolved in designs that are scattered over all ranges.
+/// The factor by which more light may stay unresolved in designs that are scattered over all ranges.
 const COARSEST: f64 = 10.0;
 
-/// Designs that are scattered around the most promising of those before them.
+/// A step of the search that scatters designs around the most promising of those before them.
 ///
-/// Totals of light jump and bend within hundredths of a degree, so that neither slopes nor steps lead far; what is scattered near and
-/// nearer finds the way over the jumps.
+/// Totals of light jump and bend within hundredths of a degree, so that neither slopes nor steps lead far; designs
+/// that are scattered nearer and nearer find the way over the jumps.
 struct Zoom {
-    /// How far from a promising design others are scattered, a part of each range.
+    /// The distance from a promising design within which others are scattered, a part of each range.
     reach: f64,
     /// The number of promising designs for each climb.
     hills: usize,
     /// Designs nearer than this in every number, parts of its range, count as one.
     apart: f64,
-    /// The number of designs around each for each number, beside four.
+    /// The number of designs around each promising one: so many for each number, and four more.
     per_number: usize,
-    /// By how many times more light may stay unresolved.
+    /// The factor by which more light may stay unresolved.
     coarser: f64,
 }
 
@@ -60,33 +62,33 @@ const ZOOMS: [Zoom; 3] = [
 ];
 
 impl Zoom {
-    /// Returns the number of designs around one.
+    /// Returns the number of designs that are scattered around one.
     fn around(&self, dimensions: usize) -> usize {
         4 + self.per_number * dimensions
     }
 }
 
-/// Designs nearer than this in every number, parts of its range, are gone on from only once.
+/// Designs nearer to each other than this in every number, parts of its range, start only one climb.
 const SAME_TOP: f64 = 0.012;
 
-/// How a search goes.
+/// The settings of a search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SearchOptions {
     /// The part of the light that may stay unresolved near the best; scattered designs take more.
     pub unresolved: f64,
     /// The number of designs that are scattered over the ranges; `None` for as many as the numbers need.
     pub scattered: Option<usize>,
-    /// From how many of them the search goes on, at least 1.
+    /// The number of them from which the search climbs, at least 1.
     pub climbs: usize,
-    /// Another number scatters other designs.
+    /// The seed of the scatter: another number scatters other designs.
     pub seed: u64,
-    /// Whether it climbs by slopes where there are any.
+    /// True where the search climbs by slopes if there are any.
     pub by_slopes: bool,
-    /// Whether polarisation is followed.
+    /// True where polarisation is followed.
     pub polarised: bool,
-    /// The step of angles in degrees, above 0, such as that of a faceting machine's scale: those that change end on multiples of it
-    /// where their ranges hold one, unless the search is stopped. Those of a side that is scaled end anywhere. `None` where any angle
-    /// will do.
+    /// The step of angles in degrees, above 0, such as that of a faceting machine's scale. Angles that change end on
+    /// multiples of it where their ranges hold one, unless the search is stopped; the angles of a scaled side do not.
+    /// `None` for any angle.
     pub angle_step_deg: Option<f64>,
 }
 
@@ -104,10 +106,10 @@ impl Default for SearchOptions {
     }
 }
 
-/// No design is followed so roughly that more of its light than this is unresolved.
+/// The limit of unresolved light of the roughest designs.
 const MOST_UNRESOLVED: f64 = 0.05;
 
-/// By how many times less light stays unresolved in the figures that are handed out.
+/// The factor by which less light stays unresolved in the figures of the outcome.
 const FINER: f64 = 4.0;
 
 /// A search for the best design by a goal.
@@ -116,10 +118,10 @@ pub struct DesignSearch {
     options: SearchOptions,
 }
 
-/// What is known while a search runs.
+/// The record of a running search.
 #[derive(Default)]
 struct Record {
-    /// The places of the best, and what it is worth.
+    /// The places of the best design, and its appraisal.
     best: Option<(Vec<f64>, Appraisal)>,
     curve: Vec<ProgressPoint>,
 }
@@ -140,7 +142,7 @@ impl DesignSearch {
     /// Prepares the search for a design that meets a goal better than `design`.
     ///
     /// # Errors
-    /// The goal or the design is at fault, or `watch` stops.
+    /// Fails where the goal or the design has a fault, or where `watch` stops.
     pub fn new(
         design: &Design,
         goal: &Goal,
@@ -153,7 +155,7 @@ impl DesignSearch {
         Ok(Self { objective, options })
     }
 
-    /// Returns how the search goes.
+    /// Returns the settings of the search.
     pub fn options(&self) -> &SearchOptions {
         &self.options
     }
@@ -165,10 +167,10 @@ impl DesignSearch {
 
     /// Searches on all cores. `report` is called from any of them.
     ///
-    /// When `watch` stops, the best so far is the outcome, as finely as it was measured until then.
+    /// Where `watch` stops, the outcome is the best design so far, measured no more finely than until then.
     ///
     /// # Errors
-    /// The design that was found cannot be measured finely, which does not happen where it could be measured roughly.
+    /// Fails where the found design cannot be measured finely, which does not happen if it could be measured roughly.
     pub fn run(
         &self,
         watch: Watch,
@@ -201,7 +203,7 @@ impl DesignSearch {
             });
             let climbed: Vec<(f64, Vec<f64>)> = climbed.collect();
             tops.extend(climbed);
-            // The best that was met on the way may be better than where a climb ended.
+            // The best design on the way may be better than the end of a climb.
             tops.extend(trials.best().map(|(places, total)| (total, places)));
         }
         distinct(&tops, SAME_TOP).par_iter().take(FELT_TOPS).for_each(|top| {
@@ -218,7 +220,8 @@ impl DesignSearch {
         self.options.angle_step_deg.map_or(0, |_| SNAPPED_FOR_EACH * self.objective.numbers().len())
     }
 
-    /// Scatters designs over all ranges, and then nearer and nearer around the most promising. Returns all with their merit.
+    /// Scatters designs over all ranges, and then nearer and nearer around the most promising. Returns all with their
+    /// merit.
     fn tops(&self, trials: &Trials, count: usize, start: Vec<f64>) -> Vec<(f64, Vec<f64>)> {
         let dimensions = start.len();
         let tried = |places: Vec<Vec<f64>>, coarser: f64| -> Vec<(f64, Vec<f64>)> {
@@ -230,7 +233,7 @@ impl DesignSearch {
             while !rest.is_empty() {
                 let (batch, later) = rest.split_at(count.min(rest.len()));
                 let batch: Vec<(f64, Vec<f64>)> = batch.par_iter().filter_map(tried).collect();
-                // What promises most is measured finely at once, so that a better design is seen early.
+                // The most promising design is measured finely at once, so that a better design is shown early.
                 let promising = batch.iter().max_by(|a, b| a.0.total_cmp(&b.0));
                 if let Some((_, places)) =
                     promising.filter(|(merit, _)| trials.best_total().is_none_or(|best| *merit > best))
@@ -259,7 +262,7 @@ impl DesignSearch {
         found
     }
 
-    /// Measures the best finely, unless the search was stopped: then its figures stay as rough as they are.
+    /// Measures the best finely, unless the search was stopped, in which case its figures stay rough.
     fn outcome(&self, trials: &Trials, watch: Watch) -> Result<SearchOutcome, SearchError> {
         let record = trials.record();
         let start = self.objective.start_places();
@@ -278,7 +281,7 @@ impl DesignSearch {
                 }
                 finely => finely?,
             };
-            // Rough figures may have promised what fine ones do not keep.
+            // The design may be better by rough figures, but not by fine ones.
             if better.total.middle() > best.total.middle() || !best.keeps_limits() {
                 (best, found) = (better, places);
             }
@@ -308,7 +311,7 @@ impl Trials<'_> {
         self.search.objective.start().slacks.len()
     }
 
-    /// Returns the total of the design as it was given. It is the same in every run, unlike the best so far.
+    /// Returns the total of the design before the search. It is the same in every run, unlike the best so far.
     pub fn start_total(&self) -> f64 {
         self.search.objective.start().total.middle()
     }
@@ -323,9 +326,9 @@ impl Trials<'_> {
         self.record().best.as_ref().map(|(places, found)| (places.clone(), found.total.middle()))
     }
 
-    /// Replaces the best so far by the best design near it whose angles are multiples of a step: its angles are rounded, and then
-    /// each is moved by a step either way for as long as that is better, but no more than `most` designs are appraised. A search that
-    /// was stopped before leaves the best as it is.
+    /// Replaces the best so far by the best design near it whose angles are multiples of a step: its angles are
+    /// rounded, and then each is moved by a step either way as long as that is better, but no more than `most`
+    /// designs are appraised. A search that was stopped before leaves the best as it is.
     fn snap(&self, step: f64, most: usize) {
         let objective = &self.search.objective;
         let Some((best, _)) = self.best() else { return };
@@ -369,7 +372,7 @@ impl Trials<'_> {
         let watch = |_: f64| (self.watch)(part);
         match self.search.objective.appraise(places, unresolved, with_slopes, &watch) {
             Ok(found) => {
-                // Rough figures only say where to look.
+                // Rough figures only show where to measure finely.
                 match unresolved <= self.search.options.unresolved {
                     true => self.note(places, &found),
                     false => self.tell(done, self.best_total(), None),
@@ -384,11 +387,11 @@ impl Trials<'_> {
         }
     }
 
-    /// Takes note of a design if it is the best so far that keeps all limits.
+    /// Records a design if it is the best so far that keeps all limits.
     fn note(&self, places: &[f64], found: &Appraisal) {
         let total = found.total.middle();
         let mut record = self.record();
-        // Read while the record is held, so that the curve never goes back.
+        // The count is read while the record is locked, so that the curve never goes back.
         let appraised = self.appraised.load(Ordering::Relaxed);
         let best = record.best.as_ref().map(|(_, best)| best.total.middle());
         let is_best = found.keeps_limits() && best.is_none_or(|best| total > best);
@@ -402,7 +405,7 @@ impl Trials<'_> {
         self.tell(appraised, best_total, design);
     }
 
-    /// Says how far the search is.
+    /// Reports the progress of the search.
     fn tell(&self, appraised: usize, best_total: Option<f64>, new_best: Option<Design>) {
         let part = (appraised as f64 / self.most as f64).min(1.0);
         (self.report)(&SearchProgress { appraised, part, best_total, new_best: new_best.map(Box::new) });
@@ -432,7 +435,7 @@ fn neighbours(
     all.filter(|other| other.as_slice() != places).collect()
 }
 
-/// Returns a total that counts missed limits against a design.
+/// Returns the total less a penalty for missed limits.
 fn merit(found: &Appraisal) -> f64 {
     found.total.middle() - MISSED * found.slacks.iter().map(|slack| (-slack).max(0.0)).sum::<f64>()
 }

@@ -1,4 +1,4 @@
-//! What a goal measures: each measure in one material and view.
+//! The terms of a goal: each measure in one material and view.
 
 use super::goal::{Goal, GoalMaterial, GoalMeasure};
 use super::{AtLeastAtMost, OneOrMore};

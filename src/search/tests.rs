@@ -16,7 +16,7 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Rough enough to be quick, fine enough to tell hills apart.
+/// Options that are rough enough to be quick, and fine enough to distinguish hills.
 const ROUGH: SearchOptions = SearchOptions {
     unresolved: 0.02,
     scattered: Some(24),
@@ -268,7 +268,7 @@ fn limits_of_geometry_are_kept() {
     assert!(held.best.total.middle() >= search.objective().start().total.middle());
 }
 
-/// Who wants the most leakage loses all return, unless a limit keeps it.
+/// A goal of the most leakage loses all return, unless a limit keeps the return.
 #[test]
 fn what_may_not_be_lost_is_kept() {
     let mut goal = goal(&[("leakage", 1.0), ("return-even", 0.0)]);
@@ -351,7 +351,7 @@ fn a_search_that_is_stopped_hands_out_the_best_so_far() {
     assert_eq!(outcome.curve.len(), seen.lock().unwrap().len());
     assert!(outcome.best.total.middle() >= search.objective().start().total.middle());
     let whole = search.run(&unwatched, &|_| {}).unwrap();
-    // What was stopped is not measured finely any more.
+    // A search that was stopped does not measure its design again more finely.
     assert!(outcome.best.total.error() > 1.5 * whole.best.total.error(), "{outcome:?} {whole:?}");
     assert!(!whole.was_stopped && whole.appraised > outcome.appraised);
 }

@@ -1,10 +1,11 @@
-//! The environment of a picture, ready to be looked up: broad light as an octahedral map with coarser levels, lamps as
-//! discs, the observer's head, and a backplate.
+//! The environment of a picture, prepared for look-ups: broad light as an octahedral map with coarser levels, lamps
+//! as discs, the observer's head, and a backplate.
 //!
-//! A ray stands for a band of wavelengths, over which its direction fans. Look-ups are averaged over that fan, so that a
-//! small lamp shows as the piece of rainbow that it is and not as a chance hit: exactly for lamps, by the map's levels (L.
-//! Williams, *Pyramidal parametrics*, 1983) for the rest. The map's projection: Z. H. Cigolle et al., *A Survey of Efficient
-//! Representations for Independent Unit Vectors*, JCGT 3(2), 2014. The twin is shaders/environment.wgsl.
+//! A ray represents a band of wavelengths, over which its direction fans out. Look-ups are averaged over that fan, so
+//! that a small lamp shows as the piece of a rainbow that it is and not as a chance hit. The average is exact for
+//! lamps, and uses the map's levels (L. Williams, *Pyramidal parametrics*, 1983) for all other light. The map's
+//! projection is that of Z. H. Cigolle et al., *A Survey of Efficient Representations for Independent Unit Vectors*,
+//! JCGT 3(2), 2014. The twin of this module is shaders/environment.wgsl.
 
 mod backplate;
 mod drawing;
@@ -20,7 +21,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_1_PI, PI};
 
-/// The side in radians, √(4π), of the one texel of a map of side 1, taken for a square: it covers the whole sphere.
+/// The side in radians, √(4π), of the only texel of a map with side 1, as if it were a square: it covers the whole
+/// sphere.
 pub const TEXEL_ANGLE: f64 = 3.544_907_701_811_032;
 
 /// Side of the map, in texels, for light without a panorama.
@@ -29,51 +31,51 @@ const SIDE: usize = 512;
 /// Side of the map, in texels, for light with a panorama or a world.
 const SIDE_OF_PICTURE: usize = 1024;
 
-/// The least and the greatest number of samples along each side of a texel; between these, as many as the panorama has
-/// pixels.
+/// The least and the greatest number of samples along each side of a texel. Between them, there is one sample for
+/// each pixel of the panorama.
 const PER_SIDE: (usize, usize) = (2, 8);
 
-/// The greatest radiance that the map holds: sums of it are finite in f32.
+/// The greatest radiance that the map holds, so that sums of it are finite in f32.
 const BRIGHTEST: f64 = 1e12;
 
-/// Radiance by channel: of the key illuminant's spectrum, of red, of green, of blue.
+/// Radiance in four channels: of the key illuminant's spectrum, of red, of green and of blue.
 pub type Radiance = [f32; 4];
 
-/// A lamp: a small disc of even light.
+/// A lamp: a small disc that shines evenly.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Disc {
-    /// Unit direction to its middle.
+    /// The unit direction to the middle of the disc.
     pub toward: DVec3,
-    /// Square of the chord from its middle to its edge.
+    /// The square of the chord from the middle of the disc to its edge.
     pub chord_squared: f64,
-    /// Radiance by channel.
+    /// The radiance of the disc by channel.
     pub radiance: DVec4,
 }
 
-/// A light, ready to be looked up in its own frame, whose z lies along its axis.
+/// A light, prepared for look-ups in its own frame, whose z axis is the light's axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EnvironmentMap {
     /// Square maps of the broad light, row by row, the finest first; each has half the side of the one before.
     pub levels: Vec<Vec<Radiance>>,
-    /// Side of the first map, in texels.
+    /// The side of the first map, in texels.
     pub side: usize,
     /// The lamps; the maps do not contain them.
     pub lamps: Vec<Disc>,
 }
 
-/// A light, and the map that is looked up for it.
+/// A light, and the map in which it is looked up.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "LightingData", into = "LightingData")]
 pub struct Lighting {
-    /// The light as it is described.
+    /// The description of the light.
     pub light: Light,
     /// The light as a map by direction, with its panorama.
     pub map: EnvironmentMap,
-    /// What is unusual about the panorama, in words that name the file.
+    /// Warnings about unusual properties of the panorama, which name the file.
     pub warnings: Vec<String>,
 }
 
-/// Lighting as plain data. The map of a light without a panorama is drawn anew, which is quicker than to send it.
+/// Lighting as plain data. The map of a light without a panorama is not sent but drawn again, which is quicker.
 #[derive(Serialize, Deserialize)]
 struct LightingData {
     light: Light,
@@ -104,13 +106,13 @@ impl TryFrom<LightingData> for Lighting {
     }
 }
 
-/// Why lighting cannot be looked up.
+/// The reason why lighting cannot be looked up.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LightingError {
-    /// The light is not valid.
+    /// The light itself is not valid.
     #[error("light: {0}")]
     Light(#[from] LightError),
-    /// The light has a panorama, and no map that holds it.
+    /// The light has a panorama, and there is no map that contains it.
     #[error(
         "map is missing: the panorama {panorama} cannot be drawn anew; give the map that was drawn with it"
     )]
@@ -121,14 +123,14 @@ pub enum LightingError {
     /// The map has no levels.
     #[error("map.levels is empty: give the finest level at least")]
     NoLevel,
-    /// A level is not a square of the side that its place demands.
+    /// The number of texels of a level is not the square of the side that this level must have.
     #[error("map.levels[{level}] has {texels} texels, and a map of side {side} has {wanted} there")]
     Level {
-        /// The place of the level, from 0, the finest.
+        /// The number of the level; 0 is the finest.
         level: usize,
-        /// The number of its texels.
+        /// The number of texels of the level.
         texels: usize,
-        /// The side of the finest level, as given.
+        /// The side of the finest level, in texels.
         side: usize,
         /// The number of texels that the level should have.
         wanted: usize,
@@ -151,18 +153,18 @@ pub struct Environment<'a> {
     pub head: f64,
     /// The photograph behind the stones, where there is one.
     pub backplate: Option<Backplate<'a>>,
-    /// Whether rays that miss the stones see the environment; else they see nothing.
+    /// True where rays that miss the stones see the environment; otherwise they see nothing.
     pub backdrop: bool,
 }
 
-/// The square of a fan below which a ray counts as one direction.
+/// The square of the length of a fan below which the ray counts as having one direction.
 pub(super) const STILL: f64 = 1e-14;
 
-/// Least width of the edge of the head's shadow, in cosine.
+/// The least width of the edge of the head's shadow, as a difference of cosines.
 pub(crate) const HEAD_EDGE: f64 = 0.004;
 
 impl EnvironmentMap {
-    /// Draws a light into maps, with the world that it names; `panorama` is the picture that the light names.
+    /// Draws a light into maps, with the world that it names. `panorama` is the picture that the light names.
     pub fn new(light: &Light, panorama: Option<&Panorama>) -> Self {
         let side = if panorama.is_some() || light.world.is_some() { SIDE_OF_PICTURE } else { SIDE };
         let world = light.world.map(|world| world_texels(world, side));
@@ -198,7 +200,7 @@ impl EnvironmentMap {
     /// Checks that every level is a square of half the side of the one before.
     ///
     /// # Errors
-    /// [`LightingError::NoLevel`], or [`LightingError::Level`] for the first level at fault.
+    /// Fails with [`LightingError::NoLevel`], or with [`LightingError::Level`] for the first level at fault.
     pub fn check(&self) -> Result<(), LightingError> {
         if self.levels.is_empty() {
             return Err(LightingError::NoLevel);
@@ -213,7 +215,7 @@ impl EnvironmentMap {
         Ok(())
     }
 
-    /// Returns the map if it can be looked up.
+    /// Returns the map itself, if it is valid for look-ups.
     fn checked(self) -> Result<Self, LightingError> {
         self.check()?;
         let is_finite = self.levels.iter().flatten().flatten().all(|x| x.is_finite())
@@ -249,21 +251,21 @@ impl EnvironmentMap {
 }
 
 impl Environment<'_> {
-    /// Returns what a ray sees of the photograph behind the stones; `None` where the ray does not meet it at any of the
-    /// wavelengths that it stands for.
+    /// Returns the light of the photograph behind the stones along a ray; `None` where the ray does not meet the
+    /// photograph at any of its wavelengths.
     fn photograph(&self, ray: &DispersedRay) -> Option<Photographed> {
         self.backplate?.at(&self.eye, ray)
     }
 
-    /// Returns the radiance, by channel, that arrives along a ray from outside the stones. The ray begins at `from`; `fan`
-    /// is the change of its direction over the wavelengths that it stands for.
+    /// Returns the radiance, by channel, that arrives along a ray from outside the stones. The ray begins at `from`;
+    /// `fan` is the change of its direction over its wavelengths.
     pub fn radiance(&self, from: DVec3, direction: DVec3, fan: DVec3) -> DVec4 {
         self.radiance_around(&DispersedRay { origin: from, direction, fan, shift: DVec3::ZERO }, 0.0)
     }
 
-    /// Returns the radiance as [`radiance`](Self::radiance) does, of a ray that may stand for a square of directions as well:
-    /// `spread` is its side, in radians. The light is averaged over the fan or the square, whichever is wider; a photograph is
-    /// looked up along the fan and the shift alone.
+    /// Returns the radiance as [`radiance`](Self::radiance) does, for a ray that may also represent a square of
+    /// directions, with the side `spread` in radians. The light is averaged over the fan or the square, whichever is
+    /// wider; a photograph is averaged only along the fan and the shift.
     pub fn radiance_around(&self, ray: &DispersedRay, spread: f64) -> DVec4 {
         let beyond = || self.beyond(ray.direction, ray.fan, spread);
         match self.photograph(ray) {
@@ -273,7 +275,7 @@ impl Environment<'_> {
         }
     }
 
-    /// Returns the radiance, by channel, of the light alone.
+    /// Returns the radiance, by channel, of the light alone, in the shadow of the observer's head.
     fn beyond(&self, direction: DVec3, fan: DVec3, spread: f64) -> DVec4 {
         let own =
             |v: DVec3| DVec3::new(self.basis.right.dot(v), self.basis.up.dot(v), self.basis.toward.dot(v));
@@ -293,8 +295,8 @@ impl Environment<'_> {
     }
 }
 
-/// Returns the share of a fan of directions, from half of it before the ray's direction to half after it, that lies inside
-/// a disc.
+/// Returns the share of a fan of directions that lies inside a disc. The fan reaches from half its length before the
+/// ray's direction to half after it.
 pub(super) fn share_inside(from_middle: DVec3, fan: DVec3, chord_squared: f64) -> f64 {
     let (a, b) = (fan.length_squared(), from_middle.dot(fan));
     let c = from_middle.length_squared() - chord_squared;
@@ -309,7 +311,8 @@ pub(super) fn share_inside(from_middle: DVec3, fan: DVec3, chord_squared: f64) -
     (((root - b) / a).min(0.5) - ((-root - b) / a).max(-0.5)).max(0.0)
 }
 
-/// Returns the share of a disc of directions that lies inside a lamp: the disc has the area of a square of this side.
+/// Returns the share of a disc of directions that lies inside a lamp. The disc has the area of a square with this
+/// side.
 fn share_of_disc(from_middle: DVec3, side: f64, chord_squared: f64) -> f64 {
     let (own, lamp) = (side * FRAC_1_PI.sqrt(), chord_squared.sqrt());
     let apart = from_middle.length();
@@ -320,7 +323,7 @@ fn share_of_disc(from_middle: DVec3, side: f64, chord_squared: f64) -> f64 {
     let common = if apart <= large - small {
         PI * small * small
     } else {
-        // Two segments: of each circle the part beyond the line through both crossings.
+        // The two segments: the part of each circle beyond the line through both crossings.
         let segment = |r: f64, other: f64| {
             let along = ((apart * apart + r * r - other * other) / (2.0 * apart)).clamp(-r, r);
             r * r * (along / r).acos() - along * (r * r - along * along).max(0.0).sqrt()
@@ -338,7 +341,7 @@ fn octahedral(d: DVec3) -> DVec2 {
     0.5 + 0.5 * if d.z >= 0.0 { flat } else { folded }
 }
 
-/// Returns the direction of a place in the map: the inverse of [`octahedral`].
+/// Returns the direction of a place in the map; the inverse of [`octahedral`].
 fn direction(at: DVec2) -> DVec3 {
     let p = at * 2.0 - 1.0;
     let z = 1.0 - p.x.abs() - p.y.abs();
@@ -348,7 +351,8 @@ fn direction(at: DVec2) -> DVec3 {
     d / d.length()
 }
 
-/// Returns the coordinates of a texel; beyond the map's edge, of the one that lies next to that edge on the sphere.
+/// Returns the coordinates of a texel. Beyond the map's edge, they are those of the texel that lies next to that edge
+/// on the sphere.
 pub(super) fn wrapped(mut p: IVec2, size: i32) -> IVec2 {
     if p.x < 0 || p.x >= size {
         p = IVec2::new(if p.x < 0 { -1 - p.x } else { 2 * size - 1 - p.x }, size - 1 - p.y);
@@ -359,13 +363,13 @@ pub(super) fn wrapped(mut p: IVec2, size: i32) -> IVec2 {
     p
 }
 
-/// Draws a world into a map of a side, row by row.
+/// Draws a world into a map with this side, row by row.
 fn world_texels(world: World, side: usize) -> Vec<DVec3> {
     let texel = TEXEL_ANGLE / side as f64;
     world.drawn([side; 2], |at| (World::from_light(direction(at / side as f64)), texel))
 }
 
-/// Returns the next coarser level: each texel is the mean of two by two.
+/// Returns the next coarser level, in which each texel is the mean of two by two texels.
 fn halved(fine: &[Radiance]) -> Vec<Radiance> {
     let size = fine.len().isqrt();
     let at = |x: usize, y: usize| DVec4::from_array(fine[y * size + x].map(f64::from));

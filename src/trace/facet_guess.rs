@@ -1,8 +1,8 @@
-//! Guesses the facet that a ray inside a stone meets: all planes are tried in single precision, as many side by side as the
-//! processor takes.
+//! Guesses the facet that a ray inside a stone meets. All planes are tried in single precision, as many side by side
+//! as the processor's registers hold.
 //!
-//! Single precision tries twice as many planes at once as double precision would. Whoever asks must make sure of the answer:
-//! near an edge it may be the facet beyond it.
+//! Single precision tries twice as many planes at once as double precision would. The caller must verify the guess:
+//! near an edge it may be the facet on the other side of the edge.
 
 use crate::math::Plane;
 use glam::DVec3;
@@ -11,19 +11,19 @@ use pulp::{Arch, Simd, WithSimd};
 /// The most planes that any processor tries at once.
 const WIDEST: usize = 16;
 
-/// The least gap between a point and a plane; smaller ones count as this.
+/// The least gap between a point and a plane; smaller gaps count as this one.
 const LEAST_GAP: f32 = 1e-30;
 
-/// Planes, coordinate by coordinate, filled up to whole rows with the zero normal, toward which no ray runs.
+/// Planes, coordinate by coordinate. Whole rows are filled up with zero normals, toward which no ray runs.
 #[derive(Debug, Clone)]
 pub(in crate::trace) struct FacetGuess {
     normal: [Vec<f32>; 3],
     offset: Vec<f32>,
-    /// The plane's number, in the bits of `tag_bits`.
+    /// The numbers of the planes, in the bits of `tag_bits`.
     tag: Vec<f32>,
-    /// The low bits of a ratio's fraction that hold the number of its plane instead.
+    /// The low bits of a ratio's fraction, in which the number of its plane is stored.
     tag_bits: u32,
-    /// The number of the last plane: what fills up the last row is no facet.
+    /// The number of the last plane. Places beyond it in the last row are no facets.
     last: u32,
     arch: Arch,
 }
@@ -47,8 +47,9 @@ impl FacetGuess {
         }
     }
 
-    /// Returns the number of the facet by which a ray leaves from a point inside: that of the greatest ratio of the speed
-    /// toward a plane to the gap before it. Planes behind have negative ratios and never win.
+    /// Returns the number of the facet through which a ray from a point inside leaves: the facet with the greatest
+    /// ratio of the speed toward its plane to the gap before that plane. Planes behind the ray have negative ratios
+    /// and are never chosen.
     #[inline]
     pub fn ahead_of(&self, point: DVec3, direction: DVec3) -> u32 {
         let tagged = self.arch.dispatch(Ahead { planes: self, point, direction });

@@ -1,11 +1,11 @@
-//! Vectors of f64, one in each lane of the processor's registers.
+//! Vectors of f64, with one ray's vector in each lane of the processor's registers.
 //!
-//! Sums are not fused, so that an answer does not depend on the processor.
+//! Products and sums are not fused, so that the result does not depend on the processor.
 
 use glam::DVec3;
 use pulp::Simd;
 
-/// A vector in each lane: the lanes of x, of y and of z.
+/// A vector in each lane: all x coordinates, then all y, then all z.
 pub(in crate::trace) type Vec3s<S> = [<S as Simd>::f64s; 3];
 
 #[inline(always)]
@@ -14,7 +14,7 @@ pub(in crate::trace) fn dot<S: Simd>(simd: S, a: Vec3s<S>, b: Vec3s<S>) -> S::f6
     simd.add_f64s(xy, simd.mul_f64s(a[2], b[2]))
 }
 
-/// Returns one vector in all lanes.
+/// Returns the same vector in all lanes.
 #[inline(always)]
 pub(in crate::trace) fn splat<S: Simd>(simd: S, v: DVec3) -> Vec3s<S> {
     [simd.splat_f64s(v.x), simd.splat_f64s(v.y), simd.splat_f64s(v.z)]

@@ -1,5 +1,5 @@
-//! Floor 3: the tracers, which follow light through stones. Exact beams and point rays share nothing but Fresnel's
-//! equations and guesses of the next facet, of which each makes sure in its own way.
+//! Floor 3: the tracers, which follow light through stones. Exact beams and point rays share only Fresnel's equations
+//! and the guess of the next facet, which each of them verifies in its own way.
 
 pub mod beam;
 mod dispersed_ray;
@@ -19,7 +19,8 @@ pub use dispersed_ray::DispersedRay;
 pub use scope_shot::ScopeShot;
 use std::ops::ControlFlow;
 
-/// A callback of long work: it is called now and then with the part done, 0 to 1, and stops the work by answering `Break`.
+/// A callback of long work. It is called from time to time with the part that is done, 0 to 1, and stops the work by
+/// returning `Break`.
 pub type Watch<'a> = &'a (dyn Fn(f64) -> ControlFlow<()> + Sync);
 
 /// The [`Watch`] that never stops the work.

@@ -1,9 +1,10 @@
-//! Packets of rays: one ray in each lane of the processor's registers, in single precision, for pictures that are looked at.
+//! Packets of rays, one ray in each lane of the processor's registers, in single precision. They serve for pictures
+//! that people look at.
 //!
-//! A packet follows the same chains of bounces as [`ray`](super::ray) does in double precision, through bodies of planes and
-//! glass shapes; light may enter a plate with waves again. Light that goes from one body to another keeps its polarisation,
-//! which `ray` forgets. Each ray has a medium of its own, so that the wavelengths of one pixel share a packet. When a
-//! ray ends, the next one takes its lane. `shaders/trace.wgsl` does the same on a graphics card.
+//! A packet follows the same chains of bounces as [`ray`](super::ray) does in double precision, through bodies of
+//! planes and glass shapes; light may enter a plate with waves again. Light that goes from one body to another keeps
+//! its polarisation, which `ray` forgets. Each ray has its own medium, so that the wavelengths of one pixel share a
+//! packet. When a ray ends, the next ray takes its lane. `shaders/trace.wgsl` does the same on a graphics card.
 
 mod backplate;
 mod chain;
@@ -22,27 +23,28 @@ use self::lanes::{Lanes, Vectors};
 pub(in crate::trace) use self::tracer::{EyeRay, PacketTracer};
 use pulp::Simd;
 
-/// Where rays meet a surface.
+/// The places where rays meet a surface.
 struct PacketHit<S: Simd> {
-    /// The distance along each ray; infinite where it misses.
+    /// The distance along each ray; infinite where the ray misses.
     distance: Lanes<S>,
-    /// The unit outward normals; anything, NaN included, where a ray misses.
+    /// The unit outward normals; undefined, possibly NaN, where a ray misses.
     normal: Vectors<S>,
 }
 
 /// A surface that packets of rays meet, in its own frame.
 ///
-/// Each lane depends on its own ray alone. A lane that holds NaN misses.
+/// The result in each lane depends only on the ray of that lane. A ray with NaN misses.
 trait PacketSurface: Sync {
-    /// Whether normals change along the surface.
+    /// True where the normals change along the surface.
     const IS_CURVED: bool;
 
-    /// Returns where rays from outside enter. A ray from the surface outward does not meet its own start.
+    /// Returns the places where rays from outside enter. A ray that runs from the surface outward does not meet its
+    /// own start.
     fn entry<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> PacketHit<S>;
 
-    /// Returns where rays from inside or from the surface leave.
+    /// Returns the places where rays from inside or from the surface leave.
     fn exit<S: Simd>(&self, simd: S, origin: Vectors<S>, direction: Vectors<S>) -> PacketHit<S>;
 
-    /// Returns the change of the unit normals where points of the surface move along it.
+    /// Returns the change of the unit normals at points of the surface that move along it by `by`.
     fn turned<S: Simd>(&self, simd: S, point: Vectors<S>, by: Vectors<S>) -> Vectors<S>;
 }

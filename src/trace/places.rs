@@ -1,23 +1,24 @@
-//! Where the rays of sample passes stand in their pixels, and the stretch of the pixel for which each stands.
+//! The places of the rays of sample passes in their pixels, and the stretch of the pixel that each ray represents.
 //!
-//! Places are points of I. M. Sobol's sequence (1967) with the direction numbers of S. Joe and F. Kuo (2008), whose second and
-//! third dimensions they take. The first, van der Corput's, orders the wavelengths ([`Strata`](crate::optics::Strata)). So the
-//! passes of a picture are spread evenly over pixel and spectrum together, and each part of a pixel is seen in about all
-//! wavelengths. Nothing is random, so that pictures repeat.
+//! The places are points of I. M. Sobol's sequence (1967), with the direction numbers of S. Joe and F. Kuo (2008).
+//! They take the second and the third dimension of the sequence; the first, which is van der Corput's, orders the
+//! wavelengths ([`Strata`](crate::optics::Strata)). So the passes of a picture are spread evenly over pixel and
+//! spectrum together, and each part of a pixel is sampled in about all wavelengths. Nothing is random, so the same
+//! picture always gives the same result.
 
 use glam::DVec2;
 use std::f64::consts::PI;
 
-/// The bits of a coordinate.
+/// The number of bits of a coordinate.
 const BITS: u32 = 32;
 
 /// The direction numbers of both coordinates.
 const DIRECTIONS: [[u32; BITS as usize]; 2] = [directions([1, 3], 1), directions([1, 3], 2)];
 
-/// The step of the golden ratio's sequence, in half turns: its directions are spread evenly, however many are taken.
+/// The step of the golden ratio's sequence, in half turns. Any number of its directions are spread evenly.
 const STEP_OF_DIRECTION: f64 = 0.618_033_988_749_894_8;
 
-/// The least length of the stretch of a pixel that a ray stands for, in pixels.
+/// The least length of the stretch of a pixel that a ray represents, in pixels.
 const LEAST_STRETCH: f64 = 0.125;
 
 /// Returns direction numbers by the recurrence of the primitive polynomial x + 1 (degree 1) or x² + x + 1 (degree 2).
@@ -39,15 +40,15 @@ const fn directions(first: [u32; 2], degree: usize) -> [u32; BITS as usize] {
     all
 }
 
-/// Returns a coordinate of the point of a number, in units of 2⁻³².
+/// Returns a coordinate of the point with this number, in units of 2⁻³².
 fn coordinate(directions: &[u32; BITS as usize], number: u32) -> u32 {
     directions.iter().enumerate().filter(|(k, _)| number >> k & 1 == 1).fold(0, |x, (_, v)| x ^ v)
 }
 
 /// Returns the mean of a coordinate over the first `count` points.
 fn mean(directions: &[u32; BITS as usize], count: u32) -> f64 {
-    // The numbers are divided into blocks of 2^k that begin at multiples of 2^k: in each block the first k bits of the
-    // coordinate take every value once, and the others are those of the block's first number.
+    // The numbers are divided into blocks of 2^k that begin at multiples of 2^k. In each block the first k bits of
+    // the coordinate take every value once, and the other bits are those of the block's first number.
     let unit = f64::from(BITS).exp2().recip();
     let block = |k: u32| {
         let first = if k + 1 < BITS { count >> (k + 1) << (k + 1) } else { 0 };
@@ -59,8 +60,9 @@ fn mean(directions: &[u32; BITS as usize], count: u32) -> f64 {
     sum / f64::from(count)
 }
 
-/// Returns the place, 0 to 1 along both sides or beyond that by less than 0.02, of a sample pass's rays in their pixels, in a picture of `count` passes. The
-/// middle of the places of all is that of the pixel. Passes beyond the last go on with places between theirs.
+/// Returns the place of the rays of a sample pass in their pixels, in a picture of `count` passes. Both coordinates
+/// are 0 to 1, or beyond that by less than 0.02. The mean of all places is the middle of the pixel. Passes beyond the
+/// last take places between those of the others.
 pub fn place_in_pixel(number: u32, count: u32) -> DVec2 {
     let place = DIRECTIONS.each_ref().map(|directions| {
         let at = f64::from(coordinate(directions, number)) / f64::from(BITS).exp2();
@@ -70,9 +72,10 @@ pub fn place_in_pixel(number: u32, count: u32) -> DVec2 {
     place.into()
 }
 
-/// Returns the stretch of its pixel that a ray of a sample pass stands for, in a picture of `count` passes, in pixels to the
-/// right and down. It is as long as the places of that many rays in a pixel are apart, so that together they see all that the
-/// pixel covers, or as short as keeps it inside the pixel, and turns from pass to pass. That of the first lies across the picture, so that mirrored things look mirrored.
+/// Returns the stretch of its pixel that a ray of a sample pass represents, in a picture of `count` passes, in pixels
+/// to the right and down. Its length is the distance between the places of that many rays in a pixel, so that
+/// together the rays cover the whole pixel, or less where it would leave the pixel. Its direction turns from pass to
+/// pass. That of the first pass is horizontal, so that mirror images stay mirror images.
 pub fn stretch_of_pixel(number: u32, count: u32) -> DVec2 {
     let length = f64::from(count.max(1)).sqrt().recip().max(LEAST_STRETCH);
     let stretch = DVec2::from_angle(PI * (STEP_OF_DIRECTION * f64::from(number)).fract()) * length;

@@ -1,11 +1,11 @@
-//! What point rays trace for a picture in a scope, on the processor or a graphics card.
+//! The subject of a picture in a scope by point rays, for the processor and for graphics cards.
 
 use super::ray::RayOptions;
 use crate::math::SolidRef;
 use crate::scene::{Film, Medium, Scope, View};
 use glam::DVec2;
 
-/// One picture in a scope; its rays stand on a regular grid in each pixel.
+/// One picture in a scope, whose rays form a regular grid in each pixel.
 #[derive(Clone, Copy)]
 pub struct ScopeShot<'a> {
     /// The stone.
@@ -14,14 +14,14 @@ pub struct ScopeShot<'a> {
     pub medium: Medium,
     /// The view from which the stone is seen.
     pub view: &'a View,
-    /// The scope; graphics cards take one of eight bands at most.
+    /// The scope; graphics cards accept a scope of at most eight bands.
     pub scope: &'a Scope,
     /// The picture's pixels.
     pub film: Film,
-    /// Rays along each side of a pixel, at least 1.
+    /// The number of rays along each side of a pixel, at least 1.
     pub per_side: u32,
-    /// The place of each ray in its cell of that grid, 0 to 1; (0.5, 0.5) is the middle.
+    /// The place of each ray in its cell of the grid, 0 to 1; (0.5, 0.5) is the middle.
     pub shift: DVec2,
-    /// How far rays are followed; graphics cards follow them to `MOST_BOUNCES` at most.
+    /// The limits up to which rays are followed; graphics cards follow them for at most `MOST_BOUNCES` bounces.
     pub options: RayOptions,
 }

@@ -1,4 +1,4 @@
-//! Reads refraction maps back, so that tests see what was written.
+//! Reads refraction maps back for the tests.
 #![cfg(feature = "exr")]
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// The keyword under which a map describes its bands.
 const ABOUT: &str = "Refraction";
 
-/// What a file says of a band.
+/// The description of a band in a file.
 #[derive(serde::Deserialize)]
 struct About {
     nm: f64,

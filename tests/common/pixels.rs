@@ -92,7 +92,7 @@ pub struct Case<'a> {
     pub view: &'a View,
     pub options: RayOptions,
     pub twin_options: RayOptions,
-    /// Whether rays that leave are followed when they meet the stone again.
+    /// True where rays that leave are followed when they meet the stone again.
     pub comes_back: bool,
 }
 

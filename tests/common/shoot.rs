@@ -25,11 +25,11 @@ pub struct Shoot {
     pub samples: u32,
     /// The number of shares into which each band of wavelengths is divided.
     pub shares: u32,
-    /// How much of the way refraction is followed: 1 is physics.
+    /// The share of refraction's change of direction that is followed; 1 is physically correct.
     pub strength: f64,
-    /// The weight below which light goes on by chance; 0 where all is followed.
+    /// The weight below which light goes on only by chance; 0 where all light is followed.
     pub by_chance: f64,
-    /// Whether rays stand for stretches of their pixels.
+    /// True where rays represent stretches of their pixels.
     pub stretches: bool,
     pub backdrop: bool,
     /// A photograph behind the stones, and its distance.

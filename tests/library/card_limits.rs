@@ -1,4 +1,5 @@
-//! What is beyond a graphics card is refused before anything is copied to it, and the card goes on working.
+//! Tests that work beyond the limits of a graphics card is refused before anything is copied to the card, and that
+//! the card goes on working.
 #![cfg(feature = "gpu")]
 
 use crate::common::shoot::Shoot;

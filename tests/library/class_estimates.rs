@@ -1,5 +1,5 @@
-//! The class estimated after GIA: against a transcription of its charts, where there is one, and against what any estimate of that
-//! kind must obey.
+//! Tests of the class estimated after GIA: against a transcription of its charts, where the machine has one, and
+//! against laws that any such estimate must obey.
 
 use brillianteer::cut::{BrilliantProportions, ClassEstimate, CutClass, PUBLISHED_RANGES};
 use proptest::prelude::*;
@@ -138,7 +138,7 @@ fn values_are_rounded_as_reports_round_them_and_a_border_is_told() {
     assert_eq!(near, [("lower_half_length", 70.0, CutClass::Excellent)]);
     let far = ClassEstimate::after_gia(&BrilliantProportions { lower_half_length: 66.0, ..ideal });
     assert!(far.nearby.is_empty(), "{far:?}");
-    // What leans the wrong way, a steep crown over a steep pavilion, is worse than each alone.
+    // A steep crown over a steep pavilion is worse than either alone.
     assert!(class(&charted(57.0, 36.5, 41.8)) > class(&charted(57.0, 33.0, 41.8)));
     assert!(class(&charted(57.0, 36.5, 41.8)) > class(&charted(57.0, 36.0, 40.8)));
     assert_eq!(class(&charted(75.0, 34.5, 40.8)), CutClass::Poor);

@@ -202,7 +202,7 @@ fn what_is_measured_is_what_the_library_says() {
     }
 }
 
-/// Returns what a cutter's sheet says: L/W, P/W, C/W, T/W, U/W, facets, girdle facets.
+/// Returns the figures of a cutter's sheet: L/W, P/W, C/W, T/W, U/W, facets, girdle facets.
 fn measured(stone: &Stone) -> [f64; 7] {
     let found = SheetFigures::of(&stone.polytope, stone.names());
     // The library counts each of several facets in one plane.

@@ -1,4 +1,4 @@
-//! Meets of real designs: a design whose distances are forgotten is cut again by what its instructions say.
+//! Tests of meets in real designs: a design whose distances are forgotten is cut again by its instructions.
 #![cfg(feature = "interchange")]
 
 use super::corpus::files;
@@ -10,8 +10,9 @@ use std::collections::BTreeMap;
 /// The largest difference of a distance that comes back, in the designs' unit, which is about a girdle radius.
 const COMES_BACK: f64 = 1e-4;
 
-/// The largest difference between a file's own distance and the one that its meet gives between the file's other planes: the
-/// rounding of five digits, and what comes of it where facets lean. Some tiers on, it may have grown to [`COMES_BACK`].
+/// The largest difference between a file's own distance and the one that its meet gives between the file's other
+/// planes: the rounding of five digits, and its effect where facets lean. Some tiers on, it may have grown to
+/// [`COMES_BACK`].
 const BORNE_OUT: f64 = 3e-5;
 
 /// The least share of designs that must come back.
@@ -21,14 +22,14 @@ const LEAST: f64 = 0.95;
 const BACK: &str = "come back";
 const OFF: &str = "do not come back";
 
-/// What became of a design.
+/// The result for a design.
 #[derive(Debug, Clone, PartialEq)]
 enum Fate {
     /// All distances came back.
     Back,
-    /// A distance did not: why.
+    /// A distance did not come back, for this reason.
     Off(String),
-    /// Its instructions contradict the file or themselves: why.
+    /// The instructions contradict the file or one another, for this reason.
     Contradicted(&'static str),
 }
 
@@ -62,7 +63,8 @@ fn is_determined(design: &Tiers, solved: &SolvedTiers) -> bool {
     kept.iter().all(|&count| count <= 1)
 }
 
-/// Returns why no distance can come back: a meet names what is not there, or another place than the file's own planes.
+/// Returns the reason why no distance can come back: a meet names a tier or a place that does not exist, or another
+/// place than the file's own planes.
 fn contradicted(design: &Tiers, met: &Tiers) -> Option<&'static str> {
     let checked = met.checked_meets();
     let tiers = design.tiers.iter().zip(&checked.tiers.tiers).zip(&checked.outcomes);
@@ -85,7 +87,7 @@ fn contradicted(design: &Tiers, met: &Tiers) -> Option<&'static str> {
     })
 }
 
-/// Returns whether the meets of a design determine it, and what became of it.
+/// Returns whether the meets of a design determine it, and the result for it.
 fn fate(design: &Tiers) -> (bool, Fate) {
     let met = design.with_stated_meets().with_found_meets();
     let whole = met.solved();
@@ -167,7 +169,7 @@ fn the_check_of_meets_can_fail() {
         if points.iter().any(|point| matches!(point, MeetPoint::Corner(_))))));
     let whole = met.solved();
     let mut other = forgotten(&met, &whole);
-    // A size that is another by a thousandth moves what meets it.
+    // A size that differs by a thousandth moves the tiers that meet it.
     let kept = whole.outcomes.iter().position(|outcome| *outcome != TierOutcome::Solved).unwrap();
     other.tiers[kept].distance *= 1.001;
     let solved = other.solved();

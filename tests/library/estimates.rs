@@ -54,8 +54,8 @@ fn summed(case: &Case, options: &BeamOptions, scope: &Scope, standard_error: Opt
     beam::sum_up(&case.polytope, case.medium, &case.view, options, of, &unwatched).unwrap()
 }
 
-/// Compares estimates with figures that are ten times as sure, and says how they differ: the sum of squared errors, in
-/// standard errors, and how many were counted. Estimates outside of what is certain end the test.
+/// Compares estimates with figures that are ten times as certain. Returns the sum of squared errors, in standard
+/// errors, and the number of errors. Estimates outside the certain bounds fail the test.
 fn chi_square(cases: std::ops::Range<u32>) -> (f64, u32) {
     const CERTAIN: f64 = 4e-3;
     const ERROR: f64 = 4e-4;

@@ -1,5 +1,5 @@
-//! Rays that stand for a stretch of their pixel: what they see is its mean, the same by all tracers and in the mean over
-//! many passes, and with less noise over few.
+//! Tests of rays that represent a stretch of their pixel: their light is the mean over the stretch, the same by all
+//! tracers and in the mean over many passes, and with less noise over few passes.
 
 use crate::common::shoot::*;
 use brillianteer::math::{ImplicitForm, ImplicitSurface, Pose, SmoothSolid};
@@ -9,7 +9,7 @@ use brillianteer::scene::{Body, Instance, Light, Medium, Panorama, Projection, V
 use brillianteer::trace::ray::{Camera, Exit, InstanceTracer, MeetingRay, RayOptions};
 use glam::{DQuat, DVec2, DVec3};
 
-/// The pixels across and down of what hangs behind.
+/// The width and height of the picture behind the body, in pixels.
 const ACROSS: u32 = 256;
 
 /// Returns a body of glass.
@@ -138,8 +138,8 @@ fn the_card_sees_the_same_stretch_of_what_hangs_behind() {
     }
 }
 
-/// Says for each pixel of a picture whether its middle shows the rim of the body: where rays from the eye meet it at more than 60
-/// degrees from its normal.
+/// Returns for each pixel of a picture whether its middle shows the rim of the body, where rays from the eye meet it
+/// at more than 60 degrees from its normal.
 fn rims(shoot: &Shoot, form: ImplicitForm) -> Vec<bool> {
     let (stone, surface) = (&shoot.setting.instances[0], ImplicitSurface::new(form).unwrap());
     let tracer =

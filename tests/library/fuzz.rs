@@ -12,7 +12,8 @@ use brillianteer::scene::{LIGHTS, Specimen, light};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
-/// How long a reader may take for a file of a few kilobytes. It takes milliseconds, but other programs may occupy the cores.
+/// The time that a reader may take for a file of a few kilobytes. It takes milliseconds, but other programs may
+/// occupy the cores.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// The largest size of a damaged file, in bytes.

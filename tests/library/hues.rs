@@ -21,15 +21,16 @@ const PIXELS: u32 = 1024;
 /// The least difference of two distinct hues, in degrees of CIELAB.
 const GAP: f64 = 12.0;
 
-/// The brightness below which nobody sees a pixel's hue, as a fraction of the brightest pixel.
+/// The brightness below which no eye sees a pixel's hue, as a fraction of the brightest pixel.
 const DIM: f64 = 0.02;
 
 /// The matrix from linear sRGB to XYZ (IEC 61966-2-1).
 const XYZ_FROM_SRGB: DMat3 =
     DMat3::from_cols_array(&[0.4124, 0.2126, 0.0193, 0.3576, 0.7152, 0.1192, 0.1805, 0.0722, 0.9505]);
 
-/// Traces the cut, in a number of bands of wavelengths and of shares of each, 0 for their middles alone: a prism of rainbow soap in the dark, in front of the slit of `render prism --background slit`. The cut
-/// runs across the upper rainbow.
+/// Traces the cut, with this number of bands of wavelengths and of shares of each band, where 0 stands for the
+/// middles alone. The subject is a prism of rainbow soap in the dark, in front of the slit of `render prism
+/// --background slit`. The cut runs across the upper rainbow.
 fn cut(bands: (u32, u32), sampling: Sampling) -> Vec<DVec3> {
     let prism = Glass::Prism(Sides { length: 100.0, width: 37.9, depth: 29.8, edge: 0.0 });
     let planes: Vec<Plane> = prism.planes().unwrap().into_iter().map(|(_, plane)| plane).collect();
@@ -111,7 +112,7 @@ fn steps(hues: &[Option<f64>]) -> (f64, usize) {
     (step, dark)
 }
 
-/// Returns how far a cut is from another one: the root of the mean square of their difference, as a part of the other's.
+/// Returns the root mean square of the difference of two cuts, as a part of the root mean square of the other.
 fn differ(cut: &[DVec3], other: &[DVec3]) -> f64 {
     let off: f64 = cut.iter().zip(other).map(|(a, b)| (*a - *b).length_squared()).sum();
     (off / other.iter().map(|c| c.length_squared()).sum::<f64>()).sqrt()

@@ -122,7 +122,7 @@ fn plain(licence: &str) -> String {
     licence.replace('/', " OR ").split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Whether a licence, or one of the licences of a choice, is accepted. Brackets stand only around choices.
+/// Returns whether a licence, or one of the licences of a choice, is accepted. Brackets stand only around choices.
 fn is_accepted(expression: &str) -> bool {
     let parts = split(expression, " AND ");
     if parts.len() > 1 {

@@ -1,4 +1,4 @@
-//! Measures of light: the laws that they obey, an independent tracer, and what is published about them.
+//! Tests of measures of light: laws, an independent tracer, and published statements.
 
 use crate::common::*;
 use brillianteer::math::{Plane, Polytope};
@@ -225,8 +225,8 @@ fn fire_of_materials() -> Vec<(&'static str, f64, Interval, f64)> {
     found
 }
 
-/// Between materials of nearly the same dispersion the index counts as much: light near the critical angle spreads most, and the lower
-/// the index, the more of it there is in a cut for diamond.
+/// Between materials of nearly the same dispersion the index is as important: light near the critical angle spreads
+/// most, and a cut for diamond has more of this light with a lower index.
 #[test]
 fn materials_have_fire_in_the_order_of_their_dispersion() {
     let found = fire_of_materials();
@@ -250,8 +250,9 @@ fn materials_have_fire_in_the_order_of_their_dispersion() {
     }
 }
 
-/// The weighted light return of GIA's study (Hemphill, Reinitz, Johnson and Shigley, 1998): an even white hemisphere lights
-/// the stone, and what leaves it upward counts by cos². Two reviews (JCK; Professional Jeweler) say in words what it found.
+/// The weighted light return of GIA's study (Hemphill, Reinitz, Johnson and Shigley, 1998): an even white hemisphere
+/// lights the stone, and light that leaves it upward counts by cos². Two reviews (JCK; Professional Jeweler) state
+/// its results in words.
 #[test]
 fn weighted_light_return_orders_brilliants_as_published() {
     let with = |(table, crown, pavilion): (f64, f64, f64)| {
@@ -306,9 +307,9 @@ fn no_crown_at_all_returns_the_most_light() {
     }
 }
 
-/// GIA's range of excellent stones leans: over a steeper crown it wants a flatter pavilion. So does the return of a dome that is
-/// brightest above, once a head hides its middle. A head with a sharp border makes the return jump where light crosses it, so
-/// heads of 10° to 20° are averaged.
+/// GIA's range of excellent stones leans: under a steeper crown it requires a flatter pavilion. So does the return of
+/// a dome that is brightest above, once a head hides its middle. A head with a sharp border makes the return jump
+/// where light crosses it, so heads of 10° to 20° are averaged.
 #[test]
 fn over_a_steeper_crown_the_best_pavilion_is_flatter() {
     let heads = (10..=20).step_by(2).map(|deg| DomeLight { head_deg: f64::from(deg), ..DomeLight::of(2.0) });
@@ -327,7 +328,7 @@ fn over_a_steeper_crown_the_best_pavilion_is_flatter() {
     let best = crowns.map(|crown| {
         let found: Vec<(f64, Interval)> = pavilions.iter().map(|&p| (p, with(crown, p))).collect();
         let best = found.iter().max_by(|a, b| a.1.middle().total_cmp(&b.1.middle())).unwrap();
-        // It is no end of the range.
+        // The best pavilion is not at an end of the range.
         for end in [found[0], found[found.len() - 1]] {
             assert!(best.1.least > end.1.most, "crown {crown}: {best:?} is not above {end:?}");
         }

@@ -44,8 +44,8 @@ impl Shot {
         rgba.as_chunks().0.to_vec()
     }
 
-    /// Returns where a point of the world is seen, in pixels from the upper left, by a computation without the program's
-    /// camera.
+    /// Returns the place of a point of the world in the picture, in pixels from the upper left, computed without the
+    /// program's camera.
     fn seen(&self, v: DVec3) -> DVec2 {
         let eye = self.view.basis();
         let nearness = match self.view.projection {
@@ -93,7 +93,7 @@ fn left(a: DVec2, b: DVec2, p: DVec2) -> f64 {
     (b - a).perp_dot(p - a)
 }
 
-/// Whether a point lies inside a convex outline by more than a margin.
+/// Returns whether a point lies inside a convex outline by more than a margin.
 fn contains(outline: &[DVec2], p: DVec2, margin: f64) -> bool {
     let mut edges = outline.iter().zip(outline.iter().cycle().skip(1));
     edges.all(|(&a, &b)| left(a, b, p) >= margin * a.distance(b))

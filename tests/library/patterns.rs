@@ -1,5 +1,5 @@
-//! Measures of the pattern that an eye sees, and of scintillation: the laws that they obey, an independent tracer, and what is
-//! published about them.
+//! Tests of measures of the pattern that an eye sees, and of scintillation: laws, an independent tracer, and
+//! published statements.
 
 use crate::common::*;
 use brillianteer::cut::RoundBrilliant;

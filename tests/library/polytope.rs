@@ -1,4 +1,4 @@
-//! Builds solids from half-spaces: which are closed, which are not, and which planes are at fault.
+//! Tests of solids from half-spaces: closed ones, open ones, and the planes that are at fault.
 
 use crate::common::*;
 use brillianteer::math::{Basis, Plane, Polytope, PolytopeError, Pose, Symmetry, area, triangulate};
@@ -227,7 +227,7 @@ fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     lower
 }
 
-/// Whether the fourth point lies well inside the circle through the first three, all in one plane.
+/// Returns whether the fourth point lies well inside the circle through the first three, all in one plane.
 fn strictly_in_circle([a, b, c, d]: [DVec3; 4], normal: DVec3) -> bool {
     let view = Basis::FACE_UP.aimed(normal);
     let [a, b, c] = [a, b, c].map(|p| view.project(p - d));

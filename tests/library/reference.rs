@@ -1,4 +1,4 @@
-//! Compares figures with those that others have found for the same stones.
+//! Compares figures with those that other programs have computed for the same stones.
 
 use crate::common::*;
 use brillianteer::cut::{Cut, Design, MaterialRef};
@@ -105,8 +105,8 @@ fn arrows(stone: &Stone, scope: &Scope) -> [Vec<(f64, bool)>; 2] {
     })
 }
 
-/// Returns how far from the axis the light of the shafts and of the heads leaves, in degrees, by the formulas of
-/// docs/optics.md, "Ideal-Scope's hole".
+/// Returns the angles from the axis at which the light of the shafts and of the heads leaves, in degrees, by the
+/// formulas of docs/optics.md, "Ideal-Scope's hole".
 fn arrows_angles(crown: f64, pavilion: f64) -> [f64; 2] {
     let sin = |degrees: f64| degrees.to_radians().sin();
     let outside = |inside: f64| (DIAMOND.index * sin(inside)).asin().to_degrees();

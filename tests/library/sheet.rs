@@ -62,8 +62,8 @@ fn text_tier(record: &str) -> TextTier {
     tier
 }
 
-/// Returns what a sheet must say of a tier of a file, in words: name, angle, indices, instruction. The sheet chooses the name
-/// of a tier without one.
+/// Returns the row that a sheet must have for a tier of a file, in words: name, angle, indices, instruction. The
+/// sheet chooses the name of a tier without one.
 fn expected(gear: f64, tier: &TextTier, chosen: &str) -> String {
     let flat = tier.angle == 0.0;
     let mut indices: Vec<f64> = if flat { vec![] } else { tier.indices.clone() };

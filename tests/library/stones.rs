@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 const FORMATS: [DesignFormat; 4] =
     [DesignFormat::Obj, DesignFormat::Stl, DesignFormat::Ply, DesignFormat::Glb];
 
-/// What happens to a file between being written and being read.
+/// The change of a file between being written and being read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Way {
     /// The file stays as it is.
@@ -169,7 +169,8 @@ fn own_designs() -> Vec<(String, Specimen)> {
         if matches!(design.cut, Cut::Glass(_) | Cut::Tiers(_)) {
             return None;
         }
-        // Without a table, as a briolette is, nothing shows for sure which side is up; the reader says that it doubts.
+        // A stone without a table, such as a briolette, does not show with certainty which side is up; the reader
+        // reports its doubt.
         let has_table = |made: &Specimen| {
             made.stone().is_ok_and(|stone| stone.names().iter().any(|name| name == "table"))
         };

@@ -8,7 +8,8 @@ use brillianteer::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
 use glam::{DMat2, DVec2, DVec3};
 use rayon::prelude::*;
 
-/// How near to an edge of a beam a point is left out, in girdle radii: it may be seen on either side of the edge.
+/// The distance from an edge of a beam within which points are left out, in girdle radii: such a point may be seen on
+/// either side of the edge.
 const NEAR_EDGE: f64 = 1e-6;
 
 /// The result of comparing beams and rays over a grid of points.

@@ -38,7 +38,7 @@ fn reflected(index: f64, cos_i: f64) -> f64 {
     (share(cos_i, index * cos_t) + share(index * cos_i, cos_t)) / 2.0
 }
 
-/// Runs `measure` and checks what all figures have in common.
+/// Runs `measure` and checks the laws that all figures obey.
 fn measured(desk: &Desk, options: &str) -> Value {
     let figures = desk.json(&format!("measure --json {options}"));
     let keys = |v: &Value| v.as_object().unwrap().keys().map(String::as_str).collect::<Vec<_>>().join(" ");

@@ -152,8 +152,8 @@ fn the_page_moves_has_its_controls_and_says_when_it_cannot() {
     assert!(without.contains("This browser has no WebGL 2"), "the page is silent without WebGL");
 }
 
-/// Writes what another renderer would make of the gradient by the map of a file in OpenEXR: 16 bits, the nearest pixel of
-/// the template, dark by the weight.
+/// Writes the picture that another renderer would make of the gradient, by the map of a file in OpenEXR: 16 bits, the
+/// nearest pixel of the template, dark by the weight.
 fn rendered_elsewhere(folder: &Path, map: &refraction::LoadedMap) {
     const SIDE: f32 = 4096.0;
     let nearest = |part: f32| ((part * SIDE).floor().min(SIDE - 1.0) + 0.5) / SIDE;

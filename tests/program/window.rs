@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// How long a window may take to open, to close or to finish all its pictures, where cores are few and shared.
+/// The time that a window may take to open, to close or to finish all its pictures, where cores are few and shared.
 const PATIENCE: Duration = Duration::from_secs(600);
 
 /// A screen in memory.

@@ -27,14 +27,14 @@ use x11rb::rust_connection::RustConnection;
 /// The size of the window, in pixels.
 const SIZE: [f32; 2] = [1440.0, 900.0];
 
-/// How long the program may take to start and to come to rest.
+/// The time that the program may take to start and to come to rest.
 const PATIENCE: Duration = Duration::from_secs(600);
 
 /// The time from one event of the pointer to the next: most mice report 125 times a second or more, and screens show 60
 /// pictures.
 const HAND: Duration = Duration::from_micros(16_667);
 
-/// How long a drag takes, and how long the test waits for a step of a drag to show.
+/// The time of a drag, and the time that the test waits for a step of a drag to show.
 const DRAG: Duration = Duration::from_secs(6);
 const STEP: Duration = Duration::from_millis(250);
 

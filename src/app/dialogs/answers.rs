@@ -3,15 +3,15 @@
 use crate::app::model::action::{Actions, DialogAction};
 use egui::{Key, Ui};
 
-/// Draws buttons in a row; returns the one that was chosen.
+/// Draws buttons in a row and returns the number of the chosen one.
 ///
-/// The first is the one that is meant most often; Return presses it as well.
+/// The first button is the default: Return presses it as well, where no widget has the focus.
 pub fn buttons(ui: &mut Ui, names: &[&str]) -> Option<usize> {
     let is_answered = ui.memory(|m| m.focused().is_none()) && ui.input(|i| i.key_pressed(Key::Enter));
     buttons_alone(ui, names).or(is_answered.then_some(0))
 }
 
-/// Draws buttons in a row; returns the one that was chosen.
+/// Draws buttons in a row without a default for Return; returns the number of the chosen one.
 pub fn buttons_alone(ui: &mut Ui, names: &[&str]) -> Option<usize> {
     ui.add_space(10.0);
     ui.horizontal(|ui| {

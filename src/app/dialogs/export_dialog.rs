@@ -56,7 +56,7 @@ pub fn show(
     });
 }
 
-/// Draws the thumbnails of all that can be exported.
+/// Draws the thumbnails of all views that can be exported.
 fn views(
     ui: &mut Ui,
     export: &ExportForm,
@@ -159,7 +159,7 @@ fn settings(ui: &mut Ui, export: &ExportForm, selection: &mut Selection, actions
     });
 }
 
-/// Draws what an export writes besides pictures and drawings: a refraction map and a scene file.
+/// Draws the choices of what an export writes besides pictures and drawings: a refraction map and a scene file.
 fn also_row(selection: &mut Selection, ui: &mut Ui) {
     let meaning = "Writes a picture that says where on the background the light of each pixel comes from, a \
         picture of all other light, and a web page that refracts a moving background by both.";
@@ -259,7 +259,7 @@ fn working(run: &ExportRun, folder: &Path, actions: &mut Actions, ui: &mut Ui) {
         }
         return;
     }
-    // In one line, so that the dialog grows no higher and the button does not move under the pointer.
+    // The buttons stand in one line, so that the dialog grows no higher and no button moves under the pointer.
     ui.horizontal(|ui| {
         actions.push_if(ui.button("Close").clicked(), DialogAction::Leave);
         if ui.button("Open folder").on_hover_text("Opens the folder of the written files.").clicked() {

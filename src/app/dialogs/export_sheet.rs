@@ -9,7 +9,8 @@ use egui::{ComboBox, Ui};
 /// The width of the choices, points.
 const CHOICES: f32 = 84.0;
 
-/// Draws whether a sheet is written and of which kind; `can_have` says whether the stone can have one.
+/// Draws the choices of the cutter's sheet: whether one is written, its format and paper. `can_have` says whether the
+/// stone can have one.
 pub fn sheet_row(sheet: &mut SheetChoice, can_have: bool, ui: &mut Ui) {
     let meaning = "Writes the sheet that a faceter works from: the stone from above and below with the indices round it, \
         the ratios, and every tier in the order in which it is cut. A cut by proportions is turned into tiers for it.";

@@ -48,7 +48,7 @@ pub fn show(model: &Model, thumbnails: &HashMap<Shows, TextureHandle>, actions: 
     let is_escaped = !modal.any_popup_open && ctx.input(|i| i.key_pressed(Key::Escape));
     let is_left = modal.should_close() && !dialog.insists();
     match dialog {
-        // The dialog stays, to say how far the export came.
+        // The dialog stays open, because it shows how far the export came.
         Dialog::Export(export) if is_escaped && export.is_busy() => actions.push(DialogAction::Stop),
         _ if is_escaped || is_left => actions.push(DialogAction::Leave),
         _ => {}
@@ -89,7 +89,7 @@ fn recover(model: &Model, actions: &mut Actions, ui: &mut Ui, found: &RecoveredW
     answer(actions, answers, buttons(ui, &["Recover", "Later", "Discard"]));
 }
 
-/// Says in words how long ago something was.
+/// Returns in words how long ago something happened.
 fn ago(since: Duration) -> String {
     let counted = |count: u64, unit: &str| format!("{count} {unit}{} ago", if count == 1 { "" } else { "s" });
     match since.as_secs() {
@@ -109,7 +109,7 @@ fn changed_outside(actions: &mut Actions, ui: &mut Ui) {
     answer(actions, answers, buttons(ui, &["Keep my changes", "Reload the file"]));
 }
 
-/// The width of the column that says what a key does or a term means, points.
+/// The width of the column with the meanings of keys and terms, points.
 const MEANING: f32 = 450.0;
 
 fn keys(actions: &mut Actions, ui: &mut Ui) {

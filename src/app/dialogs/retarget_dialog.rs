@@ -47,7 +47,7 @@ pub fn show(form: &RetargetForm, actions: &mut Actions, ui: &mut Ui) {
     }
 }
 
-/// Draws what can be chosen.
+/// Draws the choices: the new material, the rule and its factor.
 fn options(form: &RetargetForm, actions: &mut Actions, ui: &mut Ui) {
     let mut options = form.options.clone();
     if let Some(material) = material_choice(ui, ("New material", MATERIAL), &options.material) {

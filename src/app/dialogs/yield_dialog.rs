@@ -22,7 +22,7 @@ const CARATS: RangeInclusive<f64> = 0.0..=1e6;
 /// The thickness of a girdle that can be typed, mm.
 const GIRDLES_MM: RangeInclusive<f64> = 0.0..=100.0;
 
-/// The thickness with which a girdle of its own begins, mm.
+/// The thickness that the girdle's field first shows when the user asks for another girdle than the design's, mm.
 const FIRST_GIRDLE_MM: f64 = 0.3;
 
 const SIDES: [(&str, &str); 3] = [
@@ -46,7 +46,8 @@ pub fn show(model: &Model, form: &YieldForm, actions: &mut Actions, ui: &mut Ui)
             ui.label(RichText::new(why.to_string()).color(theme::bad(ui.visuals())));
         }
     }
-    // A girdle of its own is no number of the design.
+    // A design cannot keep a girdle thickness in mm, so its size can be taken over only where the girdle is that of
+    // the design.
     let answers = [DialogAction::Apply, DialogAction::Leave];
     match form.found.is_ok() && form.options.girdle_mm.is_none() {
         true => answer(actions, answers, buttons_alone(ui, &["Use this size", "Close"])),
@@ -54,11 +55,11 @@ pub fn show(model: &Model, form: &YieldForm, actions: &mut Actions, ui: &mut Ui)
     }
 }
 
-/// Draws the rows of what is typed.
+/// Draws the rows in which numbers are typed: the rough or the weight, and the girdle.
 fn numbers(options: &mut YieldOptions, ui: &mut Ui) {
     let mm = |range: RangeInclusive<f64>| Number { decimals: 3, speed: 0.02, range, unit: " mm" };
     let ct = || Number { decimals: 3, speed: 0.02, range: CARATS, unit: " ct" };
-    choice_row(ui, "Size by", "What decides the size of the stone.", options.by.name(), |ui| {
+    choice_row(ui, "Size by", "The rough or a weight sets the size.", options.by.name(), |ui| {
         for by in SizeBy::ALL {
             if ui.selectable_label(by == options.by, by.name()).on_hover_text(by.meaning()).clicked() {
                 options.by = by;
@@ -87,7 +88,7 @@ fn numbers(options: &mut YieldOptions, ui: &mut Ui) {
     }
 }
 
-/// Draws what follows.
+/// Draws the size, the weight and the yield of the finished stone.
 fn results(model: &Model, options: &YieldOptions, found: &Finished, ui: &mut Ui) {
     let carats = model.document.specimen().material.carats(found.volume_mm3);
     Grid::new("yield").num_columns(2).spacing(vec2(22.0, 3.0)).striped(true).show(ui, |ui| {

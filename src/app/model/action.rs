@@ -31,20 +31,20 @@ use glam::DVec2;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Something that is done to a model.
+/// One thing that is done to a model.
 #[derive(Debug)]
 pub enum Action {
     /// A command of a menu or a key.
     Do(Command),
     /// Changes the work; part of a step of undo.
     Edit(Edit),
-    /// Changes how the views look, and what is beside them.
+    /// Changes how the views look, and the panels beside them.
     View(ViewAction),
     /// Opens or saves a file, or reports the result.
     File(FileAction),
     /// Answers the open dialog, or opens one.
     Dialog(DialogAction),
-    /// Searches for a better cut.
+    /// Controls the search for a better cut.
     Search(SearchAction),
     /// Adds a message that the window shows, or removes one.
     Note(NoteAction),
@@ -54,7 +54,7 @@ pub enum Action {
     Frame(FrameEnd),
 }
 
-/// A change of the work, which undo takes back. Each holds the new value.
+/// A change of the work, which undo takes back. Each variant holds the new value.
 #[derive(Debug)]
 pub enum Edit {
     Name(String),
@@ -63,24 +63,24 @@ pub enum Edit {
     Proportion(&'static str, Cut),
     /// Moves the design to these values of the map's axes, across and up, if there is a stone.
     Along([f64; 2]),
-    /// One tier of the cut. All others keep their distance in mm.
+    /// Changes one tier of the cut. All others keep their distance in mm.
     Tier {
         /// The place of the tier in [`Cut::settings`].
         place: usize,
-        /// Degrees from the girdle plane.
+        /// The new angle, degrees from the girdle plane.
         angle: f64,
-        /// From the origin, in the unit of the design.
+        /// The new distance from the origin, in the unit of the design.
         distance: f64,
     },
     /// A change of the list of tiers.
     Tiers(TierChange),
-    /// Scales a side of a cut along the axis, and takes the cut that comes of it, if there is one.
+    /// Scales a side of a cut along the axis, and takes the resulting cut if it makes a stone.
     Scale {
         /// The side.
         side: ScaledSide,
-        /// Its height afterwards, percent of that before.
+        /// The height of the side afterwards, percent of its height before.
         percent: f64,
-        /// The cut before, as it was when the drag began.
+        /// The cut before the drag began.
         of: Box<Cut>,
     },
     /// Lists the facets of a cut as tiers.
@@ -89,7 +89,7 @@ pub enum Edit {
     NextMeet {
         /// The place of the tier in the design's list.
         place: usize,
-        /// Whether the tier is cut deeper.
+        /// True to cut the tier deeper; false to move it outward.
         is_deeper: bool,
     },
     /// Adds a tier after the one at a place, beside the stone.
@@ -99,23 +99,25 @@ pub enum Edit {
     Fitted(Box<Design>),
     /// Sets the diameter by which the design is scaled, in mm.
     Diameter(f64),
-    /// The name or the file of the light in renders.
+    /// Sets the light of renders, by its name or file.
     Light(String),
     /// Sets the exposure of renders, in stops: one more doubles the light.
     Exposure(f64),
-    /// The half angle of the observer's head, degrees; 0 for none.
+    /// Sets the half angle of the observer's head, degrees; 0 for none.
     Head(f64),
-    /// Scatters so many copies anew.
+    /// Replaces the copies by so many that are scattered anew.
     LayOut(usize),
-    /// The number of a copy, and its pose.
+    /// Moves the copy of this number to a pose.
     Copy(usize, Pose),
-    /// The number of a stone of another design that stands beside the copies, and its pose in mm.
+    /// Moves a stone of another design that stands beside the copies, by its number, to a pose in mm.
     Companion(usize, Pose),
-    /// Edits the design of such a stone: all stones of its kind become the copies, and the copies stand beside them.
+    /// Opens the design of the companion of this number: all stones of its kind become the copies, and the copies
+    /// become companions.
     TakeUp(usize),
 }
 
-/// A change of how the views look, and of what is beside them. `usize` is the number of a view.
+/// A change of how the views look, or of the panels beside them. A `usize` that begins a variant is the number of a
+/// view.
 ///
 /// Undo does not touch these. Changes of tilt, zoom, layout and overlay are steps of
 /// [`ViewHistory`](super::view_history::ViewHistory).
@@ -129,50 +131,50 @@ pub enum ViewAction {
     /// Shows a view alone, or all views again if it is alone.
     Enlarge(usize),
     EndPerspective(usize),
-    /// The name of the overlay over all pictures.
+    /// Sets the overlay over all pictures by its name; `None` for none.
     Overlay(Option<String>),
     /// Ends a step of the view history; the next change begins another.
     EndStep,
-    /// Progress at the faceting machine.
+    /// Sets the progress at the faceting machine.
     Cutting(CuttingProgress),
     /// Selects the tier at a place of the design's list, or none.
     Tier(Option<usize>),
-    /// Lets a click on a corner choose where the tier at a place goes; `None` ends that.
+    /// Begins to choose the corner that the tier at a place is cut to, by a click; `None` ends the choice.
     PickMeet(Option<usize>),
     /// Selects the finding at a place of the audit's list, or none.
     Finding(Option<usize>),
-    /// Chooses what the map of a measure shows.
+    /// Sets the choices of the map of a measure.
     Map(MapOptions),
-    /// Chooses what is plotted against tilt.
+    /// Sets the curves that are plotted against tilt.
     Tilt(TiltOptions),
-    /// The pointer is over a view; commands act on it.
+    /// Says that the pointer is over this view, on which commands act then.
     Hover(usize),
-    /// The text of the status line about what is under the pointer.
+    /// Sets the text of the status line about the thing under the pointer.
     Message(String),
     Keys(HeldKeys),
-    /// The distance of the eye in perspective from the origin, girdle radii.
+    /// Sets the distance of the eye in perspective from the origin, girdle radii.
     Distance(f64),
-    /// The number of bands of wavelengths in renders.
+    /// Sets the number of bands of wavelengths in renders.
     Wavelengths(u32),
-    /// The name or the file of the background; `None` for no background.
+    /// Sets the background by its name or file; `None` for no background.
     Behind(Option<String>),
-    /// The distance of the background behind the middle of the scene, mm.
+    /// Sets the distance of the background behind the middle of the scene, mm.
     BehindMm(f64),
-    /// The strength of refraction in renders: 0 goes straight on, 1 is physics.
+    /// Sets the strength of refraction in renders: at 0 rays go straight on, 1 is physics.
     Strength(f64),
-    /// The part of the light of sparkles that spreads around them in renders, 0 to 1.
+    /// Sets the part of the light of sparkles that spreads around them in renders, 0 to 1.
     Glow(f64),
-    /// The greatest number of bounces of light in renders.
+    /// Sets the greatest number of bounces of light in renders.
     Bounces(u32),
-    /// The angle by which the light of renders is turned about its axis, degrees.
+    /// Sets the angle by which the light of renders is turned about its axis, degrees.
     LightTurn(f64),
-    /// Whether the light's axis points up in renders, and not to the eye.
+    /// Sets whether the light's axis points up in renders (true) or to the eye (false).
     LightUpright(bool),
     Smoothing(Smoothing),
     Liquid(Liquid),
-    /// The state of the background in a view of a refraction map.
+    /// Sets the state of the flowing background in a view of a refraction map.
     Flowing(usize, Flowing),
-    /// Whether zones count the areas of the strongest exits, not energy.
+    /// Sets whether zones count the areas of the strongest exits (true) or energy (false).
     ByArea(bool),
     /// Opens or folds a panel; where there is room for only one, the other folds.
     Panel {
@@ -180,11 +182,11 @@ pub enum ViewAction {
         has_room_for_both: bool,
         is_open: bool,
     },
-    /// Moves copies and plates on by so many seconds.
+    /// Lets time run for copies and plates by so many seconds.
     Advance(f64),
     /// Stops the motion and returns copies to the pose of the design.
     Rest,
-    /// The view in which a copy is dragged, and the number of that copy.
+    /// Sets the view in which a copy is dragged and the number of that copy; `None` ends the drag.
     Hold(Option<(usize, usize)>),
     /// Follows the ray through a point of a view's image, girdle radii, and opens the window of the light path.
     Follow(usize, DVec2),
@@ -201,31 +203,31 @@ pub enum FileAction {
     Ask(Then),
     /// Opens a file dialog.
     Choose(Purpose),
-    /// The answer of a file dialog.
+    /// Hands in the answer of a file dialog.
     Chosen(Question, Choice),
     /// Opens a file; a mesh that is read again is read as before.
     Open(PathBuf, OpeningPurpose),
     /// Opens a file with these options for meshes.
     OpenWith(FileRequest),
-    /// A file has been read.
+    /// Hands in a file that has been read.
     Opened(FileRequest, Result<OpenedFile, Failure>),
     /// Reads the open mesh with other options.
     ReadMesh(MeshOptions),
-    /// The design of the document of this number has been saved, or could not be.
+    /// Reports that the design of the document of this number has been saved, or could not be.
     Saved(u64, Result<SavedDesign, Failure>),
-    /// The open file has changed on disk, or is gone.
+    /// Reports that the open file has changed on disk, or is gone.
     OnDisk(PathBuf, Stamp),
-    /// Files were dropped on the window.
+    /// Takes the files that were dropped on the window.
     Dropped(Vec<PathBuf>),
-    /// The purpose of each dropped file, found out by its name and content.
+    /// Hands in the purpose of each dropped file, found out by its name and content.
     DroppedFor(Vec<(PathBuf, Purpose)>),
-    /// The autosave failed, for this reason.
+    /// Reports that the autosave failed, with the reason.
     NotKept(String),
-    /// A crash has left these autosave files; the newest comes first.
+    /// Offers the autosave files that a crash has left; the newest comes first.
     Found(Vec<RecoveredWork>),
-    /// The system asks the window to close.
+    /// Answers the system's request to close the window.
     Close,
-    /// The window is gone; the last chance to write.
+    /// Writes what is still unwritten, because the window is gone.
     Ended,
     /// Opens a folder or a web page by the system.
     OpenOutside(String),
@@ -236,9 +238,9 @@ pub enum FileAction {
 pub enum DialogAction {
     /// Opens the export dialog; with a view, that one alone is selected.
     Export(Option<Shows>),
-    /// Closes the dialog without an answer; nothing that waited for it is done.
+    /// Closes the dialog without an answer and drops the action that waited for it.
     Leave,
-    /// Keeps what would be lost: saves the design, or exports the copies.
+    /// Saves the design, or exports the copies, before going on.
     Keep,
     /// Discards what would be lost, and goes on.
     GiveUp,
@@ -254,26 +256,26 @@ pub enum DialogAction {
     AboutPage(AboutPage),
     AboutSearch(String),
     Select(Selection),
-    /// The folder that an export writes to.
+    /// Sets the folder that an export writes to.
     Folder(PathBuf),
     /// Starts the export.
     Write,
     /// Stops the export; complete files stay.
     Stop,
-    /// Progress of the export, or its end.
+    /// Hands in the progress of the export, or its end.
     Exported(ExportEvent),
-    /// Sets what is chosen where the design is fitted to another material.
+    /// Sets the choices of the dialog that fits the design to another material.
     Fit(FitOptions),
-    /// Sets what is typed in the dialog of size and yield.
+    /// Sets the numbers of the dialog of size and yield.
     Size(YieldOptions),
     /// Changes the design as the dialog says.
     Apply,
 }
 
-/// What is done in the window that finds a better cut.
+/// An action in the window of the search for a better cut.
 #[derive(Debug)]
 pub enum SearchAction {
-    /// Sets what the search is asked for.
+    /// Sets the form with goal, ranges and effort of the search.
     Form(Box<GoalForm>),
     /// Begins the search.
     Start,
@@ -281,13 +283,13 @@ pub enum SearchAction {
     Stop,
     /// Stops the search and brings the design back as it was before.
     Discard,
-    /// Keeps what the search has found, and closes its outcome.
+    /// Keeps the design that the search has found, and closes the report.
     Keep,
-    /// Takes back what the search has changed, and closes its outcome.
+    /// Restores the design from before the search, and closes the report.
     Undo,
 }
 
-/// What is done to the messages that the window shows.
+/// An action on the messages of the window.
 #[derive(Debug)]
 pub enum NoteAction {
     /// Shows a note in the status line.
@@ -298,7 +300,7 @@ pub enum NoteAction {
     Dismiss(usize),
     /// Removes all errors and warnings.
     DismissAll,
-    /// Whether all errors and warnings are listed.
+    /// Shows (true) or folds (false) the list of all errors and warnings.
     List(bool),
 }
 
@@ -320,7 +322,7 @@ pub enum Computed {
     Goal(PathBuf, Result<Box<Goal>, Failure>),
     /// The goal has been written to a file.
     GoalSaved(PathBuf, Result<(), Failure>),
-    /// What the search for a better cut of this number says.
+    /// Progress or the end of the search for a better cut of this number.
     Search(u64, SearchEvent),
     /// The width and height of a picture that is in the clipboard now, pixels.
     Copied(Result<[usize; 2], Failure>),
@@ -333,11 +335,11 @@ pub enum Computed {
 pub struct FrameEnd {
     /// Seconds since the start of the window.
     pub now: f64,
-    /// Whether a gesture, such as a drag, is going on.
+    /// True while a gesture, such as a drag, is going on.
     pub is_gesture: bool,
 }
 
-/// The actions of a frame, in the order in which they are done.
+/// The actions of a frame, in the order in which they are carried out.
 #[derive(Debug, Default)]
 pub struct Actions(Vec<Action>);
 
@@ -346,14 +348,14 @@ impl Actions {
         self.0.push(action.into());
     }
 
-    /// Adds an action if its button was clicked, or whatever else it waits for has happened.
+    /// Adds an action if its button was clicked, or its other condition is true.
     pub fn push_if(&mut self, has_happened: bool, action: impl Into<Action>) {
         if has_happened {
             self.push(action);
         }
     }
 
-    /// Adds the action that sets a value, where the value is another than before.
+    /// Adds the action that sets a value, if the value has changed.
     pub fn push_changed<T: PartialEq, A: Into<Action>>(
         &mut self,
         before: &T,
@@ -371,7 +373,7 @@ impl Actions {
     }
 }
 
-/// Lets actions of a kind become actions by `into`.
+/// Implements `From` for `Action`, so that actions of each kind become actions by `into`.
 macro_rules! into_action {
     ($($kind:ident => $variant:ident),*) => {
         $(impl From<$kind> for Action {

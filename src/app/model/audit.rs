@@ -1,4 +1,4 @@
-//! The audit of the stone in sight: what was found, and which finding is selected.
+//! The audit of the stone in sight: its findings, and the selected one.
 
 use crate::cut::{Audit, Finding};
 use crate::picture::DrawnMarks;
@@ -8,16 +8,17 @@ use std::sync::Arc;
 /// The audit of the present stone. It is made in the background, once for each stone.
 #[derive(Debug, Clone, Default)]
 pub struct SessionAudit {
-    /// The stone whose audit was asked for last.
+    /// The stone whose audit was requested last.
     asked: Option<Arc<Specimen>>,
-    /// What was found in the stone that was audited last; `None` before there is an answer.
+    /// The findings in the stone that was audited last; `None` before the first answer.
     pub found: Option<Audit>,
     /// The place in the list of the finding that is selected.
     pub selected: Option<usize>,
 }
 
 impl SessionAudit {
-    /// Takes note of the stone whose audit is wanted; returns whether it is another than before and is to be audited.
+    /// Requests the audit of a stone; returns whether it is another stone than before, so that an audit has to be
+    /// started.
     pub fn want(&mut self, specimen: &Arc<Specimen>) -> bool {
         let is_known = self.asked.as_ref().is_some_and(|asked| Arc::ptr_eq(asked, specimen));
         if !is_known {
@@ -26,8 +27,8 @@ impl SessionAudit {
         !is_known
     }
 
-    /// Takes the audit of a stone, if it is still the one that is wanted. The selection stays on the finding of the same kind
-    /// about the same facets, or ends where there is none.
+    /// Takes the audit of a stone, if it answers the last request. The selection stays on the finding of the same
+    /// kind about the same facets, or ends where there is none.
     pub fn take(&mut self, specimen: &Arc<Specimen>, found: Audit) {
         if !self.asked.as_ref().is_some_and(|asked| Arc::ptr_eq(asked, specimen)) {
             return;

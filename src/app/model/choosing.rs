@@ -1,8 +1,8 @@
-//! Questions for files, which a person answers in a dialog of the system or of the window.
+//! Questions for files, which the user answers in a dialog of the system or of the window.
 
 use std::path::PathBuf;
 
-/// What a file is chosen for.
+/// The purpose for which the user chooses a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Purpose {
     /// A design to open.
@@ -38,7 +38,7 @@ impl Purpose {
         }
     }
 
-    /// Whether the file is one to be written, which need not exist.
+    /// Returns whether the file is to be written, so that it need not exist.
     pub fn is_new(self) -> bool {
         matches!(self, Self::SaveAs | Self::SaveGoal)
     }
@@ -47,7 +47,7 @@ impl Purpose {
 /// A question for a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Question {
-    /// What the file is for.
+    /// The purpose of the file.
     pub purpose: Purpose,
     /// The name that is proposed for a new file.
     pub name: String,

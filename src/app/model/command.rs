@@ -1,4 +1,4 @@
-//! Commands: everything that can be done by a key or a menu.
+//! Commands: everything that the user can start by a key or a menu.
 
 use crate::app::described::described;
 
@@ -91,7 +91,7 @@ pub struct Menu {
 
 use Command::*;
 
-/// All menus. The File menu also lists recent files, and the scenes that come with the program.
+/// All menus, from left to right. The File menu also lists recent files, and the scenes that come with the program.
 pub const MENUS: [Menu; 6] = [
     Menu { title: "File", groups: &[&[New, Open], &[Save, SaveAs], &[Export, CopyPicture], &[Quit]] },
     Menu { title: "Edit", groups: &[&[Undo, Redo], &[ViewBack, ViewOn], &[IntoTiers]] },

@@ -7,9 +7,9 @@ use std::sync::Arc;
 /// A design to compare with.
 #[derive(Debug, Clone)]
 pub struct Compared {
-    /// The name under which the design is shown.
+    /// The name of the design on the screen.
     pub name: String,
-    /// Whether it is the present design as it was last saved.
+    /// True where this is the present design as it was last saved.
     pub is_saved: bool,
     /// The stone of the design.
     pub specimen: Arc<Specimen>,

@@ -1,7 +1,7 @@
-//! The search for a better cut, as the window of that name shows it: what is asked for, how far it is, and what it has found.
+//! The search for a better cut, as its window shows it: the goal, the progress and the report.
 //!
-//! While a search runs, the best design so far is that of the document. The history of the document goes on as if it were not
-//! there, until the search ends: so the whole search is one step of undo.
+//! While a search runs, the document shows the best design so far. The document's history ignores these changes until
+//! the search ends, so the whole search is one step of undo.
 
 use super::goal_form::{GoalForm, GoalFormFault};
 use crate::cut::{Cut, CutClass, Design};
@@ -10,37 +10,37 @@ use crate::search::{
     Appraisal, Goal, OtherMeasure, ProgressPoint, SearchOptions, SearchOutcome, SearchProgress, VariedNumber,
 };
 
-/// Numbers that differ by less than this are the same: places in a range are rounded.
+/// Numbers that differ by less than this are equal: the search rounds its values.
 const SAME: f64 = 1e-9;
 
-/// A search that is to be carried out.
+/// The request for a search, which a task carries out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SearchRequest {
     /// The number of the search, which its answers carry.
     pub number: u64,
     /// The design that is to become better.
     pub design: Design,
-    /// What it is to be good at.
+    /// The goal by which designs are appraised.
     pub goal: Goal,
-    /// How the search goes.
+    /// The number of trials, their accuracy and the steps of angles.
     pub options: SearchOptions,
 }
 
-/// What a search says.
+/// A message of a running search.
 #[derive(Debug)]
 pub enum SearchEvent {
-    /// How far it is.
+    /// The progress so far, with the best design.
     Progress(SearchProgress),
-    /// What it has found, to its end or until it was stopped; or why there was no search.
+    /// The result at the end or after a stop, or the reason why the search failed.
     Ended(Result<Box<SearchReport>, Failure>),
 }
 
-/// What a search has found.
+/// The result of a search.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SearchReport {
     /// The best design and its appraisal.
     pub outcome: SearchOutcome,
-    /// The appraisal of the design as it was given.
+    /// The appraisal of the design from before the search.
     pub start: Appraisal,
     /// The numbers that changed.
     pub numbers: Vec<VariedNumber>,
@@ -53,7 +53,7 @@ pub struct SearchReport {
 }
 
 impl SearchReport {
-    /// Whether a better design was found than the one that was given.
+    /// Returns whether the search found a better design than the one from before.
     pub fn is_better(&self) -> bool {
         let is_moved = |(number, value): (&VariedNumber, &f64)| (number.start - value).abs() > SAME;
         self.numbers.iter().zip(&self.outcome.values).any(is_moved)
@@ -68,11 +68,11 @@ pub struct RunningSearch {
     shown: Design,
     /// The number of designs that were tried.
     pub tried: usize,
-    /// The part of the work that is surely done, 0 to 1.
+    /// The part of the work that is certainly done, 0 to 1.
     pub part: f64,
     /// The totals of the best designs in the order in which they were found.
     pub curve: Vec<ProgressPoint>,
-    /// Whether it was asked to stop, and measures the best to its end.
+    /// True from the stop request on, while the search measures the best design to its end.
     pub is_stopping: bool,
 }
 
@@ -87,39 +87,40 @@ impl RunningSearch {
         &self.shown
     }
 
-    /// Takes note of progress; returns the new best, if there is one.
+    /// Records progress; returns the new best cut, if there is one.
     fn take(&mut self, progress: SearchProgress) -> Option<Cut> {
         let SearchProgress { appraised, part, best_total, new_best } = progress;
         self.tried = self.tried.max(appraised);
         self.part = self.part.max(part);
         let total = best_total?;
         let best = new_best?;
-        // Threads hand out what they found as it comes: a better one may have come before.
+        // Threads report in any order, so a better design may have been reported before.
         if self.curve.last().is_some_and(|last| last.total >= total) {
             return None;
         }
         let is_first = self.curve.is_empty();
         self.curve.push(ProgressPoint { appraised, total });
-        // The first is the design as it was given, perhaps with meets that were found in it.
+        // The first report is of the design from before the search; its cut differs only where meets were found in
+        // it.
         (!is_first || appraised > 0).then_some(best.cut)
     }
 }
 
-/// How a search has ended.
+/// The way in which a search has ended.
 #[derive(Debug, Clone)]
 pub enum SearchEnd {
-    /// It has been carried out, or was stopped by hand.
+    /// The search was completed, or the user stopped it.
     Found(Box<SearchReport>),
-    /// It could not be carried out, for this reason.
+    /// The search could not be carried out, for this reason.
     Failed(String),
-    /// The design was changed meanwhile.
+    /// The user changed the design meanwhile.
     Interrupted,
 }
 
 /// A search that has ended.
 #[derive(Debug, Clone)]
 pub struct EndedSearch {
-    /// The design as it was before.
+    /// The design from before the search.
     pub before: Design,
     /// The design that the search has left in the document.
     pub after: Design,
@@ -127,18 +128,18 @@ pub struct EndedSearch {
     pub curve: Vec<ProgressPoint>,
     /// The number of designs that were tried.
     pub tried: usize,
-    /// How it has ended.
+    /// The way in which the search has ended.
     pub end: SearchEnd,
 }
 
 impl EndedSearch {
-    /// Whether the search has changed the design.
+    /// Returns whether the search has changed the design.
     pub fn has_changed(&self) -> bool {
         self.before != self.after
     }
 }
 
-/// Where the window of the search stands.
+/// The state of the search window.
 #[derive(Debug, Clone, Default)]
 pub enum SearchState {
     /// A goal is being chosen.
@@ -153,15 +154,15 @@ pub enum SearchState {
 /// The search for a better cut.
 #[derive(Debug, Clone, Default)]
 pub struct CutSearch {
-    /// Whether its window is open.
+    /// True while the window of the search is open.
     pub is_open: bool,
-    /// What is asked for.
+    /// The form with goal, ranges and effort.
     pub form: GoalForm,
-    /// Where it stands.
+    /// The state of the search: choosing, running or ended.
     pub state: SearchState,
     /// The cut whose numbers the form has.
     looked: Option<Cut>,
-    /// How many searches have begun. It numbers them.
+    /// The number of searches begun so far; each takes the next as its own number.
     begun: u64,
 }
 
@@ -189,10 +190,10 @@ impl CutSearch {
         self.looked = None;
     }
 
-    /// Begins a search, and returns what is to be carried out.
+    /// Begins a search, and returns the request for the task that carries it out.
     ///
     /// # Errors
-    /// What is missing in the form.
+    /// Fails where the form lacks a measure or a number, or holds a wrong range.
     pub fn start(&mut self, design: &Design) -> Result<SearchRequest, GoalFormFault> {
         let goal = self.form.wanted()?;
         self.begun += 1;
@@ -211,7 +212,7 @@ impl CutSearch {
         Ok(SearchRequest { number, design: design.clone(), goal, options })
     }
 
-    /// Notes that the search was asked to stop.
+    /// Marks the running search as stopping.
     pub fn stop(&mut self) {
         if let SearchState::Running(running) = &mut self.state {
             running.is_stopping = true;
@@ -237,8 +238,8 @@ impl CutSearch {
         Some(shown)
     }
 
-    /// Takes what the search with a number says, and returns the design that is that of the document from now on; `None` where
-    /// it stays.
+    /// Takes a message of the search of this number, and returns the design that replaces the document's; `None`
+    /// where the document keeps its design.
     pub fn take(&mut self, number: u64, event: SearchEvent) -> Option<Design> {
         let SearchState::Running(running) = &mut self.state else { return None };
         if running.number != number {

@@ -7,19 +7,20 @@ use std::collections::BTreeSet;
 /// The most marks that are kept. Beyond it those of other designs are dropped.
 const MOST_MARKS: usize = 4000;
 
-/// What bench mode keeps between starts.
+/// The state of bench mode, which is kept between starts.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct CuttingProgress {
-    /// Whether bench mode is in sight.
+    /// True while bench mode is open.
     pub is_open: bool,
     /// The step in sight, counted from 0 among the tiers that are cut.
     pub step: usize,
-    /// What is added to each index that is shown, teeth: the machine's own error, which the cheater takes out.
+    /// The machine's own error, which the cheater corrects, in teeth; it is added to each index on the screen.
     pub cheater: f64,
-    /// Whether the machine's gear counts the other way round.
+    /// True where the machine's gear counts the other way round.
     pub is_left_handed: bool,
-    /// The indices that have been cut, each with its design, name and angle. A tier that changes loses its marks so.
+    /// The marks of indices that have been cut. Each holds the design, name and angle, so that a tier loses its marks
+    /// when it changes.
     marks: BTreeSet<String>,
 }
 
@@ -30,13 +31,13 @@ pub struct CuttingStep {
     pub place: usize,
     /// The tier's name, or its zone and number.
     pub name: String,
-    /// Where the tier lies.
+    /// The zone of the tier.
     pub zone: TierZone,
     /// The angle that is set at the machine, degrees from the girdle plane, 0 to 90.
     pub angle: f64,
     /// The indices, in teeth of the gear, in the order of the design.
     pub indices: Vec<f64>,
-    /// What the design says about the step.
+    /// The instructions that the design gives for the step.
     pub instructions: String,
 }
 
@@ -59,7 +60,7 @@ pub fn steps(tiers: &Tiers) -> Vec<CuttingStep> {
 }
 
 impl CuttingProgress {
-    /// Returns what the machine's dial shows for an index, with the cheater; index 0 is the last tooth.
+    /// Returns the number on the machine's dial for an index, including the cheater; index 0 is the last tooth.
     pub fn dial(&self, gear: i32, index: f64) -> f64 {
         let teeth = f64::from(gear.unsigned_abs());
         let counted = if self.is_left_handed { -index } else { index };
@@ -68,7 +69,7 @@ impl CuttingProgress {
         if tooth < 1e-9 || teeth - tooth < 1e-9 { teeth } else { tooth }
     }
 
-    /// Whether an index of a step has been cut.
+    /// Returns whether an index of a step has been cut.
     pub fn is_cut(&self, design: &str, step: &CuttingStep, index: f64) -> bool {
         self.marks.contains(&mark(design, step, index))
     }

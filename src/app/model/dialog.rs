@@ -1,4 +1,4 @@
-//! Dialogs, which ask or say something: what each holds while it is open.
+//! Dialogs, which ask or state something, and the data that each holds while it is open.
 
 use super::choosing::Purpose;
 use super::exporting::ExportForm;
@@ -7,10 +7,10 @@ use super::recovery::RecoveredWork;
 use crate::io::mesh_options::MeshOptions;
 use std::path::{Path, PathBuf};
 
-/// Something to do that waits for the answer to a question.
+/// An action that waits for the answer to a question.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Then {
-    /// Open this file; the options count where it is a mesh.
+    /// Open this file; the options apply to meshes.
     Open(PathBuf, MeshOptions),
     /// Begin from a cut that comes with the program.
     Library(String),
@@ -30,7 +30,7 @@ impl Then {
 /// A dialog that is open.
 #[derive(Debug, Clone)]
 pub enum Dialog {
-    /// Asks whether to save work that would be lost; holds what waits for the answer.
+    /// Asks whether to save work that would be lost; holds the action that waits for the answer.
     Unsaved(Then),
     /// Offers work that a crash left behind.
     Recover(Box<RecoveredWork>),
@@ -38,9 +38,9 @@ pub enum Dialog {
     ChangedOutside,
     /// Asks what to export.
     Export(Box<ExportForm>),
-    /// Asks before copies are lost that were moved and that no cut file holds; holds what waits for the answer.
+    /// Asks before moved copies are lost, which no cut file holds; holds the action that waits for the answer.
     Moved(Then),
-    /// Asks for a path, where the system does not.
+    /// Asks for a path, where the system has no file dialog.
     Path(PathForm),
     /// Fits the design to another material.
     Retarget(Box<RetargetForm>),
@@ -50,12 +50,13 @@ pub enum Dialog {
     Cuts,
     /// Lists keys and terms.
     Keys,
-    /// Shows what the program is.
+    /// Shows the program's version, licences and crates.
     About(AboutForm),
 }
 
 impl Dialog {
-    /// Whether the dialog is about the open document, so that no other may take its place until the dialog is answered.
+    /// Returns whether the dialog is about the open document, so that no other may take its place until it is
+    /// answered.
     pub fn is_about_document(&self) -> bool {
         match self {
             Self::Unsaved(_)
@@ -69,7 +70,7 @@ impl Dialog {
         }
     }
 
-    /// Whether the dialog stays until it is answered, whatever is clicked beside it.
+    /// Returns whether the dialog stays until it is answered, even if the user clicks beside it.
     ///
     /// Escape is an answer: the one that changes nothing.
     pub fn insists(&self) -> bool {
@@ -95,7 +96,7 @@ pub struct PathForm {
     /// The number of the document that the path is for.
     pub document: u64,
     pub text: String,
-    /// Whether anyone has typed: Return does not accept a path that was only suggested.
+    /// True once anyone has typed: Return does not accept a path that was only suggested.
     pub is_typed: bool,
 }
 
@@ -111,7 +112,7 @@ impl PathForm {
     }
 }
 
-/// What the lower part of the About dialog shows.
+/// The page in the lower part of the About dialog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AboutPage {
     /// The crates that the program is built of.

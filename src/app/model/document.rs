@@ -17,27 +17,27 @@ use std::sync::{Arc, OnceLock};
 /// A design that is open.
 #[derive(Debug, Clone)]
 pub struct Document {
-    /// The work as it is now. It is changed in place; [`update`](Self::update) then takes note of the change.
+    /// The work as it is now. It is changed in place; [`update`](Self::update) then rebuilds the stone.
     pub work: Work,
     history: History<Work>,
     saved: Design,
-    /// The copies and what stands beside them as they were at first, or as they were last written as a scene.
+    /// The copies and their companions as they were opened, or as they were last written as a scene.
     laid: (Copies, Companions),
     path: Option<PathBuf>,
     stamp: Stamp,
-    /// Whether the file no longer exists.
+    /// True where the file no longer exists.
     is_lost: bool,
     /// The stone of the last design that makes one. Its own design may be older than `built` in what changes no light, such
     /// as the name.
     specimen: Arc<Specimen>,
-    /// How far that stone reaches; measured when it is first needed.
+    /// The extent of that stone, measured when it is first needed.
     extent: OnceLock<Extent>,
     fault: Option<SpecimenError>,
     /// The design that `specimen` or `fault` belongs to.
     built: Design,
 }
 
-/// Whether two designs make the same stone, whatever their names and notes.
+/// Returns whether two designs make the same stone, whatever their names and notes.
 fn is_same_stone(a: &Design, b: &Design) -> bool {
     let is_same_cut = match (&a.cut, &b.cut) {
         // The audit measures a stone by the symmetry that its design states.
@@ -115,7 +115,7 @@ impl Document {
         Self::of_library(library::FIRST_CUT)
     }
 
-    /// Opens a design file; the options count where it is a mesh.
+    /// Opens a design file; the options apply to meshes.
     ///
     /// # Errors
     /// Fails where the file cannot be read, is no design, or makes no stone.
@@ -164,14 +164,15 @@ impl Document {
         self.history = History::new(self.work.clone());
     }
 
-    /// Takes over the copies of another document with what stands beside them, and whether they count as kept.
+    /// Takes over another document's copies and companions, and their saved state.
     pub fn take_copies(&mut self, other: &Self) {
         self.work.copies.clone_from(&other.work.copies);
         self.work.companions.clone_from(&other.work.companions);
         self.laid.clone_from(&other.laid);
     }
 
-    /// Takes up the design of another stone of the scene, as a step that can be undone. It lies in no file.
+    /// Replaces the design by that of another stone of the scene, as a step of undo. The new design belongs to no
+    /// file.
     pub fn take_up(&mut self, design: Design, copies: Copies, companions: Companions) {
         let was_laid = !self.has_moved_copies() && !self.is_changed();
         self.saved.clone_from(&design);
@@ -184,12 +185,12 @@ impl Document {
         self.settle();
     }
 
-    /// Marks the present places of the copies and of what stands beside them as saved.
+    /// Marks the present places of the copies and their companions as saved.
     pub fn keep_copies(&mut self) {
         self.laid = (self.work.copies.clone(), self.work.companions.clone());
     }
 
-    /// Whether copies or their companions have been moved since they were read or last saved.
+    /// Returns whether copies or their companions have been moved since they were read or last saved.
     pub fn has_moved_copies(&self) -> bool {
         (&self.laid.0, &self.laid.1) != (&self.work.copies, &self.work.companions)
     }
@@ -225,8 +226,8 @@ impl Document {
         self.history.settle(&self.work)
     }
 
-    /// Makes a step of all that was changed, but with this design in the place of the present one. Returns whether it is another
-    /// than the last step.
+    /// Ends a step of undo with this design in the place of the present one. Returns whether the step differs from
+    /// the last one.
     pub fn settle_with(&mut self, design: &Design) -> bool {
         self.history.settle(&Work { design: design.clone(), ..self.work.clone() })
     }
@@ -241,7 +242,7 @@ impl Document {
         &self.specimen
     }
 
-    /// Returns how far the last stone that could be built reaches from above.
+    /// Returns the extent of the last stone that could be built, from above.
     pub fn extent(&self) -> Extent {
         *self.extent.get_or_init(|| Extent::of(&self.specimen))
     }
@@ -254,14 +255,14 @@ impl Document {
             return Arc::clone(specimen);
         }
         let mut design = self.built.clone();
-        // A plate that waves is in another phase than its design.
+        // The stone of a moving plate is in another phase of its waves than the design.
         if let Cut::Glass(_) = design.cut {
             design.cut = specimen.design.cut.clone();
         }
         Arc::new(Specimen { design, ..(**specimen).clone() })
     }
 
-    /// Whether the design makes no stone, so that [`specimen`](Self::specimen) is the last one that it made.
+    /// Returns whether the design makes no stone, so that [`specimen`](Self::specimen) is the last one that it made.
     pub fn shows_last_possible(&self) -> bool {
         self.fault.is_some() && !is_same_stone(&self.specimen.design, &self.built)
     }
@@ -299,17 +300,17 @@ impl Document {
         &self.saved
     }
 
-    /// Whether closing the document would lose work.
+    /// Returns whether closing the document would lose work.
     pub fn is_changed(&self) -> bool {
         self.work.design != self.saved || self.is_lost
     }
 
-    /// Returns the file as it was when it was last read or written.
+    /// Returns the state of the file when it was last read or written.
     pub fn stamp(&self) -> Stamp {
         self.stamp
     }
 
-    /// Whether the file no longer existed when it was last checked.
+    /// Returns whether the file no longer existed when it was last checked.
     pub fn is_lost(&self) -> bool {
         self.is_lost
     }
@@ -319,12 +320,12 @@ impl Document {
         (self.stamp, self.is_lost) = (stamp, !stamp.is_there());
     }
 
-    /// Whether there is anything to undo, and anything to redo.
+    /// Returns whether there is a step to undo, and one to redo.
     pub fn steps(&self) -> (bool, bool) {
         (self.history.can_undo() || self.has_unsettled(), self.history.can_redo())
     }
 
-    /// Whether anything has changed since the last step: what a gesture that goes on has done so far.
+    /// Returns whether anything has changed since the last step, for example by a gesture that is still going on.
     pub fn has_unsettled(&self) -> bool {
         self.work != *self.history.present()
     }
@@ -365,7 +366,7 @@ impl Document {
         }
     }
 
-    /// Takes note that a design of this document has been saved: its file is that of the document from now on.
+    /// Records that a design of this document has been saved: its file is that of the document from now on.
     pub fn take_saved(&mut self, saved: SavedDesign) {
         (self.stamp, self.path, self.is_lost) = (saved.stamp, Some(saved.path), false);
         self.saved = saved.design;
@@ -383,7 +384,7 @@ mod tests {
         brilliant.crown = Crown::Angle(degrees);
     }
 
-    /// Whether the file has changed since the document was last read from it or written to it.
+    /// Returns whether the file has changed since the document was last read from it or written to it.
     fn is_changed_outside(document: &Document) -> bool {
         document.path().is_some_and(|path| Stamp::of(path) != document.stamp())
     }

@@ -1,4 +1,4 @@
-//! What is exported: the files, and how each picture sees the stone.
+//! The plan of an export: its files, and the view and turn of each picture.
 
 use super::export_sheet::SheetChoice;
 use super::framing::{Framing, FramingFit};
@@ -21,21 +21,21 @@ use std::sync::Arc;
 pub struct Selection {
     pub views: Vec<Shows>,
     pub formats: Vec<OutputFormat>,
-    /// Whether a refraction map is written, with a page that shows it.
+    /// True where a refraction map is written, with a page that shows it.
     pub map: bool,
     /// The number of bands of wavelengths of the refraction map.
     pub bands: u32,
     /// The number of places in each pixel of the refraction map, for each band.
     pub places: u32,
-    /// Whether the copies are written as a scene file, with their cut file.
+    /// True where the copies are written as a scene file, with their cut files.
     pub scene: bool,
     /// The cutter's sheet.
     pub sheet: SheetChoice,
-    /// Whether facet diagrams mark the findings of the audit.
+    /// True where facet diagrams mark the findings of the audit.
     pub mark_audit: bool,
     /// The number of pixels along each side.
     pub size: u32,
-    /// Whether pictures in scopes have a caption with a legend under them.
+    /// True where pictures in scopes have a caption with a legend under them.
     pub caption: bool,
 }
 
@@ -69,25 +69,25 @@ pub fn kinds(companions: &Companions) -> Vec<&Arc<Specimen>> {
     kinds
 }
 
-/// How a picture sees the stone.
+/// The view of a picture and the turn of the stone in it.
 #[derive(Debug, Clone)]
 pub struct PictureAspect {
     /// The view; pictures that are made for one side take that side instead.
     pub view: View,
-    /// How far the stone is turned about its axis in the view, radians.
+    /// The turn of the stone about its axis in the view, radians.
     pub turn: f64,
 }
 
 /// Everything that an export needs.
 #[derive(Debug, Clone)]
 pub struct ExportPlan {
-    /// What renders show, with light and view; the film is not used.
+    /// The stone, light and view of renders; its film is not used.
     pub shot: Shot,
-    /// The stone as the cut has it.
+    /// The stone of the cut, at rest.
     pub upright: Arc<Specimen>,
-    /// How the linked views see the stone; pictures and figures without a view of their own see it the same.
+    /// The aspect of the linked views; pictures and figures without a view of their own use it as well.
     pub linked: PictureAspect,
-    /// How each view that is not linked sees the stone, by what it shows.
+    /// The aspect of each view that is not linked, by what it shows.
     pub own: Vec<(Shows, PictureAspect)>,
     /// Half the side of the square that renders show in the window, girdle radii; `None` where they show the stone alone and
     /// at rest.
@@ -103,7 +103,7 @@ pub struct ExportPlan {
 }
 
 impl ExportPlan {
-    /// Returns how a picture sees the stone.
+    /// Returns the view of a picture and the turn of the stone in it.
     pub fn aspect(&self, shows: Shows) -> &PictureAspect {
         self.own.iter().find(|(own, _)| *own == shows).map_or(&self.linked, |(_, aspect)| aspect)
     }
@@ -207,7 +207,7 @@ impl ExportPlan {
     /// Returns the files that will be written, in that order.
     ///
     /// # Errors
-    /// The text says what keeps them from being written.
+    /// Fails where files cannot be written, for example because there is no stone; the text says why.
     pub fn files(&self) -> Result<Vec<PathBuf>, Failure> {
         if self.selection.map && self.selection.size > MOST_MAP_PIXELS {
             return Err(Failure::Usage(format!(
@@ -249,8 +249,8 @@ impl ExportPlan {
         Shot { film, whole, specimen, copies, companions, ..shot }
     }
 
-    /// Returns how far the copies and what stands beside them reach where a view turns them, girdle radii, so that nothing is
-    /// left out.
+    /// Returns how far copies and companions reach in a view that turns them, girdle radii, so that the picture cuts
+    /// nothing off.
     fn copies_reach(&self, view: &View) -> f64 {
         let turned = Pose::turned(view.turn);
         let poses = self.shot.copies.iter().map(|pose| turned.after(pose)).collect();

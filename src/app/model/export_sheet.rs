@@ -1,4 +1,4 @@
-//! The cutter's sheet in an export: what is chosen of it, and its files.
+//! The cutter's sheet in an export: its choices and its files.
 
 use super::export::ExportPlan;
 use crate::io::Failure;
@@ -6,16 +6,16 @@ use crate::io::cutting_sheet::{SheetFormat, cutting_sheet, files, write};
 use crate::picture::PaperSize;
 use std::path::PathBuf;
 
-/// What is chosen of the cutter's sheet in the export dialog.
+/// The choices of the cutter's sheet in the export dialog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SheetChoice {
-    /// Whether a sheet is written.
+    /// True where a sheet is written.
     pub is_wanted: bool,
     /// The format of its files.
     pub format: SheetFormat,
     /// The size of its paper.
     pub paper: PaperSize,
-    /// Whether its indices are those of a gear that counts clockwise.
+    /// True where its indices are those of a gear that counts clockwise.
     pub left_handed: bool,
 }
 
@@ -26,17 +26,17 @@ impl Default for SheetChoice {
 }
 
 impl ExportPlan {
-    /// Whether the stone can have a sheet: it is a convex one between planes.
+    /// Returns whether the stone can have a sheet: only convex stones between planes can.
     pub fn can_have_sheet(&self) -> bool {
         self.upright.stone().is_ok()
     }
 
-    /// Whether a sheet is written.
+    /// Returns whether the export writes a sheet.
     pub fn writes_sheet(&self) -> bool {
         self.selection.sheet.is_wanted && self.can_have_sheet()
     }
 
-    /// Lists the files of the sheet, which takes up to some tenths of a second where their number has to be counted.
+    /// Lists the files of the sheet. Where their number has to be counted, this takes up to some tenths of a second.
     pub fn list_sheet(&mut self) {
         let SheetChoice { format, paper, left_handed, .. } = self.selection.sheet;
         let first = self.sheet_path();
@@ -45,16 +45,16 @@ impl ExportPlan {
             (true, SheetFormat::Pdf) => vec![first],
             (true, SheetFormat::Svg | SheetFormat::Png) => match cutting_sheet(&self.upright, left_handed) {
                 Ok(sheet) => files(&sheet, paper, (format, &first)),
-                // Writing says what is wrong.
+                // `write_sheet` reports the fault.
                 Err(_) => vec![first],
             },
         };
     }
 
-    /// Writes the sheet. Returns its files.
+    /// Writes the sheet and returns its files.
     ///
     /// # Errors
-    /// The stone has no sheet, or the file system refuses.
+    /// Fails where the stone has no sheet, or where a file cannot be written.
     pub fn write_sheet(&self) -> Result<Vec<PathBuf>, Failure> {
         let SheetChoice { format, paper, left_handed, .. } = self.selection.sheet;
         let sheet = cutting_sheet(&self.upright, left_handed)?;

@@ -1,4 +1,4 @@
-//! The export dialog: what is chosen in it, and how far the files have come.
+//! The state of the export dialog: the selection, and the progress of the files.
 
 use super::export::ExportPlan;
 use crate::io::Failure;
@@ -22,9 +22,9 @@ pub struct ExportRun {
     pub messages: Vec<String>,
     /// The number of files written.
     pub written: usize,
-    /// Whether the export was asked to stop.
+    /// True once the user has asked the export to stop.
     pub is_stopped: bool,
-    /// How the export ended, once it has.
+    /// The result of the export, once it has ended.
     pub end: Option<Result<(), Failure>>,
     part: f64,
     elapsed: Duration,
@@ -44,14 +44,14 @@ pub enum ExportEvent {
 }
 
 impl ExportForm {
-    /// Whether files are being written.
+    /// Returns whether files are being written.
     pub fn is_busy(&self) -> bool {
         self.run.as_ref().is_some_and(|run| run.end.is_none())
     }
 }
 
 impl ExportRun {
-    /// Begins with the files of a plan. Where they cannot be known, writing says why.
+    /// Begins with the files of a plan. Where they cannot be listed, the export itself reports the reason.
     pub fn of(plan: &ExportPlan) -> Self {
         Self { files: plan.files().unwrap_or_default(), ..Self::default() }
     }
@@ -74,7 +74,8 @@ impl ExportRun {
         if self.end == Some(Ok(())) { 1.0 } else { self.part as f32 }
     }
 
-    /// Says which file is being written and about how long the rest takes; once the export has ended, how far it came.
+    /// Returns the name of the file that is being written and about how long the rest takes; once the export has
+    /// ended, how far it came.
     pub fn standing(&self) -> String {
         let (written, all) = (self.written, self.files.len());
         match (&self.end, self.files.get(written)) {
@@ -95,13 +96,13 @@ impl ExportRun {
     }
 }
 
-/// The time that must have passed before the time left is shown.
+/// The time that passes before the dialog shows the time left.
 const FIRST_SECOND: Duration = Duration::from_secs(1);
-/// The part that must be done before the time left is shown.
+/// The part of the work, 0 to 1, that is done before the dialog shows the time left.
 const FIRST_PART: f64 = 0.02;
 
-/// Returns how long the rest takes if work goes on as it did until its part `done`, 0 to 1; `None` where it is too early to
-/// say.
+/// Returns how long the rest takes if work goes on as it did until its part `done`, 0 to 1; `None` where it is too
+/// early for an estimate.
 fn left(passed: Duration, done: f64) -> Option<Duration> {
     (passed >= FIRST_SECOND && done >= FIRST_PART).then(|| passed.mul_f64((1.0 - done).max(0.0) / done))
 }

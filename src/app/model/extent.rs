@@ -1,18 +1,18 @@
-//! How far a stone reaches from above, by which its size is stated.
+//! The extent of a stone seen from above, by which its size is stated.
 
 use crate::cut::{Cut, Design, Outline, Tiers, round_diameter};
 use crate::math::{Calipers, hull};
 use crate::scene::{Body, Specimen, Stone};
 use glam::DVec3;
 
-/// How far a stone reaches from above, in the unit of its frame (half the diameter).
+/// The extent of a stone seen from above, in the unit of its frame (half the diameter).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
     /// The greater of the two sides.
     pub length: f64,
     /// The smaller of the two sides.
     pub width: f64,
-    /// Whether one number, a diameter, says as much as both sides: see [`Outline::diameter`].
+    /// True where the diameter alone states the size: see [`Outline::diameter`].
     pub is_round: bool,
 }
 

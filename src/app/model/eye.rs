@@ -1,4 +1,4 @@
-//! From where the linked views look: a lean, a turn of the stone about its axis, and a zoom.
+//! The position of the eye of a view: a lean, a turn of the stone about its axis, and a zoom.
 
 use crate::app::model::framing::FramingFit;
 use crate::scene::{Film, Lean, Projection, Side, View};
@@ -15,7 +15,7 @@ const THREE_QUARTER: DVec2 = DVec2::new(-0.25, -0.55);
 /// A lean smaller than this, radians, snaps to none: face up is where figures are compared.
 const SNAP: f64 = 0.012;
 
-/// From where a stone is seen.
+/// The direction from which a stone is seen, with the zoom and the offset of the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Eye {
@@ -23,11 +23,11 @@ pub struct Eye {
     pub from_below: bool,
     /// The lean toward the image's right and up at rest, radians; its length is the tilt, at most π/2.
     pub lean: DVec2,
-    /// Whether the eye leans while light and stone stay; else the stone leans under eye and light.
+    /// True where the eye leans while light and stone stay; else the stone leans under eye and light.
     pub eye_leans: bool,
     /// The turn of the stone about its axis, counter-clockwise from above, radians.
     pub turn: f64,
-    /// How many times larger the stone is shown than where it fits its pane.
+    /// The factor by which the stone is larger than where it fits its pane.
     pub zoom: f64,
     /// The offset of the point in the pane's middle from the middle of what the view is fitted to, girdle radii.
     pub centre: DVec2,
@@ -50,7 +50,8 @@ impl Default for Eye {
 }
 
 impl Eye {
-    /// Returns the view of the stone along parallel rays; `side` is given for a picture that is made for one side.
+    /// Returns the view of the stone along parallel rays. `side` replaces the eye's own side for pictures that show
+    /// one side only.
     pub fn view(&self, side: Option<Side>) -> View {
         let own = if self.from_below { Side::Culet } else { Side::Table };
         View {
@@ -91,15 +92,14 @@ impl Eye {
         self.turn = (self.turn + sense * by).rem_euclid(TAU);
     }
 
-    /// Zooms by a factor around a point of the image, which is in girdle radii from the middle of what the view is fitted
-    /// to.
+    /// Zooms by a factor around a point of the image, in girdle radii from the middle of the fit.
     pub fn zoom_at(&mut self, factor: f64, at: DVec2) {
         let zoom = (self.zoom * factor).clamp(*ZOOMS.start(), *ZOOMS.end());
         self.centre = at + (self.centre - at) * (self.zoom / zoom);
         self.zoom = zoom;
     }
 
-    /// Shows the whole stone again.
+    /// Resets zoom and offset, so that the whole stone is in sight.
     pub fn fit(&mut self) {
         (self.zoom, self.centre) = (1.0, DVec2::ZERO);
     }
@@ -123,7 +123,7 @@ impl Eye {
     /// Looks along the girdle plane, table up.
     pub fn side(&mut self) {
         self.keep();
-        // Whether the eye or the stone leans, the table ends at the top.
+        // The table ends at the top, whichever of the two leans.
         let up = if self.eye_leans { -FRAC_PI_2 } else { FRAC_PI_2 };
         (self.lean, self.from_below) = (DVec2::new(0.0, up), false);
         self.fit();
@@ -141,7 +141,8 @@ impl Eye {
         }
     }
 
-    /// Returns the film for a pane of `size` pixels; `fit` is what the view takes in where it is neither zoomed nor moved.
+    /// Returns the film for a pane of `size` pixels; `fit` is the extent that the view takes in without zoom and
+    /// offset.
     pub fn film(&self, size: [u32; 2], fit: &FramingFit) -> Film {
         let fitting = fit.film(size);
         Film { pixel: fitting.pixel / self.zoom, centre: fitting.centre + self.centre, ..fitting }

@@ -4,7 +4,7 @@ use crate::app::studio::{FiguresOrder, Grade, Tilts, Which};
 use crate::measure::Figures;
 use std::collections::HashMap;
 
-/// Figures as they are shown, with the order and the grade that they answer.
+/// Figures on the screen, with the order that they answer and their grade.
 #[derive(Debug, Clone)]
 pub struct ShownFigures {
     /// The order that the figures answer.
@@ -13,7 +13,7 @@ pub struct ShownFigures {
     pub figures: Figures,
 }
 
-/// All figures that are shown.
+/// All figures of the session.
 #[derive(Debug, Clone, Default)]
 pub struct SessionFigures {
     /// The figures of the present stone, and of the one compared with.

@@ -1,4 +1,4 @@
-//! What the dialogs hold that fit the design to another material, and to a piece of rough or a weight.
+//! The forms of two dialogs: one fits the design to another material, one to a piece of rough or a weight.
 
 use crate::cut::{
     Design, Finished, MaterialRef, RetargetError, RetargetRule, Retargeted, Rough, RoughError, retarget,
@@ -18,7 +18,7 @@ pub enum FitRule {
 }
 
 impl FitRule {
-    /// All of them, in the order in which lists show them.
+    /// All rules, in the order in which lists show them.
     pub const ALL: [Self; 3] = [Self::CriticalAngle, Self::Pavilion, Self::Crown];
 
     /// Returns the name that lists show.
@@ -30,7 +30,7 @@ impl FitRule {
         }
     }
 
-    /// Returns what the name stands for, in whole sentences.
+    /// Returns the meaning of the rule, in whole sentences.
     pub fn meaning(self) -> &'static str {
         match self {
             Self::CriticalAngle => {
@@ -46,15 +46,15 @@ impl FitRule {
     }
 }
 
-/// What is chosen in the dialog that fits the design to another material.
+/// The choices in the dialog that fits the design to another material.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FitOptions {
     /// The new material.
     pub material: MaterialRef,
     /// The rule by which the angles change.
     pub rule: FitRule,
-    /// The factor of the tangents that was typed; `None` for that of the rule: the main tier keeps its margin over the critical
-    /// angle, and the crown stays.
+    /// The typed factor of the tangents; `None` for the rule's own factor, which keeps the main tier's margin over
+    /// the critical angle and leaves the crown as it is.
     pub factor: Option<f64>,
 }
 
@@ -75,7 +75,7 @@ pub struct StoneLight {
     pub light_return: f64,
     /// Light that leaves below.
     pub leakage: f64,
-    /// How far the figures may be off.
+    /// The greatest error of the two figures.
     pub error: f64,
     /// The weight, carats; `None` where the density is not known.
     pub carats: Option<f64>,
@@ -95,9 +95,9 @@ pub struct LightRequest {
 pub struct RetargetForm {
     /// The design as it is.
     pub design: Design,
-    /// What is chosen.
+    /// The choices of the dialog.
     pub options: FitOptions,
-    /// The design that follows, or why there is none.
+    /// The fitted design, or the reason why there is none.
     pub found: Result<Box<Retargeted>, RetargetError>,
     /// The number of the last question for light.
     pub asked: u64,
@@ -144,7 +144,7 @@ impl RetargetForm {
     }
 }
 
-/// What decides the size of a finished stone.
+/// The quantity that decides the size of a finished stone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SizeBy {
     /// The largest stone that fits into a box, table up, turned as it fits best.
@@ -154,7 +154,7 @@ pub enum SizeBy {
 }
 
 impl SizeBy {
-    /// All of them, in the order in which lists show them.
+    /// All variants, in the order in which lists show them.
     pub const ALL: [Self; 2] = [Self::Rough, Self::Weight];
 
     /// Returns the name that lists show.
@@ -165,7 +165,7 @@ impl SizeBy {
         }
     }
 
-    /// Returns what the name stands for, in whole sentences.
+    /// Returns the meaning of the variant, in whole sentences.
     pub fn meaning(self) -> &'static str {
         match self {
             Self::Rough => "The largest stone that fits into a box, table up, turned as it fits best.",
@@ -174,14 +174,14 @@ impl SizeBy {
     }
 }
 
-/// What is typed in the dialog of size and yield.
+/// The numbers that are typed in the dialog of size and yield.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct YieldOptions {
-    /// What decides the size.
+    /// The quantity that decides the size.
     pub by: SizeBy,
     /// The rough's length, width and depth, mm.
     pub sides_mm: [f64; 3],
-    /// The weight that is wanted, carats.
+    /// The weight of the stone that is wanted, carats.
     pub carats: f64,
     /// The weight of the rough, carats; `None` where it is not known.
     pub rough_carats: Option<f64>,
@@ -192,7 +192,7 @@ pub struct YieldOptions {
 /// The state of the dialog of size and yield.
 #[derive(Debug, Clone)]
 pub struct YieldForm {
-    /// What is typed.
+    /// The numbers in the fields.
     pub options: YieldOptions,
     /// The finished stone, or why there is none.
     pub found: Result<Finished, RoughError>,

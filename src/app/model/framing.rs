@@ -1,16 +1,16 @@
-//! How large stones are shown, and where in their panes.
+//! The scale and the place at which views show stones.
 //!
-//! Views are fitted to one stone, which stays the same while a number is changed: what is edited then changes on the
-//! screen, and not the scale. Another stone is fitted when a file is opened, when the user asks for it, or when the stone
-//! has outgrown its views.
+//! Views are fitted to one stone, which stays the same while a number is changed, so that the change is visible on
+//! the screen and the scale stays. Views are fitted to another stone when a file is opened, when the user asks for
+//! it, or when the stone has outgrown its views.
 
 use crate::scene::{Film, Specimen, View};
 use crate::trace::ray::Camera;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
-/// The greatest number of corners that are all used for a fit; of more, those that lie outermost in some directions are
-/// enough.
+/// The greatest number of corners that a fit uses. Of a solid with more, it uses those that lie outermost in some
+/// directions.
 const MOST_POINTS: usize = 2000;
 /// The number of directions in which outermost corners are sought.
 const DIRECTIONS: u32 = 200;
@@ -18,8 +18,8 @@ const DIRECTIONS: u32 = 200;
 /// Stones whose extents agree to this part keep their scale when they are turned about their axis.
 const ROUND: f64 = 0.03;
 
-/// A stone that reaches beyond its extents at rest by more than this part is shown smaller: it would reach out of the free
-/// space around it.
+/// A stone that reaches beyond its extents at rest by more than this part is shown smaller, since it would leave the
+/// free space around it.
 const SLACK: f64 = 0.02;
 
 /// A stone is fitted anew once it reaches more than this many times as far as the one that views are fitted to.
@@ -30,7 +30,7 @@ const SHRUNK: f64 = 0.6;
 /// A middle nearer to the origin than this part of the extent counts as at the origin: the rest is rounding.
 const CENTRED: f64 = 1e-9;
 
-/// What a view without zoom takes in.
+/// The part of the image plane that a view without zoom takes in.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FramingFit {
     /// Half the extents across and up, girdle radii.
@@ -124,13 +124,13 @@ impl Framing {
         !fits
     }
 
-    /// Returns what a view takes in of the stone that views are fitted to.
+    /// Returns the part of the image plane that a view of the fitted stone takes in.
     pub fn fit(&self, view: &View) -> FramingFit {
         FramingFit::of(&self.points, view)
     }
 }
 
-/// Returns the corners of a solid: all, or of very many those that lie outermost.
+/// Returns all corners of a solid, or of very many those that lie outermost.
 fn outermost(points: &[DVec3]) -> Vec<DVec3> {
     if points.len() <= MOST_POINTS {
         return points.to_vec();

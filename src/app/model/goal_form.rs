@@ -1,5 +1,5 @@
-//! What a search for a better cut is asked for, as its window shows it: measures with weights and limits, and the numbers of the
-//! design that may change.
+//! The form of a search for a better cut: measures with weights and limits, and the numbers of the design that may
+//! change.
 
 use super::measure_map::MapAxis;
 use crate::cut::Cut;
@@ -11,15 +11,15 @@ use std::collections::BTreeMap;
 /// The proportions that may change at first, where a cut has them.
 const FIRST: [&str; 2] = ["crown_angle", "pavilion_angle"];
 
-/// How much time a search takes.
+/// The time that a search may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SearchEffort {
     /// Few designs, measured roughly.
     Quick,
-    /// As `optimise` searches by itself.
+    /// As many designs as the command `optimise` tries by default.
     #[default]
     Usual,
-    /// Many designs, from more hills.
+    /// Many designs, with climbs from more of them.
     Thorough,
 }
 
@@ -68,42 +68,42 @@ impl SearchEffort {
 pub struct NumberChoice {
     /// The proportion or the tier.
     pub key: SweepKey,
-    /// Its name on the screen.
+    /// The name of the number on the screen.
     pub name: String,
-    /// The unit behind its values.
+    /// The unit of its values.
     pub unit: &'static str,
     /// Its value in the present design.
     pub value: f64,
     /// The least and the greatest value that the search tries.
     pub ends: [f64; 2],
-    /// The ends as they are before anyone changes them.
+    /// The ends of its range before the user changes them.
     usual: [f64; 2],
-    /// Whether it changes in searches that name no number: it belongs neither to the outline nor to the girdle.
+    /// True where searches that name no number change it: it shapes neither the outline nor the girdle.
     is_usual: bool,
-    /// Whether it may change.
+    /// True where the search may change it.
     pub is_varied: bool,
 }
 
-/// What a search is asked for.
+/// The content of the form.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GoalForm {
     /// The measures, and the limits on the geometry that a goal file gave. The numbers that may change are those of `numbers`.
     pub goal: Goal,
     /// The numbers of the design, in the order of its table or its tiers.
     pub numbers: Vec<NumberChoice>,
-    /// How much time the search takes.
+    /// The time that the search may take.
     pub effort: SearchEffort,
     /// The step of angles, degrees; see [`SearchOptions::angle_step_deg`].
     pub angle_step_deg: Option<f64>,
 }
 
-/// Why a search cannot begin.
+/// The reason why a search cannot begin.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GoalFormFault {
-    /// No measure is raised or lowered.
+    /// The goal neither raises nor lowers a measure.
     #[error("Choose at least one measure of which more or less is wanted.")]
     NoMeasure,
-    /// No number may change.
+    /// The form lets no number change.
     #[error("Tick at least one number that may change.")]
     NoNumber,
     /// The ends of a range are the wrong way round, or the design lies outside them.
@@ -114,7 +114,7 @@ pub enum GoalFormFault {
         /// Its value in the design, with its unit.
         value: String,
     },
-    /// Another fault of the goal.
+    /// The goal has another fault.
     #[error("{0}")]
     Goal(#[from] crate::search::GoalFault),
 }
@@ -127,7 +127,7 @@ impl Default for GoalForm {
 }
 
 impl GoalForm {
-    /// Takes the numbers of a cut. What was chosen for a number stays while cuts have it.
+    /// Takes the numbers of a cut. Choices for a number stay as long as the cut has it.
     pub fn follow(&mut self, cut: &Cut) {
         let axes = MapAxis::all(cut);
         let all = VariedNumber::given_by(cut);
@@ -177,11 +177,11 @@ impl GoalForm {
         missing.into_keys().collect()
     }
 
-    /// Returns the goal with the numbers that may change. Where these are the usual ones in their usual ranges the goal names none, so
-    /// that the search itself finds whether tiers move alone or their side as a whole.
+    /// Returns the goal with the numbers that may change. Where these are the usual ones in their usual ranges, the
+    /// goal names none, so that the search itself finds whether tiers move alone or their side as a whole.
     ///
     /// # Errors
-    /// Why no search can begin with it.
+    /// Fails where no measure is chosen, no number may change, or a range is wrong.
     pub fn wanted(&self) -> Result<Goal, GoalFormFault> {
         if self.goal.measure.iter().all(|measure| measure.weight == 0.0) {
             return Err(GoalFormFault::NoMeasure);
@@ -206,7 +206,7 @@ impl GoalForm {
         Ok(goal)
     }
 
-    /// Adds a measure: the first that is not weighed yet.
+    /// Adds the first measure that has no weight yet.
     pub fn add_measure(&mut self) {
         let all = measure_words::all();
         let is_free = |name: &&crate::measure::MeasureName| {

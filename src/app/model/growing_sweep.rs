@@ -1,4 +1,4 @@
-//! A sweep as it grows: what was ordered, and the points that have been answered.
+//! A sweep that grows: its order, and the points that have been answered.
 
 use crate::app::studio::{SweepOrder, SweptPoint};
 use crate::cut::Design;
@@ -13,9 +13,9 @@ use std::sync::Arc;
 pub struct FoundSweep {
     /// The order that they answer.
     pub order: SweepOrder,
-    /// What was found at each point of the grid; `None` where there is no answer yet.
+    /// The result at each point of the grid; `None` where there is no answer yet.
     points: Vec<Option<Arc<Result<SweptStone, SweepError>>>>,
-    /// How many points have been answered.
+    /// The number of points that have been answered.
     pub answered: usize,
 }
 
@@ -25,19 +25,19 @@ impl FoundSweep {
         Self { order, points, answered: 0 }
     }
 
-    /// Returns what was found at a point; `None` where there is no answer yet.
+    /// Returns the result at a point; `None` where there is no answer yet.
     pub fn at(&self, point: usize) -> Option<&Result<SweptStone, SweepError>> {
         self.points.get(point)?.as_deref()
     }
 
-    /// Whether all points have been answered.
+    /// Returns whether all points have been answered.
     pub fn is_whole(&self) -> bool {
         self.answered >= self.order.points.len()
     }
 }
 
-/// The sweep that is wanted, and what is known of it. Until the first points of a new sweep come in, those of the one before
-/// stay in sight.
+/// The latest order of a sweep, and its answers so far. Until the first points of a new sweep come in, those of the
+/// one before stay in sight.
 #[derive(Debug, Clone, Default)]
 pub struct GrowingSweep {
     wanted: Option<SweepOrder>,
@@ -45,12 +45,12 @@ pub struct GrowingSweep {
 }
 
 impl GrowingSweep {
-    /// Returns the sweep that is wanted.
+    /// Returns the latest order; `None` where no sweep is wanted.
     pub fn wanted(&self) -> Option<&SweepOrder> {
         self.wanted.as_ref()
     }
 
-    /// Wants another sweep, or none.
+    /// Replaces the order; `None` for no sweep.
     pub fn want(&mut self, order: Option<SweepOrder>) {
         if order.is_none() {
             self.found = None;
@@ -58,7 +58,7 @@ impl GrowingSweep {
         self.wanted = order;
     }
 
-    /// Takes points of the sweep with a number, if it is the one that is wanted.
+    /// Takes points of the sweep of this number, if it is the latest one.
     pub fn take(&mut self, number: u64, points: &[SweptPoint]) {
         let Some(wanted) = self.wanted.as_ref().filter(|wanted| wanted.number == number) else { return };
         if self.found.as_ref().is_none_or(|found| found.order != *wanted) {
@@ -73,26 +73,26 @@ impl GrowingSweep {
         }
     }
 
-    /// Returns the points that are shown.
+    /// Returns the points that are in sight.
     pub fn found(&self) -> Option<&FoundSweep> {
         self.found.as_ref()
     }
 
-    /// Whether the points that are shown are those of the sweep that is wanted.
+    /// Returns whether the points in sight belong to the latest order.
     pub fn is_present(&self) -> bool {
         self.found.as_ref().map(|found| &found.order) == self.wanted.as_ref()
     }
 }
 
-/// Returns whether a sweep takes all that a measure needs.
+/// Returns whether a sweep records everything that a measure needs.
 pub fn takes(sweep: &Sweep, measure: MeasureName) -> bool {
     let needed = PatternSettings::needed_by([&measure], 0.5 * sweep.design.diameter_mm, ROCK_DEG);
     let rocks = |pattern: PatternSettings| pattern.rock_deg.is_some();
     needed.is_none_or(|needed| sweep.settings.pattern.is_some_and(|has| rocks(has) || !rocks(needed)))
 }
 
-/// Returns the sweep of a design face up, at the sodium line, with the light, the head and the eye that `measures` takes, and with what
-/// a measure needs besides.
+/// Returns the sweep of a design face up, at the sodium line, under the light, head and eye of the usual measures,
+/// with the settings that the measure needs besides.
 pub fn sweep_of(design: &Design, axes: Vec<SweepAxis>, measure: MeasureName, unresolved: f64) -> Sweep {
     let pattern = PatternSettings::needed_by([&measure], 0.5 * design.diameter_mm, ROCK_DEG);
     Sweep {
@@ -122,7 +122,7 @@ mod tests {
         SweepOrder { number, sweep, points: Arc::new([2, 0, 1]), coarse: 1 }
     }
 
-    /// An answer that no stone was found at a point.
+    /// The result for a point where the proportions make no stone.
     fn nothing(point: usize) -> SweptPoint {
         let error = SweepError::NoTier { key: String::new(), known: String::new() };
         (point, Arc::new(Err(error)))

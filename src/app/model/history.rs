@@ -3,7 +3,7 @@
 /// The greatest number of steps that are kept.
 const MOST: usize = 500;
 
-/// The states that something has been in, and those that were undone.
+/// The past states of a value, its present state, and the states that were undone.
 #[derive(Debug, Clone)]
 pub struct History<T> {
     past: Vec<T>,
@@ -40,12 +40,12 @@ impl<T: Clone + PartialEq> History<T> {
         self.past.last()
     }
 
-    /// Whether there is anything to undo.
+    /// Returns whether there is a step to undo.
     pub fn can_undo(&self) -> bool {
         !self.past.is_empty()
     }
 
-    /// Whether there is anything to redo.
+    /// Returns whether there is a step to redo.
     pub fn can_redo(&self) -> bool {
         !self.future.is_empty()
     }

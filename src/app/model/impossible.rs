@@ -19,7 +19,7 @@ pub fn by_name(fault: &SpecimenError) -> String {
     }
 }
 
-/// Explains what is wrong with proportions that make no stone.
+/// Explains which proportion is wrong where a cut makes no stone.
 ///
 /// `last` is the last possible cut of the same family, `edited` is the key of the row that was edited last.
 pub fn explain(given: &Cut, last: &Cut, edited: Option<&str>, fault: &ProportionError) -> RowMessage {
@@ -31,12 +31,12 @@ pub fn explain(given: &Cut, last: &Cut, edited: Option<&str>, fault: &Proportion
     if let Some(row) = at.or_else(|| given.proportions().iter().find(heals)) {
         return RowMessage { row, text: in_its_terms(given, last, row, fault) };
     }
-    // No row alone, when set back, makes a stone.
+    // No single row makes a stone when it alone is set back.
     let text = format!("{} More than one proportion is outside its limits.", message(fault));
     RowMessage { row: edited.unwrap_or(fault.row()), text }
 }
 
-/// Whether the proportions make a stone once one of them is set to `value`.
+/// Returns whether the proportions make a stone once one of them is set to `value`.
 fn makes_stone(given: &Cut, row: &Proportion, value: f64) -> bool {
     let mut changed = given.clone();
     row.set(&mut changed, value);

@@ -21,22 +21,22 @@ pub const STRIDES: [usize; 5] = [16, 8, 4, 2, 1];
 /// The part of the light that may stay unresolved at each place.
 const UNRESOLVED: f64 = 0.01;
 
-/// How far the angle of a tier is varied to both sides at first, degrees.
+/// The range in which the angle of a tier first varies to either side, degrees.
 const AROUND_TIER: f64 = 4.0;
 
 /// The least and the greatest angle of a tier on a map, degrees.
 const TIER_ANGLES: [f64; 2] = [0.5, 89.5];
 
-/// How far a side is scaled at first, percent of its height.
+/// The range in which a side is first scaled, percent of its height.
 const SCALES: [f64; 2] = [80.0, 125.0];
 
-/// Lengths and angles that differ by less than this are the same: meets are found anew on each way to a place.
+/// Lengths and angles that differ by less than this are equal: meets are solved anew on each way to a place.
 const SAME: f64 = 1e-7;
 
 /// The proportions for whose pairs GIA publishes ranges of the grade EX that hold alone.
 const GRADED: [&str; 3] = ["table", "crown_angle", "pavilion_angle"];
 
-/// What varies along an axis of the map, and how far.
+/// An axis of the map: the number that varies, and its range.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapAxis {
     /// The proportion or the tier.
@@ -47,7 +47,8 @@ pub struct MapAxis {
     pub unit: &'static str,
     /// The values at the left or lower end and at the other end; the first is the lesser.
     pub ends: [f64; 2],
-    /// What is 100 % of a side's scale: the tangent of its first leaning facet in the cut of which the axis was made. 1 for other numbers.
+    /// The number that 100 % stands for in a side's scale: the tangent of its first leaning facet in the cut of which
+    /// the axis was made. 1 for other numbers.
     whole: f64,
 }
 
@@ -82,7 +83,7 @@ impl MapAxis {
         rows.map(row).chain(tiers.map(tier)).chain(scales.filter_map(scale)).collect()
     }
 
-    /// Returns the value that a cut has; `None` where it has none.
+    /// Returns the value of the axis's number in a cut; `None` where the cut lacks the number.
     pub fn value(&self, cut: &Cut) -> Option<f64> {
         let value = match &self.key {
             SweepKey::Proportion(key) => (cut.proportion(key)?.get)(cut),
@@ -104,7 +105,7 @@ impl MapAxis {
         format!("{}{}", (100.0 * value).round() / 100.0 + 0.0, self.unit)
     }
 
-    /// Whether both axes are two numbers of which one follows from the other, so that they make no map.
+    /// Returns whether one of the two numbers follows from the other, so that they make no map.
     pub fn is_paired(&self, other: &Self, cut: &Cut) -> bool {
         let pair = |axis: &Self| match &axis.key {
             SweepKey::Proportion(key) => cut.proportion(key).and_then(|row| row.pair),
@@ -114,7 +115,7 @@ impl MapAxis {
         self.key == other.key
             || pair(self).is_some_and(|key| SweepKey::of(key) == other.key)
             || match (&self.key, &other.key) {
-                // The scale of a side is told by the angle of this tier.
+                // The angle of this tier follows from the scale of its side.
                 (SweepKey::Scale(side), SweepKey::Tier(tier)) => is_scaled(*side, tier),
                 (SweepKey::Tier(tier), SweepKey::Scale(side)) => is_scaled(*side, tier),
                 _ => false,
@@ -132,7 +133,7 @@ impl MapAxis {
     }
 }
 
-/// Returns a unit as it stands behind a number.
+/// Returns the text of a unit behind a number.
 fn unit_text(unit: Unit) -> &'static str {
     match unit {
         Unit::Percent => " %",
@@ -141,12 +142,12 @@ fn unit_text(unit: Unit) -> &'static str {
     }
 }
 
-/// What is chosen for the map.
+/// The choices of the map.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapOptions {
     /// The measure whose values are coloured.
     pub measure: MeasureName,
-    /// What varies across and up.
+    /// The axes of the map, across and up.
     pub axes: [MapAxis; 2],
 }
 
@@ -180,28 +181,28 @@ impl MapOptions {
 /// The map of a measure.
 #[derive(Debug, Clone, Default)]
 pub struct MeasureMap {
-    /// What is chosen; `None` where the design has nothing to vary.
+    /// The choices; `None` where the design has nothing to vary.
     options: Option<MapOptions>,
     /// The measures at the places of the grid.
     pub sweep: GrowingSweep,
-    /// The design that was looked at last.
+    /// The design that the map followed last.
     looked: Option<Design>,
-    /// Whether another document has begun since, whose axes are to be chosen anew.
+    /// True where another document has begun since, whose axes have to be chosen anew.
     is_other: bool,
 }
 
 impl MeasureMap {
-    /// Begins with another document; the measure stays chosen.
+    /// Begins with another document; the choice of the measure stays.
     pub fn begin(&mut self) {
         *self = Self { options: self.options.take(), is_other: true, ..Self::default() };
     }
 
-    /// Returns what is chosen; `None` where the design has nothing to vary, or the map has not been in sight.
+    /// Returns the choices; `None` where the design has nothing to vary, or the map has not been in sight.
     pub fn options(&self) -> Option<&MapOptions> {
         self.options.as_ref()
     }
 
-    /// Chooses. Of axes that make no map, both stay as they were; other axes or ends begin another map.
+    /// Takes new choices. Axes that make no map are ignored; other axes or ends begin another map.
     pub fn choose(&mut self, options: MapOptions) {
         let [across, up] = &options.axes;
         let Some(design) = &self.looked else { return };
@@ -218,7 +219,8 @@ impl MeasureMap {
         self.options = Some(options);
     }
 
-    /// Follows the design: wants another sweep where it has changed otherwise than along the axes. `numbers` counts sweeps.
+    /// Follows the design, and orders another sweep where anything but the numbers of the axes has changed. `numbers`
+    /// counts sweeps.
     pub fn follow(&mut self, design: &Design, numbers: &mut u64) {
         if self.looked.as_ref() == Some(design) {
             return;
@@ -244,11 +246,11 @@ impl MeasureMap {
         self.sweep.want(Some(order(options, design, *numbers)));
     }
 
-    /// Returns the cut of a design that is moved to these values across and up. Of two numbers of which one follows from the
-    /// other, the one that was held is held.
+    /// Returns the cut of a design that is moved to these values across and up. Of two numbers of which one follows
+    /// from the other, the one that the design fixes stays fixed.
     ///
     /// # Errors
-    /// Why there is no stone.
+    /// Fails where there is no map, or no stone at that place.
     pub fn moved(&self, design: &Design, to: [f64; 2]) -> Result<Cut, MapFault> {
         let options = self.options.as_ref().ok_or(MapFault::Nothing)?;
         let held = options.axes.iter().filter_map(|axis| match &axis.key {
@@ -265,7 +267,7 @@ impl MeasureMap {
     }
 }
 
-/// Why the design is not moved to a place of the map.
+/// The reason why the design is not moved to a place of the map.
 #[derive(Debug, thiserror::Error)]
 pub enum MapFault {
     /// There is no map.
@@ -276,7 +278,7 @@ pub enum MapFault {
     NoStone(#[from] SweepError),
 }
 
-/// Says why there is no stone at a place, with the names that the panel shows.
+/// Returns in the panel's words why there is no stone at a place.
 pub fn no_stone(error: &SweepError) -> String {
     match error {
         SweepError::Specimen(fault) => by_name(fault),
@@ -295,7 +297,7 @@ fn at(axes: &[MapAxis; 2], design: &Design, to: [f64; 2]) -> Result<Design, Swee
     sweep_of(design, axes, MeasureName::Fire, UNRESOLVED).design_at(0)
 }
 
-/// Whether two designs differ along two axes alone.
+/// Returns whether two designs differ along two axes alone.
 fn is_along(axes: &[MapAxis; 2], a: &Design, b: &Design) -> bool {
     let value = |axis: &MapAxis| axis.value(&b.cut);
     let (Some(x), Some(y)) = (value(&axes[0]), value(&axes[1])) else { return false };
@@ -307,7 +309,7 @@ fn is_along(axes: &[MapAxis; 2], a: &Design, b: &Design) -> bool {
     }
 }
 
-/// Whether two cuts are the same but for the rounding of tiers and planes.
+/// Returns whether two cuts are equal except for the rounding of tiers and planes.
 fn is_same_cut(a: &Cut, b: &Cut) -> bool {
     if let (Cut::Planes(one), Cut::Planes(other)) = (a, b) {
         let is_same = |(a, b): (&(String, Plane), &(String, Plane))| {

@@ -19,15 +19,16 @@ const STEPS: usize = 24;
 /// The distances of the tilts that are measured first, then between them, and so on, in steps.
 const STRIDES: [usize; 3] = [4, 2, 1];
 
-/// The part of the light that may stay unresolved: a stone that is tilted has no symmetry that shortens the work.
+/// The part of the light that may stay unresolved. It is larger than for the map, because a tilted stone has no
+/// symmetry that shortens the work.
 const UNRESOLVED: f64 = 0.02;
 
-/// What is plotted against tilt.
+/// The choices of the plot against tilt.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TiltOptions {
     /// The measure; `None` for the zones of the ASET.
     pub measure: Option<MeasureName>,
-    /// Which of the [`AZIMUTHS`] have a curve.
+    /// The [`AZIMUTHS`] that have a curve, each by a flag.
     pub azimuths: [bool; AZIMUTHS.len()],
 }
 
@@ -55,16 +56,17 @@ pub type TiltCurve = Vec<(f64, Interval)>;
 /// A measure against tilt.
 #[derive(Debug, Clone, Default)]
 pub struct MeasureTilt {
-    /// What is plotted.
+    /// The choices of the plot.
     pub options: TiltOptions,
     /// The measures at all tilts.
     pub sweep: GrowingSweep,
-    /// The stone that was looked at last, and the azimuths.
+    /// The stone and the azimuths that the plot followed last.
     looked: Option<(Arc<Specimen>, Vec<f64>)>,
 }
 
 impl MeasureTilt {
-    /// Follows the stone and what is chosen: wants another sweep where one of them has changed. `numbers` counts sweeps.
+    /// Follows the stone and the choices, and orders another sweep where one of them has changed. `numbers` counts
+    /// sweeps.
     pub fn follow(&mut self, specimen: &Arc<Specimen>, numbers: &mut u64) {
         let azimuths = self.options.chosen();
         let Some(measure) = self.options.measure.filter(|_| !azimuths.is_empty() && specimen.stone().is_ok())
@@ -84,7 +86,8 @@ impl MeasureTilt {
         self.looked = Some((Arc::clone(specimen), azimuths));
     }
 
-    /// Returns the curves as far as they are known, each with its azimuth in degrees; none where zones are plotted.
+    /// Returns the curves as far as their points have been answered, each with its azimuth in degrees; none where
+    /// zones are plotted.
     pub fn curves(&self) -> Vec<(f64, TiltCurve)> {
         let (Some(measure), Some(found)) = (self.options.measure, self.sweep.found()) else { return vec![] };
         let [azimuths, tilts] = &found.order.sweep.axes[..] else { return vec![] };

@@ -1,7 +1,8 @@
-//! The state of the editor, without a window: what there is, what can be done to it, and what is to be done outside.
+//! The state of the editor without a window, the actions that change it, and the tasks to be carried out outside of
+//! it.
 //!
-//! Only [`update()`] changes a [`Model`]. A client, such as the window, draws the model, turns what a person does into
-//! [`Action`]s, and carries out the [`Task`]s that come of them, whose answers are actions again.
+//! Only [`update()`] changes a [`Model`]. A client, such as the window, draws the model, turns the user's input into
+//! [`Action`]s, and carries out the resulting [`Task`]s, whose answers are actions again.
 
 pub mod action;
 pub mod audit;
@@ -62,9 +63,9 @@ use workspace::Workspace;
 pub struct Model {
     /// The design that is open, with its light and its steps.
     pub document: Document,
-    /// How the window is arranged, which is kept from one start to the next.
+    /// The arrangement of the window, which is kept from one start to the next.
     pub workspace: Workspace,
-    /// Everything that ends with the window.
+    /// The part of the state that ends with the window.
     pub session: Session,
 }
 
@@ -96,35 +97,35 @@ impl Model {
         }
     }
 
-    /// Returns what a render shows: the stone as it is now, and the poses of its copies.
+    /// Returns the stone of renders in its present phase, and the poses of its copies.
     pub fn copies(&self, which: Which, waves: &mut WaveCache) -> Option<(Arc<Specimen>, Vec<Pose>)> {
         let stone = self.stone(which)?;
         let Work { copies, companions, .. } = &self.document.work;
         match (self.is_alone(), companions.is_empty()) {
             (true, _) => Some((stone, vec![Pose::STILL])),
             (false, true) => Some(self.session.motion.now(waves, &stone, copies)),
-            // Among other bodies each copy lies where it is put, and at rest.
+            // Among companions each copy lies at its own pose, and at rest.
             (false, false) => Some((stone, copies.poses.clone())),
         }
     }
 
-    /// Returns what stands beside the copies in renders, in girdle radii of the design.
+    /// Returns the companions of the copies in renders, in girdle radii of the design.
     pub fn companions(&self) -> Companions {
         self.document.work.companions.in_unit(1.0 / self.document.specimen().unit_mm())
     }
 
-    /// Whether renders show the stone alone and at rest.
+    /// Returns whether renders show the stone alone and at rest.
     pub fn is_alone(&self) -> bool {
         let Work { copies, companions, .. } = &self.document.work;
         *copies == Copies::default() && companions.is_empty() && self.session.motion.seconds == 0.0
     }
 
-    /// Whether time can go on in renders: copies tumble only where nothing else is in their way.
+    /// Returns whether time can go on in renders: copies tumble only where no companion is in their way.
     pub fn can_move(&self) -> bool {
         self.document.work.companions.is_empty()
     }
 
-    /// Returns what a view takes in: the stone that views are fitted to, or all copies.
+    /// Returns the fit of a view: to the stone that views are fitted to, or to all copies.
     pub fn fit(&self, shows: Shows, view: &View) -> FramingFit {
         match shows.has_copies() && !self.is_alone() {
             true => FramingFit::reaching(self.reach(shows)),
@@ -152,7 +153,7 @@ impl Model {
         }
     }
 
-    /// Whether a view shows a picture that is looked up, and not traced.
+    /// Returns whether a view shows a picture that is looked up in a map or drawn, and not traced.
     pub fn is_looked_up(&self, pane: usize) -> bool {
         let shows = self.workspace.panes[pane].shows;
         shows == Shows::LiquidGlass || (shows == Shows::Refraction && !self.session.flowing[pane].is_map)

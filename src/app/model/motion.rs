@@ -1,16 +1,16 @@
-//! What moves in time: copies tumble, plates wave. Renders show it; figures and scopes are of the design at rest.
+//! The motion of time in renders: copies tumble and plates wave. Figures and scopes are of the design at rest.
 
 use crate::cut::{Cut, Glass};
 use crate::scene::{Copies, Pose, Specimen};
 use std::sync::Arc;
 
-/// How fast a wave runs, radians a second.
+/// The speed of a wave's phase, radians per second.
 const WAVING: f64 = 2.0;
 
 /// The time that renders show.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Motion {
-    /// Whether time goes on.
+    /// True while time goes on.
     pub is_on: bool,
     /// The time since rest, seconds.
     pub seconds: f64,
@@ -19,7 +19,7 @@ pub struct Motion {
 /// The plates that wave, as they were shown last.
 #[derive(Debug, Clone, Default)]
 pub struct WaveCache {
-    /// Each plate at rest, the time in seconds, and the plate as it is at that time.
+    /// Each plate at rest, the time in seconds, and the plate in its phase at that time.
     waved: Vec<(Arc<Specimen>, f64, Arc<Specimen>)>,
 }
 
@@ -27,7 +27,7 @@ pub struct WaveCache {
 const PLATES: usize = 2;
 
 impl Motion {
-    /// Returns a time that stands `seconds` after rest.
+    /// Returns a motion that has stopped `seconds` after rest.
     #[cfg(test)]
     pub fn at(seconds: f64) -> Self {
         Self { seconds, ..Self::default() }
@@ -38,12 +38,12 @@ impl Motion {
         (self.is_on, self.seconds) = (false, 0.0);
     }
 
-    /// Whether the stone tumbles now.
+    /// Returns whether the stone tumbles now.
     pub fn tumbles(&self, specimen: &Specimen) -> bool {
         self.seconds > 0.0 && !waves(specimen)
     }
 
-    /// Returns the stone as it is now, and the poses of its copies.
+    /// Returns the stone in its present phase, and the present poses of its copies.
     pub fn now(
         &self,
         cache: &mut WaveCache,
@@ -60,7 +60,7 @@ impl Motion {
 }
 
 impl WaveCache {
-    /// Returns the plate with its wave as it is `seconds` after rest.
+    /// Returns the plate with the phase of its wave `seconds` after rest.
     fn of(&mut self, specimen: &Arc<Specimen>, seconds: f64) -> Arc<Specimen> {
         if let Some((.., now)) =
             self.waved.iter().find(|(of, at, _)| Arc::ptr_eq(of, specimen) && *at == seconds)
@@ -81,7 +81,7 @@ impl WaveCache {
     }
 }
 
-/// Whether the stone waves in time, and so does not tumble.
+/// Returns whether the stone waves in time; such a stone does not tumble.
 fn waves(specimen: &Specimen) -> bool {
     matches!(specimen.design.cut, Cut::Glass(Glass::Plate(plate)) if plate.amplitude > 0.0)
 }

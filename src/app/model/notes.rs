@@ -1,4 +1,4 @@
-//! The messages of the window: errors, warnings, and notes on what is done.
+//! The messages of the window: errors, warnings, and notes about completed work.
 
 use std::fmt::Display;
 
@@ -7,7 +7,7 @@ use std::fmt::Display;
 pub struct Problem {
     /// The text, which says what happened and what to do.
     pub text: String,
-    /// Whether this is an error: something was not done.
+    /// True for an error, by which something was not done; false for a warning.
     pub is_error: bool,
 }
 
@@ -16,7 +16,7 @@ pub struct Problem {
 pub struct Notes {
     said: Option<String>,
     troubles: Vec<Problem>,
-    /// Whether all errors and warnings are listed, and not the last alone.
+    /// True where all errors and warnings are listed, and not only the last.
     pub is_open: bool,
 }
 
@@ -24,7 +24,7 @@ pub struct Notes {
 const MOST: usize = 50;
 
 impl Notes {
-    /// Shows a note that needs no answer.
+    /// Shows a note that the user need not dismiss.
     pub fn say(&mut self, what: &str) {
         self.said = Some(what.to_owned());
     }
@@ -34,12 +34,12 @@ impl Notes {
         self.add(what.to_string(), true);
     }
 
-    /// Returns the value of a result; reports its error instead.
+    /// Returns the value of a result, or reports its error and returns `None`.
     pub fn ok_or_report<T>(&mut self, result: Result<T, impl Display>) -> Option<T> {
         result.map_err(|why| self.trouble(why)).ok()
     }
 
-    /// Warns that something is done, but perhaps not as it was meant; the warning stays until it is dismissed.
+    /// Adds a warning about work that was done, but perhaps not as the user meant; it stays until it is dismissed.
     pub fn warn(&mut self, what: String) {
         self.add(what, false);
     }

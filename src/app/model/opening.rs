@@ -6,16 +6,16 @@ use super::work::Work;
 use crate::io::mesh_options::MeshOptions;
 use std::path::PathBuf;
 
-/// What a file is opened for.
+/// The purpose for which a file is opened.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OpeningPurpose {
-    /// To work on the file.
+    /// Opens the file for work in the place of the present document.
     Anew,
-    /// To read the open file again, without moving any view.
+    /// Reads the open file again, and moves no view.
     Again,
-    /// To compare with the file.
+    /// Opens the file as the other design of a comparison.
     Beside,
-    /// To read the open mesh in another way.
+    /// Reads the open mesh with other options.
     Otherwise,
 }
 
@@ -24,12 +24,12 @@ pub enum OpeningPurpose {
 pub struct FileRequest {
     pub purpose: OpeningPurpose,
     pub path: PathBuf,
-    /// How the file is read where it is a mesh.
+    /// The options by which a mesh is read.
     pub mesh: MeshOptions,
 }
 
 impl FileRequest {
-    /// Whether the file is opened beside the present document, which stays.
+    /// Returns whether the file is opened for a comparison, so that the present document stays.
     pub fn is_beside(&self) -> bool {
         self.purpose == OpeningPurpose::Beside
     }
@@ -46,7 +46,7 @@ pub struct Opening {
 }
 
 impl Opening {
-    /// Says which file is being opened.
+    /// Returns a message that says which file is being opened.
     pub fn message(&self) -> String {
         format!("opening {}…", self.request.path.file_name().unwrap_or_default().to_string_lossy())
     }

@@ -1,4 +1,4 @@
-//! Orders of pictures and figures: of all that is in sight, by what the model holds.
+//! Makes the orders of pictures and figures for everything in sight, from the model.
 
 use super::Model;
 use super::motion::WaveCache;
@@ -14,9 +14,9 @@ pub type Seen = (usize, [u32; 2]);
 /// Makes the orders of a model's pictures.
 pub struct Orders<'a> {
     pub model: &'a Model,
-    /// The stones that have been made for earlier orders.
+    /// The phases of waving plates that were made for earlier orders.
     pub waves: &'a mut WaveCache,
-    /// What drawings are drawn on.
+    /// The paper colour of drawings.
     pub paper: Paper,
 }
 
@@ -24,7 +24,7 @@ impl Orders<'_> {
     /// Returns the order of all that is in sight.
     pub fn all(&mut self, seen: &[Seen]) -> Order {
         let mut order = Order::default();
-        // What is in sight is about to go: the file that is being read needs the processor more.
+        // The views are about to change: the file that is being read needs the processor more.
         let mut opening = self.model.session.awaited.opening.iter();
         if opening.any(|opening| !opening.request.is_beside() && opening.read.is_none()) {
             return order;
@@ -32,7 +32,7 @@ impl Orders<'_> {
         let is_compared = self.model.session.compared.is_some();
         for which in [Which::Present, Which::Other].into_iter().take(1 + usize::from(is_compared)) {
             for &(pane, size) in seen {
-                // Liquid glass is looked up, and not traced.
+                // Liquid glass is drawn by a task of its own, and not by the studio.
                 let is_drawn = self.model.workspace.panes[pane].shows == Shows::LiquidGlass;
                 if let Some(shot) = self.shot(pane, which, size).filter(|_| !is_drawn) {
                     order.shots.push(((pane, which), shot));
@@ -64,7 +64,8 @@ impl Orders<'_> {
         order.figures.push((which, figures));
     }
 
-    /// Returns the shot of a view; `None` where its picture is not made by the studio, or is too small.
+    /// Returns the shot of a view; `None` where the studio does not make its picture, or where the picture is too
+    /// small.
     pub fn shot(&mut self, pane: usize, which: Which, size: [u32; 2]) -> Option<Shot> {
         let Model { workspace, session, .. } = self.model;
         let shows = workspace.panes[pane].shows;
@@ -87,7 +88,7 @@ impl Orders<'_> {
         Some(Shot {
             film: eye.film(size, &fit),
             whole: fit.whole(size),
-            // Renders show three bands while they are compared with what three bands show.
+            // Renders show three bands while the key for a comparison with three bands is held.
             bands: if session.keys.three { 3 } else { workspace.wavelengths },
             jitter: !session.keys.three,
             smoothing: workspace.smoothing,
@@ -103,7 +104,7 @@ impl Orders<'_> {
         })
     }
 
-    /// Returns what a render shows in a view.
+    /// Returns the shot of a render of all copies and companions in a view.
     pub fn render(&mut self, view: View) -> Shot {
         let alone = (Arc::clone(self.model.document.specimen()), vec![Pose::STILL]);
         let (specimen, copies) = self.model.copies(Which::Present, self.waves).unwrap_or(alone);

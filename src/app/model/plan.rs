@@ -1,4 +1,4 @@
-//! The plan of an export: what the open document's pictures show, as the views see it.
+//! Makes the plan of an export from the open document and its views.
 
 use super::Model;
 use super::export::{ExportPlan, PictureAspect};
@@ -9,7 +9,7 @@ use crate::app::studio::{Paper, Shot};
 use crate::scene::View;
 use std::path::PathBuf;
 
-/// Plans an export of the open document, seen as the linked views see it.
+/// Plans an export of the open document, seen by the eye of the linked views.
 pub fn export_plan(model: &Model) -> ExportPlan {
     let Model { document, session, .. } = model;
     let upright = document.named(document.specimen());
@@ -35,9 +35,9 @@ pub fn export_plan(model: &Model) -> ExportPlan {
     plan
 }
 
-/// Returns how the linked views see a stone, and how each view that is not linked sees it.
+/// Returns the aspect of the linked views, and that of each view that is not linked.
 ///
-/// Of several views that show the same, the one that keys act on counts, or else the first.
+/// Of several views that show the same, the active one counts, or else the first.
 fn aspects(model: &Model) -> (PictureAspect, Vec<(Shows, PictureAspect)>) {
     let workspace = &model.workspace;
     let linked = PictureAspect { view: workspace.eye.view(None), turn: workspace.eye.turn };

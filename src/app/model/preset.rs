@@ -1,4 +1,4 @@
-//! Scenes that the editor can work on: copies of one design, what stands beside them, their light, and what lies behind them.
+//! Scenes that the editor can work on: copies of one design with their companions, light and backplate.
 
 use crate::cut::{Design, MaterialRef};
 use crate::io::assembly::{Assembly, StonePlace};
@@ -14,9 +14,9 @@ pub struct Known {
     pub name: &'static str,
     /// The title in menus.
     pub title: &'static str,
-    /// Whether the scene begins to move at once.
+    /// True where the scene begins to move at once.
     pub moves: bool,
-    /// The number of bands of wavelengths that the scene is seen in.
+    /// The number of bands of wavelengths in the scene's renders.
     wavelengths: u32,
 }
 
@@ -36,13 +36,13 @@ pub struct Preset {
     pub design: Design,
     /// The stones of that design.
     pub copies: Copies,
-    /// All other stones and the metal, in mm.
+    /// All other stones, and the metal, in mm.
     pub companions: Companions,
-    /// The number of bands of wavelengths that the scene is seen in, if it is known.
+    /// The number of bands of wavelengths in the scene's renders; `None` where the scene states none.
     pub wavelengths: Option<u32>,
     /// Notes and warnings about the files that were read.
     pub remarks: Vec<String>,
-    /// The scene file, which holds the rest.
+    /// The scene file, which holds light, background and all other settings.
     pub scene: SceneFile,
 }
 
@@ -101,7 +101,7 @@ impl Preset {
     }
 }
 
-/// What stones of one kind have in common: their cut, material and size.
+/// The key of stones of one kind: their cut, material and size.
 #[derive(PartialEq)]
 struct Kind<'a>(*const Specimen, &'a MaterialRef, f64);
 
@@ -111,7 +111,7 @@ impl<'a> Kind<'a> {
     }
 }
 
-/// Returns the design of a stone, in the material and the size that the scene gives it.
+/// Returns the design of a stone in the scene, with the material and size that the scene states for it.
 fn design_of(place: &StonePlace) -> Design {
     let StonePlace { specimen, material, diameter_mm, .. } = place;
     Design { material: material.clone(), diameter_mm: *diameter_mm, ..specimen.design.clone() }

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::SystemTime;
 
-/// What stands beside the copies, as an autosave keeps it, in mm.
+/// The companions of the copies in an autosave, in mm.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct KeptCompanions {
     /// The text of each stone's cut file, and the stone's place.
@@ -18,7 +18,7 @@ pub struct KeptCompanions {
 }
 
 impl KeptCompanions {
-    /// Takes down what stands beside the copies.
+    /// Returns the companions in the form in which an autosave keeps them.
     pub fn of(companions: &Companions) -> Self {
         let stone = |stone: &Companion| (cut_file::write(&stone.specimen.design), stone.pose);
         Self { stones: companions.stones.iter().map(stone).collect(), metals: companions.metals.clone() }
@@ -57,13 +57,13 @@ pub struct KeptScene {
     // Autosaves of earlier versions name the copies so.
     #[serde(alias = "company")]
     pub copies: Copies,
-    /// What stands beside the copies; autosaves of earlier versions have none.
+    /// The companions of the copies; autosaves of earlier versions have none.
     #[serde(default)]
     pub companions: KeptCompanions,
     /// The backplate: `light`, the name of a pattern, or the file of a picture.
     #[serde(default)]
     pub behind: Option<String>,
-    /// How far behind the middle the backplate hangs, mm, if that was set.
+    /// The distance of the backplate behind the middle, mm, if it was set.
     pub behind_mm: Option<f64>,
     /// The strength of refraction, 0 to 1.
     #[serde(default)]
@@ -82,7 +82,7 @@ pub struct UnsavedWork {
     pub replaces: Option<PathBuf>,
 }
 
-/// Work that a crash left behind.
+/// Work that was recovered after a crash.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecoveredWork {
     pub design: Design,
@@ -94,7 +94,7 @@ pub struct RecoveredWork {
     pub on_disk: Option<Design>,
     /// The mesh file that the stone was read from, if it was one.
     pub mesh: Option<ReadMesh>,
-    /// When the work was last kept.
+    /// The time when the work was last kept.
     pub when: SystemTime,
     /// The autosave file.
     pub file: PathBuf,

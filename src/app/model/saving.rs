@@ -1,4 +1,4 @@
-//! Designs that are saved, and how a change of their files is noticed.
+//! The requests that save designs, and the stamps by which changes of their files are noticed.
 
 use crate::cut::Design;
 use crate::scene::Specimen;
@@ -17,7 +17,7 @@ impl Stamp {
         Self(read.ok())
     }
 
-    /// Whether there was a file.
+    /// Returns whether the file existed.
     pub fn is_there(self) -> bool {
         self.0.is_some()
     }
@@ -26,11 +26,11 @@ impl Stamp {
 /// A design that is to be saved.
 #[derive(Debug)]
 pub struct SaveRequest {
-    /// The number of the document that the design is of.
+    /// The number of the design's document.
     pub document: u64,
     pub path: PathBuf,
     pub design: Design,
-    /// A stone of the design, whose name may be older.
+    /// A stone of the design; its name may be out of date.
     pub specimen: Arc<Specimen>,
 }
 
@@ -41,6 +41,6 @@ pub struct SavedDesign {
     pub design: Design,
     /// The file as it is now.
     pub stamp: Stamp,
-    /// What the file's format could not hold, in words.
+    /// The properties that the file's format could not hold, in words.
     pub lost: Vec<String>,
 }

@@ -25,13 +25,13 @@ use glam::DVec2;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The light of renders, and the one that is being loaded.
+/// The light of renders, and the light that is being loaded.
 #[derive(Debug, Clone)]
 pub struct LoadedLight {
     /// The name of the light that renders show, or its file.
     pub name: String,
     pub lighting: Arc<Lighting>,
-    /// The light that the program last tried to load; where it could not be loaded, `name` is another.
+    /// The light that the program last tried to load. Where loading failed, `name` is still the one before.
     pub tried: String,
     pub loading: Option<String>,
 }
@@ -39,7 +39,7 @@ pub struct LoadedLight {
 /// The ray that is followed through the stone.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct FollowedRay {
-    /// Whether the window of the light path is open.
+    /// True while the window of the light path is open.
     pub is_open: bool,
     /// The view that was clicked, and the point of its image, girdle radii.
     pub at: Option<(usize, DVec2)>,
@@ -48,46 +48,46 @@ pub struct FollowedRay {
 /// The state of the background in a view of a refraction map.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Flowing {
-    /// How far the background has been moved to the right and down, in parts of the map's plane.
+    /// The distance by which the background has been moved to the right and down, in parts of the map's plane.
     pub moved: DVec2,
-    /// Whether the background moves by itself.
+    /// True while the background moves by itself.
     pub flows: bool,
-    /// Whether the map itself is shown.
+    /// True where the view shows the map itself.
     pub is_map: bool,
 }
 
-/// The keys that show something else while they are held.
+/// The keys that change what views show while they are held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct HeldKeys {
-    /// Whether the other design of a comparison is shown in place of the present one.
+    /// True while the other design of a comparison is shown in place of the present one.
     pub other: bool,
-    /// Whether renders show only three bands of wavelengths.
+    /// True while renders show only three bands of wavelengths.
     pub three: bool,
 }
 
 /// The answers of tasks that the session waits for.
 #[derive(Debug, Clone, Default)]
 pub struct Awaited {
-    /// What a file is being chosen for.
+    /// The purpose of the file that the user is choosing.
     pub choosing: Option<Purpose>,
     /// The files that are being opened.
     pub opening: Vec<Opening>,
     /// The number of the document that is being saved.
     pub saving: Option<u64>,
-    /// Whether dropped files are being looked into.
+    /// True while the purposes of dropped files are being found out.
     pub dropped: bool,
-    /// The view whose picture is being made for the clipboard, by the name of what it shows.
+    /// The key of the view whose picture is being made for the clipboard.
     pub copying: Option<&'static str>,
 }
 
 /// The state of the autosave.
 #[derive(Debug, Clone)]
 pub struct SafeWork {
-    /// Whether there is an autosave at all.
+    /// True where the editor keeps an autosave at all.
     pub is_on: bool,
-    /// Whether an autosave file has been asked for since the work was last saved.
+    /// True if an autosave file was ordered since the work was last saved.
     pub is_kept: bool,
-    /// The work as it was when it was last looked at for the autosave.
+    /// The work of the last comparison for the autosave.
     pub noted: Work,
     /// The autosave file of a crash that this work went on from; it is removed once the work is kept, saved or discarded.
     pub replaces: Option<PathBuf>,
@@ -101,7 +101,7 @@ pub struct Session {
     /// The history of tilts, zooms, layouts and overlays.
     pub views: ViewHistory,
     pub light: LoadedLight,
-    /// The other design of a comparison.
+    /// The design that the present one is compared with.
     pub compared: Option<Compared>,
     /// The figures that have been measured.
     pub measured: SessionFigures,
@@ -111,7 +111,7 @@ pub struct Session {
     pub followed: FollowedRay,
     /// The motion of copies and plates in time.
     pub motion: Motion,
-    /// How the background moves in each view of a refraction map.
+    /// The motion of the background in each view of a refraction map.
     pub flowing: [Flowing; 4],
     /// The view in which a copy is dragged, and the number of that copy.
     pub held: Option<(usize, usize)>,
@@ -121,7 +121,7 @@ pub struct Session {
     pub tier: Option<usize>,
     /// The place of the tier whose meet is being picked in a view.
     pub picking: Option<usize>,
-    /// Why the meet of each tier could not be followed after the last change; `None` where it was.
+    /// The reason why the meet of each tier could not be followed after the last change; `None` where it was.
     pub meet_faults: Vec<Option<String>>,
     /// The audit of the stone, while its list is open.
     pub audit: SessionAudit,
@@ -131,32 +131,33 @@ pub struct Session {
     pub tilt: MeasureTilt,
     /// The search for a better cut.
     pub search: CutSearch,
-    /// How many sweeps were begun. It numbers them.
+    /// The number of sweeps begun so far; each takes the next as its own number.
     pub sweeps: u64,
-    /// How often copies were laid out; this seeds the next layout.
+    /// The number of layouts of copies so far; it seeds the next layout.
     pub layings: u64,
-    /// How often a light was chosen at random; this seeds the next choice.
+    /// The number of lights chosen at random so far; it seeds the next choice.
     pub lights_drawn: u64,
     /// The text of the status line while the pointer is over a picture.
     pub message: String,
     pub notes: Notes,
     pub dialog: Option<Dialog>,
-    /// What was last selected for export.
+    /// The last selection in the export dialog.
     pub selection: Selection,
-    /// The view under the pointer, or the last one that was.
+    /// The view under the pointer, or the one that was under it last.
     pub hovered: usize,
     pub keys: HeldKeys,
     pub awaited: Awaited,
-    /// How many documents were begun. It numbers the present one, so that no answer for another is taken for it.
+    /// The number of documents begun so far. The present document has it as its number, so that no answer for another
+    /// is taken for it.
     pub begun: u64,
-    /// What waits until the design is saved.
+    /// The action that waits until the design is saved.
     pub after_save: Option<Then>,
     pub safe: SafeWork,
-    /// The open file as it was last seen on disk, where it differs from how the document was read or saved.
+    /// The stamp of the open file as last seen on disk, where it differs from that of the document.
     pub on_disk: Option<Stamp>,
-    /// The file that is watched for changes by others.
+    /// The file that is watched for changes by other programs.
     pub watched: Option<PathBuf>,
-    /// Whether the window may close without another question.
+    /// True once the window may close without another question.
     pub may_close: bool,
 }
 

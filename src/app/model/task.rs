@@ -1,4 +1,4 @@
-//! What is to be done outside a model. Most tasks are carried out in the background and answer with an action.
+//! Tasks: the work to be done outside a model. Most are carried out in the background and answer with an action.
 
 use super::choosing::Question;
 use super::cut_search::SearchRequest;
@@ -13,7 +13,7 @@ use crate::search::Goal;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Work to be done outside the model.
+/// A piece of work to be done outside the model.
 #[derive(Debug)]
 pub enum Task {
     /// Load a light by its name or file.
@@ -28,27 +28,27 @@ pub enum Task {
     EmptySafe,
     /// Remove an autosave file that a crash left behind.
     Forget(PathBuf),
-    /// Watch a file for changes by others, from how it was known last; `None` watches no file.
+    /// Watch a file for changes by other programs since it had this stamp; `None` watches no file.
     Watch(Option<(PathBuf, Stamp)>),
-    /// Find out what dropped files are for.
+    /// Find out the purposes of dropped files.
     LookInto(Vec<PathBuf>),
     /// Open a folder or a page by the system's programs.
     OpenOutside(String),
-    /// Make small pictures of all that can be exported.
+    /// Make small pictures of all views that can be exported.
     Thumbnails(Box<ExportPlan>),
     /// Stop making small pictures.
     StopThumbnails,
     /// Write the files of an export.
     Export(Box<ExportPlan>),
-    /// Stop the export after the files that are whole.
+    /// Stop the export; files that are complete stay.
     StopExport,
     /// Make a picture for the clipboard.
     MakeCopy(CopyRequest),
-    /// Look for what may not be meant in a stone, for the list of the audit.
+    /// Make the audit of a stone, for the list of findings.
     Audit(Arc<Specimen>),
     /// Measure the light of stones that are compared.
     MeasureLight(Box<LightRequest>),
-    /// Stop measuring.
+    /// Stop measuring that light.
     StopLight,
     /// Search for a better cut.
     Search(Box<SearchRequest>),
@@ -63,30 +63,30 @@ pub enum Task {
     Window(WindowTask),
 }
 
-/// Something that only the window can do.
+/// A piece of work that only the window can do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WindowTask {
     Close,
     /// Stay open, though the system asks the window to close.
     StayOpen,
-    /// Fill the screen, or no longer fill it.
+    /// Fill the screen, or leave the full screen.
     FullScreen,
-    /// Make the panels as wide as they were at first.
+    /// Reset the widths of the panels.
     ForgetPanelWidths,
     /// Copy the picture that a view shows to the clipboard.
     CopyShown(usize),
 }
 
-/// A picture for the clipboard that is to be made.
+/// The request for a picture for the clipboard.
 #[derive(Debug)]
 pub struct CopyRequest {
-    /// What the picture is made from.
+    /// The original that the picture is made from.
     pub original: CopyOriginal,
     /// The number of pixels along the longer side.
     pub side: u32,
 }
 
-/// What a picture for the clipboard is made from.
+/// The original from which a picture for the clipboard is made.
 #[derive(Debug)]
 pub enum CopyOriginal {
     /// A picture that is traced.

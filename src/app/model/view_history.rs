@@ -1,5 +1,5 @@
-//! The steps of how the views look at the stone. They are kept apart from the design's own steps, which nobody wants to
-//! search among a hundred tilts.
+//! The history of the views: tilt, zoom, layout and overlay. It is apart from the design's undo, so that a change of
+//! the design need not be searched among a hundred tilts.
 
 use crate::app::model::eye::Eye;
 use crate::app::model::history::History;
@@ -41,7 +41,7 @@ impl ViewState {
 #[derive(Debug, Clone)]
 pub struct ViewHistory {
     history: History<ViewState>,
-    /// The last state, which may still be changing, and the time when it was noted, seconds.
+    /// The last state, which may still be changing, and the time when it was recorded, seconds.
     last: (ViewState, f64),
 }
 
@@ -52,7 +52,7 @@ impl ViewHistory {
         Self { history: History::new(look.clone()), last: (look, 0.0) }
     }
 
-    /// Takes note of the workspace between two gestures, at the time `now`, seconds.
+    /// Records the workspace between two gestures, at the time `now`, seconds.
     pub fn note(&mut self, workspace: &Workspace, now: f64) {
         let look = ViewState::of(workspace);
         if look != self.last.0 {
@@ -68,7 +68,7 @@ impl ViewHistory {
         self.history.settle(&self.last.0);
     }
 
-    /// Whether there is a state to go back to, and one to go forward to.
+    /// Returns whether there is a state to go back to, and one to go forward to.
     pub fn steps(&self) -> (bool, bool) {
         (self.history.can_undo() || self.last.0 != *self.history.present(), self.history.can_redo())
     }
@@ -80,7 +80,7 @@ impl ViewHistory {
         self.go(look, workspace);
     }
 
-    /// Goes forward to the state that was last gone back from.
+    /// Goes forward to the state from before the last step back.
     pub fn on(&mut self, workspace: &mut Workspace) {
         self.settle();
         let look = self.history.redo();

@@ -1,4 +1,4 @@
-//! What a person works on: everything that undo restores.
+//! The user's work: everything that undo restores.
 
 use crate::cut::Design;
 use crate::io::mesh_options::MeshOptions;
@@ -26,12 +26,12 @@ pub struct Work {
     pub remarks: Arc<[String]>,
 }
 
-/// A mesh file, and how it was read.
+/// A mesh file, and the options by which it was read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadMesh {
     pub path: PathBuf,
     pub options: MeshOptions,
-    /// Whether the shape does not show clearly which way the table faces.
+    /// True where the shape does not show clearly which way the table faces.
     pub is_doubtful: bool,
     /// The diameter of the stone when it was read, mm.
     pub diameter_mm: f64,

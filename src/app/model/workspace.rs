@@ -1,4 +1,4 @@
-//! How the user has arranged the window: kept from one start to the next.
+//! The user's arrangement of the window, which is kept from one start to the next.
 
 use super::cutting::CuttingProgress;
 use crate::app::liquid::Liquid;
@@ -44,13 +44,13 @@ pub enum PanelSide {
     Figures,
 }
 
-/// Which panels are open; the others are folded to strips, which open them again.
+/// The open panels; the others are folded to strips, which open them again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Panels {
-    /// Whether the design panel is open in a window that has room for both.
+    /// True where the design panel is open in a window that has room for both.
     pub design: bool,
-    /// Whether the figures panel is open in a window that has room for both.
+    /// True where the figures panel is open in a window that has room for both.
     pub figures: bool,
     /// The panel that is open in a window that has room for one.
     pub narrow: Option<PanelSide>,
@@ -63,7 +63,7 @@ impl Default for Panels {
 }
 
 impl Panels {
-    /// Whether a panel is open.
+    /// Returns whether a panel is open.
     pub fn is_open(&self, side: PanelSide, has_room_for_both: bool) -> bool {
         match (has_room_for_both, side) {
             (false, _) => self.narrow == Some(side),
@@ -85,22 +85,22 @@ impl Panels {
 /// The settings of one view.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pane {
-    /// What the view shows.
+    /// The picture or drawing that the view shows.
     pub shows: Shows,
-    /// The view's own eye; `None` where it looks as the linked views do.
+    /// The view's own eye; `None` where it uses the eye of the linked views.
     pub own: Option<Eye>,
-    /// Whether the view shows the stone in perspective, from nearby; else along parallel rays.
+    /// True for perspective, from nearby; false for parallel rays.
     #[serde(default)]
     pub is_near: bool,
 }
 
-/// The distance of the eye that perspective begins with, girdle radii: a stone of 6.5 mm at 10 cm.
+/// The distance of the eye with which perspective begins, girdle radii: that of a stone of 6.5 mm from 10 cm.
 const DISTANCE: f64 = 30.0;
 
 /// The greatest number of recent files.
 const MOST_RECENT: usize = 10;
 
-/// The arrangement of the window, with all settings that are kept.
+/// The arrangement of the window, with all settings that are kept between starts.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Workspace {
@@ -108,7 +108,7 @@ pub struct Workspace {
     pub layout: PaneLayout,
     /// The views; a layout with fewer shows the first of them.
     pub panes: [Pane; 4],
-    /// The view that is shown alone for a while, if any.
+    /// The view that is shown alone for now, if any.
     pub large: Option<usize>,
     /// The eye of all linked views.
     pub eye: Eye,
@@ -116,15 +116,15 @@ pub struct Workspace {
     pub distance: f64,
     /// The half angle of the observer's head in ASET and figures, degrees.
     pub head: f64,
-    /// Whether scopes show the strongest exits alone.
+    /// True where scopes show only the strongest exits.
     pub strongest: bool,
-    /// Whether scopes and the zones of figures include the glare of the stone's outer surface.
+    /// True where scopes and the zones of figures include the glare of the stone's outer surface.
     pub glare: bool,
     /// The name of the overlay on pictures, if any.
     pub overlay: Option<String>,
-    /// Whether figures count the areas of the strongest exits, not energy.
+    /// True where figures count the areas of the strongest exits, and not energy.
     pub by_area: bool,
-    /// Whether both designs are seen side by side.
+    /// True where both designs of a comparison are seen side by side.
     pub is_split: bool,
     /// The recent files, the last one first.
     pub recent: Vec<PathBuf>,
@@ -138,12 +138,12 @@ pub struct Workspace {
     pub wavelengths: u32,
     /// The backplate behind stones in renders: `light`, the name of a pattern, or a photograph's file.
     pub behind: Option<String>,
-    /// What a scene has set, and what was set before; the latter comes back with another stone.
+    /// The settings that a scene has changed, and their former values, which come back with another stone.
     pub of_scene: Option<OfScene>,
-    /// How far behind the middle the backplate hangs, mm; `None` for a distance that goes with the stone.
+    /// The distance of the backplate behind the middle, mm; `None` for a distance that grows with the stone.
     pub behind_mm: Option<f64>,
-    /// The strength of refraction: how much of the way that refraction turns light is followed before the backplate; 1 is
-    /// physics.
+    /// The strength of refraction, 0 to 1: the part of the turn by refraction that light follows before it meets the
+    /// backplate; 1 is physics.
     pub strength: f64,
     /// The part of the light of sparkles that spreads around them in renders, 0 to 1.
     pub glow: f64,
@@ -151,47 +151,48 @@ pub struct Workspace {
     pub bounces: u32,
     /// The angle by which the light is turned about its axis, degrees.
     pub light_turn: f64,
-    /// Whether the light's axis points up in renders, and not to the eye.
+    /// True where the light's axis points up in renders, false where it points to the eye.
     pub light_upright: bool,
-    /// How the edges of renders are smoothed.
+    /// The method that smooths the edges of renders.
     pub smoothing: Smoothing,
-    /// Whether the panels are hidden, so that views have the window to themselves.
+    /// True where the panels are hidden, so that views fill the window.
     pub hides_panels: bool,
-    /// Whether the table of tiers is open below the views.
+    /// True where the table of tiers is open below the views.
     pub shows_tiers: bool,
-    /// Whether the list of the audit is open below the views.
+    /// True where the list of the audit is open below the views.
     pub shows_audit: bool,
-    /// Whether the map of a measure is open.
+    /// True where the map of a measure is open.
     pub shows_map: bool,
     /// Progress at the faceting machine.
     pub cutting: CuttingProgress,
-    /// Which panels are open where they are not hidden.
+    /// The panels that are open where panels are not hidden.
     pub panels: Panels,
     /// The pane of liquid glass.
     pub liquid: Liquid,
 }
 
-/// The backplate and the number of bands of wavelengths: as a scene has set them, and as they were before.
+/// The backplate and the number of bands of wavelengths, with the values that a scene has set and the former values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OfScene {
     set: (Option<String>, u32),
     before: (Option<String>, u32),
-    /// How views saw what they showed.
+    /// The perspective and smoothing of the views, with their former values.
     #[serde(default)]
     sight: Option<SightOfScene>,
-    /// The light and its exposure in stops, as the scene has set them, and as they were before.
+    /// The light and its exposure in stops, with the values that the scene has set and the former values.
     #[serde(default)]
     light: Option<[(String, f64); 2]>,
 }
 
-/// How views see what they show, as a scene has set it and as it was before.
+/// The distance of the eye, the views in perspective and the smoothing, with the values that a scene has set and the
+/// former values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SightOfScene {
     set: (f64, [bool; 4], Smoothing),
     before: (f64, [bool; 4], Smoothing),
 }
 
-/// The numbers of bands of wavelengths that are offered; of only three bands, each shows in the picture.
+/// The numbers of bands of wavelengths that menus offer. With only three, each band can be told apart in the picture.
 pub const WAVELENGTHS: [u32; 5] = [3, 8, 16, 32, 64];
 
 impl Default for Workspace {
@@ -240,7 +241,7 @@ impl Workspace {
         if self.glare { Glare::Included } else { Glare::LeftOut }
     }
 
-    /// Returns the backplate behind stones in renders; `None` too where its file no longer exists.
+    /// Returns the backplate behind stones in renders; `None` for none, and where its file no longer exists.
     pub fn background(&self) -> Option<BackgroundRef> {
         BackgroundRef::read(self.behind.as_deref()?, Path::new("")).ok()
     }
@@ -250,14 +251,15 @@ impl Workspace {
         self.behind.as_deref().filter(|_| self.background().is_none())
     }
 
-    /// Hangs the next world or pattern behind renders, in the order of their names; after the last one, nothing.
+    /// Chooses the next world or pattern as the background of renders, in the order of their names; after the last
+    /// one, none.
     pub fn next_behind(&mut self) {
         let place = |now: &str| BackgroundRef::names().position(|name| name == now);
         let next = self.behind.as_deref().and_then(place).map_or(0, |now| now + 1);
         self.behind = BackgroundRef::names().nth(next).map(str::to_owned);
     }
 
-    /// Hangs the backplate of a scene behind it, and sees the scene in its number of bands of wavelengths, if it has one.
+    /// Chooses the backplate and the number of bands of wavelengths of a scene, and remembers the former ones.
     pub fn enter_scene(&mut self, behind: Option<String>, wavelengths: Option<u32>) {
         let before = (self.behind.take(), self.wavelengths);
         (self.behind, self.wavelengths) = (behind, wavelengths.unwrap_or(self.wavelengths));
@@ -265,7 +267,7 @@ impl Workspace {
             Some(OfScene { set: (self.behind.clone(), self.wavelengths), before, sight: None, light: None });
     }
 
-    /// Sees renders as a scene is meant to be seen, face up and all of it: in perspective from a distance, in girdle radii, or
+    /// Shows renders as a scene states it, face up and whole: in perspective from a distance in girdle radii, or
     /// along parallel rays; neither edges nor motion are smoothed.
     pub fn see_under(&mut self, distance: Option<f64>) {
         let before = self.sight();
@@ -286,7 +288,7 @@ impl Workspace {
         (self.distance, self.panes.each_ref().map(|pane| pane.is_near), self.smoothing)
     }
 
-    /// Shows a render alone.
+    /// Shows a view of a render alone.
     pub fn enlarge_render(&mut self) {
         let panes = &mut self.panes[..self.layout.panes()];
         let found = panes.iter().position(|pane| pane.shows == Shows::Render);
@@ -296,22 +298,22 @@ impl Workspace {
         self.large = (panes.len() > 1).then_some(found.unwrap_or(0));
     }
 
-    /// Remembers the light and the exposure that a scene has set, and those before.
+    /// Remembers the light and the exposure that a scene has set, and the former ones.
     pub fn light_scene(&mut self, set: (String, f64), before: (String, f64)) {
         if let Some(of_scene) = &mut self.of_scene {
             of_scene.light = Some([set, before]);
         }
     }
 
-    /// Forgets the light and the exposure before a scene.
+    /// Forgets the light and the exposure from before a scene.
     pub fn forget_light(&mut self) {
         if let Some(of_scene) = &mut self.of_scene {
             of_scene.light = None;
         }
     }
 
-    /// Returns the light and the exposure with which another design begins: where they are those of a scene, the ones before
-    /// the scene, and else the present ones.
+    /// Returns the light and the exposure with which another design begins: those from before the scene where the
+    /// present ones are the scene's, else the present ones.
     pub fn light_after_scene(&self, present: (String, f64)) -> (String, f64) {
         match self.of_scene.as_ref().and_then(|of_scene| of_scene.light.as_ref()) {
             Some([set, before]) if *set == present => before.clone(),
@@ -319,11 +321,11 @@ impl Workspace {
         }
     }
 
-    /// Forgets what goes with one stone: the distance in mm, what its scene has set (also its perspective and the turn and axis
-    /// of its light), and a strength below 1.
+    /// Resets the settings that go with one stone: the backplate's distance in mm, the settings of its scene (also
+    /// its perspective and the turn and axis of its light), and a strength below 1.
     pub fn rest(&mut self) {
         if let Some(OfScene { set, before, sight, .. }) = self.of_scene.take() {
-            // What was changed since is not the scene's any more, and stays.
+            // Settings that the user has changed since then are no longer the scene's, and stay.
             if let Some(SightOfScene { before: (distance, is_near, smoothing), .. }) =
                 sight.filter(|sight| sight.set == self.sight())
             {
@@ -341,7 +343,7 @@ impl Workspace {
         (self.light_turn, self.light_upright, self.bounces) = (0.0, false, USUAL_BOUNCES);
     }
 
-    /// Returns how much of the way that refraction turns light is followed; without a backplate, all of it.
+    /// Returns the part of the turn by refraction that light follows, 0 to 1; without a backplate, all of it.
     pub fn strength(&self) -> f64 {
         if self.background().is_some() { self.strength.clamp(0.0, 1.0) } else { 1.0 }
     }
@@ -359,7 +361,7 @@ impl Workspace {
         self.panes[pane].own.as_ref().unwrap_or(&self.eye)
     }
 
-    /// Returns how a pane looks at the stone: from the side that its picture is made for, if any.
+    /// Returns the view of the stone in a pane: from the side that its picture is made for, if any.
     pub fn view(&self, pane: usize) -> View {
         let Pane { shows, is_near, .. } = self.panes[pane];
         let view = self.eye(pane).view(shows.side());
@@ -369,9 +371,9 @@ impl Workspace {
         }
     }
 
-    /// Shows something else in a pane.
+    /// Changes what a pane shows.
     ///
-    /// A scope is seen along parallel rays until the user asks for perspective.
+    /// A scope uses parallel rays until the user asks for perspective.
     pub fn show(&mut self, pane: usize, shows: Shows) {
         let now = &mut self.panes[pane];
         now.is_near &= now.shows == shows || shows.scoped().is_none();
@@ -386,7 +388,7 @@ impl Workspace {
         (self.strongest, self.glare) = (strongest, glare);
     }
 
-    /// Shows the views and panels of the first start; every view keeps the eye that it had.
+    /// Restores the views and panels of the first start; every view keeps its eye.
     pub fn reset_layout(&mut self) {
         let Self { layout, panes, large, is_split, hides_panels, panels, .. } = Self::default();
         (0..panes.len()).for_each(|pane| self.show(pane, panes[pane].shows));
@@ -394,7 +396,7 @@ impl Workspace {
         (self.is_split, self.hides_panels, self.panels) = (is_split, hides_panels, panels);
     }
 
-    /// Returns the eye of a pane, to be moved.
+    /// Returns the eye of a pane for a change: its own, or that of the linked views.
     pub fn eye_mut(&mut self, pane: usize) -> &mut Eye {
         self.panes[pane].own.as_mut().unwrap_or(&mut self.eye)
     }
@@ -410,7 +412,7 @@ impl Workspace {
         self.overlay.as_deref().and_then(|name| name.parse().ok())
     }
 
-    /// Draws an overlay on pictures, or no longer draws it where it is the present one.
+    /// Switches an overlay on pictures on, or off where it is the present one.
     pub fn toggle_overlay(&mut self, name: &str) {
         let same = self.overlay.as_deref() == Some(name);
         self.overlay = (!same).then(|| name.to_owned());

@@ -35,7 +35,7 @@ impl Area {
         }
     }
 
-    /// Whether the area holds no pixel.
+    /// Returns whether the area holds no pixel.
     pub fn is_empty(self) -> bool {
         self.left >= self.right || self.top >= self.bottom
     }

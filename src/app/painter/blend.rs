@@ -43,7 +43,7 @@ pub fn product(a: Pixel, b: Pixel) -> Pixel {
     if a == u32::MAX {
         return b;
     }
-    // Letters are made of white with some coverage.
+    // Letters are white pixels with some coverage as their alpha.
     let coverage = alpha(b);
     if b == coverage * 0x0101_0101 {
         return scaled(a, coverage);

@@ -1,5 +1,5 @@
-//! Finds what has to be painted again: the image is divided into tiles, and each tile has a hash of all pieces that are seen
-//! in it.
+//! Finds the areas that have to be painted again. The image is divided into tiles, and each tile has a hash of all
+//! pieces that are visible in it.
 
 use super::area::Area;
 use super::pieces::{PaintPiece, combined};
@@ -17,11 +17,11 @@ pub struct Tiles {
     last: Vec<u64>,
 }
 
-/// A hash that no tile ever has. It marks a tile whose content is not known.
+/// A hash that no tile ever has. It marks a tile of unknown content.
 const UNKNOWN: u64 = 0;
 
 impl Tiles {
-    /// Returns the areas where these pieces show something else than those of the last call. The areas do not overlap. Where
+    /// Returns the areas in which these pieces differ from those of the last call. The areas do not overlap. Where
     /// the image has changed its size, they cover all of it.
     pub fn changed(
         &mut self,
@@ -93,14 +93,14 @@ impl Tiles {
     }
 }
 
-/// Whether a piece shows a part of its texture that has been replaced since the last image.
+/// Returns whether a piece shows a part of its texture that has been replaced since the last image.
 fn reads_one_of(piece: &PaintPiece, texture: &Texture, patches: &[TexturePatch]) -> bool {
     let mut patches = patches.iter().filter(|(id, ..)| *id == piece.texture).peekable();
     if patches.peek().is_none() {
         return false;
     }
     let (least, most) = piece.shape.read();
-    // Reading between pixels includes the neighbouring ones.
+    // Interpolation reads the neighbouring pixels too.
     let scale = |uv: f32, axis: usize, by: f32| uv * texture.size[axis] as f32 + by;
     patches.any(|(_, first, end)| {
         (0..2).all(|k| scale(least[k], k, -1.0) < end[k] && scale(most[k], k, 1.0) > first[k])

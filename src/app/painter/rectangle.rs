@@ -30,7 +30,8 @@ pub fn draw(canvas: &mut Canvas, [a, b]: &[PaintCorner; 2], texture: &Texture, a
 
 /// The places along one axis at which a texture is read, one for each pixel of the image.
 struct Line {
-    /// For each pixel: the texture's pixel before its place, the one after it, and the weight of the latter, 0 to [`WHOLE`].
+    /// For each pixel of the image: the texture's pixel before its place, the one after it, and the weight of the
+    /// latter, 0 to [`WHOLE`].
     places: Vec<[u32; 3]>,
     /// The first place, and the step from one place to the next, in pixels of the texture.
     start: f32,
@@ -74,7 +75,7 @@ impl Line {
     }
 }
 
-/// What fills a rectangle: a texture, and the colour by which it is multiplied.
+/// The filling of a rectangle: a texture, and the colour by which it is multiplied.
 struct Fill<'a> {
     texture: &'a Texture,
     tint: Pixel,

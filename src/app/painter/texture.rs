@@ -12,9 +12,9 @@ pub struct Texture {
     pub size: [usize; 2],
     /// The pixels, row by row. They are shared with the code that made the picture, so that nothing is copied.
     image: Arc<ColorImage>,
-    /// How the picture is read between pixels and beyond its edge.
+    /// The filter between pixels and the rule beyond the picture's edge.
     pub options: TextureOptions,
-    /// Whether all pixels are known to be opaque.
+    /// True where all pixels are known to be opaque.
     pub is_opaque: bool,
     /// A number that no other picture has. It changes when the whole picture is replaced.
     pub version: u64,
@@ -23,7 +23,7 @@ pub struct Texture {
 /// A part of a texture that was replaced: the texture, the part's first column and row, and those after its last.
 pub type TexturePatch = (TextureId, [f32; 2], [f32; 2]);
 
-/// All textures that egui has made.
+/// The textures that egui has made, by their names.
 #[derive(Default)]
 pub struct Textures {
     all: BTreeMap<TextureId, Texture>,
@@ -91,14 +91,14 @@ impl Texture {
         &self.image.pixels[start..start + count]
     }
 
-    /// Whether the picture is read at its nearest pixel, without interpolation.
+    /// Returns whether the picture is read at its nearest pixel, without interpolation.
     pub fn is_nearest(&self) -> bool {
         self.options.magnification == TextureFilter::Nearest
     }
 
     /// Returns the colour at a place, 0 to 1 across and down.
     pub fn at(&self, u: f32, v: f32) -> Pixel {
-        // Egui keeps a white pixel at this place, which fills most of what it draws.
+        // Egui keeps a white pixel at this place, and fills most of its shapes with it.
         if (u, v) == (0.0, 0.0) && self.options.wrap_mode == TextureWrapMode::ClampToEdge {
             return self.image.pixels.first().map_or(0, |&colour| pixel(colour));
         }

@@ -1,6 +1,6 @@
-//! The list of the audit below the views: places of the stone that may not be what its designer meant.
+//! The list of the audit below the views: places of the stone that its designer may not have meant.
 //!
-//! A row that is clicked is selected: the views outline its facets and mark its corners.
+//! A click on a row selects it: the views outline its facets and mark its corners.
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
@@ -18,7 +18,7 @@ const MOST_NAMES: usize = 8;
 /// A place nearer to the axis than this, mm, has no azimuth.
 const ON_AXIS_MM: f64 = 5e-4;
 
-/// How a row says where its finding lies.
+/// The explanation of the place in a row.
 const PLACE: &str = "Angles are counted counter-clockwise from the right as seen from above the table; heights from the \
     origin of the design.";
 
@@ -42,7 +42,7 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     });
 }
 
-/// Says how much was found, or why nothing can be.
+/// Returns how many findings there are, or why there can be none.
 fn summary(model: &Model) -> String {
     let document = &model.document;
     if document.specimen().stone().is_err() {
@@ -50,7 +50,7 @@ fn summary(model: &Model) -> String {
     }
     let Some(audit) = &model.session.audit.found else { return "The audit is under way…".to_owned() };
     let found = match audit.findings.len() {
-        0 => "No candidates: nothing was found that may not be meant.".to_owned(),
+        0 => "No candidates: the audit found no place that its designer may not have meant.".to_owned(),
         1 => {
             "1 candidate; whether it is a fault is for you to judge. W is the width of the stone.".to_owned()
         }
@@ -59,7 +59,7 @@ fn summary(model: &Model) -> String {
         ),
     };
     match document.shows_last_possible() {
-        true => format!("{found} The design makes no stone now; this is about the last one."),
+        true => format!("{found} The design makes no stone now; the list is about the last stone."),
         false => found,
     }
 }
@@ -90,7 +90,7 @@ fn capitalised(text: &str) -> String {
     letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
-/// Says what was found: the facets, the size, and the place; `unit_mm` is the unit of the stone's frame in mm.
+/// Describes a finding: its facets, size and place. `unit_mm` is the unit of the stone's frame in mm.
 fn sentence(finding: &Finding, unit_mm: f64) -> String {
     let what = match finding.kind {
         FindingKind::NearMiss => "a gap of ",
@@ -130,7 +130,7 @@ fn names(facets: &[String]) -> String {
     }
 }
 
-/// Says where a point of the stone lies, in mm.
+/// Describes where a point of the stone lies, in mm and degrees.
 fn place(at: DVec3) -> String {
     let out = at.truncate().length();
     // Rounded first, so that a tiny negative number does not show as -0.00.

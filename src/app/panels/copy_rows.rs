@@ -1,5 +1,5 @@
-//! Rows for presets, copies, their motion, and the smoothing of moving edges: glass shapes are shown with these, and gems
-//! may be.
+//! Rows for presets, copies, their motion, and the smoothing of moving edges. They are shown for glass shapes; gems
+//! can have them too.
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit, FileAction, ViewAction};
@@ -14,7 +14,7 @@ use crate::scene::MOST_COPIES;
 use egui::{Button, Ui, vec2};
 use std::ops::RangeInclusive;
 
-/// The range of the angle of view, degrees; an eye still nearer may be inside the glass.
+/// The range of the angle of view, degrees; an eye that is nearer than the greatest angle may be inside the glass.
 const ANGLES: RangeInclusive<f64> = 1.0..=75.0;
 
 /// Draws a button for each scene of glass that comes with the program; a click begins that scene.
@@ -72,7 +72,7 @@ fn motion(motion: Motion, actions: &mut Actions, ui: &mut Ui) {
     });
 }
 
-/// Draws the row for the angle of view, which says how near the eye of views in perspective is.
+/// Draws the row for the angle of view, which sets the distance of the eye in perspective.
 ///
 /// Draws nothing where no view in sight is in perspective.
 fn view_angle(model: &Model, actions: &mut Actions, ui: &mut Ui) {

@@ -56,7 +56,7 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui, widths: RangeIncl
     });
 }
 
-/// Whether GIA's ranges for the grade Excellent apply: they are for diamond.
+/// Returns whether GIA's ranges for the grade Excellent apply to the design: they hold for diamond.
 fn is_graded(design: &Design) -> bool {
     let is_diamond =
         matches!(&design.material, MaterialRef::Name(name) if name.eq_ignore_ascii_case("diamond"));
@@ -102,7 +102,7 @@ fn identity(document: &Document, actions: &mut Actions, ui: &mut Ui) {
     });
 }
 
-/// Draws the rows for the shape of the stone, and what is wrong with it.
+/// Draws the rows for the shape of the stone, with a message where the shape is impossible.
 fn proportions(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let document = &model.document;
     let said = impossible(model);
@@ -118,7 +118,7 @@ fn proportions(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     }
 }
 
-/// Draws the rows for the proportions of the family of a cut, if it has one; returns what the user has changed.
+/// Draws the rows for the proportions of the family of a cut, if it has one; returns the user's edit.
 fn proportion_rows(design: &Design, said: Option<&RowMessage>, ui: &mut Ui) -> Option<Edit> {
     // A cut without a family may hold a mesh, which is not copied for nothing.
     design.cut.family()?;
@@ -142,7 +142,7 @@ fn proportion_rows(design: &Design, said: Option<&RowMessage>, ui: &mut Ui) -> O
     }
 }
 
-/// Explains what is wrong with the proportions, and at which row to say so.
+/// Returns the message about impossible proportions and the row that shows it.
 fn impossible(model: &Model) -> Option<RowMessage> {
     let Some(SpecimenError::Design(DesignError::Proportion(fault))) = model.document.fault() else {
         return None;
@@ -174,8 +174,8 @@ fn warnings(document: &Document, ui: &mut Ui) {
     }
 }
 
-/// Draws one proportion: name, slider, number, and for one of a pair whether it is held; where GIA grades it, also the
-/// range of the grade Excellent. Returns whether it was changed.
+/// Draws one proportion: name, slider and number, and for one of a pair a padlock; where GIA grades it, also the
+/// range of the grade Excellent. Returns whether the user changed it.
 fn row(ui: &mut Ui, proportion: &Proportion, cut: &mut Cut, is_graded: bool) -> bool {
     let Proportion { name, unit, usual: [first, last], step, speed, .. } = *proportion;
     ui.horizontal(|ui| {
@@ -202,7 +202,7 @@ fn row(ui: &mut Ui, proportion: &Proportion, cut: &mut Cut, is_graded: bool) -> 
     .inner
 }
 
-/// Returns where a range lies on a slider: a band under its rail.
+/// Returns the rectangle of a range on a slider: a band under its rail.
 fn band(slider: Rect, range: [f64; 2], whole: [f64; 2]) -> Rect {
     let handle = slider.height() / 2.5;
     let (left, right) = (slider.left() + handle, slider.right() - handle);

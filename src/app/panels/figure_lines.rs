@@ -11,9 +11,9 @@ use crate::scene::{Glare, Scope};
 #[derive(Debug)]
 pub struct Figure {
     pub name: &'static str,
-    /// What the figure means.
+    /// The meaning of the figure, for its explanation.
     pub meaning: &'static str,
-    /// Whether the figure stands out among the others.
+    /// True where the figure is drawn in strong letters.
     pub is_strong: bool,
     source: Source,
 }
@@ -23,7 +23,7 @@ pub struct Figure {
 enum Source {
     /// A band of the scope.
     Zone(&'static str),
-    /// All the light together.
+    /// A function of all the light together.
     Total(fn(&Figures, &Scope) -> f64),
 }
 
@@ -104,31 +104,31 @@ impl Figure {
     }
 }
 
-/// The name of the zone that is shown where the observer has a head.
+/// The name of the zone that the panel shows where the observer has a head.
 const HEAD: &str = "Head";
-/// The name of the total that is shown where glare is included.
+/// The name of the total that the panel shows where glare is included.
 const WITH_GLARE: &str = "With glare";
 
 /// The name of the total that stands for the unresolved light where it is estimated.
 const ESTIMATED: &str = "Estimated";
 
-/// How figures are counted.
+/// The way in which figures are counted.
 #[derive(Debug, Clone, Copy)]
 pub struct Counting {
-    /// Whether zones count the areas of the strongest exits, not energy.
+    /// True where zones count the areas of the strongest exits, and not energy.
     pub by_area: bool,
-    /// Whether zones include glare.
+    /// Included where zones contain glare.
     pub glare: Glare,
 }
 
 impl Counting {
-    /// Returns how figures are counted in a workspace.
+    /// Returns the way in which a workspace counts figures.
     pub fn of(workspace: &Workspace) -> Self {
         Self { by_area: workspace.by_area, glare: workspace.glare() }
     }
 }
 
-/// A figure of the present stone, beside that of the other stone of a comparison.
+/// A figure of the present stone, with that of the other stone of a comparison.
 #[derive(Debug, Clone, Copy)]
 pub struct FigureLine {
     pub figure: &'static Figure,
@@ -136,14 +136,14 @@ pub struct FigureLine {
     pub share: f64,
     /// The share of the outline of the other stone of a comparison, if any.
     pub other: Option<f64>,
-    /// How far apart `share` and `other` may be in one and the same stone; 0 once both are final.
+    /// The greatest difference between `share` and `other` that the same stone could have now; 0 once both are final.
     pub error: f64,
 }
 
 impl FigureLine {
-    /// Returns how much more the present design has than the one compared with.
+    /// Returns by how much the figure of the present design exceeds that of the other.
     ///
-    /// `None` while the difference may be no more than what both are still uncertain by.
+    /// `None` while the difference may be no more than the uncertainty of both.
     pub fn difference(&self) -> Option<f64> {
         let difference = self.share - self.other?;
         (self.error == 0.0 || difference.abs() > self.error).then_some(difference)
@@ -173,9 +173,9 @@ pub fn lines(measured: &ShownFigures, other: Option<&ShownFigures>, counting: Co
 /// The number of standard errors within which figures by rays almost always lie.
 const SIGMAS: f64 = 4.0;
 
-/// Returns how far apart two figures of the same stone may be while one or both are becoming finer.
+/// Returns the greatest difference between two figures that the same stone could have while one or both become finer.
 ///
-/// Each may be too low by what is unresolved. Figures that are final are compared as they are: their error is 0.
+/// Each figure may be too low by its unresolved light. Final figures are compared as they are: their error is 0.
 fn error(present: &ShownFigures, other: &ShownFigures, by_area: bool) -> f64 {
     let both = [present, other];
     if both.iter().all(|measured| measured.grade == Grade::Fine) {

@@ -1,4 +1,5 @@
-//! The figures panel: where the light comes from, by exact beams or by rays, and how that changes when the stone is tilted.
+//! The figures panel: the shares of the light by its origin, by exact beams or by rays, and their change when the
+//! stone is tilted.
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, NoteAction, ViewAction};
@@ -157,7 +158,7 @@ fn row(ui: &mut Ui, row: &FigureLine) {
 fn tens(input: GridInput) -> Vec<GridMark> {
     let (first, last) = (input.bounds.0 / 10.0, input.bounds.1 / 10.0);
     let tens = (first.ceil() as i32)..=(last.floor() as i32);
-    // Only marks that are far apart have room for a number on the narrow axis.
+    // Only marks that are far apart leave room for a number on the narrow axis.
     let far = |k: i32| if k % 3 == 0 { 30.0 } else { 10.0 };
     tens.map(|k| GridMark { value: 10.0 * f64::from(k), step_size: far(k) }).collect()
 }

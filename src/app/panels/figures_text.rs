@@ -1,4 +1,4 @@
-//! Figures in words: what they describe, and all of them as text and as tables for the clipboard.
+//! Figures in words: the stone and view that they describe, and all of them as text and as tables for the clipboard.
 
 use crate::app::model::Model;
 use crate::app::model::eye::Eye;
@@ -13,7 +13,7 @@ pub fn other(model: &Model) -> Option<&ShownFigures> {
     model.session.compared.as_ref().and_then(|_| model.session.measured.figures.get(&Which::Other))
 }
 
-/// Says whether figures are final, and their error where they are sampled.
+/// Returns whether figures are final, and their error where they are sampled, in words.
 pub fn state(model: &Model, measured: &ShownFigures) -> String {
     let is_ordered = model.session.ordered.figures.iter().any(|(_, order)| *order == measured.order);
     let state = match is_ordered && measured.grade == Grade::Fine {
@@ -32,7 +32,7 @@ pub fn state(model: &Model, measured: &ShownFigures) -> String {
     }
 }
 
-/// Says from where the stone is seen for the figures.
+/// Returns the direction from which the stone is seen for the figures, in words.
 pub fn view(eye: &Eye) -> String {
     let tilt = eye.tilt().to_degrees();
     let azimuth = (eye.view(None).azimuth - eye.turn).to_degrees().rem_euclid(360.0);
@@ -61,18 +61,18 @@ pub fn shown(model: &Model, as_table: bool) -> Option<String> {
     })
 }
 
-/// What the figures describe, in words.
+/// The subject of a text of figures, in words.
 struct FiguresSubject<'a> {
     design: &'a str,
-    /// From where the design is seen.
+    /// The direction from which the design is seen.
     view: &'a str,
-    /// How the figures are counted, and whether they are final.
+    /// The way in which the figures are counted, and whether they are final.
     state: &'a str,
     /// The name of the design compared with, if any.
     other: Option<&'a str>,
 }
 
-/// Returns the figures that the panel shows as text: a line that says what they describe, then a line for each.
+/// Returns the figures of the panel as text: a line about their subject, then a line for each.
 fn text(about: &FiguresSubject, lines: &[FigureLine]) -> String {
     let FiguresSubject { design, view, state, other } = about;
     let mut text = format!("{design}: {view}; {state}\n");
@@ -93,7 +93,8 @@ fn text(about: &FiguresSubject, lines: &[FigureLine]) -> String {
     text
 }
 
-/// Returns the figures as comma-separated values (RFC 4180). A figure that is not counted one way has an empty cell there.
+/// Returns the figures as comma-separated values (RFC 4180). The cell is empty where a figure has no value for a way
+/// of counting.
 fn csv(about: &FiguresSubject, energies: &[FigureLine], areas: &[FigureLine]) -> String {
     let mut table = String::from("design,view,figure,energy_percent,area_percent");
     if about.other.is_some() {

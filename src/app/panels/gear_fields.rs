@@ -16,11 +16,10 @@ const REPEATS: RangeInclusive<u32> = 1..=96;
 const FIELD: f32 = 124.0;
 
 const GEAR: &str = "The teeth of the index gear. With another gear all facets stay where they are, and their indices change.";
-const CLOCKWISE: &str = "Whether the gear counts clockwise, seen from the table. Facets stay where they are.";
-const SYMMETRY: &str =
-    "How often the design repeats around its axis. The audit compares the facets with it; no facet changes.";
-const MIRROR: &str =
-    "Whether each repeat is its own mirror image. The audit compares the facets with it; no facet changes.";
+const CLOCKWISE: &str =
+    "Tick this for a gear that counts clockwise, seen from the table. Facets stay where they are.";
+const SYMMETRY: &str = "The number of repeats of the design around its axis. The audit compares the facets with it; no facet changes.";
+const MIRROR: &str = "Tick this if each repeat is its own mirror image. The audit compares the facets with it; no facet changes.";
 
 /// Draws the fields.
 pub fn show(tiers: &Tiers, actions: &mut Actions, ui: &mut Ui) {
@@ -41,7 +40,7 @@ pub fn show(tiers: &Tiers, actions: &mut Actions, ui: &mut Ui) {
     });
 }
 
-/// Draws the name and the field of a whole number. A number that lies outside the range stays until it is set.
+/// Draws the name and the field of a whole number. A number outside the range stays as it is until the user sets it.
 fn number(ui: &mut Ui, name: &str, meaning: &str, field: DragValue<'_>) {
     // The name stays with its field where the line breaks.
     let size = vec2(FIELD, ui.spacing().interact_size.y);

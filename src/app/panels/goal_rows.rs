@@ -1,4 +1,4 @@
-//! The rows in which a person says what a better cut is: measures with weights and limits, and the numbers that may change.
+//! The rows that describe a better cut: measures with weights and limits, and the numbers that may change.
 
 use super::rows::{ANY, NOT_KNOWN, Number, UNKNOWN, spoken};
 use crate::app::model::goal_form::{GoalForm, NumberChoice, SearchEffort};
@@ -6,10 +6,10 @@ use crate::measure::measure_words;
 use crate::search::GoalMeasure;
 use egui::{ComboBox, DragValue, Grid, Id, Label, RichText, Ui, vec2};
 
-/// The widths of the fields of a measure, of what is wanted of it, and of numbers, points.
+/// The widths of the fields of a measure, of its direction, and of its numbers, points.
 const WIDTHS: [f32; 3] = [212.0, 92.0, 62.0];
 
-/// The widths of the fields for the ends of a range, points.
+/// The width of the fields for the ends of a range, points.
 const END: f32 = 84.0;
 
 /// The weights that can be typed.
@@ -17,14 +17,14 @@ const WEIGHTS: std::ops::RangeInclusive<f64> = 0.01..=1000.0;
 
 /// The heads of the measures and their meanings.
 const HEADS: [(&str, &str); 5] = [
-    ("Measure", "How the cut handles light, face up and in its own material."),
-    ("Wanted", "Whether more or less of it is better; or only limits, which it must keep."),
-    ("Weight", "How much it counts against the others."),
+    ("Measure", "A measure of the cut's light, face up and in the design's own material."),
+    ("Wanted", "More or less of the measure is better; or it only has to keep its limits."),
+    ("Weight", "The weight of the measure in the sum of all measures."),
     ("At least %", "The least value that is allowed. Leave it empty for none."),
     ("At most %", "The greatest value that is allowed. Leave it empty for none."),
 ];
 
-/// What is wanted of a measure, by the sign of its weight.
+/// The directions of a measure: more, less, or limits only; each has the sign of its weight.
 const WANTED: [(&str, f64); 3] = [("more", 1.0), ("less", -1.0), ("limits only", 0.0)];
 
 /// Draws all rows.
@@ -46,7 +46,7 @@ const ANGLE_STEPS: [Option<f64>; 5] = [None, Some(0.05), Some(0.1), Some(0.25), 
 /// Draws the choice of the step of angles.
 pub fn angle_step(form: &mut GoalForm, ui: &mut Ui) {
     let name = |step: Option<f64>| step.map_or("any".to_owned(), |step| format!("{step}°"));
-    let meaning = "Angles that change end on multiples of this, as the scale of a machine has them.";
+    let meaning = "Angles that change become multiples of this step, like those on the scale of a machine.";
     let label = ui.label("Angle step").on_hover_text(meaning);
     let combo =
         ComboBox::from_id_salt("angle step").width(END - 24.0).selected_text(name(form.angle_step_deg));
@@ -60,7 +60,9 @@ pub fn angle_step(form: &mut GoalForm, ui: &mut Ui) {
 
 /// Draws the choice of the effort.
 pub fn effort(form: &mut GoalForm, ui: &mut Ui) {
-    let label = ui.label("Effort").on_hover_text("How many designs are tried, and how finely.");
+    let label = ui
+        .label("Effort")
+        .on_hover_text("The number of designs that are tried, and the accuracy of their measures.");
     let combo = ComboBox::from_id_salt("effort").width(WIDTHS[1]).selected_text(form.effort.name());
     let shown = combo.show_ui(ui, |ui| {
         for offered in SearchEffort::ALL {
@@ -103,7 +105,7 @@ fn measures(form: &mut GoalForm, ui: &mut Ui) {
     }
 }
 
-/// Says what a goal file states of a measure besides what the row shows: materials, views, and what may be lost.
+/// Describes what a goal file states of a measure beyond the row: materials, views and the loss that is allowed.
 fn taken_in(measure: &GoalMeasure) -> String {
     let mut said = vec![];
     if let Some(materials) = &measure.material {
@@ -156,7 +158,7 @@ fn of(measure: &mut GoalMeasure, row: usize, ui: &mut Ui) {
     spoken(&shown.response, &format!("Measure {row}"));
 }
 
-/// Draws the choice of what is wanted of a measure.
+/// Draws the choice of a measure's direction: more, less, or limits only.
 fn wanted(measure: &mut GoalMeasure, row: usize, ui: &mut Ui) {
     let sign = |weight: f64| if weight == 0.0 { 0.0 } else { weight.signum() };
     let now = sign(measure.weight);
@@ -187,7 +189,7 @@ fn weight(measure: &mut GoalMeasure, (row, head): (usize, Id), ui: &mut Ui) {
     }
 }
 
-/// Draws a field for a limit, in percent; an empty one is none.
+/// Draws a field for a limit, in percent; an empty field means no limit.
 fn limit(limit: &mut Option<f64>, name: &str, ui: &mut Ui) {
     let before = limit.map_or(NOT_KNOWN, |part| 100.0 * part);
     let mut percent = before;

@@ -88,7 +88,7 @@ fn short(name: &str) -> Cow<'_, str> {
 /// The size of a light's picture in the list, points.
 const THUMBNAIL: Vec2 = vec2(36.0, 18.0);
 
-/// Returns the picture of a light of the program; drawn when it is first shown.
+/// Returns the picture of a light of the program, which is drawn when it is first shown.
 fn light_thumbnail(ui: &Ui, name: &str) -> Image<'static> {
     let id = Id::unique(("light thumbnail", name));
     let known = ui.data(|data| data.get_temp::<TextureHandle>(id));
@@ -128,7 +128,7 @@ fn light_row(present: &str, actions: &mut Actions, ui: &mut Ui) {
 /// Draws the row of backplates behind the stone in renders.
 fn behind(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
     let mut behind = workspace.behind.clone();
-    let meaning = "The background of renders. Each ray shows the point of it that the ray meets.";
+    let meaning = "The background of renders. Each ray shows the point of the background that it meets.";
     let present = workspace.behind.as_deref().map_or("nothing".into(), short);
     choice_row(ui, "Background", meaning, &present, |ui| {
         ui.selectable_value(&mut behind, None, "nothing");

@@ -1,4 +1,5 @@
-//! The lines of equal value on a map of a measure. They are found once for what is known, and not anew in each frame.
+//! The lines of equal value on a map of a measure. They are computed once for the answered points, and not in each
+//! frame.
 
 use crate::io::plot::{PlotAxis, levels, lines};
 use crate::measure::MeasureName;
@@ -6,22 +7,22 @@ use egui::{Context, Id};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// What lines belong to.
+/// The data that lines are computed from, by which stored lines are found again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MapLinesOf {
     /// The number of the sweep.
     pub number: u64,
-    /// How many of its points are known.
+    /// The number of its points that have been answered.
     pub answered: usize,
     /// The measure.
     pub measure: MeasureName,
 }
 
-/// Lines, by the parts of the way across and up.
+/// Lines, whose corners are parts of the way across and up, 0 to 1.
 type MapLines = Arc<Vec<Vec<[f64; 2]>>>;
 
-/// Returns the lines of a map. `values` gives the values of a square grid, row by row from below, with their range, or `None`
-/// where one of them is missing; it is called where `of` is another than in the last call.
+/// Returns the lines of a map. `values` gives the values of a square grid, row by row from below, with their range,
+/// or `None` where one of them is missing; it is called only where `of` differs from that of the last call.
 pub fn map_lines(
     ctx: &Context,
     of: MapLinesOf,

@@ -29,25 +29,25 @@ const SCALE: [f32; 2] = [14.0, 10.0];
 /// The colour of the frame around the published range, which the scale of colours lacks.
 const PUBLISHED: Color32 = Color32::from_rgb(255, 190, 225);
 
-/// How far the arms of the cross reach, points.
+/// The length of an arm of the cross, points.
 const CROSS: f32 = 9.0;
 
-/// What is known at the place under the pointer.
+/// The answer at the place under the pointer.
 pub struct MapReading<'a> {
-    /// The values of the axes at the nearest place that is known.
+    /// The values of the axes at the nearest place that has an answer.
     pub at: [f64; 2],
-    /// What was found there; `None` where nothing is known yet.
+    /// The result there; `None` where there is no answer yet.
     pub found: Option<&'a Result<SweptStone, SweepError>>,
 }
 
-/// A map that is to be drawn.
+/// The data of a map to be drawn.
 pub struct MapPlot<'a> {
     options: &'a MapOptions,
     design: &'a Design,
     found: Option<&'a FoundSweep>,
-    /// Whether the places are those of the present design.
+    /// True where the points belong to the present design.
     is_present: bool,
-    /// The least and the greatest value that is known; `None` where there is none.
+    /// The least and the greatest value of all answered points; `None` where there is none.
     range: Option<Range<f64>>,
     /// The place in [`STRIDES`] of the finest grid that is whole.
     whole: Option<usize>,
@@ -74,14 +74,14 @@ impl<'a> MapPlot<'a> {
         plot
     }
 
-    /// Returns the middle of the measure's interval at a place, percent; `None` where it is not known or has no bound.
+    /// Returns the middle of the measure's interval at a place, percent; `None` where it has no answer or no bound.
     fn value(&self, x: usize, y: usize) -> Option<f64> {
         let stone = self.found?.at(point(x, y))?.as_ref().ok()?;
         let middle = self.options.measure.of(&stone.measures)?.middle();
         middle.is_finite().then_some(100.0 * middle)
     }
 
-    /// Draws the map, and moves the design where the user points. Returns what is under the pointer.
+    /// Draws the map, and moves the design where the user points. Returns the answer under the pointer.
     pub fn show(&self, actions: &mut Actions, ui: &mut Ui) -> Option<MapReading<'a>> {
         let [left, top, right, bottom] = MARGINS;
         let width = ui.available_width().max(LEAST + left + right);
@@ -110,14 +110,14 @@ impl<'a> MapPlot<'a> {
         Some(self.reading(sight.part(at)))
     }
 
-    /// Says what the map shows.
+    /// Returns the name of the map for screen readers: the measure and both axes.
     fn spoken(&self) -> String {
         let [across, up] = &self.options.axes;
         let measure = measure_words::name(self.options.measure);
         format!("Map: {measure} over {} and {}", across.name, up.name)
     }
 
-    /// Draws the known places as cells, coarse ones first, so that finer ones cover them.
+    /// Draws the answered places as cells, coarse ones first, so that finer ones cover them.
     fn cells(&self, ui: &Ui, painter: &Painter, sight: &MapSight) {
         let Some(found) = self.found else { return };
         let (mut colours, mut hatches) = (Mesh::default(), vec![]);
@@ -126,7 +126,7 @@ impl<'a> MapPlot<'a> {
         for (level, stride) in STRIDES.into_iter().enumerate().skip(self.whole.unwrap_or(0)) {
             let is_drawn = |x: usize, y: usize| {
                 let is_coarser = x.is_multiple_of(2 * stride) && y.is_multiple_of(2 * stride);
-                // Cells of the level before are drawn anew, smaller, where all around them is known.
+                // Cells of the level before are drawn again, smaller, where all their neighbours have answers.
                 Some(level) == self.whole || level == 0 || !is_coarser
             };
             for x in (0..=STEPS).step_by(stride) {
@@ -202,7 +202,7 @@ impl<'a> MapPlot<'a> {
         }
     }
 
-    /// Returns the values that the design has.
+    /// Returns the values of the design on both axes.
     fn here(&self) -> Option<[f64; 2]> {
         let [across, up] = &self.options.axes;
         Some([across.value(&self.design.cut)?, up.value(&self.design.cut)?])
@@ -240,7 +240,7 @@ impl<'a> MapPlot<'a> {
         }
     }
 
-    /// Moves the design to where the user clicks, drags or goes by arrow keys.
+    /// Moves the design to the place that the user clicks, drags to or reaches by arrow keys.
     fn act(&self, actions: &mut Actions, ui: &Ui, response: &Response, sight: &MapSight) {
         if response.clicked() || response.dragged() {
             response.request_focus();
@@ -261,7 +261,7 @@ impl<'a> MapPlot<'a> {
         }
     }
 
-    /// Returns what is known at the place that is nearest to parts of the map's sides, as fine as it is known there.
+    /// Returns the answer of the finest grid at the place nearest to these parts of the map's sides.
     fn reading(&self, part: [f64; 2]) -> MapReading<'a> {
         let place = |stride: usize| {
             part.map(|part| ((part * (STEPS / stride) as f64).round() as usize * stride).min(STEPS))
@@ -281,7 +281,7 @@ impl<'a> MapPlot<'a> {
     }
 }
 
-/// Where the map lies on the screen.
+/// The place of the map on the screen.
 struct MapSight<'a> {
     map: Rect,
     axes: &'a [MapAxis; 2],

@@ -1,4 +1,4 @@
-//! The window with the map of a measure: what is mapped over what, the map, and what is under the pointer.
+//! The window with the map of a measure: the choices of measure and axes, the map, and the values under the pointer.
 
 use super::map_plot::{MapPlot, MapReading};
 use super::rows::{ANY, NUMBER, Number, choice_row, named};
@@ -12,10 +12,11 @@ use egui::{Context, Pos2, RichText, Ui, Vec2, Window, pos2, vec2};
 /// The size of the window at first, and at least, points.
 const SIZES: [Vec2; 2] = [vec2(560.0, 600.0), vec2(420.0, 440.0)];
 
-/// Where the upper left corner of the window is at first, points: right of the design panel, whose fields it does not cover.
+/// The first place of the window's upper left corner, points: right of the design panel, whose fields it does not
+/// cover.
 const PLACE: Pos2 = pos2(376.0, 64.0);
 
-/// What stands by the published range.
+/// The label of the published range.
 pub const PUBLISHED: &str = "GIA's published range for EX: an estimate, not a grade";
 
 /// Draws the window where it is open.
@@ -73,7 +74,7 @@ fn choices(options: &mut MapOptions, cut: &Cut, ui: &mut Ui) {
     {
         let other = options.axes[1 - place].clone();
         let axis = &mut options.axes[place];
-        let meaning = "What varies along this axis. Of two numbers of which one follows from the other, only one can vary.";
+        let meaning = "The number that varies along this axis. Where one number follows from another, only one of them can vary.";
         choice_row(ui, name, meaning, &axis.name.clone(), |ui| {
             for offered in all.iter().filter(|offered| !offered.is_paired(&other, cut)) {
                 if ui.selectable_label(offered.key == axis.key, &offered.name).clicked()
@@ -84,8 +85,10 @@ fn choices(options: &mut MapOptions, cut: &Cut, ui: &mut Ui) {
             }
         });
         ui.horizontal(|ui| {
-            let ends =
-                [(least, "The value at the first end of the axis."), (most, "The value at its other end.")];
+            let ends = [
+                (least, "The value at the first end of the axis."),
+                (most, "The value at the other end of the axis."),
+            ];
             for (end, (name, meaning)) in axis.ends.iter_mut().zip(ends) {
                 let label = named(ui, name, meaning);
                 let number = Number { decimals: 2, speed: 0.05, range: ANY, unit: axis.unit };
@@ -95,7 +98,7 @@ fn choices(options: &mut MapOptions, cut: &Cut, ui: &mut Ui) {
     }
 }
 
-/// Says how far the map has come.
+/// Describes how many points of the map have been answered.
 fn state(map: &MeasureMap) -> String {
     match map.sweep.found() {
         Some(found) if !map.sweep.is_present() => {
@@ -112,7 +115,7 @@ fn state(map: &MeasureMap) -> String {
     }
 }
 
-/// Says what is under the pointer, or where the design stands.
+/// Describes the place under the pointer, or the place of the design.
 fn said(options: &MapOptions, reading: Option<&MapReading>, design: &Design) -> String {
     let [across, up] = &options.axes;
     let place = |values: [f64; 2]| {

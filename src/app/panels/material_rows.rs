@@ -33,7 +33,7 @@ pub fn show(design: &Design, known: &Material, ui: &mut Ui) -> Option<MaterialRe
 
 fn rows(design: &Design, known: &Material, ui: &mut Ui) -> Option<Material> {
     let is_own = matches!(design.material, MaterialRef::Custom(_));
-    // Another index makes another substance: it keeps a density only where that was set by hand.
+    // Another index makes another substance, which keeps a density only where the user had set it.
     let refracting = refraction(known, ui).map(|material| Material {
         density: is_own.then_some(known.density).flatten(),
         absorption: known.absorption.clone(),

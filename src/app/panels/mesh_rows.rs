@@ -1,4 +1,4 @@
-//! Rows that set how the open mesh is read: whether as flat facets, and which way its table faces.
+//! Rows that set how the open mesh is read: as flat facets or as triangles, and which way its table faces.
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, FileAction};
@@ -55,7 +55,7 @@ fn form(cut: &Cut, options: MeshOptions, actions: &mut Actions, ui: &mut Ui) {
         named(
             ui,
             "Read as",
-            "What the triangles of the file stand for. The mesh is read again when you change it.",
+            "The form in which the triangles of the file are read. A change reads the mesh again.",
         );
         for (name, form, meaning) in FORMS {
             let is_present = form == present;

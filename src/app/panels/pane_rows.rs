@@ -1,4 +1,4 @@
-//! Rows for the pane of liquid glass, which are there while a view shows it.
+//! Rows for the pane of liquid glass, which appear while a view shows it.
 
 use crate::app::liquid::{LightMotion, Liquid};
 use crate::app::model::action::{Actions, ViewAction};
@@ -24,14 +24,14 @@ const AZIMUTHS: RangeInclusive<f64> = 0.0..=360.0;
 /// The range of the light's height, degrees.
 const HEIGHTS: RangeInclusive<f64> = 0.0..=90.0;
 
-/// What moves the light: the name of each, and its meaning.
+/// The drivers of the light: the name of each, and its meaning.
 const MOTIONS: [(LightMotion, &str, &str); 3] = [
     (LightMotion::Fixed, "fixed", "The light stays where the next two rows set it."),
     (LightMotion::Pointer, "pointer", "The light follows the pointer over the view."),
     (LightMotion::Time, "time", "The light goes round the pane once in six seconds."),
 ];
 
-/// The qualities: the name of each, and what of the effect it draws.
+/// The qualities: the name of each, and the part of the effect that it draws.
 const QUALITIES: [(PaneQuality, &str, &str); 3] = [
     (PaneQuality::High, "high", "All effects; frost takes five samples, along both axes."),
     (
@@ -71,9 +71,9 @@ pub fn show(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
 fn shape_rows(liquid: &mut Liquid, ui: &mut Ui) {
     let Liquid { size, corners, refraction, depth, dispersion, frost, light, .. } = liquid;
     for (name, meaning, value, range, unit) in [
-        ("Pane width", "How wide the pane is, in percent of the view.", &mut size.x, EXTENTS, " %"),
-        ("Pane height", "How high the pane is, in percent of the view.", &mut size.y, EXTENTS, " %"),
-        ("Corners", "How round its corners are, in percent of its shorter side.", corners, CORNERS, " %"),
+        ("Pane width", "The width of the pane, in percent of the view.", &mut size.x, EXTENTS, " %"),
+        ("Pane height", "The height of the pane, in percent of the view.", &mut size.y, EXTENTS, " %"),
+        ("Corners", "The radius of its corners, in percent of its shorter side.", corners, CORNERS, " %"),
         (
             "Refraction",
             "Bends the background at the rim. In the traced pane it is the index, 1 to 1.5.",
@@ -83,7 +83,7 @@ fn shape_rows(liquid: &mut Liquid, ui: &mut Ui) {
         ),
         (
             "Pane depth",
-            "How thick the pane looks. In the traced pane it is the thickness.",
+            "The depth that the pane seems to have. In the traced pane it is the thickness.",
             depth,
             STRENGTHS,
             "",
@@ -114,10 +114,11 @@ fn shape_rows(liquid: &mut Liquid, ui: &mut Ui) {
     }
 }
 
-/// Draws the rows for where the light comes from.
+/// Draws the rows for the direction of the light.
 fn light_rows(liquid: &mut Liquid, ui: &mut Ui) {
     ui.horizontal(|ui| {
-        let label = named(ui, "Light follows", "What moves the light of the pane.");
+        let label =
+            named(ui, "Light follows", "The light of the pane stays, follows the pointer, or goes round.");
         let chosen = MOTIONS.iter().find(|(m, ..)| *m == liquid.light_motion).map_or("", |(_, name, _)| name);
         let width = control_width(ui);
         let combo =
@@ -135,13 +136,13 @@ fn light_rows(liquid: &mut Liquid, ui: &mut Ui) {
     for (name, meaning, value, range) in [
         (
             "Light azimuth",
-            "Where the light comes from, counter-clockwise from the right; 90 is above.",
+            "The direction of the light, in degrees counter-clockwise from the right; 90 is above.",
             &mut from.azimuth,
             AZIMUTHS,
         ),
         (
             "Light height",
-            "How high over the pane the light is: 0 along it, 90 from the eye.",
+            "The height of the light over the pane, in degrees: 0 along it, 90 from the eye.",
             &mut from.height,
             HEIGHTS,
         ),
@@ -159,7 +160,7 @@ fn tint_and_quality_rows(liquid: &mut Liquid, ui: &mut Ui) {
         ui.color_edit_button_srgba_unmultiplied(&mut liquid.tint).labelled_by(label.id);
     });
     ui.horizontal(|ui| {
-        let label = named(ui, "Quality", "How much of the effect is drawn.");
+        let label = named(ui, "Quality", "A lower quality draws fewer parts of the effect, in less time.");
         let chosen = QUALITIES.iter().find(|(q, ..)| *q == liquid.quality).map_or("", |(_, name, _)| name);
         let width = control_width(ui);
         let combo = ComboBox::from_id_salt("quality").selected_text(chosen).width(width).show_ui(ui, |ui| {

@@ -52,7 +52,7 @@ pub struct Row<'a> {
     pub meaning: &'a str,
     /// The range of the slider.
     pub range: RangeInclusive<f64>,
-    /// The range of what can be typed.
+    /// The range of the numbers that can be typed.
     pub limits: RangeInclusive<f64>,
     /// The step of the slider; 0 for none.
     pub step: f64,
@@ -60,7 +60,7 @@ pub struct Row<'a> {
     /// The change for each point that the number is dragged by.
     pub speed: f64,
     pub unit: &'a str,
-    /// Whether the slider runs evenly over the number's logarithm.
+    /// True where the slider runs evenly over the number's logarithm.
     pub logarithmic: bool,
 }
 
@@ -99,7 +99,7 @@ impl<'a> Row<'a> {
         slider
     }
 
-    /// Draws the row for a number of the model, and pushes the action that sets it where the user has changed it.
+    /// Draws the row for a number of the model, and pushes the action that sets it if the user has changed it.
     pub fn edit<A: Into<Action>>(
         self,
         ui: &mut Ui,
@@ -128,8 +128,8 @@ pub const ANY: RangeInclusive<f64> = f64::NEG_INFINITY..=f64::INFINITY;
 impl Number<'_> {
     /// Draws the field.
     ///
-    /// A number outside the range stays until it is set. A field that is not touched leaves the number as it is, though it
-    /// may have more decimals than are shown.
+    /// A number outside the range stays as it is until the user sets it. A field that the user does not touch leaves
+    /// the number as it is, even where it has more decimals than the field shows.
     pub fn show(self, ui: &mut Ui, (width, label): (f32, egui::Id), value: &mut f64) -> egui::Response {
         let before = *value;
         let Self { decimals, speed, range, unit } = self;
@@ -144,7 +144,7 @@ impl Number<'_> {
         };
         let field = field.custom_formatter(|number, places| written(number, places, &fits));
         let shown = written(before, decimals.min(1)..=decimals, &fits);
-        // Half the world writes a decimal comma.
+        // About half the world writes a decimal comma.
         let field = field.custom_parser(|text| {
             text.trim().trim_end_matches(unit.trim()).trim().replace(',', ".").parse().ok()
         });
@@ -161,11 +161,11 @@ impl Number<'_> {
     }
 }
 
-/// A number that is not known.
+/// The value that stands for an unknown number.
 ///
-/// It equals itself, as NaN does not: a field that is edited compares it with itself.
+/// Unlike NaN it equals itself: an edited field compares it with itself.
 pub const NOT_KNOWN: f64 = f64::NEG_INFINITY;
-/// What a field shows in the place of a number that is not known.
+/// The text that a field shows for an unknown number.
 pub const UNKNOWN: &str = "–";
 
 /// Draws a number without a slider: its name, an empty column, and the field in the column of numbers.
@@ -180,7 +180,7 @@ pub fn number_row(ui: &mut Ui, (name, meaning): (&str, &str), number: Number, va
 /// The greatest height of a list that opens, points.
 const LIST_HEIGHT: f32 = 470.0;
 
-/// Draws a choice: its name, and a field with what is chosen, which opens the list that `list` draws.
+/// Draws a choice: its name, and a field with the chosen entry, which opens the list that `list` draws.
 pub fn choice_row(
     ui: &mut Ui,
     name: &str,
@@ -196,9 +196,9 @@ pub fn choice_row(
     .inner
 }
 
-/// Returns a number as its field shows it.
+/// Writes a number for its field.
 ///
-/// It has fewer decimals where they do not fit: no number, however large, makes its row wider.
+/// The number gets fewer decimals where they do not fit: no number, however large, makes its row wider.
 fn written(number: f64, places: RangeInclusive<usize>, fits: &dyn Fn(&str) -> bool) -> String {
     if !number.is_finite() {
         return UNKNOWN.to_owned();

@@ -11,13 +11,13 @@ use std::ops::RangeInclusive;
 /// The heights that a side can be scaled to at once, percent of its height before.
 const PERCENT: RangeInclusive<f64> = 50.0..=200.0;
 
-/// What a field shows while no one scales.
+/// The percentage that a field shows while the user does not scale.
 const AS_IT_IS: f64 = 100.0;
 
 /// The widths of a field with its name and of the field alone, points.
 const WIDTHS: [f32; 2] = [164.0, 66.0];
 
-/// The names of the fields, those that assistive technology speaks, and their meanings.
+/// The names of the fields, their accessible names, and their meanings.
 const FIELDS: [(ScaledSide, &str, &str, &str); 2] = [
     (
         ScaledSide::Crown,
@@ -35,7 +35,7 @@ const FIELDS: [(ScaledSide, &str, &str, &str); 2] = [
     ),
 ];
 
-/// The tiers at which a field began to be dragged, and the percent that it has come to since.
+/// The tiers from before a drag of a field, and the percentage that it has reached.
 #[derive(Clone, Default)]
 struct DraggedScale {
     from: Tiers,
@@ -51,7 +51,7 @@ pub fn show(model: &Model, tiers: &Tiers, actions: &mut Actions, ui: &mut Ui) {
         ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
             let label = ui.label(name);
             let label = explain(ui, label, meaning);
-            // What is dragged belongs to the document in which the drag began.
+            // A drag belongs to the document in which it began.
             let id = ui.make_persistent_id(("scale", name, model.session.begun));
             let dragged = ui.data(|data| data.get_temp::<DraggedScale>(id));
             let before = dragged.as_ref().map_or(AS_IT_IS, |dragged| dragged.percent);
@@ -64,7 +64,7 @@ pub fn show(model: &Model, tiers: &Tiers, actions: &mut Actions, ui: &mut Ui) {
                 let of = Box::new(Cut::Tiers(from.clone()));
                 actions.push(Edit::Scale { side, percent, of });
             }
-            // What is typed is done at once; a drag counts from where it began.
+            // A typed percentage is applied at once and reset; a drag counts from its beginning.
             ui.data_mut(|data| match field.dragged() {
                 true => drop(data.insert_temp(id, DraggedScale { from, percent })),
                 false => drop(data.remove_temp::<DraggedScale>(id)),

@@ -57,7 +57,7 @@ fn row(ui: &mut Ui, name: &str, meaning: &str, text: &str, end: impl FnOnce(&mut
     });
 }
 
-/// Returns how many stones of a design there are, and what they are.
+/// Returns a text with the number of stones of a design, their material, diameter and name.
 fn counted(count: usize, design: &Design) -> String {
     let material = match &design.material {
         MaterialRef::Name(name) => name.clone(),

@@ -10,7 +10,7 @@ const CURVE: Color32 = Color32::from_rgb(0, 158, 115);
 /// The height of the plot, points.
 const HEIGHT: f32 = 200.0;
 
-/// Draws the curve of a search that has tried so many designs.
+/// Draws the curve of a search that has tried `tried` designs.
 pub fn show(curve: &[ProgressPoint], tried: usize, ui: &mut Ui) {
     let end = tried.max(1) as f64;
     let plot = Plot::new("progress of the search")
@@ -32,7 +32,7 @@ pub fn show(curve: &[ProgressPoint], tried: usize, ui: &mut Ui) {
         HoverPosition::Elsewhere { .. } => None,
     });
     let shown = plot.show(ui, |plot| {
-        // As a band, the plot would fill what lies between places one above the other.
+        // As a band, the plot would fill the space between points that lie one above the other.
         let line = Line::new("best so far", PlotPoints::from(steps(curve, end))).allow_band(false);
         plot.line(line.color(CURVE).width(1.8));
         let found: Vec<[f64; 2]> = curve.iter().map(|point| [point.appraised as f64, point.total]).collect();

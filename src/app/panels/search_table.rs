@@ -1,4 +1,5 @@
-//! What a search has won and what it gave up for it: each measure before and after, and the numbers that did it.
+//! The report of a search: each measure before and after, whether it rose or fell, and the numbers of the design that
+//! changed.
 
 use crate::app::model::Model;
 use crate::app::model::cut_search::SearchReport;

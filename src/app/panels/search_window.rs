@@ -1,4 +1,4 @@
-//! The window that finds a better cut: what is asked for, how far the search is, and what it has won and given up.
+//! The window that finds a better cut: the form of the goal, the progress, and the report.
 
 use super::goal_rows;
 use super::rows::explain;
@@ -19,11 +19,11 @@ use egui::{
 /// The size of the window at first, and at least, points.
 const SIZES: [Vec2; 2] = [vec2(600.0, 400.0), vec2(440.0, 240.0)];
 
-/// Where the upper left corner of the window is at first, points: right of the design panel, whose fields it does not cover, and below
-/// the upper views, which show the best so far.
+/// The first place of the window's upper left corner, points: right of the design panel, whose fields it does not
+/// cover, and below the upper views, which show the best design so far.
 const PLACE: Pos2 = pos2(376.0, 440.0);
 
-/// The room below what scrolls, for a row of buttons, points.
+/// The room below the scrolled part for a row of buttons, points.
 const BELOW: f32 = 40.0;
 
 /// Draws the window where it is open.
@@ -61,7 +61,7 @@ fn scrolled(ui: &mut Ui, more: f32, contents: impl FnOnce(&mut Ui)) {
     ui.separator();
 }
 
-/// Says why the present design has nothing that a search could change, if it has not.
+/// Returns why the present design has nothing that a search could change; `None` where it has something.
 fn nothing_to_change(model: &Model) -> Option<String> {
     let document = &model.document;
     if document.specimen().stone().is_err() {
@@ -98,7 +98,7 @@ fn choosing(model: &Model, actions: &mut Actions, ui: &mut Ui) {
         let meaning = "Reads measures, limits and numbers from a goal file, as `brillianteer optimise` does.";
         actions.push_if(explain(ui, open, meaning).clicked(), FileAction::Choose(Purpose::Goal));
         let save = ui.add_enabled(fault.is_none(), Button::new("Save goal…"));
-        let meaning = "Writes what is asked for here as a goal file.";
+        let meaning = "Writes the measures, limits and numbers to a goal file.";
         actions.push_if(explain(ui, save, meaning).clicked(), FileAction::Choose(Purpose::SaveGoal));
         ui.separator();
         goal_rows::angle_step(&mut now, ui);
@@ -111,7 +111,7 @@ fn choosing(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     });
 }
 
-/// Says in a line what is searched.
+/// Returns in one line the measures and numbers of a search.
 fn asked(form: &GoalForm) -> String {
     let measures = form.goal.measure.iter().map(|measure| {
         let wanted = match measure.weight {
@@ -145,7 +145,7 @@ fn under_way(form: &GoalForm, running: &RunningSearch, actions: &mut Actions, ui
     });
 }
 
-/// Says how far a search is.
+/// Describes how far a search is.
 fn state(running: &RunningSearch) -> String {
     let tried = match running.tried {
         1 => "1 design tried".to_owned(),
@@ -192,7 +192,7 @@ fn over(model: &Model, ended: &EndedSearch, actions: &mut Actions, ui: &mut Ui) 
     });
 }
 
-/// Says in a line how a search has ended.
+/// Describes in one line how a search has ended.
 fn summary(ended: &EndedSearch) -> String {
     let tried = ended.tried;
     match &ended.end {

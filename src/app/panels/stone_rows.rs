@@ -1,4 +1,4 @@
-//! Rows for what the stone is made of, how large it is and what it weighs.
+//! Rows for the material, size and weight of the stone.
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit};
@@ -34,7 +34,7 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     across.or(weighed).into_iter().for_each(|mm| actions.push(Edit::Diameter(mm)));
 }
 
-/// Whether the material is not one of the library's.
+/// Returns whether the material is the user's own, and not one of the library.
 fn is_own(material: &MaterialRef) -> bool {
     !matches!(material, MaterialRef::Name(_))
 }
@@ -43,7 +43,8 @@ fn is_own(material: &MaterialRef) -> bool {
 const ILLUSTRATIVE: &str = "\nIts colour is illustrative: it was chosen to look like the gem's, not measured. \
     Absorption follows from it.";
 
-/// Draws a row in which a material of the library is chosen; returns the one that was, if it is another than before.
+/// Draws a row in which a material of the library is chosen; returns the chosen one if it differs from the present
+/// one.
 pub fn material_choice(ui: &mut Ui, (row, meaning): (&str, &str), now: &MaterialRef) -> Option<MaterialRef> {
     let mut chosen = None;
     let name = match now {
@@ -106,7 +107,7 @@ fn size(design: &Design, extent: Extent, ui: &mut Ui) -> Option<f64> {
         number_row(ui, ("Diameter", meaning), number(), &mut diameter);
         return (diameter != design.diameter_mm).then_some(diameter);
     }
-    // The bare names belong to the dimensions of glass shapes, which are in percent.
+    // The names without a unit belong to the dimensions of glass shapes, which are in percent.
     let names = match design.cut {
         Cut::Glass(_) => ["Length in mm", "Width in mm"],
         _ => ["Length", "Width"],

@@ -1,4 +1,4 @@
-//! Rows for the tiers of a cut that lists its facets: one row for each tier, with angle and distance.
+//! Rows for a cut that lists its facets: one row for each tier, with angle and distance.
 //!
 //! Distances are shown in mm; the design has them in a unit of its own.
 
@@ -46,14 +46,14 @@ pub fn show(document: &Document, actions: &mut Actions, ui: &mut Ui) {
                 let number = Number { decimals, speed, range: ANY, unit };
                 number.show(ui, (NUMBER, label.id), value).labelled_by(head);
             }
-            // A distance that is not touched keeps all its digits.
+            // A distance that the user does not touch keeps all its digits.
             let distance = if distance_mm == before_mm { setting.distance } else { distance_mm / unit_mm };
             // A user who leaves out the sign means the same side: a tier never changes from crown to pavilion or back.
             let angle = angle.abs().copysign(setting.angle);
             let is_changed = (angle, distance) != (setting.angle, setting.distance);
             if is_changed && angle.is_finite() && distance.is_finite() {
                 actions.push(match &document.work.design.cut {
-                    // Its meets follow.
+                    // Meets of other tiers are solved anew.
                     Cut::Tiers(tiers) => {
                         let listed = tiers.place_of_cut(place);
                         Edit::Tiers(TierChange::Setting(listed, angle, distance))
@@ -65,7 +65,7 @@ pub fn show(document: &Document, actions: &mut Actions, ui: &mut Ui) {
     }
 }
 
-/// Leaves room so that the angle stands left of the column of numbers, which holds the distance.
+/// Leaves a space so that the angle stands left of the column of numbers, which holds the distance.
 fn skip_angle(ui: &mut Ui) {
     skip_control(ui, NUMBER + ui.spacing().item_spacing.x);
 }

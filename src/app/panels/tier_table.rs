@@ -1,7 +1,7 @@
 //! The table of tiers below the views: a row for each tier, in the order of cutting.
 //!
-//! A row that is clicked is selected, and its facets are outlined in the views; a facet that is clicked there selects its row.
-//! The buttons above the table act on the selected tier.
+//! A click on a row selects it, and the views outline its facets; a click on a facet there selects its row. The
+//! buttons above the table act on the selected tier.
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit, ViewAction};
@@ -20,7 +20,7 @@ const PICK: f32 = 36.0;
 const HEADS: [(&str, &str); 10] = [
     ("", "The number of the tier. Drag it to cut the tier earlier or later."),
     ("Cut", "A tier that is not cut stays in the list and makes no facets."),
-    ("Name", "What cutters call the tier, such as P1, G1, C1 or T."),
+    ("Name", "The cutters' name of the tier, such as P1, G1, C1 or T."),
     ("Zone", "The part of the stone where the tier lies. Choose another to turn the tier over."),
     ("Angle", "The angle from the girdle plane, in degrees; negative in the pavilion."),
     ("Distance", "The distance from the origin to the facets, in mm at the stone's present size."),
@@ -30,8 +30,8 @@ const HEADS: [(&str, &str); 10] = [
          follows, also when an earlier tier changes. Empty for the distance as it is.",
     ),
     ("Indices", "The teeth of the gear at which the tier is cut, joined by dashes."),
-    ("Frosting", "How much the facets are frosted: 0 is polished, 1 as rough as can be."),
-    ("Instructions", "What the cutter is told besides."),
+    ("Frosting", "The frosting of the facets: 0 is polished, 1 is as rough as possible."),
+    ("Instructions", "Further instructions for the cutter."),
 ];
 
 /// Draws the table where it is open and the design is cut by tiers.
@@ -216,7 +216,7 @@ fn dropped(place: usize, row: &Response, actions: &mut Actions, ui: &Ui) {
     }
 }
 
-/// The angle that a facet gets that leans for the first time, degrees.
+/// The angle of a level or vertical tier that the user turns into a leaning one, degrees.
 const LEANING: f64 = 40.0;
 
 /// Draws the choice of the zone of a tier; returns the change that turns the tier over.
@@ -265,7 +265,7 @@ fn setting(
         };
     number(ui, &mut angle, 4, (2, 0.02, "°"));
     number(ui, &mut distance_mm, 5, (3, 0.002, " mm"));
-    // A distance that is not touched keeps all its digits.
+    // A distance that the user does not touch keeps all its digits.
     let distance = if distance_mm == before_mm { tier.distance } else { distance_mm / unit_mm };
     // The table and the culet are level; other tiers keep their side where no sign is typed.
     let is_level = matches!(tier.zone(), TierZone::Table | TierZone::Culet);
@@ -322,9 +322,10 @@ fn meet(
     changed
 }
 
-/// Draws a field for a text of a tier; returns the change that the text means once the field is left, or Return is pressed.
+/// Draws a field for a text of a tier; returns the change that the text describes once the user leaves the field or
+/// presses Return.
 ///
-/// A text that means nothing is red while it is typed, and forgotten afterwards.
+/// A text that describes no change is red while it is typed, and dropped afterwards.
 fn text(
     ui: &mut Ui,
     width: f32,

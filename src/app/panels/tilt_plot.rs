@@ -8,7 +8,8 @@ use crate::measure::measure_words;
 use egui::{Color32, RichText, Ui};
 use egui_plot::{GridInput, GridMark, HoverPosition, Line, Plot, PlotPoints, Polygon};
 
-/// The colours of the azimuths, told apart by people who see no red or no green (B. Wong, Nature Methods 8, 441 (2011)).
+/// The colours of the azimuths, which people who see no red or no green can tell apart (B. Wong, Nature Methods 8,
+/// 441 (2011)).
 const COLOURS: [Color32; AZIMUTHS.len()] = [
     Color32::from_rgb(0, 114, 178),
     Color32::from_rgb(213, 94, 0),
@@ -17,10 +18,10 @@ const COLOURS: [Color32; AZIMUTHS.len()] = [
     Color32::from_rgb(230, 159, 0),
 ];
 
-/// What is plotted where no measure is chosen.
+/// The name of the plot where no measure is chosen.
 const ZONES: &str = "Zones of the ASET";
 
-/// Draws the choice of what is plotted, and of the azimuths.
+/// Draws the choice of the measure and of the azimuths.
 pub fn choices(options: &TiltOptions, actions: &mut Actions, ui: &mut Ui) {
     let mut now = options.clone();
     let shown = options.measure.map_or_else(|| ZONES.to_owned(), measure_words::name);
@@ -81,7 +82,7 @@ pub fn show(model: &Model, ui: &mut Ui) {
 fn fifteens(input: GridInput) -> Vec<GridMark> {
     let (first, last) = (input.bounds.0 / 15.0, input.bounds.1 / 15.0);
     let marks = (first.ceil() as i32)..=(last.floor() as i32);
-    // Only marks that are far apart have room for a number on the narrow axis.
+    // Only marks that are far apart leave room for a number on the narrow axis.
     let far = |k: i32| if k % 3 == 0 { 45.0 } else { 15.0 };
     marks.map(|k| GridMark { value: 15.0 * f64::from(k), step_size: far(k) }).collect()
 }

@@ -8,14 +8,15 @@ use crate::picture::DrawnMarks;
 use crate::scene::Stone;
 use egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke};
 
-/// A facet counts as seen edge on where the cosine between its normal and the direction to the eye is at most this, which is
-/// the rounding of a unit normal.
+/// A facet is edge on where the cosine between its normal and the direction to the eye is at most this, which is the
+/// rounding of a unit normal.
 const EDGE_ON: f64 = 1e-9;
 /// Widths of lines, in points.
 const OUTLINE: f32 = 1.8;
 const EDGE: f32 = 0.9;
 const GIRDLE: f32 = 0.5;
-/// Widths of the outlines of marked facets, before and behind the stone, and radius of the ring around a marked corner, points.
+/// The widths of the outlines of marked facets, in front of and behind the stone, and the radius of the ring around a
+/// marked corner, points.
 const MARK: f32 = 2.0;
 const MARK_BEHIND: f32 = 1.0;
 const RING: f32 = 5.0;

@@ -1,4 +1,4 @@
-//! Lays out and then paints what one frame shows: the stone, its dimensions and its handles.
+//! Lays out and paints one frame of the profile: the stone, its dimensions and its handles.
 
 use super::body::ProfileBody;
 use super::grips::{Grip, grips};
@@ -20,7 +20,7 @@ use std::f32::consts::FRAC_PI_2;
 /// Widths of dimension lines and of the extension lines that lead to them, in points.
 const DIMENSION: f32 = 1.0;
 const EXTENSION: f32 = 0.7;
-/// Type size of the numbers, as a part of that of the window's text.
+/// The type size of the numbers, as a part of the size of the window's text.
 const TYPE: f32 = 0.92;
 
 /// A stone with the dimensions of its profile.
@@ -52,12 +52,12 @@ impl<'a> MeasuredProfile<'a> {
 /// A handle on the screen, and the response of egui to it.
 pub struct Offered {
     pub grip: Grip,
-    /// What pointer and keyboard do with the handle.
+    /// The response of egui to pointer and keyboard at the handle.
     pub response: Response,
 }
 
 impl Offered {
-    /// Whether the pointer is over the handle or drags it.
+    /// Returns whether the pointer is over the handle or drags it.
     pub fn is_pointed_at(&self) -> bool {
         self.grip.reach > 0.0 && (self.response.hovered() || self.response.dragged())
     }
@@ -69,7 +69,7 @@ pub struct ProfileFrame<'a> {
     pub id: Id,
     /// The projection from the profile to the screen.
     pub sight: ProfileProjection,
-    /// The stone that is shown.
+    /// The stone in the frame, with its dimensions.
     pub measured: &'a MeasuredProfile<'a>,
     rect: Rect,
     detail: LabelDetail,

@@ -1,4 +1,4 @@
-//! A handle in the user's hand: how far it has been pulled since it was taken, and the proportions that result.
+//! A handle that is dragged: the length of the pull since its press, and the resulting proportions.
 
 use super::grips::Grip;
 use super::handle::{Handle, percent_of_radius};
@@ -16,17 +16,17 @@ const DECIDED: f32 = 4.0;
 
 /// The drag of a handle, from press to release.
 ///
-/// The resulting proportions depend only on those at the start and on the whole pull. So nothing drifts, and what was lost
-/// at a limit comes back when the hand does.
+/// The resulting proportions depend only on those at the start and on the whole pull. So nothing drifts, and a change
+/// that was lost at a limit comes back when the pointer does.
 #[derive(Debug, Clone)]
 pub struct Grab {
     pub handle: Handle,
     mirrored: bool,
-    /// The cut when the handle was taken.
+    /// The cut at the press.
     pub start: Cut,
     /// The dimensions of its profile.
     dimensions: Dimensions,
-    /// The part of the profile that was shown when the handle was taken: the drawing keeps its size during a drag.
+    /// The visible part of the profile at the press: the drawing keeps its size during a drag.
     shown: ProfileBox,
     from: Pos2,
     last: Pos2,
@@ -53,8 +53,8 @@ impl Grab {
         }
     }
 
-    /// Follows the pointer. A pull that was once fine keeps its fine steps, because releasing Shift would lose them
-    /// otherwise.
+    /// Follows the pointer. A pull that was once fine keeps its fine steps, because a release of Shift would
+    /// otherwise lose them.
     pub fn follow(&mut self, to: Pos2, fine: bool) {
         let by = to - self.last;
         self.pull += DVec2::new(f64::from(by.x), f64::from(by.y)) * if fine { FINE } else { 1.0 };
@@ -82,10 +82,10 @@ impl Grab {
         self.handle.dragged(&self.start, &self.dimensions, travel, self.grid)
     }
 
-    /// Returns the part of the profile to show while the stone is this one.
+    /// Returns the part of the profile to show for the present cut.
     ///
-    /// Heights are measured from the girdle's upper edge. Where that edge itself is pulled, the part shown is shifted so
-    /// that the edge moves with the hand.
+    /// Heights are measured from the girdle's upper edge. Where that edge itself is pulled, the part is shifted so
+    /// that the edge moves with the pointer.
     pub fn shown(&self, now: &Cut) -> ProfileBox {
         let Handle { part, row } = self.handle;
         match part {

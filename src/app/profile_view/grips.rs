@@ -1,4 +1,4 @@
-//! Handles on the screen: where pointer and keyboard can take them, and how they look.
+//! Handles on the screen: their squares for pointer and keyboard, and their discs.
 
 use super::handle::Handle;
 use super::ink::ProfileInks;
@@ -27,7 +27,7 @@ const RESTING: f32 = 0.65;
 pub struct Grip {
     /// The part of the profile that the handle pulls.
     pub handle: Handle,
-    /// Whether this is a second copy, on the stone's other side.
+    /// True for a second copy, on the stone's other side.
     pub mirrored: bool,
     /// The centre of the handle.
     pub at: Pos2,
@@ -144,7 +144,7 @@ fn requested_steps(ui: &Ui, id: Id) -> i32 {
     })
 }
 
-/// Returns the value that a screen reader requests, if any.
+/// Returns the value that a screen reader sets, if any.
 fn requested_value(ui: &Ui, id: Id) -> Option<f64> {
     ui.input(|i| {
         let values = i.accesskit_action_requests(id, Action::SetValue).filter_map(|r| match r.data {

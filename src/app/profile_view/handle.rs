@@ -55,12 +55,12 @@ impl Handle {
         }
     }
 
-    /// Whether the handle lies on the crown, so that there is room for a hint below it.
+    /// Returns whether the handle lies on the crown, so that there is room for a hint below it.
     pub fn is_on_crown(self) -> bool {
         matches!(self.part, TableEdge | TableLine | CrownSlope)
     }
 
-    /// Whether the handle's value grows when the handle is moved down.
+    /// Returns whether the handle's value grows when the handle is moved down.
     pub fn grows_downward(self) -> bool {
         matches!(self.part, GirdleLower | PavilionSlope | PavilionTip)
     }
@@ -79,8 +79,9 @@ impl Handle {
         })
     }
 
-    /// Returns a cut after the handle has been pulled by `travel` (girdle radii) from its place on `start`, whose profile
-    /// has these dimensions. The held one of each pair stays held; a value that would cross a limit stays just inside it.
+    /// Returns a cut after the handle has been pulled by `travel` (girdle radii) from its place on `start`, whose
+    /// profile has these dimensions. Of each pair, the value that is held stays; a value that would cross a limit
+    /// stops just inside it.
     pub fn dragged(self, start: &Cut, dimensions: &Dimensions, travel: DVec2, grid: ValueGrid) -> Cut {
         let from = (self.row.get)(start);
         match self.wanted(from, dimensions, travel) {
@@ -189,7 +190,7 @@ mod tests {
         }
     }
 
-    /// Returns how far a stone's value is from the one that a pull requests, in percent or degrees.
+    /// Returns the difference of a stone's value from the value that a pull requests, in percent or degrees.
     fn off(handle: Handle, new: &RoundBrilliant, start: &RoundBrilliant, travel: DVec2) -> f64 {
         let wanted = handle.wanted(value(handle, start), &dimensions(start), travel).unwrap();
         (value(handle, new) - wanted).abs()

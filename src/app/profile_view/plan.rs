@@ -21,15 +21,15 @@ const ARC_PART: f32 = 0.5;
 /// Number of straight pieces in which an arc is drawn.
 const ARC_STEPS: u32 = 24;
 
-/// How much is written on the drawing.
+/// The labels that the drawing has room for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum LabelDetail {
     None,
     /// Table, total depth and angles, without their names.
     Numbers,
-    /// All heights and the culet as well, with their names.
+    /// The numbers, all heights and the culet, with their names.
     Named,
-    /// Star and lower half as well.
+    /// The numbers of `Named`, and star and lower half.
     Whole,
 }
 
@@ -212,7 +212,7 @@ impl<'a, 'b> Planner<'a, 'b> {
         let about = Some(row);
         let largest = ARC.min(ARC_PART * (end - vertex).length());
         let within = [1.0, 0.7, 0.45].map(|part| (part * largest, arm(0.5) * (part * largest + BESIDE)));
-        // Where the wedge is too narrow, the number goes to the other side of the level line.
+        // Where the wedge is too narrow, the number goes to the other side of the level line, or beside the arc.
         let over = |off: f32, gap: f32| {
             (largest, -vec2(off, turn.signum() * (self.sheet.size(&text).y / 2.0 + gap)))
         };

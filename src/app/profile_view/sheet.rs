@@ -1,5 +1,5 @@
-//! A sheet on which dimensions are laid out. A number stands where it fits and nothing else is. Where there is no such place
-//! it is left out, together with its lines.
+//! A sheet on which dimensions are laid out. A number stands where it fits without an overlap; where there is no such
+//! place, the number and its lines are left out.
 
 use crate::cut::Proportion;
 use egui::{Align2, Pos2, Rect, Vec2, pos2, vec2};
@@ -42,7 +42,7 @@ pub struct Label {
     pub text: String,
     /// The box that the text fills.
     pub frame: Rect,
-    /// Whether the text runs upward, to be read from the right.
+    /// True where the text runs upward, so that it is read from the right.
     pub upright: bool,
     /// The proportion that the number gives, if it gives one.
     pub about: About,
@@ -74,8 +74,8 @@ impl<'a> ProfileSheet<'a> {
         (self.measure)(text)
     }
 
-    /// Returns how far the stone reaches on the screen to the left (`side` -1) or right (1) at a height at which its outline
-    /// has corners; elsewhere, how far the whole outline reaches.
+    /// Returns the screen x that the stone reaches to the left (`side` -1) or right (1) at a height at which its
+    /// outline has corners; elsewhere, that of the whole outline.
     pub fn reach(&self, y: f32, side: f32) -> f32 {
         let near = |p: &&Pos2| (p.y - y).abs() < 0.5;
         let farther = |a: &f32, b: &f32| (a * side).total_cmp(&(b * side));
@@ -188,7 +188,7 @@ fn beside([a, b]: [Pos2; 2], frame: Rect) -> Vec<[Pos2; 2]> {
     parts.map(|(from, to)| [a.lerp(b, from), a.lerp(b, to)]).collect()
 }
 
-/// Whether a convex outline and a box overlap.
+/// Returns whether a convex outline and a box overlap.
 fn overlap(outline: &[Pos2], frame: Rect) -> bool {
     let corners = [frame.left_top(), frame.right_top(), frame.left_bottom(), frame.right_bottom()];
     let edges = outline.iter().zip(outline.iter().cycle().skip(1));

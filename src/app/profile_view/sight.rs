@@ -1,4 +1,4 @@
-//! The projection from the profile to the screen: which part of the plane is shown, and where.
+//! The projection from the profile's plane to the screen, and the box of the plane that it shows.
 
 use crate::picture::profile::Dimensions;
 use egui::epaint::MarginF32;

@@ -9,7 +9,7 @@ use crate::trace::{Stopped, Watch};
 use egui::ColorImage;
 use std::sync::Arc;
 
-/// Returns how the render of a shot is developed; `fine` where there is time for glow.
+/// Returns the settings by which the render of a shot is developed; `fine` where there is time for glow.
 pub(super) fn manner(shot: &Shot, fine: bool) -> Develop {
     // Glow would stand out around an overlay, and it takes longer than the rest of a rough picture.
     let has_glow = fine && shot.overlay.is_none() && shot.glow > 0.0;
@@ -21,8 +21,8 @@ pub(super) fn manner(shot: &Shot, fine: bool) -> Develop {
     Develop { exposure: shot.exposure, bloom, background, ..Develop::default() }
 }
 
-/// Develops the picture of a shot from its light; `fine` where it is more than a rough one. `unresolved` is the share of the
-/// light that was not followed to its end.
+/// Develops the picture of a shot from its light; `fine` where the picture is refined and not rough. `unresolved` is
+/// the share of the light that was not followed to its end.
 pub(super) fn developed(
     shot: &Shot,
     (picture, fine): (&Linear, bool),
@@ -40,7 +40,8 @@ pub(super) fn developed(
     Ok(TakenPicture { image, unresolved: Some(unresolved), tracer, coarser: 1.0, map: None })
 }
 
-/// Returns a map as a view receives it: developed, with a picture of the codes of its places.
+/// Returns the picture of a map for a view: a picture of the codes of its places, with the map and its developed
+/// diffuse layer.
 pub(super) fn map_taken(shot: &Shot, map: RefractionMap) -> TakenPicture {
     let map = map.developed(&Develop { exposure: shot.exposure, bloom: None, ..Develop::default() });
     TakenPicture {

@@ -1,4 +1,4 @@
-//! Makes the jobs of the renderer for what views show.
+//! Makes the renderer's jobs for the shots of views.
 
 use super::effort::Effort;
 use super::order::{FiguresOrder, Shot};
@@ -20,14 +20,14 @@ use std::sync::Arc;
 /// The default distance of a backplate behind the middle, in girdle radii.
 pub const BEHIND: f64 = 3.0;
 
-/// How many times as wide as the picture the background of a map is; also the default of the command line.
+/// The width of a map's background as a multiple of the picture's; also the default of the command line.
 pub const SPAN: f64 = 2.0;
 
-/// The bands of wavelengths of a traced pane: until the picture is fair, and at its finest.
+/// The bands of wavelengths of a traced pane: before the picture is fair, and at its finest.
 const FEW: u32 = 3;
 const MANY: u32 = 12;
 
-/// How finely a refraction map is traced.
+/// The resolution of a refraction map.
 #[derive(Debug, Clone, Copy)]
 pub struct MapDetail {
     /// The number of bands of wavelengths in which places are mapped.
@@ -46,14 +46,14 @@ pub fn coarser(film: &Film, factor: f64) -> Film {
     Film { size, pixel: film.pixel * f64::from(film.size[0]) / f64::from(size[0]), ..*film }
 }
 
-/// Returns the distance of the backplate behind the middle, in girdle radii: that of the shot, but behind all bodies however
-/// they are turned.
+/// Returns the distance of the backplate behind the middle, in girdle radii: that of the shot, but at least so much
+/// that all bodies are in front of it, however they are turned.
 pub fn hung(shot: &Shot) -> f64 {
     let farthest = shot.copies.iter().map(|pose| pose.at.length()).fold(0.0, f64::max);
     shot.distance.max(farthest + shot.specimen.radius).max(shot.companions.reach())
 }
 
-/// Returns the quality of pictures in scopes at an effort, to which beams are shared between pictures and figures.
+/// Returns the quality of pictures in scopes at an effort; pictures and figures of equal quality share their beams.
 fn scope_quality(effort: &Effort, samples: u32) -> Quality {
     let (unresolved, most_beams) = (effort.unresolved, effort.most_beams());
     let beams = BeamOptions { unresolved, most_beams, ..BeamOptions::default() };
@@ -87,7 +87,7 @@ impl Shot {
         Job { scene: self.scene(), view: self.view, film: self.film, product, quality }
     }
 
-    /// Returns the job of a render in at most `bands` bands of wavelengths, with the picture that hangs behind.
+    /// Returns the job of a render in at most `bands` bands of wavelengths, with the picture of the backplate.
     pub fn light_job(&self, behind: Option<Arc<Mipmap>>, bands: u32, steps: Steps, quality: Quality) -> Job {
         let product = LightProduct {
             surroundings: self.surroundings(behind),
@@ -129,7 +129,7 @@ impl Shot {
         self.job(Product::RefractionMap(product), quality)
     }
 
-    /// Returns the job of a traced pane of liquid glass of `size` pixels over what hangs behind.
+    /// Returns the job of a traced pane of liquid glass of `size` pixels over its background.
     pub fn pane_job(&self, behind: &Panorama, size: [u32; 2], is_fine: bool, samples: u32) -> Job {
         let product = PaneProduct {
             pane: self.liquid.pane(size),
@@ -141,12 +141,12 @@ impl Shot {
         Job::of_pane(product, Quality { samples: Some(samples), ..Quality::of_pictures(true) })
     }
 
-    /// Returns the background of a shot that needs one.
+    /// Returns the background of a shot whose picture needs one.
     pub fn pane_background(&self) -> BackgroundRef {
         backdrop(self.behind.as_ref())
     }
 
-    /// Returns the overlay's lit scene as a job: the shot as a render on this film.
+    /// Returns the job whose lit scene the overlay is drawn from: the shot as a render on this film.
     pub fn overlay_job(&self, film: Film) -> Job {
         let steps = Steps::Glance { first: 0 };
         Job { film, ..self.light_job(None, 1, steps, Quality::of_pictures(true)) }
@@ -154,7 +154,7 @@ impl Shot {
 }
 
 impl FiguresOrder {
-    /// Returns the job of figures, seen by another view, to these bounds.
+    /// Returns the job of figures within these bounds, seen by another view.
     pub fn job(&self, view: View, bounds: &Bounds) -> Job {
         self.job_in(view, Quality::of_figures(bounds, Wanted::Quickest))
     }

@@ -1,4 +1,4 @@
-//! What the editor's thread and the studio's thread share.
+//! The state that the editor's thread and the studio's thread share.
 
 use super::order::Order;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -16,12 +16,12 @@ pub(super) struct Mailbox {
     pub changed: Condvar,
     /// The number of the last order: work for all others is outdated.
     pub newest: AtomicU64,
-    /// Whether work is going on.
+    /// True while the studio works.
     pub busy: AtomicBool,
-    /// Whether passes are added to renders that are already good enough.
+    /// True while passes are added to renders that are already good enough.
     pub sharpens: AtomicBool,
-    /// How many traces of pictures, figures and figures against tilt have begun.
+    /// The number of traces of pictures, figures and figures against tilt that have begun.
     pub traced: AtomicU64,
-    /// Whether the studio is closed.
+    /// True once the studio is closed.
     pub quit: AtomicBool,
 }

@@ -1,7 +1,7 @@
 //! The studio: traces pictures and figures on a thread of its own.
 //!
-//! A newer order outdates an older one, whose work is dropped. Only the first rough pictures are always finished, so that
-//! there is always something that follows the hand.
+//! A newer order outdates an older one, whose work is dropped. Only the first rough pictures are always finished, so
+//! that some picture always follows the user's hand.
 
 mod develop;
 mod effort;
@@ -63,7 +63,7 @@ impl Studio {
         Self { mailbox, answers, last: Order::default(), thread, device_name }
     }
 
-    /// The name of the card, or "processor".
+    /// Returns the name of the card, or "processor".
     pub fn device_name(&self) -> &str {
         &self.device_name
     }
@@ -87,19 +87,19 @@ impl Studio {
         self.answers.try_iter()
     }
 
-    /// Whether passes are added to renders of the order although all of it is already good enough.
+    /// Returns whether passes are added to renders of the order although all of it is already good enough.
     pub fn sharpens(&self) -> bool {
         self.mailbox.sharpens.load(Ordering::SeqCst)
     }
 
-    /// How many traces of pictures, figures and figures against tilt have begun since the studio was opened. What has not
-    /// changed is not traced, and so not counted, again.
+    /// Returns the number of traces of pictures, figures and figures against tilt that have begun since the studio
+    /// was opened. Unchanged pictures and figures are not traced again, so they are not counted again.
     #[cfg(test)]
     pub fn traced(&self) -> u64 {
         self.mailbox.traced.load(Ordering::SeqCst)
     }
 
-    /// Whether everything in the order is as good as it needs to be.
+    /// Returns whether everything in the order has its final quality.
     pub fn is_idle(&self) -> bool {
         !self.mailbox.busy.load(Ordering::SeqCst)
     }

@@ -1,4 +1,4 @@
-//! Finds what has moved between two renders of a view, for temporal antialiasing.
+//! Finds how the points of a view have moved between two renders, for temporal antialiasing.
 
 use super::order::{Shot, Slot};
 use crate::cut::{Cut, Glass};
@@ -13,8 +13,8 @@ use std::collections::HashMap;
 use std::mem::Discriminant;
 use std::sync::Arc;
 
-/// About how many points of a picture have their motion computed, at most: in larger pictures one point stands for several
-/// pixels.
+/// The approximate limit of points of a picture whose motion is computed: in larger pictures one point stands for
+/// several pixels.
 const MOST_POINTS: f64 = 40_000.0;
 
 /// The bodies, the eye, the film and the background at the time when a picture was traced.
@@ -59,14 +59,15 @@ impl Moment {
         &trails.entry(slot).insert_entry((trail, self)).into_mut().0.picture
     }
 
-    /// Whether another moment shows the same bodies before the same background, moved or changed in their dimensions.
+    /// Returns whether another moment shows the same bodies before the same background, perhaps moved or with other
+    /// dimensions.
     fn goes_on_in(&self, other: &Self) -> bool {
         let kind = |moment: &Self| (std::mem::discriminant(&moment.specimen.design.cut), moment.form());
         let count = |moment: &Self| (moment.copies.len(), moment.companions.stones.len());
         kind(self) == kind(other) && count(self) == count(other) && self.behind == other.behind
     }
 
-    /// Finds which body each pixel shows, and where that point was seen at the moment `before`.
+    /// Finds the body in each pixel, and the place of the same point at the moment `before`.
     fn moved(&self, before: &Self, lit_scene: &LitScene) -> Vec<MotionVector> {
         let sight = ray::SceneProbe::new(lit_scene);
         let eye = ray::Camera::reaching(&before.view, 1.0);
@@ -98,7 +99,7 @@ impl Moment {
         (0..width * height).map(pixel).collect()
     }
 
-    /// The form of glass that the body is, if it is glass.
+    /// Returns the form of the glass; `None` where the body is no glass.
     fn form(&self) -> Option<Discriminant<Glass>> {
         match &self.specimen.design.cut {
             Cut::Glass(glass) => Some(std::mem::discriminant(glass)),
@@ -106,7 +107,8 @@ impl Moment {
         }
     }
 
-    /// Returns where a point of a body was before; `None` where the body is a different one or has a different form.
+    /// Returns the former place of a point of a body; `None` where the body is a different one or has a different
+    /// form.
     fn was(&self, before: &Self, number: usize, point: DVec3) -> Option<DVec3> {
         let Some(pose) = self.copies.get(number) else {
             let [now, then] = [self, before].map(|at| at.companions.stones.get(number - self.copies.len()));
@@ -197,7 +199,7 @@ mod tests {
             for (k, moved) in moved.iter().enumerate() {
                 let at = DVec2::new((k as u32 % width).into(), (k as u32 / width).into()) + 0.5;
                 let Some(seen) = eyes[1].through(at.x, at.y) else {
-                    // A point of the backplate stays where it is on the backplate.
+                    // A point of the backplate does not move on the backplate.
                     let hangs = |shot: &Shot, at: DVec2| {
                         let (from, way) =
                             ray::Camera::reaching(&shot.view, 3.0).ray(shot.film.image_from_pixels(at));

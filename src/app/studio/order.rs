@@ -13,7 +13,7 @@ use crate::scene::{Companions, Film, Glare, Pose, Specimen, View};
 use egui::ColorImage;
 use std::sync::Arc;
 
-/// One of the two stones of a comparison.
+/// A stone of the comparison: the present one or the other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Which {
     /// The stone that is edited.
@@ -22,7 +22,7 @@ pub enum Which {
     Other,
 }
 
-/// The place that a picture is for: the index of a view, and which of the two stones it shows.
+/// The place that a picture is for: the index of a view, and the stone of the comparison.
 pub type Slot = (usize, Which);
 
 /// An order of one picture.
@@ -34,11 +34,11 @@ pub struct Shot {
     pub specimen: Arc<Specimen>,
     /// The name of the design, which drawings show.
     pub title: String,
-    /// What the picture shows.
+    /// The picture or drawing that is ordered.
     pub shows: Shows,
-    /// Whether a scope shows only the strongest exit of each point.
+    /// True where a scope shows only the strongest exit of each point.
     pub strongest: bool,
-    /// Whether a scope that shows energy includes glare.
+    /// Included where a scope that shows energy contains glare.
     pub glare: Glare,
     pub view: View,
     pub film: Film,
@@ -47,7 +47,7 @@ pub struct Shot {
     pub exposure: f64,
     /// The number of bands of wavelengths of a render, at its finest.
     pub bands: u32,
-    /// Whether each pass of a render takes different wavelengths.
+    /// True where each pass of a render takes different wavelengths.
     pub jitter: bool,
     /// The background behind the stone, if any.
     pub behind: Option<BackgroundRef>,
@@ -55,7 +55,7 @@ pub struct Shot {
     pub distance: f64,
     /// The film without zoom and displacement, which the backplate fills.
     pub whole: Film,
-    /// How much of the way refraction is followed: 1 is physics.
+    /// The strength of refraction, 0 to 1: the part of the turn by refraction that light follows; 1 is physics.
     pub strength: f64,
     /// The part of the light of sparkles that spreads around them in a render, 0 to 1.
     pub glow: f64,
@@ -63,13 +63,13 @@ pub struct Shot {
     pub bounces: u32,
     /// The angle by which the light is turned about its axis, degrees.
     pub light_turn: f64,
-    /// Whether the light's axis points up in the picture, and not to the eye.
+    /// True where the light's axis points up in the picture, false where it points to the eye.
     pub light_upright: bool,
     /// The poses of the copies of the stone in a render, at least one. Other pictures show a single stone.
     pub copies: Vec<Pose>,
-    /// What stands beside the copies in a render, in girdle radii.
+    /// The companions of the copies in a render, in girdle radii.
     pub companions: Companions,
-    /// How a render's edges are smoothed.
+    /// The method that smooths a render's edges.
     pub smoothing: Smoothing,
     /// The half angle of the observer's head in scopes, in degrees; 0 for no head.
     pub head: f64,
@@ -79,7 +79,7 @@ pub struct Shot {
     pub liquid: Liquid,
     /// The colours and the scale of a drawing.
     pub paper: Paper,
-    /// What a drawing marks of the stone.
+    /// The facets and corners of the stone that a drawing marks.
     pub marks: DrawnMarks,
 }
 
@@ -93,15 +93,15 @@ pub struct Paper {
 }
 
 impl Default for Paper {
-    /// The whole sheet, as it is exported.
+    /// Returns the colours and scale of the whole sheet, as it is exported.
     fn default() -> Self {
         Self { inks: Inks::PAPER, pixels_per_point: None }
     }
 }
 
 impl PartialEq for Shot {
-    /// Whether both shots give the same picture. Stones and lights are compared by pointer, because they are replaced and
-    /// never changed.
+    /// Returns whether both shots give the same picture. Stones and lights are compared by pointer, because they are
+    /// replaced and never changed.
     fn eq(&self, other: &Self) -> bool {
         if self.shows.is_pane() {
             let glass = |shot: &Self| (shot.shows, shot.film.size, shot.liquid);
@@ -126,7 +126,8 @@ impl PartialEq for Shot {
 }
 
 impl Shot {
-    /// The settings that only renders and refraction maps depend on, with fixed values for those that maps ignore.
+    /// Returns the settings that only renders and refraction maps depend on, with fixed values for those that maps
+    /// ignore.
     fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 7], Smoothing) {
         let bounces = f64::from(self.bounces);
         let upright = f64::from(u8::from(self.light_upright));
@@ -167,7 +168,7 @@ pub struct SweepOrder {
     pub sweep: Arc<Sweep>,
     /// The points in the order in which they are measured.
     pub points: Arc<[usize]>,
-    /// How many of them give the coarse picture, which is wanted before fine pictures.
+    /// The number of first points that make the coarse picture, which is measured before fine pictures.
     pub coarse: usize,
 }
 
@@ -177,7 +178,7 @@ impl PartialEq for SweepOrder {
     }
 }
 
-/// A point of a sweep by its number, and what was found there.
+/// A point of a sweep by its number, with its result.
 pub type SweptPoint = (usize, Arc<Result<SweptStone, SweepError>>);
 
 /// Everything that the editor shows at one moment.
@@ -191,14 +192,14 @@ pub struct Order {
     pub sweeps: Vec<SweepOrder>,
 }
 
-/// How good a picture is so far.
+/// The quality that a picture has reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Grade {
-    /// As good as there is time for while the hand moves.
+    /// The best quality that there is time for while the user moves something.
     Rough,
-    /// At full size, with light followed part of the way.
+    /// Full size, with the light followed part of the way.
     Fair,
-    /// At full size, with light followed as far as in an export.
+    /// Full size, with the light followed as far as in an export.
     Fine,
 }
 
@@ -211,9 +212,9 @@ pub struct TakenPicture {
     pub unresolved: Option<f64>,
     /// The name of the tracer.
     pub tracer: &'static str,
-    /// How many times larger than the picture's own pixels those are in which its light was traced, from 1.
+    /// The factor, from 1, by which the pixels in which the light was traced are larger than the picture's own.
     pub coarser: f64,
-    /// The refraction map whose codes the picture shows, for backgrounds to be looked up in.
+    /// The refraction map whose codes the picture shows; backgrounds are looked up in it.
     pub map: Option<Arc<RefractionMap>>,
 }
 
@@ -229,6 +230,6 @@ pub enum Answer {
     Tilts(FiguresOrder, Tilts),
     /// Points of the sweep of this number; others follow.
     Swept(u64, Vec<SweptPoint>),
-    /// A message that says what went wrong.
+    /// A message about an error.
     Trouble(String),
 }

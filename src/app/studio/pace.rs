@@ -1,12 +1,13 @@
-//! How much a picture may cost while the hand moves.
+//! Finds the effort that a picture may take while the user moves something.
 
 use super::effort::{Effort, Grain};
 use std::time::Duration;
 
 /// The efforts from the finest to the coarsest.
 ///
-/// Rays keep pixels no larger than 2 as long as they can, and take fewer bands instead: in a picture of glass that moves,
-/// blocks are seen sooner than colours that are a little off. The last steps are for meshes and many stones.
+/// Rays keep pixels no larger than 2 as long as they can, and take fewer bands instead: in a picture of glass that
+/// moves, blocks are more conspicuous than colours that are a little off. The last steps are for meshes and many
+/// stones.
 const STEPS: [Effort; 10] = [
     step(5e-3, (1.0, 12), (1.5, 8)),
     step(1e-2, (1.0, 10), (2.0, 8)),
@@ -20,7 +21,7 @@ const STEPS: [Effort; 10] = [
     step(8e-2, (3.0, 4), (9.0, 3)),
 ];
 
-/// Makes an effort: the share of the light that may stay unresolved; how many times larger pixels are, and the most bands;
+/// Makes an effort of: the share of the light that may stay unresolved; the factor of the pixels and the most bands;
 /// and both where rays on the processor trace.
 const fn step(unresolved: f64, (coarser, bands): (f64, u32), (by_rays, bands_of_rays): (f64, u32)) -> Effort {
     let grain_of_rays = Grain { coarser: by_rays, bands: bands_of_rays };
@@ -31,10 +32,10 @@ const fn step(unresolved: f64, (coarser, bands): (f64, u32), (by_rays, bands_of_
 /// take longer the next ones are coarser, where they take less than a third of it they are finer.
 const GOAL: Duration = Duration::from_millis(40);
 
-/// The time that they may take where the next step has blocks that are plainly seen: then ten sets in a second do.
+/// The limit of that time where the next step would have conspicuous blocks: ten sets in a second are then enough.
 const SLOWEST: Duration = Duration::from_millis(100);
 
-/// The largest blocks, in pixels of the film, that are hardly seen in glass that moves before a sharp background.
+/// The largest blocks, in pixels of the film, that are hardly noticed in glass that moves before a sharp background.
 const HARDLY_SEEN: f64 = 3.0;
 
 /// Finds the effort that keeps up with the hand, as an index of `STEPS`.
@@ -58,7 +59,8 @@ impl Pace {
         let next = (self.0 + 1).min(STEPS.len() - 1);
         let has_blocks = |step: usize| STEPS[step].grain_of_rays.coarser > HARDLY_SEEN;
         let longest = if has_blocks(next) { SLOWEST } else { GOAL };
-        // From one step with blocks to the next there are less than twice as many pixels, and a part of the time is the same.
+        // One step with blocks has less than twice as many pixels as the next, and a part of the time does not depend
+        // on them.
         let shortest = if has_blocks(self.0) { SLOWEST * 2 / 3 } else { GOAL / 3 };
         if took > longest {
             self.0 = next;

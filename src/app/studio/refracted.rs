@@ -1,5 +1,5 @@
-//! Traces pictures of backgrounds behind glass: refraction maps, in which the lookup worker looks backgrounds up, and liquid
-//! glass.
+//! Traces pictures of backgrounds behind glass: refraction maps, in which backgrounds are then looked up, and panes
+//! of liquid glass.
 
 use super::develop::map_taken;
 use super::effort::{Effort, FINE_RENDER};
@@ -13,7 +13,7 @@ use crate::picture::{Carried, Develop, RefractionMap};
 use crate::render::{Job, Rendered, Renderer};
 use crate::trace::Watch;
 
-/// How finely maps are traced, by grade. A map of several bands takes as many times as long to look up.
+/// The resolution of maps by grade. The time of a look-up grows with the number of bands.
 const ROUGH: MapDetail = MapDetail { bands: 1, places: 1, shades: 3, samples: 1 };
 const FAIR: MapDetail = MapDetail { bands: 1, places: 1, shades: 4, samples: 1 };
 const FINE: MapDetail = MapDetail { bands: 3, places: 1, shades: 6, samples: 4 };
@@ -49,7 +49,7 @@ impl ShotTracer {
         let Some(behind) = self.picture_behind(Some(&shot.pane_background()))? else {
             return Err(Failure::Input("the pane has no background".into()));
         };
-        // Panes are always traced by the processor, which takes no more passes than its fine renders have.
+        // The processor always traces panes, so they take no more passes than fine renders on it.
         let samples = effort.refinement.map_or(1, |r| r.samples.min(FINE_RENDER.samples));
         let size = coarser(&shot.film, effort.coarser_by_single_rays()).size;
         let job = shot.pane_job(behind.picture(), size, samples > 1, samples);
@@ -72,7 +72,7 @@ fn run(renderer: &mut Renderer, job: &Job, watch: Watch) -> Result<Rendered, Fai
 /// Traces the map of a shot as it is exported, with the given numbers of bands and of places of a pixel in each.
 ///
 /// # Errors
-/// A [`Failure`].
+/// Fails where the renderer refuses the job, where the backplate cannot be read, or where `watch` asks to stop.
 pub fn survey(
     shot: &Shot,
     [bands, places]: [u32; 2],

@@ -39,10 +39,10 @@ impl ShotTracer {
             (grain, by_rays) = (effort.grain_of_rays, true);
         }
         job.film = coarser(&shot.film, grain.coarser);
-        // Rough pixels of glass are seen less where outlines and what hangs behind are fine.
+        // Rough pixels of glass are less conspicuous where outlines and the backplate are fine.
         let is_enlarged = by_rays && !effort.is_refined() && job.film.size != shot.film.size;
         let fine = is_enlarged.then(|| Job { film: shot.film, ..job.clone() });
-        // A blend of pictures stands for whole pixels, one picture for the places of its rays.
+        // A blend of several pictures stands for whole pixels; a single picture stands for the places of its rays.
         let shift = if moving.is_some() { DVec2::splat(0.5) } else { place_in_pixel(first, 1) };
         let Self { renderer, trails, kept, notes, .. } = self;
         renderer.run(&job, watch, &mut |part| {
@@ -80,7 +80,7 @@ impl ShotTracer {
         quality.samples = refinement.map(|r| r.samples);
         let steps = match refinement {
             None => {
-                // Rough pictures by rays leave as much light as those by beams.
+                // Rough pictures by rays leave as much light unresolved as those by beams.
                 quality.rays.least_weight = effort.unresolved;
                 Steps::Glance { first }
             }
@@ -89,7 +89,7 @@ impl ShotTracer {
         Ok(shot.light_job(behind, effort.grain.bands, steps, quality))
     }
 
-    /// Whether a shot is a render that rays on the processor trace, which takes long.
+    /// Returns whether a shot is a render that rays on the processor trace, which takes long.
     pub fn is_slow_render(&mut self, shot: &Shot) -> bool {
         if shot.shows != Shows::Render {
             return false;
@@ -106,7 +106,8 @@ impl ShotTracer {
     /// Traces the render of a shot as it is exported, with as many passes as the command line takes.
     ///
     /// # Errors
-    /// A [`Failure`].
+    /// Fails where the backplate cannot be read, where the renderer refuses the job, where no temporary file holds
+    /// the light of a large picture, or where `watch` asks to stop.
     pub fn export(&mut self, shot: &Shot, watch: Watch) -> Result<ExportedRender, Failure> {
         let behind = self.picture_behind(shot.behind.as_ref())?;
         let job = shot.light_job(behind, shot.bands, Steps::Strips, Quality::of_pictures(true));
@@ -120,7 +121,7 @@ impl ShotTracer {
         Ok(ExportedRender { light, tracer, unresolved })
     }
 
-    /// Returns the picture behind a render, which is read or drawn only when it changes.
+    /// Returns the picture of a render's backplate, which is read or drawn only when it changes.
     pub(super) fn picture_behind(
         &mut self,
         asked: Option<&BackgroundRef>,
@@ -148,7 +149,7 @@ impl ExportedRender {
     /// Writes the render of a shot as PNG, developed and with its overlay.
     ///
     /// # Errors
-    /// A [`Failure`].
+    /// Fails where the file cannot be written, or where `watch` asks to stop.
     pub fn write(
         &mut self,
         shot: &Shot,
@@ -162,7 +163,7 @@ impl ExportedRender {
     /// Returns the render of a shot, developed and with its overlay, as an image.
     ///
     /// # Errors
-    /// A [`Failure`].
+    /// Fails where the stored light cannot be read, or where `watch` asks to stop.
     pub fn image(&mut self, shot: &Shot, watch: Watch) -> Result<ColorImage, Failure> {
         let size = shot.film.size.map(|side| side as usize);
         let rgba = self.finished(shot, |finish, light| finish.pixels(light, watch))?;

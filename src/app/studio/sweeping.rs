@@ -1,7 +1,7 @@
 //! Sweeps in the studio: measures over a grid, which are answered a few points at a time.
 //!
-//! A newer order interrupts a sweep. Where it asks for the same sweep, that goes on after the last points that were answered: so
-//! a sweep waits while a hand drags, and nothing is measured twice.
+//! A newer order interrupts a sweep. Where the order contains the same sweep, the sweep goes on after the last
+//! answered points: so a sweep waits while the user drags, and no point is measured twice.
 
 use super::order::{Answer, Order, SweepOrder};
 use super::worker::Worker;
@@ -9,13 +9,13 @@ use crate::trace::{Stopped, Watch};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The points that are answered at once: enough for all cores, and few enough to be seen coming.
+/// The number of points that are answered at once: enough for all cores, and few enough to show progress.
 const AT_ONCE: usize = 32;
 
-/// The sweeps whose progress is remembered.
+/// The number of sweeps whose progress is remembered.
 const REMEMBERED: usize = 8;
 
-/// How many points of each sweep have been answered, by its number.
+/// The number of answered points of each sweep, by the number of the sweep.
 #[derive(Default)]
 pub(super) struct SweptSoFar(BTreeMap<u64, usize>);
 
@@ -24,7 +24,7 @@ impl SweptSoFar {
         self.0.get(&number).copied().unwrap_or(0)
     }
 
-    /// Notes how many points have been answered; forgets the oldest sweeps where there are many.
+    /// Records the number of answered points; forgets the oldest sweeps where there are many.
     fn note(&mut self, number: u64, answered: usize) {
         self.0.insert(number, answered);
         while self.0.len() > REMEMBERED {

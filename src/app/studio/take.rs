@@ -16,18 +16,18 @@ use crate::trace::Watch;
 use egui::ColorImage;
 use std::sync::Arc;
 
-/// Traces pictures, and keeps what later pictures can use.
+/// Traces pictures, and keeps the data that later pictures can use.
 #[derive(Default)]
 pub struct ShotTracer {
-    /// What does the jobs of shots.
+    /// The renderer that does the jobs of shots.
     pub(super) renderer: Renderer,
-    /// A message for the user: why the processor does a card's work.
+    /// Messages for the user about why the processor does a card's work.
     pub(super) notes: Vec<String>,
     /// The last picture behind a render.
     pub(super) behind: Option<(BackgroundRef, Arc<Mipmap>)>,
-    /// The temporal histories of rough renders of what moves.
+    /// The temporal histories of rough renders of moving bodies.
     pub(super) trails: Trails,
-    /// The light of what each view shows, as it was traced.
+    /// The traced light of each view before it is developed.
     pub(super) kept: Kept,
 }
 
@@ -58,7 +58,7 @@ impl ShotTracer {
     /// Makes the picture of a shot from light that was traced for another shot; `None` where no such light is kept.
     ///
     /// # Errors
-    /// [`Failure::Stopped`] when `watch` asks to stop, which only overlays do.
+    /// Returns [`Failure::Stopped`] where `watch` asks to stop; only overlays ask it.
     pub fn develop_again(
         &self,
         slot: Slot,
@@ -103,7 +103,7 @@ impl ShotTracer {
             Ok::<_, Failure>(())
         })?;
         let tracer = rendered.backend.kind();
-        // The whole light counts, not the part of the area that has no strongest exit.
+        // The figure stands for the whole light, and not for the part of the area without a strongest exit.
         let unresolved = rendered.beams().map_or(unresolved, |beams| Some(beams.unresolved()));
         let side = size.map(|n| n as usize);
         let image = match shot.overlay {

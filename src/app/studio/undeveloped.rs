@@ -1,4 +1,5 @@
-//! The light of renders and maps as it was traced, kept so that another exposure or overlay needs no new tracing.
+//! The traced light of renders and maps before it is developed, which is kept so that another exposure or overlay
+//! needs no new tracing.
 
 use super::order::{Shot, Slot};
 use crate::app::shows::Shows;
@@ -24,7 +25,7 @@ pub enum TracedLight {
 }
 
 impl Shot {
-    /// Whether the light of this shot is that of another: the two may differ in exposure and overlay alone.
+    /// Returns whether this shot has the light of another: the two may differ only in exposure, overlay and glow.
     pub fn has_light_of(&self, other: &Self) -> bool {
         let is_kept = matches!(self.shows, Shows::Render | Shows::Refraction);
         is_kept

@@ -34,17 +34,17 @@ pub(super) struct Worker {
     wake: Wake,
     camera: ShotTracer,
     pace: Pace,
-    /// The pictures that have been answered, and how good they are.
+    /// The pictures that have been answered, with their grades.
     pictures: HashMap<Slot, (Shot, Grade)>,
     figures: HashMap<Which, (FiguresOrder, Grade)>,
     tilts: Option<FiguresOrder>,
-    /// How far sweeps have come.
+    /// The progress of sweeps.
     pub(super) swept: SweptSoFar,
     /// The renders that have been sharpened.
     sharp: HashMap<Slot, Shot>,
 }
 
-/// One order and its number, which shows when a newer order outdates it.
+/// An order with its number, which shows when a newer order outdates it.
 struct Turn {
     number: u64,
     order: Order,
@@ -123,10 +123,11 @@ impl Worker {
         (self.wake)();
     }
 
-    /// Traces everything that has changed, as well as there is time for while the hand moves.
+    /// Traces all pictures and figures that have changed, as well as there is time for while the user moves
+    /// something.
     ///
-    /// A newer order does not interrupt this, or no picture would be finished while the hand moves; only the end of the
-    /// studio does.
+    /// A newer order does not interrupt this, or no picture would be finished during a drag; only closing the studio
+    /// does.
     fn rough(&mut self, turn: &Turn) -> Result<(), Stopped> {
         let mailbox = Arc::clone(&self.mailbox);
         let watch = move |_: f64| stop_if(mailbox.quit.load(Ordering::SeqCst));
@@ -149,9 +150,10 @@ impl Worker {
         Ok(())
     }
 
-    /// Answers a shot from light that was traced before, where it differs from the last shot in exposure and overlay alone.
+    /// Answers a shot from light that was traced before, where it differs from the last shot only in exposure,
+    /// overlay and glow.
     ///
-    /// Returns whether it did. The picture is then as good as the one before.
+    /// Returns whether it answered. The picture then has the grade of the one before.
     fn develop_again(&mut self, (slot, shot): (Slot, &Shot), watch: Watch) -> Result<bool, Stopped> {
         let before = self.pictures.get(&slot).filter(|(done, _)| done.has_light_of(shot));
         let Some((done, grade)) = before.cloned() else { return Ok(false) };
@@ -167,7 +169,7 @@ impl Worker {
         Ok(true)
     }
 
-    /// Traces everything better and better, until there is a newer order.
+    /// Traces all pictures and figures in better and better grades, until there is a newer order.
     fn refine(&mut self, turn: &Turn) -> Result<(), Stopped> {
         let (mailbox, number) = (Arc::clone(&self.mailbox), turn.number);
         let watch = move |_: f64| stop_if(mailbox.newest.load(Ordering::SeqCst) != number);
@@ -190,7 +192,7 @@ impl Worker {
         self.sweeps(&turn.order, |ask| ask.points.len(), &watch)
     }
 
-    /// Whether a shot has not been answered yet by a picture of this grade or a better one.
+    /// Returns whether a shot still needs a picture of this grade.
     fn is_wanted(&self, slot: &Slot, shot: &Shot, grade: Grade) -> bool {
         self.pictures.get(slot).is_none_or(|(done, known)| done != shot || *known < grade)
     }
@@ -277,7 +279,7 @@ impl Worker {
         match rendered.and_then(Rendered::figures) {
             Ok(measured) => Ok(measured.figures),
             Err(RenderError::Stopped(stopped)) => Err(stopped),
-            // Figures are ordered for parallel rays alone, and traced by a tracer that fits them.
+            // The editor orders figures only along parallel rays, and a tracer for them is always found.
             Err(other) => unreachable!("{other}"),
         }
     }

@@ -30,10 +30,10 @@ pub struct Autosave {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Kept {
     path: Option<PathBuf>,
-    /// Whether the cut is a mesh, which lies in its own file and is not kept here.
+    /// True where the cut is a mesh, which lies in its own file and is not kept here.
     #[serde(default)]
     mesh: bool,
-    /// The mesh file that the stone was read from, if it was one; autosave files of older programs lack this.
+    /// The mesh file that the stone was read from, if it was one; autosave files of older versions lack this.
     #[serde(default)]
     read: Option<KeptMesh>,
     design: String,
@@ -41,11 +41,11 @@ struct Kept {
     around: KeptScene,
 }
 
-/// A mesh file and how it was read, as the autosave file holds them.
+/// A mesh file and the options by which it was read, as the autosave file holds them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct KeptMesh {
     path: PathBuf,
-    /// The direction in which the table faces, if one was given.
+    /// The direction in which the table faces, if the user gave one.
     up: Option<DVec3>,
     form: MeshForm,
     is_doubtful: bool,
@@ -58,7 +58,8 @@ impl KeptMesh {
             path: mesh.path.clone(),
             up: match mesh.options.up {
                 Up::Given(up) => Some(up),
-                // The editor opens meshes only by a given direction, or by the one that is found.
+                // The editor opens meshes either by a direction that the user gave, or by the one that the program
+                // finds.
                 Up::Found | Up::FoundBy(_) | Up::Known(_) | Up::Posed(_) => None,
             },
             form: mesh.options.form,
@@ -85,10 +86,10 @@ impl Autosave {
         Self { folder, own, held: None }
     }
 
-    /// Writes the design, how its mesh was read, and the scene around it to the autosave file.
+    /// Writes the design, the options of its mesh and the scene around it to the autosave file.
     ///
     /// # Errors
-    /// Fails when the file system refuses.
+    /// Fails where the file cannot be written.
     pub fn keep(&mut self, unsaved: &UnsavedWork) -> Result<(), WriteError> {
         let UnsavedWork { work, around, path, replaces } = unsaved;
         let design = &work.design;
@@ -109,7 +110,7 @@ impl Autosave {
         let text = serde_json::to_string(&kept).map_err(|e| WriteError::io(&self.folder, e))?;
         let name = &self.own;
         write(name, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(name, e)))?;
-        // Writing has replaced the file that was locked.
+        // The write has replaced the file that was locked.
         let file = File::open(name).map_err(|e| WriteError::io(name, e))?;
         file.try_lock().map_err(|e| WriteError::io(name, std::io::Error::from(e)))?;
         self.held = Some(file);
@@ -140,7 +141,7 @@ pub fn forget(path: &Path) {
     let _ = std::fs::remove_file(path);
 }
 
-/// Returns the plane that stands in the file for a mesh that is not kept.
+/// Returns the plane that the autosave file holds in the place of a mesh, which is not kept there.
 fn stand_in() -> (String, Plane) {
     ("mesh".to_owned(), Plane::new(DVec3::Z, 1.0))
 }
@@ -159,7 +160,8 @@ fn orphan(path: PathBuf) -> Option<RecoveredWork> {
         design.cut = mesh_again(mesh.as_ref(), kept.path.as_deref())?;
     }
     let when = file.metadata().and_then(|m| m.modified()).ok()?;
-    // A mesh is read here in the direction that is found: a direction that the user chose is a change that the file lacks.
+    // The mesh is read in the direction that the program finds: a direction that the user chose is a change that the
+    // file lacks.
     let on_disk = kept.path.as_deref().and_then(|path| design_file::read(path).ok()).map(|read| read.design);
     Some(RecoveredWork { design, around: kept.around, path: kept.path, on_disk, mesh, when, file: path })
 }

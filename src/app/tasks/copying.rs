@@ -10,10 +10,10 @@ use crate::scene::Specimen;
 use egui::ColorImage;
 use std::ops::ControlFlow;
 
-/// Makes a picture, until `is_stopped` says that nobody wants it any more.
+/// Makes a picture, unless `is_stopped` says that it is no longer wanted.
 ///
 /// # Errors
-/// The text says why there is no picture.
+/// Fails where the picture cannot be made; the text says why.
 pub fn make(request: &CopyRequest, is_stopped: &(dyn Fn() -> bool + Sync)) -> Result<ColorImage, Failure> {
     let CopyRequest { original, side } = request;
     let shot = match original {
@@ -24,7 +24,7 @@ pub fn make(request: &CopyRequest, is_stopped: &(dyn Fn() -> bool + Sync)) -> Re
         true => ControlFlow::Break(()),
         false => ControlFlow::Continue(()),
     };
-    // A copied render is as clear as an exported one.
+    // A copied render has as many passes as an exported one.
     if shot.shows == Shows::Render {
         return ShotTracer::default().export(shot, &watch)?.image(shot, &watch);
     }

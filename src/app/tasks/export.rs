@@ -21,7 +21,7 @@ use std::time::Instant;
 /// The side of a thumbnail, pixels.
 const THUMBNAIL: u32 = 176;
 
-/// The effort of a render, where a picture in a scope takes 1, roughly.
+/// The effort of a render relative to that of a picture in a scope, roughly.
 const RENDER: f64 = 4.0;
 
 /// Reports the progress of an export.
@@ -158,7 +158,7 @@ pub fn thumbnails(
             continue;
         }
         let shot = plan.shot(shows, THUMBNAIL);
-        // A thumbnail that cannot be taken stays empty; exporting says why.
+        // A thumbnail that cannot be made stays empty; the export reports the reason.
         let _ = tracer.take(((0, Which::Present), &shot), &effort, &watch, &mut |taken| {
             hang(shows, taken.image);
         });

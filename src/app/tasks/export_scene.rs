@@ -1,4 +1,5 @@
-//! Writes what renders show as a scene file, with the cut files of its designs and the meshes of its metal.
+//! Writes the stones and metal of renders as a scene file, with the cut files of its designs and the meshes of its
+//! metal.
 
 use crate::app::model::export::{ExportPlan, kinds};
 use crate::app::studio::Shot;
@@ -14,12 +15,12 @@ use std::sync::Arc;
 
 /// The files of a scene: the scene file, the cut file of each design, and the meshes of its metal.
 pub struct SceneOut {
-    /// Each file and its text; the scene file is the first.
+    /// The path and the text of each file; the scene file is the first.
     files: Vec<(PathBuf, String)>,
 }
 
 impl SceneOut {
-    /// Makes the scene that a plan's renders show.
+    /// Makes the scene that the renders of a plan show.
     pub fn of(plan: &ExportPlan) -> Self {
         let shot = &plan.shot;
         let paths = plan.scene_paths();
@@ -28,7 +29,7 @@ impl SceneOut {
         let poses: Vec<Pose> = shot.copies.iter().map(|pose| turned.after(pose)).collect();
         let companions = shot.companions.carried(&turned);
         let (low, high) = Scene::clone(&shot.scene()).moved(&turned).bounds();
-        // Scenes are seen around their middle; that of a stone alone at the origin stays there.
+        // A scene is viewed around its middle; a single stone at the origin is written without a shift.
         let is_alone = companions.is_empty() && matches!(poses[..], [alone] if alone.at == DVec3::ZERO);
         let middle = if is_alone { DVec3::ZERO } else { 0.5 * (low + high) };
         let kinds = kinds(&companions);
@@ -70,9 +71,9 @@ impl SceneOut {
     /// Writes all files, each whole or not at all.
     pub fn write(&self) -> Result<(), Failure> {
         let (scene, text) = &self.files[0];
-        // A scene that reaches farther than scenes may is refused before anything is written.
+        // A scene that is larger than scene files allow is refused before any file is written.
         scene_file::parse(text, &scene.display().to_string(), scene.parent())?;
-        // The scene file is the last, so that it names no file that is not there.
+        // The scene file is written last, so that it never names a missing file.
         for (path, text) in self.files.iter().rev() {
             write(path, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(path, e)))?;
         }

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 /// A function that asks the user for a file and waits for the answer.
 pub type Chooser = Arc<dyn Fn(&Question) -> Choice + Send + Sync>;
 
-/// A dialog that ends sooner than this has failed: no person answers so quickly.
+/// A dialog that ends sooner than this has failed: no user answers so quickly.
 const AT_ONCE: Duration = Duration::from_millis(350);
 
 /// Asks by the system's own file dialogs.
@@ -23,7 +23,8 @@ pub fn by_dialog(question: &Question) -> Choice {
     }
 }
 
-/// Whether the system may have dialogs: other desktops than those of Windows and macOS have them by a bus or by a program.
+/// Returns whether the system may have dialogs: desktops other than those of Windows and macOS provide them over
+/// D-Bus or by the program zenity.
 fn may_have_dialogs() -> bool {
     let folders = std::env::var_os("PATH").unwrap_or_default();
     let bus = std::env::var_os("XDG_RUNTIME_DIR").map(|folder| Path::new(&folder).join("bus"));

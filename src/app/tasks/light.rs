@@ -8,7 +8,8 @@ use crate::scene::Specimen;
 /// Measures the stones one after the other.
 ///
 /// # Errors
-/// A stone that cannot be built or traced, by its label; [`Failure::Stopped`] where nobody wants the answer any more.
+/// Fails where a stone cannot be built or traced; the text begins with its label. Returns [`Failure::Stopped`] where
+/// the answer is no longer wanted.
 pub fn measured(request: &LightRequest, is_stopped: &dyn Fn() -> bool) -> Result<Vec<StoneLight>, Failure> {
     let measured = request.stones.iter().map(|(label, design)| {
         if is_stopped() {

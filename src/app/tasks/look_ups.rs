@@ -1,5 +1,5 @@
-//! Pictures that are looked up in the background: the newest request of each view, so that pictures follow the hand while
-//! the studio traces.
+//! Pictures that are looked up in the background: each view has its newest request answered, so that pictures follow
+//! the user's hand while the studio traces.
 
 use super::lookup::{Lookup, LookupRequest};
 use super::runner::Turn;
@@ -8,7 +8,7 @@ use crate::app::studio::Slot;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What look-ups have in common.
+/// The state that all look-ups share.
 #[derive(Default)]
 pub struct LookUps {
     /// The last request of each slot.
@@ -34,7 +34,7 @@ impl Outside {
         });
     }
 
-    /// Whether pictures are being looked up.
+    /// Returns whether pictures are being looked up.
     pub fn is_looking_up(&self) -> bool {
         self.runner.is_running(|key| matches!(key, Key::LookUp(_)))
     }

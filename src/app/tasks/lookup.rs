@@ -15,19 +15,19 @@ use std::sync::{Arc, OnceLock};
 /// A request for a picture.
 #[derive(Debug, Clone)]
 pub struct LookupRequest {
-    /// What the picture shows.
+    /// The shot that the picture answers.
     pub shot: Shot,
     /// The grade of the map.
     pub grade: Grade,
-    /// The map, and how far the background has been moved to the right and down, in parts of the map's plane; `None` for
-    /// liquid glass.
+    /// The map, and the distance by which the background has been moved to the right and down, in parts of the map's
+    /// plane; `None` for liquid glass.
     pub map: Option<(Arc<RefractionMap>, DVec2)>,
     /// The backplate.
     pub behind: BackgroundRef,
 }
 
 impl PartialEq for LookupRequest {
-    /// Whether both requests give the same picture.
+    /// Returns whether both requests give the same picture.
     fn eq(&self, other: &Self) -> bool {
         let same = match (&self.map, &other.map) {
             (Some((a, by)), Some((b, other))) => Arc::ptr_eq(a, b) && by == other,
@@ -43,7 +43,8 @@ impl PartialEq for LookupRequest {
 /// Makes pictures by looking up, one at a time.
 #[derive(Default)]
 pub struct Lookup {
-    /// Threads of its own, begun at the first picture: those that the studio keeps busy would come to it last.
+    /// Threads of its own, which start with the first picture: in the studio's busy pool, look-ups would be done
+    /// last.
     threads: OnceLock<Option<ThreadPool>>,
     backgrounds: Backgrounds,
 }
@@ -72,7 +73,8 @@ struct Backgrounds {
     filled: Option<(BackgroundRef, Panorama)>,
     /// The pane of liquid glass that was drawn last.
     pane: Option<PreparedPane>,
-    /// What was seen through that pane, of which background, and where the pane's corner was.
+    /// The background as seen through that pane: its name, the place of the pane's corner, and the result of the
+    /// look-up.
     seen: Option<(BackgroundRef, DVec2, SeenThrough)>,
 }
 
@@ -92,8 +94,8 @@ impl Backgrounds {
         Ok(TakenPicture { image: as_screens(&picture), unresolved: None, tracer, coarser: 1.0, map: None })
     }
 
-    /// Draws a pane of liquid glass. What a change leaves as it was is not computed again: where the light alone moves,
-    /// nothing is looked up, and where the pane is dragged, its shape is kept.
+    /// Draws a pane of liquid glass. Unaffected parts are not computed again: where only the light moves, nothing is
+    /// looked up, and where the pane is dragged, its shape is kept.
     fn liquid_glass(
         &mut self,
         glass: &GlassPane,
@@ -114,7 +116,7 @@ impl Backgrounds {
         Ok(picture)
     }
 
-    /// Returns a background in its own size, with the halved sizes that have been of use so far.
+    /// Returns a background in its own size, with the halved sizes that have been needed so far.
     fn levels(&mut self, background: &BackgroundRef) -> Result<&mut Levels, Failure> {
         let levels = match self.behind.take().filter(|(last, _)| last == background) {
             Some((_, levels)) => levels,

@@ -71,7 +71,7 @@ pub enum TaskAnswer {
     Copied(Result<ColorImage, Failure>),
     /// A small picture of what can be exported.
     Thumbnail(Shows, ColorImage),
-    /// A picture that was looked up, or the text that says why there is none.
+    /// A picture that was looked up, or an error that says why it could not be made.
     Looked(Slot, Arc<LookupRequest>, Result<TakenPicture, Failure>),
 }
 
@@ -84,7 +84,7 @@ impl<A: Into<Action>> From<A> for TaskAnswer {
 /// The text of an error that the program itself has made.
 const FAULT: &str = "this is a fault in the program; please report it, with the design";
 
-/// Returns the error of a task that panicked; `failed` says what was not done.
+/// Returns the error of a task that panicked; `failed` names the work that was not done.
 fn fault(failed: &str) -> Failure {
     Failure::Output(format!("{failed}; {FAULT}"))
 }
@@ -102,7 +102,7 @@ pub struct Outside {
 }
 
 impl Outside {
-    /// Makes what carries out tasks; `wake` is called whenever there is an answer.
+    /// Makes the executor of tasks; `wake` is called whenever there is an answer.
     pub fn new(chooser: Chooser, opener: Opener, safe: Option<Autosave>, wake: Wake) -> Self {
         let safe = safe.map(|safe| Arc::new(Mutex::new(safe)));
         Self { runner: TaskRunner::new(wake), chooser, opener, safe, look_ups: LookUps::default() }
@@ -113,7 +113,7 @@ impl Outside {
         self.runner.answers()
     }
 
-    /// Begins to carry out a task. Tracing and what the window does are not carried out here.
+    /// Begins to carry out a task. The caller carries out tracing and the window's tasks.
     pub fn start(&mut self, task: Task) {
         match task {
             Task::LoadLight(name) => self.load_light(name),
@@ -275,7 +275,7 @@ impl Outside {
             let written = goal_file::write(&goal, &path);
             handle.send(Computed::GoalSaved(path, written).into());
         };
-        // As all that writes, it waits for the one before it, and the program waits for it.
+        // Like all jobs that write, it waits for the one before it, and the program waits for it.
         self.runner.start(Key::GoalSaved, Turn::After, Some(failed), job);
     }
 
@@ -301,7 +301,7 @@ impl Outside {
         self.runner.start(key, Turn::After, Some(failed.into()), job);
     }
 
-    /// Waits until everything that was to be written is written.
+    /// Waits until all files that were to be written are written.
     pub fn finish(&mut self) {
         self.runner.finish();
     }

@@ -13,10 +13,11 @@ use crate::io::{Failure, light_file, scene_file};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Reads a file; a scene is only read as one to be worked on.
+/// Reads a file; a scene file must have a stone to work on.
 ///
 /// # Errors
-/// The text names file, line and key, and says what to do.
+/// Fails where the file cannot be read, or makes neither a stone nor a scene. The text names file, line and key, and
+/// says what to do.
 pub fn read(request: &FileRequest) -> Result<OpenedFile, Failure> {
     let FileRequest { purpose, path, mesh } = request;
     match *purpose == OpeningPurpose::Anew && is_scene(path) {
@@ -25,7 +26,7 @@ pub fn read(request: &FileRequest) -> Result<OpenedFile, Failure> {
     }
 }
 
-/// Whether a file is a scene; only a file that ends in .toml is looked into.
+/// Returns whether a file is a scene; only files whose names end in .toml are read for that.
 fn is_scene(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) && scene_file::is_scene(path)
 }
@@ -33,7 +34,7 @@ fn is_scene(path: &Path) -> bool {
 /// Saves a design in the format of the file's name, or as .toml where the name has no ending.
 ///
 /// # Errors
-/// Fails where the file system refuses, and where completing the name would replace another file.
+/// Fails where the file cannot be written, and where the completed name would replace another file.
 pub fn save(request: SaveRequest) -> Result<SavedDesign, Failure> {
     let SaveRequest { path, design, specimen, .. } = request;
     let completed = path.with_extension("toml");
@@ -51,7 +52,7 @@ pub fn save(request: SaveRequest) -> Result<SavedDesign, Failure> {
 /// The time from one look at a watched file to the next.
 const PAUSE: Duration = Duration::from_millis(500);
 
-/// Watches a file that was last known by `known`, until the job is stopped.
+/// Watches a file, whose last known stamp is `known`, until the job is stopped.
 pub fn watch(path: &Path, mut known: Stamp, job: &JobHandle<TaskAnswer>) {
     while !job.is_stopped() {
         let now = Stamp::of(path);
@@ -63,7 +64,7 @@ pub fn watch(path: &Path, mut known: Stamp, job: &JobHandle<TaskAnswer>) {
     }
 }
 
-/// Returns what dropped files are for, by their names and, for TOML, by their content.
+/// Returns the purposes of dropped files, by their names and, for TOML, by their content.
 pub fn look_into(files: Vec<PathBuf>) -> Vec<(PathBuf, Purpose)> {
     let purpose = |path: &Path| {
         let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();

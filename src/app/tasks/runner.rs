@@ -1,8 +1,8 @@
 //! Work in the background, where the newest job of a key wins.
 //!
-//! Every job has a key. A job that is started stops the one before it that has the same key, and answers of that one are
-//! dropped unread: nobody wants them any more. A job that writes waits its turn instead, so that it never meets the one
-//! before it half way; of those that wait, the newest alone is kept.
+//! Every job has a key. A new job stops the one before it that has the same key, whose answers are then outdated and
+//! dropped unread. A job that writes waits its turn instead, so that it never runs beside the one before it; of those
+//! that wait, only the newest is kept.
 
 use crate::app::studio::Wake;
 use std::collections::HashMap;
@@ -12,12 +12,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// How a job follows another with the same key.
+/// The order in which jobs with the same key run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Turn {
-    /// It begins at once, and the other is outdated.
+    /// The new job begins at once, and the other is outdated.
     AtOnce,
-    /// It begins once the other has ended. The runner waits for such jobs before it is dropped.
+    /// The new job begins once the other has ended. The runner waits for such jobs before it is dropped.
     After,
 }
 
@@ -33,7 +33,7 @@ impl<A> JobHandle<A> {
         (self.answers)(answer);
     }
 
-    /// Whether the job was stopped, or nobody wants its answers any more.
+    /// Returns whether the job was stopped or its answers are outdated.
     pub fn is_stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
@@ -61,12 +61,12 @@ struct Lane<A> {
     /// The number of the newest job.
     number: u64,
     stop: Arc<AtomicBool>,
-    /// How many jobs have not ended, as far as their messages have been read.
+    /// The number of jobs that have not ended, as far as their messages have been read.
     pending: usize,
     queue: Arc<Mutex<Queue<A>>>,
 }
 
-/// What the thread of a lane and the runner share.
+/// The state that a lane's thread and the runner share.
 struct Queue<A> {
     is_running: bool,
     waiting: Option<Job<A>>,
@@ -119,7 +119,7 @@ impl<K: Copy + Eq + Hash + Send + Sync + 'static, A: Send + 'static> TaskRunner<
         if turn == Turn::After {
             let mut queue = lane.queue.lock().unwrap_or_else(PoisonError::into_inner);
             if queue.is_running {
-                // The job that waited until now is dropped, and sends no end.
+                // The job that waited until now is dropped, so it sends no message of its end.
                 lane.pending -= usize::from(queue.waiting.replace(job).is_some());
                 return;
             }
@@ -143,19 +143,19 @@ impl<K: Copy + Eq + Hash + Send + Sync + 'static, A: Send + 'static> TaskRunner<
         messages.into_iter().filter_map(|message| self.take(message)).collect()
     }
 
-    /// Takes a message; returns its answer where it is still wanted.
+    /// Takes a message; returns its answer unless it is outdated.
     fn take(&mut self, message: Message<K, A>) -> Option<A> {
         let lane = self.lanes.get_mut(&message.key)?;
         lane.pending -= usize::from(message.answer.is_none());
         message.answer.filter(|_| lane.turn == Turn::After || lane.number == message.number)
     }
 
-    /// Whether a job is running whose key is meant.
+    /// Returns whether a job is running whose key `is_meant` accepts.
     pub fn is_running(&self, is_meant: impl Fn(&K) -> bool) -> bool {
         self.lanes.iter().any(|(key, lane)| lane.pending > 0 && is_meant(key))
     }
 
-    /// Waits until everything that was to be written is written.
+    /// Waits until all jobs that write have ended.
     pub fn finish(&mut self) {
         let is_writing = |lane: &Lane<A>| lane.pending > 0 && lane.turn == Turn::After;
         while self.lanes.values().any(is_writing)
@@ -212,7 +212,7 @@ mod tests {
         (TaskRunner::new(Arc::new(move || sender.lock().unwrap().send(()).unwrap_or_default())), woken)
     }
 
-    /// Waits until so many answers have come, and returns them.
+    /// Waits until `count` answers have come, and returns them.
     fn some(runner: &mut Runner, woken: &Receiver<()>, count: usize) -> Vec<i32> {
         let mut answers = runner.answers();
         while answers.len() < count {

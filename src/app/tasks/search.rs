@@ -9,19 +9,21 @@ use std::ops::ControlFlow;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How often progress without a better design is handed out.
+/// The least time between two reports of progress without a better design.
 const EVERY: Duration = Duration::from_millis(60);
 
-/// Carries out a search; `say` hears of its progress.
+/// Carries out a search; `say` gets its progress.
 ///
 /// # Errors
-/// The goal or the design is at fault; [`Failure::Stopped`] where the search was stopped before it began.
+/// Fails where the goal or the design has a fault. Returns [`Failure::Stopped`] where the search was stopped before
+/// it began.
 pub fn search(
     request: &SearchRequest,
     say: &(dyn Fn(SearchEvent) + Sync),
     is_stopped: &(dyn Fn() -> bool + Sync),
 ) -> Result<Box<SearchReport>, Failure> {
-    // In the pool of the tracers, pictures of the best would wait for the search: these threads come after all of them.
+    // In the pool of the tracers, pictures of the best design would wait for the search. These threads have a lower
+    // priority.
     let threads = ThreadPoolBuilder::new()
         .thread_name(|k| format!("search {k}"))
         .start_handler(|_| urgency::lower_most())
@@ -48,7 +50,7 @@ fn found(
     let search = DesignSearch::new(&request.design, &request.goal, request.options, &watch)?;
     let said: Mutex<Option<Instant>> = Mutex::default();
     let outcome = search.run(&watch, &|progress: &SearchProgress| {
-        // Every message draws the window anew.
+        // Every report redraws the window.
         let mut said = said.lock().unwrap_or_else(PoisonError::into_inner);
         if progress.new_best.is_some() || said.is_none_or(|last| last.elapsed() >= EVERY) {
             *said = Some(Instant::now());

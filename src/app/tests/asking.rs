@@ -1,4 +1,4 @@
-//! Tests of dialogs: what they ask, what Return and Escape do in them, and what an export reports of itself.
+//! Tests of dialogs: their questions, the keys Return and Escape in them, and the reports of an export.
 
 use super::fitting::pick;
 use super::*;

@@ -1,12 +1,13 @@
-//! The list of the audit: what it says, how it selects facets, and how it follows the design.
+//! Tests of the list of the audit: its rows, the facets that it selects, and its updates after changes of the design.
 
 use super::*;
 use crate::app::model::audit::finding_facets;
 use crate::cut::FindingKind;
 use egui_kittest::kittest::NodeT;
 
-/// A design whose mains, breaks and table meet in points, but for the table: it lies half a percent of the width deeper, so
-/// that its eight meets are split. After PC 01.338 of R. Long and N. Steele, *Facet Design* V (1984).
+/// A design whose mains and breaks meet in points. Its table lies half a percent of the width deeper than the points
+/// where it should meet them, so that its eight meets are split. After PC 01.338 of R. Long and N. Steele, *Facet
+/// Design* V (1984).
 const SPLIT: &str = r#"
 format = 1
 name = "Split meets"

@@ -48,7 +48,7 @@ impl Bench {
     }
 }
 
-/// Whether a picture has more than one colour.
+/// Returns whether a picture has more than one colour.
 fn is_drawn(picture: &[egui::Color32]) -> bool {
     picture.iter().any(|p| *p != picture[0])
 }
@@ -191,8 +191,8 @@ fn the_light_of_liquid_glass_is_set_by_rows_and_follows_the_pointer_or_time() {
     assert!(bench.harness.run() <= 3, "nothing moves");
 }
 
-/// Measures how long a look-up takes. This is ignored by default, because measuring takes time:
-/// `cargo test --release --lib backgrounds -- --ignored --nocapture`
+/// Measures the time of a look-up. This is ignored by default, because measuring takes time: `cargo test --release
+/// --lib backgrounds -- --ignored --nocapture`
 #[test]
 #[ignore = "measures times, which needs two idle cores"]
 fn looking_up_keeps_up_with_the_window() {

@@ -197,7 +197,7 @@ fn a_scene_is_seen_in_its_perspective_and_the_next_design_as_before() {
     assert!(is_near && (distance * 22.5_f64.to_radians().tan() / reach - 1.0).abs() < 1e-9, "{distance}");
     assert_eq!((smoothing, eye), (Smoothing::None, Eye::default()));
     assert_eq!(bench.editor().model.document.work.exposure, 0.5);
-    // A preset that follows has its own; after it, all is as it was before the first scene.
+    // The next preset has its own; after it, everything is as it was before the first scene.
     let light = |bench: &Bench| {
         let work = &bench.editor().model.document.work;
         (work.light.clone(), work.exposure, bench.editor().model.workspace.bounces)

@@ -12,8 +12,8 @@ use glam::DVec2;
 const CHANGES: u32 = 120;
 const FRAME: Duration = Duration::from_micros(16_667);
 
-/// Makes changes at 60 Hz, as a hand does, and prints how many pictures a second each pane shows and how long a frame of the
-/// window takes, in milliseconds.
+/// Makes changes at 60 Hz, as a hand does, and prints the number of pictures that each pane shows in a second, and
+/// the time of a frame of the window in milliseconds.
 fn drag(name: &str, shows_map: bool, mut change: impl FnMut(&mut Editor, u32)) {
     let setup =
         Setup { workspace: Workspace { head: 1e-9, shows_map, ..Workspace::default() }, ..Setup::default() };
@@ -54,7 +54,7 @@ fn the_views_follow_the_hand() {
             brilliant.crown = Crown::Angle(33.0 + 0.02 * f64::from(k));
         }
     });
-    // This starts with a leaning stone: near no lean the view would snap to none.
+    // This starts with a tilted stone: near a tilt of 0 the view would snap to 0.
     drag("tilt", false, |editor, k| {
         if k == 0 {
             editor.model.workspace.eye.free();

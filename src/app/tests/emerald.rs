@@ -8,7 +8,7 @@ use crate::math::Plane;
 use crate::scene::Specimen;
 use egui::Role;
 
-/// Where a tier goes: at a distance in half widths of the stone, or to a meet in words.
+/// The place of a tier: a distance in half widths of the stone, or a meet in words.
 #[derive(Clone, Copy)]
 enum Place {
     At(f64),

@@ -1,5 +1,5 @@
-//! Tests of what a grader looks for: scopes without glare unless it is switched on, captions, and colours that are marked as
-//! illustrative.
+//! Tests of features for graders: scopes without glare unless it is switched on, captions, and the mark of
+//! illustrative colours.
 
 use super::*;
 use crate::app::model::dialog::Dialog;

@@ -25,7 +25,7 @@ fn take(bench: &mut Bench, name: &str) {
     draw(bench, name);
 }
 
-/// Writes a picture of the window before renders are as fine as they get, which takes a quarter of an hour for glass.
+/// Writes a picture of the window without waiting for the finest renders, which take a quarter of an hour for glass.
 fn draw(bench: &mut Bench, name: &str) {
     bench.settle();
     bench.harness.remove_cursor();

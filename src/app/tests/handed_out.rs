@@ -1,5 +1,5 @@
-//! Tests of what the window gives to other programs (through the clipboard, in files, by opening folders and pages), and of
-//! what is dropped on it.
+//! Tests of the data that the window gives to other programs (through the clipboard, in files, by opening folders and
+//! pages), and of files that are dropped on it.
 
 use super::*;
 use crate::app::model::dialog::Dialog;

@@ -1,4 +1,4 @@
-//! Tests of files: what is opened, saved, changed by others, and kept through a crash.
+//! Tests of files: opening and saving them, changes by other programs, and recovery after a crash.
 
 use super::*;
 use crate::app::model::action::FileAction;

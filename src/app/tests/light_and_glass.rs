@@ -15,7 +15,7 @@ fn workspace(bench: &Bench) -> &Workspace {
     &bench.editor().model.workspace
 }
 
-/// Returns what the render was last ordered to show.
+/// Returns the last order of the render.
 fn shot(bench: &Bench) -> &Shot {
     &bench.editor().model.session.ordered.shots[0].1
 }

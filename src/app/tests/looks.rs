@@ -5,7 +5,7 @@ use super::*;
 use crate::trace::gpu::Gpu;
 use egui_kittest::SnapshotOptions;
 
-/// Whether a window can be drawn here. Where it cannot, this prints why, or fails if `BRILLIANTEER_REQUIRE_GPU` is set.
+/// Returns whether a window can be drawn here. Where it cannot, this prints why, or fails if `BRILLIANTEER_REQUIRE_GPU` is set.
 fn can_draw(test: &str) -> bool {
     match Gpu::open() {
         Ok(_) => true,

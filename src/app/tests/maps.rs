@@ -6,7 +6,7 @@ use crate::app::model::Model;
 use crate::measure::MeasureName;
 use egui::{Role, pos2, vec2};
 
-/// The place of the first level that is whole: 5 x 5 points.
+/// The number of points of the first complete level: 5 x 5.
 const COARSE: usize = 25;
 
 /// Opens an editor of a large window with a map of the first cut whose coarse places are known.

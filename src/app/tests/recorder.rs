@@ -23,7 +23,7 @@ fn numbers(figures: &Figures) -> u64 {
     hash(zones.into_iter().flatten().chain(&others).map(|number| number.to_bits()).collect::<Vec<_>>())
 }
 
-/// Adds a line to `record`: what one view of a design, leaning a little, shows at its finest, and the figures beside it.
+/// Adds a line to `record`: hashes of the finest picture of one view of a slightly tilted design, and of its figures.
 fn record(cut: &str, shows: Shows, record: &mut String) {
     let file = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts").join(cut));
     let mut workspace = Workspace { layout: PaneLayout::One, ..Workspace::default() };

@@ -33,7 +33,7 @@ fn begun(scene: &str) -> Model {
     model
 }
 
-/// Returns where each stone and each corner of metal is, in mm: the name and the material of its design, and a point of it.
+/// Returns a point of each stone, in mm, with the name and the material of its design, and each corner of metal.
 fn places(work: &Work, unit_mm: f64) -> Vec<(String, DVec3)> {
     let point = DVec3::new(0.4, -0.2, 0.1);
     let of = |design: &crate::cut::Design| {

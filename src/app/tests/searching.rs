@@ -37,7 +37,7 @@ fn quick(bench: &mut Bench) {
     bench.click("Vary Crown angle");
 }
 
-/// Opens a design that is easily bettered, begins a search that takes long, and waits for something better.
+/// Opens a design that is easy to improve, begins a search that takes long, and waits for a better design.
 fn begun() -> Bench {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts/steep-deep.toml");
     let mut bench = opened(Setup { file: Some(file), ..Setup::default() });

@@ -6,7 +6,7 @@ use crate::cut::{Tier, TierCorner, Tiers};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use glam::{DMat2, DVec2};
 
-/// How near a meet brings a tier to its corner, in lengths of the largest distance.
+/// The greatest distance between a tier and the corner that a meet brings it to, in parts of the largest distance.
 const THERE: f64 = 2e-5;
 
 /// Opens the first cut as tiers with the table tier selected, face up in a scope.
@@ -130,7 +130,7 @@ fn a_facet_that_is_dragged_to_a_corner_stops_there_and_takes_its_meet() {
     bench.harness.step();
     let message = bench.editor().model.session.message.clone();
     assert!(message.starts_with("T: ") && message.contains(&meet), "{message}");
-    // Escape takes the whole drag back, and what the pointer does until it lets go changes nothing.
+    // Escape takes the whole drag back, and movements of the pointer until the release change nothing.
     bench.harness.key_press(Key::Escape);
     bench.harness.run_steps(2);
     let eye = bench.editor().model.workspace.eye;

@@ -1,4 +1,4 @@
-//! The table of tiers: what it changes, and how it and the views select one another.
+//! Tests of the table of tiers: the changes that it makes, and the selection that it shares with the views.
 
 use super::*;
 use crate::app::model::action::Edit;
@@ -172,7 +172,7 @@ fn a_side_is_scaled_by_name_as_one_step_whether_it_is_typed_or_dragged() {
     }]);
     bench.settle();
     let of_pavilion = ratios(&bench, TierZone::Pavilion, &pavilion);
-    // Each change counts from where the drag began, so that the last is what the field said.
+    // Each change counts from the beginning of the drag, so that the last value is that of the field.
     let last = of_pavilion[0];
     assert!(last > dragged[0][0] && (1.01..1.06).contains(&last), "{dragged:?} {last}");
     assert!(of_pavilion.iter().all(|ratio| (ratio - last).abs() < 1e-12), "{of_pavilion:?}");

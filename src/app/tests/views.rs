@@ -1,4 +1,4 @@
-//! Tests of what views say about themselves, how they are looked at, and that nothing unchanged is traced again.
+//! Tests of the labels of views, and of navigation in them; and a test that unchanged views are not traced again.
 
 use super::*;
 use crate::app::model::workspace::Pane;

@@ -16,7 +16,7 @@ const ANGLE: f32 = 72.0;
 const LARGE: [f32; 2] = [30.0, 20.0];
 /// The size of an index's button, points.
 const CHIP: egui::Vec2 = vec2(86.0, 46.0);
-/// The colour of what has been cut.
+/// The colour of indices that have been cut.
 const DONE: Color32 = Color32::from_rgb(60, 140, 80);
 
 /// Draws the step in sight in the place of the views.
@@ -55,7 +55,7 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     }
 }
 
-/// Draws what belongs to all steps.
+/// Draws the controls that all steps share.
 fn controls(now: &mut CuttingProgress, (model, tiers): (&Model, &Tiers), count: usize, ui: &mut Ui) {
     let design = &model.document.work.design.name;
     now.is_open &= !ui.button("Leave bench mode").on_hover_text("Goes back to the views.").clicked();
@@ -70,9 +70,9 @@ fn controls(now: &mut CuttingProgress, (model, tiers): (&Model, &Tiers), count: 
     ui.separator();
     let label = ui.label("Cheater");
     let field = DragValue::new(&mut now.cheater).speed(0.01).max_decimals(2).suffix(" teeth");
-    ui.add(field)
-        .labelled_by(label.id)
-        .on_hover_text("What your machine needs added to every index. The indices below are shown with it.");
+    ui.add(field).labelled_by(label.id).on_hover_text(
+        "The correction that your machine needs on every index. The indices below include it.",
+    );
     ui.checkbox(&mut now.is_left_handed, "Left-handed gear")
         .on_hover_text("For a gear that counts the other way round: index 24 of 96 becomes 72.");
     ui.label(RichText::new(format!("{} index", tiers.gear.abs())).weak());

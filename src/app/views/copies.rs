@@ -1,4 +1,4 @@
-//! The stones in a render: which one is under the pointer, and moving it by hand.
+//! The stones in a render: finds the one under the pointer and moves it by drags.
 
 use super::pane_context::PaneContext;
 use super::pane_view::PaneView;
@@ -46,7 +46,7 @@ pub fn carried(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneV
     pose.is_some()
 }
 
-/// Whether stones can be moved by hand: where there is more than one body.
+/// Returns whether the user can drag stones: only where there is more than one body.
 fn can_hold(model: &Model) -> bool {
     let work = &model.document.work;
     work.copies.poses.len() > 1 || !work.companions.is_empty()

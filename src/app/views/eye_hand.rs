@@ -7,16 +7,17 @@ use crate::scene::Side;
 use egui::{Key, Modifiers, PointerButton, Response, Ui};
 use glam::DVec2;
 
-/// How far an arrow key tilts the stone, alone and with Shift, radians.
+/// The angles by which an arrow key tilts the stone, alone and with Shift, radians.
 const STEP: (f64, f64) = (0.017_453_292_519_943_295, 0.087_266_462_599_716_48);
 
-/// How far Alt and an arrow key move the picture, girdle radii of a stone that fits its view.
+/// The distance by which Alt and an arrow key move the picture, girdle radii of a stone that fits its view.
 const ASIDE: f64 = 0.1;
 
 /// The logarithm of the zoom for each point that the wheel scrolls by.
 const WHEEL: f64 = 0.004;
 
-/// Returns the eye after what pointer, wheel and keys have done; `is_held` says that a drag moves the background instead.
+/// Returns the eye after the input by pointer, wheel and keys; `is_held` says that a drag moves the background
+/// instead.
 pub fn moved(mut eye: Eye, ui: &Ui, response: &Response, sight: &PaneView, is_held: bool) -> Eye {
     let unit = sight.film.pixel * f64::from(sight.scale);
     let by = response.drag_delta();

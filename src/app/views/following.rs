@@ -1,14 +1,14 @@
-//! The click that may follow a ray through the stone, and where the window of its path opens.
+//! The click that may follow a ray through the stone, and the place where the window of its path opens.
 
 use super::light_path::LightPath;
 use crate::app::model::action::ViewAction;
 use egui::{Context, Pos2, Rect, pos2};
 use glam::DVec2;
 
-/// How long a click waits to become a double click, seconds.
+/// The time after which a click can no longer become a double click, seconds.
 const PATIENCE: f64 = 0.32;
 
-/// Where the window opens at first, unless a view there is clicked: over the views, beside the design panel.
+/// The first place of the window, unless a view there is clicked: over the views, beside the design panel.
 const PLACE: Pos2 = pos2(372.0, 220.0);
 
 /// The window of the light path, and the click that may open it.
@@ -16,7 +16,7 @@ const PLACE: Pos2 = pos2(372.0, 220.0);
 pub struct Following {
     /// A click that may become a double click: the view, the point of its image, and the time in seconds.
     waiting: Option<(usize, DVec2, f64)>,
-    /// Whether Escape was meant for something else in the last frame.
+    /// True where Escape ended something else in the last frame.
     pub waits: bool,
     /// The rectangle on the screen of the view that was clicked.
     clicked: Option<Rect>,
@@ -37,13 +37,13 @@ impl Following {
         self.waiting = None;
     }
 
-    /// Returns where the window opens: not over the view that was clicked.
+    /// Returns the place where the window opens, which does not cover the clicked view.
     pub fn place(&self) -> Pos2 {
         let covered = self.clicked.filter(|body| body.left() <= PLACE.x);
         covered.map_or(PLACE, |body| pos2(body.right(), PLACE.y))
     }
 
-    /// Returns the click that became no double click, once that is certain.
+    /// Returns the click once it is certain that it became no double click.
     pub fn ripe(&mut self, ctx: &Context) -> Option<ViewAction> {
         let now = ctx.input(|i| i.time);
         let Some((pane, at, _)) = self.waiting.filter(|(.., since)| now - since > PATIENCE) else {

@@ -5,7 +5,7 @@ use crate::app::studio::{Grade, Shot, Slot, TakenPicture, Which};
 use egui::{Color32, Context, Painter, Rect, TextureHandle, TextureOptions, pos2};
 use std::collections::HashMap;
 
-/// A picture as it is shown, with the shot and the grade that it answers.
+/// A picture in a view, with the shot and the grade that it answers.
 pub struct Shown {
     /// The pixels, on the card.
     pub texture: TextureHandle,
@@ -23,7 +23,7 @@ impl Shown {
     }
 }
 
-/// All pictures that are shown.
+/// All pictures of the views.
 #[derive(Default)]
 pub struct Gallery {
     /// The pictures that were traced.
@@ -42,7 +42,8 @@ impl Gallery {
         }
     }
 
-    /// Returns how many times larger than the film's pixels those of the coarsest picture are; 1 where there is none.
+    /// Returns the factor by which pixels of the coarsest picture are larger than those of the film; 1 where there is
+    /// no picture.
     pub fn coarsest(&self) -> f64 {
         let times = |shown: &Shown| {
             f64::from(shown.shot.film.size[0]) / shown.texture.size()[0] as f64 * shown.taken.coarser

@@ -1,4 +1,4 @@
-//! The corners of the stone to which a tier can be cut, as the views show them.
+//! The corners of the stone to which a tier can be cut, for the views that mark them.
 
 use super::pane_view::PaneView;
 use crate::cut::{Cut, Meet, TierCorner};
@@ -8,13 +8,13 @@ use egui::{Color32, Pos2};
 use glam::DVec3;
 use std::sync::Arc;
 
-/// The colour of corners that a tier can be cut to: bright on any picture, and not that of a finding.
+/// The colour of corners that a tier can be cut to: bright on any picture, and different from that of a finding.
 pub const MEETING: Color32 = Color32::from_rgb(90, 220, 255);
 
-/// A plane whose normal leans to the eye by less than this (cosine) shows nothing.
+/// A plane is invisible where its normal leans to the eye by less than this (cosine).
 const IN_SIGHT: f64 = 1e-6;
 
-/// The corners of the tier that was asked about last.
+/// The corners of the tier that was queried last.
 #[derive(Default)]
 pub struct KnownCorners(Option<CornersOfTier>);
 
@@ -22,7 +22,8 @@ pub struct KnownCorners(Option<CornersOfTier>);
 pub struct CornersOfTier {
     specimen: Arc<Specimen>,
     place: usize,
-    /// The corners, each with the meet that leads there, once that was looked for.
+    /// The corners, each with the meet that leads there: the outer `None` means that no meet was sought yet, the
+    /// inner that none leads there.
     pub corners: Vec<(TierCorner, Option<Option<Meet>>)>,
 }
 
@@ -45,7 +46,7 @@ impl CornersOfTier {
         Some(Self { specimen: Arc::clone(specimen), place, corners })
     }
 
-    /// Returns where a corner lies in the frame of the stone.
+    /// Returns the place of a corner in the frame of the stone.
     pub fn at(&self, corner: &TierCorner) -> DVec3 {
         self.specimen.frame.place(corner.at)
     }

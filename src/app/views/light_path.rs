@@ -20,20 +20,20 @@ const ROOM_FOR_BOTH: f32 = 1.8;
 /// The part of the height that the drawing takes where it is above the table.
 const UPPER_PART: f32 = 0.55;
 
-/// How to turn the drawing, in words for those who do not see it.
+/// The help on turning the drawing, for screen readers.
 const HELP: &str = "Drag or press arrow keys to turn it, double-click or press Home to turn it back";
 
 /// The sine of the angle to the scope's axis below which light has no azimuth.
 const OVERHEAD: f64 = 1e-6;
 
-/// The view of a ray's path; it keeps from where the stone is looked at, and the step that was picked.
+/// The view of a ray's path; it keeps the direction of the eye and the step that was picked.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LightPath {
     orbit: Orbit,
     kept: Option<usize>,
 }
 
-/// A path, and all that is needed to say where its light goes.
+/// A path, with the stone, scope and frame by which the destinations of its light are described.
 struct Reading<'a> {
     body: &'a Body,
     path: &'a Path,
@@ -89,7 +89,7 @@ impl Reading<'_> {
         &self.scope.bands[self.scope.band(direction, self.light.toward)]
     }
 
-    /// Returns the colour of the scope where a direction points.
+    /// Returns the colour of the scope's zone in a direction.
     fn colour(&self, direction: DVec3) -> Color32 {
         let [r, g, b] = self.band(direction).colour;
         Color32::from_rgb(r, g, b)

@@ -1,4 +1,4 @@
-//! The window that shows the path of the ray that is followed through the stone.
+//! The window that shows the path of the followed ray through the stone.
 
 use super::scene_view::zones;
 use super::tools::ViewTools;
@@ -9,7 +9,7 @@ use egui::{Context, Key, Modifiers, Popup, RichText, Ui, Vec2, Window, vec2};
 /// The size of the window at first, points.
 const SIZE: Vec2 = vec2(560.0, 620.0);
 
-/// Whether Escape ends something else before it closes the window: a dialog, a drag, typing, or an open menu.
+/// Returns whether Escape ends something else before it closes the window: a dialog, a drag, typing, or an open menu.
 fn comes_first(model: &Model, tools: &ViewTools, ctx: &Context) -> bool {
     model.session.dialog.is_some()
         || model.picked_tier().is_some()
@@ -25,7 +25,7 @@ pub fn show(model: &Model, tools: &mut ViewTools, actions: &mut Actions, ctx: &C
         // The window opens in the next frame.
         ctx.request_repaint();
     }
-    // In this frame Escape has already ended what comes first, so the state of the frame before counts.
+    // Escape has already ended those in this frame, so their state in the frame before counts.
     let waits = comes_first(model, tools, ctx);
     let is_free = !std::mem::replace(&mut tools.following.waits, waits);
     if !model.session.followed.is_open {

@@ -12,7 +12,7 @@ use crate::app::studio::Which;
 use egui::{Modifiers, PointerButton, Rect, Response, Role, Sense, StrokeKind, Ui, WidgetInfo};
 use glam::DVec2;
 
-/// How far an arrow key moves the pane, in parts of the view.
+/// The distance by which an arrow key moves the pane, in parts of the view.
 const STEP: f64 = 0.01;
 
 /// Draws the view, and moves the pane by drags and arrow keys.
@@ -42,8 +42,8 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect) {
     attend(cx, &response, response.hovered() || response.has_focus());
 }
 
-/// Moves the light of the pane to the pointer, or as time runs: then one view alone of all that show the pane asks for
-/// frames.
+/// Moves the light of the pane to the pointer, or as time runs. In the second case, only one of all views of the pane
+/// requests the frames.
 fn move_light(cx: &PaneContext, ui: &Ui, response: &Response, liquid: &mut Liquid) {
     let workspace = &cx.model.workspace;
     match liquid.light_motion {

@@ -1,4 +1,4 @@
-//! Requests of the pictures in sight that are looked up, and not traced.
+//! Makes the requests for pictures in sight that are looked up or drawn, and not traced.
 
 use super::tools::ViewTools;
 use crate::app::lookup::backdrop;
@@ -8,7 +8,7 @@ use crate::app::shows::Shows;
 use crate::app::studio::{Grade, Slot, Which};
 use crate::app::tasks::lookup::LookupRequest;
 
-/// Returns a request for each picture in sight that is looked up.
+/// Returns a request for each picture in sight that is looked up or drawn.
 pub fn look_ups(model: &Model, tools: &mut ViewTools, seen: &[Seen]) -> Vec<(Slot, LookupRequest)> {
     let mut requests = vec![];
     for &(pane, size) in seen {

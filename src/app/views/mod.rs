@@ -1,4 +1,4 @@
-//! The views of the stone and what is drawn in them.
+//! The views of the stone, and the overlays and marks in them.
 
 pub mod bench_mode;
 pub mod clock;

@@ -1,5 +1,5 @@
-//! Modes of a view: what makes its picture differ from the plain one. The head of the view names each mode; a click there
-//! ends it.
+//! Modes of a view: settings that make its picture differ from the plain one. The head of the view names each mode; a
+//! click there ends it.
 
 use super::pane_context::PaneContext;
 use crate::app::model::Model;
@@ -17,9 +17,9 @@ use std::path::Path;
 pub struct Mode {
     /// The name, a word or two.
     name: String,
-    /// What the mode does to the picture, in a sentence.
+    /// The effect of the mode on the picture, in a sentence.
     meaning: &'static str,
-    /// What switches the mode off.
+    /// The action that switches the mode off.
     end: Action,
 }
 
@@ -75,7 +75,8 @@ impl Mode {
             }),
             missing.map(missing_background),
             (bounces < USUAL_BOUNCES).then(|| {
-                let meaning = "Light is followed through no more bounces than this; what is left is dark.";
+                let meaning =
+                    "Light is followed through no more bounces than this; the rest of the light is dark.";
                 mode(format!("bounces ≤ {bounces}"), meaning, ViewAction::Bounces(USUAL_BOUNCES))
             }),
             (strength < 1.0).then(|| {

@@ -1,4 +1,4 @@
-//! One view: its head, and below it the stone by light or a drawing.
+//! One view: its head, and below it the stone under light or a drawing.
 
 use super::pane_context::PaneContext;
 use super::view_menu::attend;

@@ -1,4 +1,4 @@
-//! What one view needs to be drawn.
+//! The context in which one view is drawn.
 
 use super::gallery::Shown;
 use super::tools::ViewTools;
@@ -12,16 +12,16 @@ use crate::app::shows::Shows;
 use crate::app::studio::Which;
 use egui::{Response, Stroke, Ui};
 
-/// One view in one frame: the state that it shows, and the actions of the user in it.
+/// The context of one view in one frame: the state that it shows, and the user's actions in it.
 pub struct PaneContext<'a> {
     pub model: &'a Model,
-    /// What all views need.
+    /// The tools that all views share.
     pub tools: &'a mut ViewTools,
     pub actions: &'a mut Actions,
     /// The number of the view.
     pub pane: usize,
     pub shows: Shows,
-    /// The state of the background of a refraction map, as this frame changes it.
+    /// The state of the background in a view of a refraction map, which this frame changes.
     pub flowing: Flowing,
 }
 
@@ -53,7 +53,7 @@ pub fn focus(ui: &Ui, response: &Response) -> Stroke {
     if response.has_focus() { ui.visuals().selection.stroke } else { Stroke::NONE }
 }
 
-/// Whether a row has more than so many points left.
+/// Returns whether a row has more than so many points left.
 pub fn has_room(ui: &Ui, points: f32) -> bool {
     ui.available_width() > points
 }

@@ -1,4 +1,5 @@
-//! The row over the picture of a view: what the view shows, the modes that are on in it, and how good its picture is.
+//! The row over the picture of a view: the choice of the picture, the modes that are on, and the state of the
+//! picture.
 
 use super::gallery::Shown;
 use super::pane_context::{PaneContext, has_room};
@@ -10,7 +11,7 @@ use crate::app::theme;
 use crate::scene::Glare;
 use egui::{Align, ComboBox, Layout, RichText, Role, Ui, WidgetInfo};
 
-/// The width of the choice of what a view shows, where the view is narrow, points.
+/// The width of the choice of the picture where the view is narrow, points.
 const LEAST_CHOICE: f32 = 64.0;
 /// The width of that choice where the view is not narrow, points.
 const CHOICE: f32 = 120.0;
@@ -36,7 +37,7 @@ pub fn show(cx: &mut PaneContext, ui: &mut Ui) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| from_right(cx, ui));
 }
 
-/// Draws the choice of what the view shows.
+/// Draws the choice of the picture or drawing in the view.
 fn choice(cx: &mut PaneContext, ui: &mut Ui) {
     let (shows, pane) = (cx.shows, cx.pane);
     let taken = ENLARGE + modes::least_width(cx, ui);
@@ -66,7 +67,7 @@ fn from_right(cx: &mut PaneContext, ui: &mut Ui) {
     if shows == Shows::Refraction {
         refraction_view::choices(&mut cx.flowing, ui);
     }
-    // A view that is not linked says so among its modes.
+    // The modes of a view say where it is not linked.
     if shows.is_seen() && workspace.panes[pane].own.is_none() && has_room(ui, 80.0) {
         let linked = ui.checkbox(&mut true, "Linked");
         if linked.on_hover_text("Tilts and zooms together with all other linked views.").changed() {
@@ -78,7 +79,7 @@ fn from_right(cx: &mut PaneContext, ui: &mut Ui) {
     }
 }
 
-/// Draws how good the picture is, in a word or two.
+/// Draws the state of the picture, in a word or two.
 fn state(cx: &PaneContext, ui: &mut Ui) {
     let Some(shown) = cx.shown(Which::Present) else { return };
     let Shown { grade, taken, shot, .. } = shown;

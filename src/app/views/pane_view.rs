@@ -1,4 +1,4 @@
-//! How a view looks at the stone, and where points of its picture lie in the window.
+//! The view of the stone in a pane, and the conversion between points of its picture and of the window.
 
 use crate::math::SolidRef;
 use crate::scene::{Film, View};
@@ -6,11 +6,11 @@ use crate::trace::ray::Camera;
 use egui::{Color32, Pos2, Rect, Stroke, Ui, vec2};
 use glam::{DMat2, DVec2, DVec3};
 
-/// How a view looks at the stone now, and where its picture lies in the window.
+/// The present view of the stone in a pane, and the place of its picture in the window.
 pub struct PaneView {
     pub view: View,
     pub film: Film,
-    /// The middle of what the view is fitted to, girdle radii from the origin.
+    /// The middle of the view's fit, girdle radii from the origin.
     pub middle: DVec2,
     /// The picture's place in the window, points.
     pub body: Rect,
@@ -36,18 +36,18 @@ impl PaneView {
         self.body.min + vec2(pixel.x as f32, pixel.y as f32) / self.scale
     }
 
-    /// Returns where a picture that was taken on another film lies in the window.
+    /// Returns the rectangle in the window of a picture that was taken on another film.
     pub fn place(&self, other: &Film) -> Rect {
         let corner = |pixel| self.point(other.image_from_pixels(pixel));
         Rect::from_two_pos(corner(DVec2::ZERO), corner(other.size.map(f64::from).into()))
     }
 
-    /// Outlines a facet of a solid that lies where `place` puts its points.
+    /// Outlines a facet of a solid, whose points `place` carries to the frame of the view.
     pub fn outline(&self, ui: &Ui, solid: SolidRef, facet: u32, place: impl Fn(DVec3) -> DVec3) {
         self.outline_in(ui, (solid, facet), Color32::from_white_alpha(220), place);
     }
 
-    /// Outlines a facet of a solid in a colour; the facet lies where `place` puts its points.
+    /// Outlines a facet of a solid in a colour; `place` carries the solid's points to the frame of the view.
     pub fn outline_in(
         &self,
         ui: &Ui,

@@ -1,4 +1,4 @@
-//! Finds what lies under the pointer: the facet, and where its light comes from.
+//! Finds the facet under the pointer, and the direction that its light comes from.
 
 use crate::cut::tier_stem;
 use crate::optics::line;
@@ -35,7 +35,7 @@ impl ProbeCache {
     }
 }
 
-/// What lies at a point of a picture.
+/// The facet and the light at a point of a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProbeHit {
     pub facet: u32,
@@ -57,7 +57,7 @@ pub struct LightAtPoint {
     pub zone: String,
     /// The elevation that the light comes from, degrees above the scope's plane.
     pub elevation: f64,
-    /// The light's share of what is seen at the point.
+    /// The share of this light in all light at the point.
     pub share: f64,
 }
 
@@ -83,7 +83,7 @@ impl Probe {
         self.tracer.path(origin, direction)
     }
 
-    /// Whether a point of the image lies on the stone.
+    /// Returns whether a point of the image lies on the stone.
     pub fn is_on(&self, view: &View, at: DVec2) -> bool {
         let (origin, direction) = self.ray(view, at);
         self.tracer.meet(origin, direction).is_some()
@@ -96,7 +96,7 @@ impl Probe {
         Some((facet, origin + direction * distance))
     }
 
-    /// Returns what lies at a point of a film, in its pixels; `None` beside the stone.
+    /// Returns the facet and the light at a point of a film, in its pixels; `None` beside the stone.
     pub fn at(&self, view: &View, film: &Film, at: DVec2, scope: &Scope) -> Option<ProbeHit> {
         let (origin, direction) = self.ray(view, film.image_from_pixels(at));
         let (facet, distance) = self.tracer.meet(origin, direction)?;
@@ -115,8 +115,8 @@ impl Probe {
         Some(self.found((facet as u32, origin + direction * distance), light))
     }
 
-    /// Returns which stone in these poses a ray meets first, which of its facets, and at what distance; `None` where it meets
-    /// none.
+    /// Returns the number of the stone that a ray meets first among these poses, its facet, and the distance; `None`
+    /// where the ray meets none.
     pub fn among(&self, poses: &[Pose], (origin, direction): (DVec3, DVec3)) -> Option<(usize, u32, f64)> {
         let meet = |(number, pose): (usize, &Pose)| {
             let (facet, distance) =

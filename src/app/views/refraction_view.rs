@@ -1,5 +1,5 @@
-//! The view of a refraction map: a background that moves behind the stone. The studio traces the map; the picture through
-//! it is looked up as often as the background moves.
+//! The view of a refraction map: a background that moves behind the stone. The studio traces the map; each move of
+//! the background looks up another picture in it.
 
 use super::clock::step;
 use super::pane_context::{PaneContext, has_room};
@@ -8,7 +8,7 @@ use crate::app::studio::SPAN;
 use egui::{PointerButton, Response, Ui};
 use glam::DVec2;
 
-/// How far the background flows in a second, in parts of the map's plane.
+/// The speed at which the background flows, in parts of the map's plane per second.
 const FLOW: DVec2 = DVec2::new(0.06, 0.02);
 
 /// Draws the choices over the picture, from the right.
@@ -27,7 +27,7 @@ pub fn choices(flowing: &mut Flowing, ui: &mut Ui) {
     }
 }
 
-/// Whether a drag moves the background, and not the stone.
+/// Returns whether a drag moves the background, and not the stone.
 pub fn is_held(ui: &Ui) -> bool {
     ui.input(|i| !i.modifiers.shift && !i.modifiers.command)
 }

@@ -1,4 +1,4 @@
-//! The view of a stone by light: its pictures, and what pointer and keys do to it.
+//! The view of a stone under light: its pictures, and its input by pointer and keys.
 
 use super::pane_context::{PaneContext, focus};
 use super::pane_view::PaneView;
@@ -60,15 +60,15 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect, size: [u32; 2]) {
     }
 }
 
-/// Follows the ray that is clicked, unless it is a double click, and marks the ray that is followed.
+/// Follows the clicked ray, unless the click becomes a double click, and marks the followed ray.
 fn clicked(cx: &mut PaneContext, ui: &Ui, is_alone: bool, response: &Response, sight: &PaneView) {
     if response.double_clicked() {
         cx.tools.following.unclick();
     } else if response.clicked() && is_alone {
-        // A click by a key means the middle of the view.
+        // A click by a key takes the middle of the view.
         let at = sight.image(response.interact_pointer_pos().unwrap_or(sight.body.center()));
         let specimen = cx.model.document.specimen();
-        // A click on a facet means its row where the table of tiers is open, unless a ray is followed already.
+        // A click on a facet selects its row where the table of tiers is open, unless a ray is followed already.
         let is_for_table = cx.model.shows_tiers() && !cx.model.session.followed.is_open;
         if !is_for_table && cx.tools.probe.of(specimen).is_on(&sight.view, at) {
             cx.tools.following.click(cx.pane, at, sight.body, ui.ctx());
@@ -153,7 +153,7 @@ fn small(ui: &Ui) -> FontId {
     TextStyle::Small.resolve(ui.style())
 }
 
-/// Draws what the colours of an overlay mean along the lower edge, as many entries as there is room for.
+/// Draws the meanings of an overlay's colours along the lower edge, as many entries as there is room for.
 fn legend(ui: &Ui, body: Rect, entries: &[(String, [u8; 3])]) {
     let painter = ui.painter().with_clip_rect(body);
     let mut at = body.left_bottom() + vec2(8.0, -22.0);
@@ -186,12 +186,12 @@ fn split_marks(ui: &Ui, body: Rect, other: &str) {
     }
 }
 
-/// Returns the scope whose zones are named in a view.
+/// Returns the scope whose zones a view names.
 pub fn zones(shows: Shows, head: f64) -> Scope {
     shows.scoped().unwrap_or_else(Scoped::aset).with_head(head)
 }
 
-/// Names what is under the pointer in the status line, and outlines its facet.
+/// Names the facet and light under the pointer in the status line, and outlines the facet.
 fn hover(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneView) {
     let Some(at) = response.hover_pos().filter(|_| response.hovered() && !response.dragged()) else { return };
     let specimen = cx.model.document.specimen();

@@ -18,7 +18,7 @@ pub fn show(model: &Model, tools: &mut ViewTools, actions: &mut Actions, ui: &mu
     let mut seen = vec![];
     tools.attention = Attention::default();
     if !ui.input(|i| i.pointer.any_down() || i.pointer.any_released()) {
-        // The view in which a facet was dragged may be gone.
+        // The view in which the user dragged a facet may be gone.
         tools.tiers.drag = None;
     }
     let is_for_views = model.session.dialog.is_none() && !ui.ctx().text_edit_focused();

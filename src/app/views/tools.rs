@@ -1,4 +1,4 @@
-//! What views need besides the model to be drawn.
+//! The tools by which views are drawn, besides the model.
 
 use super::following::Following;
 use super::gallery::Gallery;
@@ -11,14 +11,14 @@ use crate::app::model::ordering::Orders;
 use crate::app::profile_view::ProfileView;
 use crate::app::studio::Paper;
 
-/// What views need besides the model: pictures, and caches for speed or for a gesture.
+/// The tools of the views besides the model: pictures, caches, and the state of gestures.
 #[derive(Default)]
 pub struct ViewTools {
     /// The pictures of the views.
     pub gallery: Gallery,
-    /// The stones as the views show them.
+    /// The stones in their present phase.
     pub waves: WaveCache,
-    /// Finds what lies under the pointer.
+    /// The probes that find the facet and light under the pointer.
     pub probe: ProbeCache,
     /// The drawing of the stone from the side, in each view.
     pub profiles: [ProfileView; 4],
@@ -28,37 +28,37 @@ pub struct ViewTools {
     pub following: Following,
     /// The colours and the scale of drawings, light or dark as the window is.
     pub paper: Paper,
-    /// What was under the pointer or had the focus in the last frame.
+    /// The views and pictures under the pointer or with the focus in the last frame.
     pub attention: Attention,
 }
 
 impl ViewTools {
-    /// Returns what makes the orders of pictures.
+    /// Returns the maker of the orders of pictures.
     pub fn orders<'a>(&'a mut self, model: &'a Model) -> Orders<'a> {
         Orders { model, waves: &mut self.waves, paper: self.paper }
     }
 
-    /// Whether a handle of a profile or a facet of a tier is dragged.
+    /// Returns whether a handle of a profile or a facet of a tier is dragged.
     pub fn is_handle_dragged(&self) -> bool {
         self.tiers.is_dragging() || self.profiles.iter().any(ProfileView::is_dragging)
     }
 }
 
-/// What is under the pointer or has the focus, as the views of one frame find it.
+/// The view under the pointer or with the focus, found while a frame is drawn.
 #[derive(Debug, Default)]
 pub struct Attention {
     /// The view under the pointer or with the focus.
     pub hovered: Option<usize>,
     /// The view whose menu is open: commands act on it, wherever the pointer is.
     pub menu: Option<usize>,
-    /// What the status line says of what is under the pointer.
+    /// The status line about the facet or light under the pointer.
     pub message: String,
-    /// Whether a picture has the focus, so that Space lays out the copies in it.
+    /// True where a picture has the focus, so that Space lays out the copies in it.
     pub is_picture_focused: bool,
 }
 
 impl Attention {
-    /// Reports to the model what has changed.
+    /// Reports changes to the model.
     pub fn report(&self, model: &Model, actions: &mut Actions) {
         let hovered = self.menu.or(self.hovered);
         if let Some(pane) = hovered.filter(|&pane| pane != model.session.hovered) {

@@ -7,7 +7,7 @@ use crate::app::model::command::Command;
 use crate::app::shows::Shows;
 use egui::{Response, Ui};
 
-/// The commands that draw something over a picture.
+/// The commands that draw an overlay over a picture.
 const OVERLAYS: [Command; 6] = [
     Command::Wireframe,
     Command::Facets,
@@ -20,15 +20,15 @@ const OVERLAYS: [Command; 6] = [
 /// The sizes at which a picture can be copied: pixels along the longer side.
 const SIZES: [u32; 4] = [512, 1024, 2048, 4096];
 
-/// Whether a view can be copied at a chosen size; a picture that is looked up is only as large as its view.
+/// Returns whether a view can be copied at a chosen size; a picture that is looked up is only as large as its view.
 fn can_copy(cx: &PaneContext) -> bool {
     let needs_facets = matches!(cx.shows, Shows::Profile | Shows::Diagram);
     let has_facets = cx.model.document.specimen().stone().is_ok();
     Shows::EXPORTED.contains(&cx.shows) && (!needs_facets || has_facets)
 }
 
-/// Handles what every view answers to: a double click shows it alone or among the others, the right button opens its menu
-/// (a drag with it turns the stone), and commands act on the view under the pointer.
+/// Handles input that all views share: a double click shows the view alone or among the others, the right button
+/// opens its menu (a drag with it turns the stone), and commands act on the view under the pointer.
 pub fn attend(cx: &mut PaneContext, response: &Response, is_hovered: bool) {
     response.context_menu(|ui| {
         cx.tools.attention.menu = Some(cx.pane);

@@ -8,7 +8,7 @@ use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Whether there is a graphics card with a driver; drivers that compute on the processor do not count.
+/// Returns whether there is a graphics card with a driver; drivers that compute on the processor do not count.
 pub fn is_there() -> bool {
     // OpenGL comes last: its driver need not be loaded where Vulkan, Metal or Direct3D find a card.
     [wgpu::Backends::PRIMARY, wgpu::Backends::SECONDARY].into_iter().any(|backends| {
@@ -57,7 +57,7 @@ struct Watched {
 
 impl eframe::App for Watched {
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
-        // A later frame begins after the first was shown.
+        // A second frame begins only after the first was shown.
         if ui.ctx().cumulative_frame_nr() > 0 {
             self.has_shown.store(true, Ordering::Relaxed);
         }

@@ -28,7 +28,7 @@ const MEMORY: &str = "egui";
 /// The largest side of a texture, in pixels. The processor sets no limit; egui wants one for its fonts.
 const LARGEST: usize = 1 << 14;
 
-/// What other threads send to the window's thread.
+/// An event that other threads send to the window's thread.
 #[derive(Debug)]
 enum UserEvent {
     /// egui requests an image at the time `when`; `pass` is the number of its passes at the time of the request.
@@ -62,7 +62,7 @@ struct Runner {
     proxy: EventLoopProxy<UserEvent>,
     setup: Option<Setup>,
     open: Option<OpenWindow>,
-    /// Whether the window has shown its first image.
+    /// True once the window has shown its first image.
     has_shown: bool,
     failure: Option<String>,
 }
@@ -133,8 +133,8 @@ struct OpenWindow {
     window: Arc<Window>,
     input: State,
     info: ViewportInfo,
-    /// Whether the window's size, place or state may have changed since `info` was filled in. Filling it in takes several
-    /// round trips to the window system.
+    /// True where the window's size, place or state may have changed since `info` was filled in. Filling it in takes
+    /// several round trips to the window system.
     is_info_stale: bool,
     actions: Vec<ActionRequested>,
     painter: Painter,
@@ -142,7 +142,7 @@ struct OpenWindow {
     kept: Option<FileStorage>,
     settings: Option<WindowSettings>,
     pacer: FramePacer,
-    /// Whether the window system says when to paint, as Wayland does, and whether it has been asked to say so.
+    /// The window system decides when to paint, as Wayland does; `is_promised` is true once it has been asked to.
     is_paced_by_system: bool,
     is_promised: bool,
     is_shown: bool,
@@ -268,7 +268,7 @@ impl OpenWindow {
         self.paint(events)
     }
 
-    /// Runs one pass of the editor and shows what has changed.
+    /// Runs one pass of the editor and shows the changes.
     fn paint(&mut self, events: &ActiveEventLoop) -> Result<(), String> {
         self.pacer.begin(Instant::now());
         if std::mem::take(&mut self.is_info_stale) {
@@ -304,7 +304,7 @@ impl OpenWindow {
         Ok(())
     }
 
-    /// Makes the window visible after its first image, so that it never shows nothing.
+    /// Makes the window visible after its first image, so that it is never empty.
     fn appear(&mut self) {
         if std::mem::replace(&mut self.is_shown, true) {
             return;
@@ -331,7 +331,7 @@ impl OpenWindow {
                 ActionRequested::Cut => Some(Event::Cut),
                 ActionRequested::Copy => Some(Event::Copy),
                 ActionRequested::Paste => pasted(&mut self.input),
-                // No part of this program requests these.
+                // No part of this program sends these requests.
                 ActionRequested::Screenshot(_) | ActionRequested::PaintWhileHidden => None,
             };
             if let Some(event) = event {
@@ -354,7 +354,7 @@ impl OpenWindow {
     }
 }
 
-/// An egui context with the memory of the last session.
+/// Returns an egui context with the memory of the last session.
 fn context(kept: Option<&dyn Storage>) -> Context {
     let context = Context::default();
     if let Some(memory) = kept.and_then(|kept| eframe::get_value(kept, MEMORY)) {
@@ -397,7 +397,7 @@ fn connect_repaint(context: &Context, proxy: &EventLoopProxy<UserEvent>) {
             .checked_add(asked.delay)
             .unwrap_or_else(|| Instant::now() + Duration::from_secs(1 << 20));
         let event = UserEvent::Repaint { when, pass: asked.current_cumulative_pass_nr };
-        // This fails once the window is closed, when there is nothing to paint.
+        // This fails once the window is closed and nothing can be painted.
         let _ = proxy.lock().unwrap_or_else(PoisonError::into_inner).send_event(event);
     });
 }

@@ -24,16 +24,16 @@ const ID: &str = "brillianteer";
 const SIZE: [f32; 2] = [1440.0, 900.0];
 const LEAST: [f32; 2] = [800.0, 600.0];
 
-/// The environment variable that chooses what paints the window: `card` or `processor`.
+/// The environment variable that chooses the painter of the window: `card` or `processor`.
 const CHOICE: &str = "BRILLIANTEER_PAINTER";
 
 /// The libraries that a window needs, by the names of their packages in Debian.
 const PACKAGES: &str = "libx11-xcb1, libxcursor1, libxi6, libxkbcommon-x11-0";
 
-/// Why no window could be opened, or why it closed by itself.
+/// The reason why no window could be opened, or why it closed by itself.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum WindowError {
-    /// There is no screen to open it on.
+    /// There is no screen for the window.
     #[error("the window cannot be opened: there is no display ({0})")]
     NoDisplay(String),
     /// There is a screen, but opening a window or painting its first image failed.
@@ -80,12 +80,12 @@ impl PaintedBy {
     }
 }
 
-/// Opens the window and waits until it is closed. If `file` is given, the window opens it; a mesh is read with the options
-/// `mesh`.
+/// Opens the window and waits until it is closed. If `file` is given, the window opens it; a mesh is read with the
+/// options `mesh`.
 ///
 /// # Errors
-/// Where the environment names an unknown painter, there is no display, no window can be opened on it, or the window is
-/// lost. Except for a missing display, the text of the error says what to do.
+/// Fails where the environment names an unknown painter, where there is no display, where no window can be opened on
+/// it, or where the window is lost. Except for a missing display, the text of the error says what to do.
 pub fn run(file: Option<PathBuf>, mesh: MeshOptions) -> Result<(), WindowError> {
     check_display()?;
     let name = std::env::var(CHOICE).ok();

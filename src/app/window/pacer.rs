@@ -8,13 +8,13 @@ const SHORTEST: Duration = Duration::from_micros(16_600);
 /// The shortest time between images while the window is minimised.
 const HIDDEN: Duration = Duration::from_millis(100);
 
-/// When the next image is due, and how long the last one took.
+/// The time when the next image is due, and the duration of the last one.
 #[derive(Debug, Default)]
 pub struct FramePacer {
     due: Option<Instant>,
     begun: Option<Instant>,
     took: Duration,
-    /// Whether the window is minimised.
+    /// True while the window is minimised.
     pub is_hidden: bool,
 }
 
@@ -31,17 +31,17 @@ impl FramePacer {
         self.due.map(|due| self.begun.map_or(due, |begun| due.max(begun + shortest)))
     }
 
-    /// Whether the next image is to be painted now.
+    /// Returns whether the next image is due.
     pub fn is_due(&self, now: Instant) -> bool {
         self.next().is_some_and(|next| next <= now)
     }
 
-    /// Notes that painting begins; later requests are for the next image.
+    /// Records that painting begins; later requests are for the next image.
     pub fn begin(&mut self, now: Instant) {
         (self.due, self.begun) = (None, Some(now));
     }
 
-    /// Notes that painting has ended.
+    /// Records that painting has ended.
     pub fn end(&mut self, now: Instant) {
         self.took = self.begun.map_or(Duration::ZERO, |begun| now.saturating_duration_since(begun));
     }

@@ -7,8 +7,8 @@ use std::collections::VecDeque;
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
-/// How many images' changes are remembered. A window system may hand out a buffer that still holds one of the last few
-/// images, of which only what has changed since is copied.
+/// The number of images whose changes are remembered. A window system may hand out a buffer that still holds one of
+/// the last few images; only the areas that have changed since are then copied.
 const MOST_REMEMBERED: usize = 4;
 
 /// The buffers of a window.

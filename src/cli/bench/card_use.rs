@@ -1,4 +1,4 @@
-//! What a graphics card's time goes into, as far as the times and counts of its dispatches tell.
+//! The parts of a graphics card's time, as far as the times and counts of its dispatches show them.
 
 use super::CardLine;
 use crate::io::Failure;
@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 /// comparisons.
 const FLOPS_PER_TEST: f64 = 15.0;
 
-/// What one picture was found to need.
+/// The measured work of one picture.
 #[derive(Debug, Clone, Copy)]
 struct CardWork {
     /// The time of the whole job, seconds.
@@ -30,7 +30,7 @@ struct CardWork {
     busy_lanes: f64,
 }
 
-/// Measures the card once, and returns what it does at most.
+/// Measures the peaks of the card once, and returns them.
 pub fn peak(gpu: &Gpu) -> Result<CardPeak, Failure> {
     static PEAK: OnceLock<CardPeak> = OnceLock::new();
     if let Some(peak) = PEAK.get() {
@@ -40,7 +40,8 @@ pub fn peak(gpu: &Gpu) -> Result<CardPeak, Failure> {
     Ok(*PEAK.get_or_init(|| peak))
 }
 
-/// Returns what is said of a picture that the card made `runs` times, in so many seconds each; `totals` are those of all runs.
+/// Describes the time of a picture that the card made `runs` times, in `job_s` seconds each; `totals` are those of
+/// all runs.
 pub fn line(
     peak: &CardPeak,
     totals: &DispatchTotals,
@@ -61,7 +62,7 @@ pub fn line(
     (found.line(), found.json())
 }
 
-/// Returns what the card does at most, in words.
+/// Describes the peaks of the card in words.
 pub fn peak_line(gpu: &Gpu, peak: &CardPeak) -> String {
     let what = if gpu.is_software() { "driver in software, no card" } else { "card" };
     format!(
@@ -75,8 +76,8 @@ pub fn peak_line(gpu: &Gpu, peak: &CardPeak) -> String {
     )
 }
 
-/// The parts of a job's time, 0 to 1. All but the last two are what the work would take at the measured peaks, so they are
-/// lower bounds.
+/// The parts of a job's time, 0 to 1. All but the last two are the times that the work would take at the measured
+/// peaks, so they are lower bounds.
 #[derive(Debug, Clone, PartialEq)]
 struct CardUse {
     parts: [(&'static str, f64); 6],
@@ -104,7 +105,7 @@ impl CardUse {
         self.parts[0].1
     }
 
-    /// Returns the name of what the card spends the largest part of its time on.
+    /// Returns the name of the largest part of the card's time.
     fn bound(&self) -> &'static str {
         self.parts.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map_or("", |largest| largest.0)
     }

@@ -1,4 +1,4 @@
-//! How long each part of a pane takes to draw, and how far the qualities are apart.
+//! The times of the parts of a pane's drawing, and the differences between the qualities.
 
 use crate::picture::Linear;
 #[cfg(feature = "gpu")]
@@ -9,7 +9,8 @@ use crate::scene::Panorama;
 use crate::trace::gpu::{Gpu, GpuError};
 use std::time::Instant;
 
-/// The number of timed runs of each part, after one to warm up. The quickest counts, as other programs only ever delay one.
+/// The number of timed runs of each part, after one to warm up. The quickest is the result, since other programs can
+/// only delay a run.
 const TIMES: usize = 15;
 
 /// The qualities and their names.
@@ -40,7 +41,8 @@ pub fn table(asked: &GlassPane, background: &Panorama) -> String {
     lines.join("\n")
 }
 
-/// Returns the parts of a frame with the time of each. A part's time is what the look-up takes longer with it.
+/// Returns the parts of a frame with the time of each. The time of an effect is the time by which it lengthens the
+/// look-up.
 fn times(asked: &GlassPane, background: &Panorama) -> Vec<(&'static str, f64)> {
     let size = [background.width, background.height];
     let look_up = |pane: &GlassPane| {
@@ -92,7 +94,8 @@ fn apart(a: &Linear, b: &Linear) -> (f64, f64, f64) {
     (all.iter().sum::<f64>() / count, greatest, all.iter().filter(|off| **off >= 0.5).count() as f64 / count)
 }
 
-/// Returns how long the graphics card takes for a frame, and how far its picture is from the processor's, or why not.
+/// Returns the time of a frame on the graphics card and the difference of its picture from the processor's, or the
+/// reason why there is none.
 #[cfg(feature = "gpu")]
 fn on_card(asked: &GlassPane, background: &Panorama) -> String {
     let measured = || {

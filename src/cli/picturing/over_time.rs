@@ -1,4 +1,4 @@
-//! Takes pictures as the editor shows what moves: one sample after the other, each blended with the ones before.
+//! Takes pictures as the editor shows moving bodies: one sample after the other, each blended with the ones before.
 
 use super::{PictureSetup, RenderedPicture};
 use crate::cli::console::report;
@@ -9,18 +9,19 @@ use crate::render::{Job, LightProduct, Output, Partial, Product, Rendered, Steps
 use crate::scene::View;
 use crate::trace::Watch;
 
-/// The usual number of samples of a picture. With half of the newest, older ones count for less than a thousandth.
+/// The default number of samples of a picture. Where the newest has a share of one half, the oldest samples then
+/// count for less than a thousandth.
 const USUAL_SAMPLES: u32 = 12;
 
-/// The most pixels of such a picture, which is held as a whole: those of 2048 by 2048.
+/// The greatest number of pixels of such a picture, which is held in memory as a whole: those of 2048 by 2048.
 const MOST_PIXELS: u64 = 1 << 22;
 
-/// What earlier samples have shown, and the view from which the last was taken.
+/// The history of earlier samples, and the view from which the last was taken.
 pub(super) type Trail = Option<(TemporalHistory, View)>;
 
 impl PictureSetup<'_> {
-    /// Takes a picture whose samples are blended one after the other; `newest` is the share of each new one. It goes on from the
-    /// picture that was taken before, whose bodies are looked for where they are now.
+    /// Takes a picture whose samples are blended one after the other; `newest` is the share of each new one. The
+    /// picture continues the history of the one before, whose bodies are found at their present places.
     pub(super) fn take_over_time(
         &self,
         job: &Job,
@@ -69,7 +70,7 @@ fn of_one_sample(job: &Job, first: u32) -> Job {
     job
 }
 
-/// Blends a picture of a job with what was seen before.
+/// Blends a picture of a job with the history of samples.
 fn laid(trail: Trail, picture: Linear, job: &Job, newest: f64) -> TemporalHistory {
     let before = trail.as_ref().map_or(job.view, |(_, view)| *view);
     let moved = job.lit().map_or(vec![], |lit_scene| motion_of_view(&lit_scene, &before));

@@ -1,4 +1,4 @@
-//! The corners of a stone as a cutter sees them, the edges between them, and meets that are nearly but not quite made.
+//! The corners of a stone as a cutter sees them, the edges between them, and meets that are missed by little.
 
 use super::finding::{Finding, FindingKind, FindingUnit};
 use super::subject::Subject;
@@ -6,24 +6,25 @@ use crate::cut::TierZone;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Corners nearer to one another than this, in percent of the width, are one: the last digits of cutters' files split corners
-/// by less, and no loupe shows it. A chain of such corners is one too.
+/// Corners nearer to one another than this, in percent of the width, count as one: the last digits of cutters' files
+/// split corners by less, and no loupe shows it. A chain of such corners is one too.
 pub const SAME_CORNER: f64 = 0.1;
 
-/// Corners nearer to one another than this, in percent of the width, but not one, nearly meet.
+/// Corners that are two, but nearer to one another than this, in percent of the width, nearly meet.
 pub const NEAR_MISS: f64 = 1.0;
 
 /// An edge shorter than this, in percent of the width, may be a meet of four facets that is split.
 pub const SPLIT_MEET: f64 = 12.0;
 
-/// Facets whose azimuths differ by less than this, radians, are steps of one flight, whose edges are parallel and no meets.
+/// Facets whose azimuths differ by less than this, radians, are steps of one flight, whose edges are parallel and not
+/// split meets.
 const SAME_AZIMUTH: f64 = 0.5 * PI / 180.0;
 
-/// An edge that is longer than this part of what a facet beside it spans along it is a side of that facet, and no meet that
-/// is split: drawn together to a point it would change the facet's shape.
+/// An edge that is longer than this part of the extent of a facet beside it is a side of that facet, and not a split
+/// meet: if it shrank to a point, the facet's shape would change.
 const PART_OF_SIDE: f64 = 0.5;
 
-/// A corner: vertices that are one to the eye.
+/// A corner: vertices that look like one point.
 pub(super) struct Corner {
     /// The mean of the vertices.
     pub at: DVec3,
@@ -55,7 +56,7 @@ fn pairs_within(points: &[DVec3], reach: f64, mut pair: impl FnMut(usize, usize)
     }
 }
 
-/// Returns for each vertex the number of its corner, and how many corners there are.
+/// Returns the number of each vertex's corner, and the number of corners.
 fn clusters(points: &[DVec3], reach: f64) -> (Vec<usize>, usize) {
     let mut root: Vec<usize> = (0..points.len()).collect();
     fn find(root: &mut [usize], mut at: usize) -> usize {
@@ -149,15 +150,16 @@ impl Corners {
         }
     }
 
-    /// Whether an edge may be a meet of four facets that is split.
+    /// Returns whether an edge may be a split meet of four facets.
     fn is_split(&self, edge: &CornerEdge, subject: &Subject) -> bool {
         edge.length < SPLIT_MEET / 100.0 * subject.outline.width
             && edge.ends.iter().all(|&end| self.all[end].facets.len() == 3)
             && !self.is_side(edge, subject)
     }
 
-    /// Whether an edge is a side of the facets beside it, however short, and so no meet: an edge between steps, an upright
-    /// edge of the girdle, an edge among three girdle facets, or one that is as long as a facet beside it is wide.
+    /// Returns whether an edge is a side of the facets beside it, however short, and so not a split meet: an edge
+    /// between steps, an upright edge of the girdle, an edge among three girdle facets, or one that is as long as a
+    /// facet beside it is wide.
     fn is_side(&self, edge: &CornerEdge, subject: &Subject) -> bool {
         let [a, b] = edge.sides;
         if subject.is_girdle(a) && subject.is_girdle(b) || same_azimuth(subject, a, b) {
@@ -167,7 +169,7 @@ impl Corners {
             edge.ends.iter().flat_map(|&end| self.all[end].facets.iter().copied()).collect();
         around.sort_unstable();
         around.dedup();
-        // Upright planes have no point in common with one another but an upright line.
+        // Upright planes share no single point, but at most an upright line.
         if around.iter().filter(|&&facet| subject.is_girdle(facet)).count() > 2 {
             return true;
         }
@@ -181,8 +183,8 @@ impl Corners {
         })
     }
 
-    /// Whether one corner lies on the girdle's upper edge and the other on its lower one, so that their distance is the
-    /// thickness of the girdle.
+    /// Returns whether one corner lies on the girdle's upper edge and the other on its lower one, so that their
+    /// distance is the thickness of the girdle.
     fn is_across_girdle(&self, ends: [usize; 2], subject: &Subject) -> bool {
         let [a, b] = ends.map(|corner| &self.all[corner].facets);
         let touches = |facets: &[usize], zone| facets.iter().any(|&facet| subject.zones[facet] == zone);
@@ -197,7 +199,7 @@ fn sorted([a, b]: [usize; 2]) -> [usize; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// Whether two facets lean the same way. Tables and culets lean no way.
+/// Returns whether two facets lean to the same azimuth. Tables and culets have no azimuth.
 fn same_azimuth(subject: &Subject, a: usize, b: usize) -> bool {
     let level = |facet: usize| matches!(subject.zones[facet], TierZone::Table | TierZone::Culet);
     let across = |facet: usize| subject.facets()[facet].plane.normal.truncate();

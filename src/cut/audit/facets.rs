@@ -11,7 +11,8 @@ pub const SMALL_FACET: f64 = 15.0;
 /// A facet of crown or pavilion whose least width is below this, in percent of the stone's width, is thin.
 pub const THIN_FACET: f64 = 1.0;
 
-/// Angles nearer to the critical angle than this, degrees, are not below it: the last digit of cutters' files.
+/// Angles nearer to the critical angle than this, degrees, do not count as below it: the last digit of cutters'
+/// files.
 const ROUNDING_DEG: f64 = 1e-3;
 
 /// Returns the small facets, each beside the facets of its zone. Table and culet have no others beside them.

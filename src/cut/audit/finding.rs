@@ -1,4 +1,4 @@
-//! A finding of an audit: what was found, where, how large it is, and the threshold that it crosses.
+//! A finding of an audit: its kind, place and size, and the threshold that it crosses.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,8 @@ use std::fmt;
 pub enum FindingKind {
     /// Two corners that nearly meet, without an edge that a split meet would be reported for.
     NearMiss,
-    /// A short edge between two corners of three facets each, where four facets may be meant to meet in a point.
+    /// A short edge between two corners of three facets each, where the designer may have meant four facets to meet
+    /// in a point.
     SplitMeet,
     /// A facet that is small beside the facets of its zone.
     SmallFacet,
@@ -61,7 +62,7 @@ impl FindingKind {
         }
     }
 
-    /// Says in a sentence what a finding of this kind may mean.
+    /// Returns the possible meaning of a finding of this kind, in a sentence.
     pub fn meaning(self) -> &'static str {
         match self {
             Self::NearMiss => "Two corners lie so near to each other that they may be meant to be one.",
@@ -83,7 +84,8 @@ impl FindingKind {
         }
     }
 
-    /// Whether the places of such findings are corners of the stone; otherwise they are the middles of facets.
+    /// Returns whether the places of such findings are corners of the stone; otherwise they are the middles of
+    /// facets.
     pub fn is_about_corners(self) -> bool {
         matches!(self, Self::NearMiss | Self::SplitMeet | Self::UnevenGirdle)
     }
@@ -107,7 +109,7 @@ impl Finding {
         let side = match self.kind {
             FindingKind::UnevenGirdle | FindingKind::Outline | FindingKind::Symmetry => "above ",
             FindingKind::UnusedPlane => return None,
-            // The name of this kind says already that its sizes lie below.
+            // The name of this kind already says that its sizes lie below.
             FindingKind::BelowCritical => "",
             _ => "below ",
         };
@@ -164,7 +166,7 @@ pub struct Finding {
     pub points: Vec<DVec3>,
     /// The names of the facets, or of the planes, that the finding is about.
     pub facets: Vec<String>,
-    /// The size of what was found, in `unit`.
+    /// The size of the finding, in `unit`.
     pub size: f64,
     /// The threshold that the size crosses, in the same unit.
     pub threshold: f64,

@@ -1,4 +1,4 @@
-//! Whether the girdle's edges run level from meet to meet.
+//! Finds girdles whose edges do not run level from meet to meet.
 
 use super::corners::{Corner, Corners};
 use super::finding::{Finding, FindingKind, FindingUnit};

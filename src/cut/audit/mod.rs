@@ -1,9 +1,10 @@
 //! An audit of a stone: a list of places that may not be what its designer meant.
 //!
-//! Findings are candidates, never verdicts: a short edge may be wanted, a tier below the critical angle too. Lengths are
-//! measured by W, the width of the stone's outline, so that an audit does not depend on the stone's unit. The thresholds are
-//! those that the audit of OpenGemCutting publishes (same corner 0.1 % of W, near miss 1 %, split meet 12 %, small facet
-//! 15 % of the median area); those of thin facets, uneven girdles and symmetry are this program's own.
+//! Findings are candidates, never verdicts: a short edge may be intended, and so may a tier below the critical angle.
+//! Lengths are measured by W, the width of the stone's outline, so that an audit does not depend on the stone's unit.
+//! The thresholds are those that the audit of OpenGemCutting publishes (same corner 0.1 % of W, near miss 1 %, split
+//! meet 12 %, small facet 15 % of the median area); those of thin facets, uneven girdles and symmetry are this
+//! program's own.
 
 mod corners;
 mod facets;
@@ -23,7 +24,7 @@ use corners::Corners;
 use serde::{Deserialize, Serialize};
 use subject::Subject;
 
-/// What an audit found.
+/// The result of an audit.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Audit {
     /// The findings, in the order of [`FindingKind::ALL`]; those of one kind with the smallest size first.

@@ -1,11 +1,11 @@
-//! What an audit looks at.
+//! The subject of an audit: a stone, and the statements of its design.
 
 use crate::cut::FacetZones;
 use crate::cut::{Outline, TierZone, Tiers, tier_stem};
 use crate::math::{Facet, Polytope};
 use glam::DVec3;
 
-/// A stone to audit, with what its design says about it.
+/// A stone to audit, with the statements of its design.
 #[derive(Debug, Clone, Copy)]
 pub struct AuditSubject<'a> {
     /// The stone, +z out of its table, its axis x = y = 0. The unit of length does not matter.
@@ -17,7 +17,7 @@ pub struct AuditSubject<'a> {
     pub planes: &'a [String],
     /// The tiers, where the design has tiers: they state its symmetry.
     pub tiers: Option<&'a Tiers>,
-    /// The medium's critical angle, degrees; `None` where nothing is said about the medium, or it has none.
+    /// The medium's critical angle, degrees; `None` where the medium is unknown or has none.
     pub critical_deg: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! Which facets depart from the symmetry that the design states or that nearly all facets keep.
+//! Finds the facets that depart from the symmetry that the design states or that nearly all facets keep.
 
 use super::finding::{Finding, FindingKind, FindingUnit};
 use super::subject::Subject;
@@ -11,15 +11,15 @@ use std::f64::consts::TAU;
 /// symmetry: about a tenth of a degree.
 pub const OFF_SYMMETRY: f64 = 0.1;
 
-/// A symmetry that the file does not state counts as meant where at least this part of the facets keeps it.
+/// A symmetry that the file does not state counts as intended where at least this part of the facets keeps it.
 const NEARLY_ALL: f64 = 0.9;
 
-/// Planes are near an image if they may lie this many slacks from it.
+/// Planes farther from an image than this many slacks are not compared with it.
 const FAR: f64 = 20.0;
 
-/// Where the symmetry is not stated, a facet departs from it if it lies further off than this many times what
-/// [`NEARLY_ALL`] of the facets lie off. In a stone whose length is nearly its width, all facets lie a little off a symmetry
-/// that it has not, and none far more than the others.
+/// Where the symmetry is not stated, a facet departs from it if its distance is more than this many times the
+/// greatest among [`NEARLY_ALL`] of the facets. In a stone whose length is nearly its width, all facets lie a little
+/// off a symmetry that the stone does not have, and none far more than the others.
 const BEYOND_OTHERS: f64 = 3.0;
 
 /// The part of the facets of crown and pavilion that must keep a stated symmetry for the others to count as departures from
@@ -55,13 +55,14 @@ impl Map {
 struct Planes {
     sorted: Vec<Plane>,
     width: f64,
-    /// How far an image may lie from a plane, in percent of the width.
+    /// The greatest distance of an image from a plane that counts as kept, in percent of the width.
     slack: f64,
 }
 
 impl Planes {
     fn of(subject: &Subject) -> Self {
-        // Seen from the middle of the girdle, so that a lean shifts a plane by no more than it does within the stone.
+        // Planes are taken about the middle of the girdle, so that a lean shifts a plane by no more than it does
+        // within the stone.
         let outline = &subject.outline;
         let middle = outline.middle.extend(0.5 * (outline.girdle_bottom + outline.girdle_top));
         let seen = |plane: Plane| Plane { offset: plane.offset - plane.normal.dot(middle), ..plane };
@@ -70,7 +71,7 @@ impl Planes {
         Self { sorted, width: outline.width, slack: slack(subject.given.tiers) }
     }
 
-    /// Returns how far two planes lie apart at the girdle, in percent of the width.
+    /// Returns the distance of two planes at the girdle, in percent of the width.
     fn apart(&self, a: &Plane, b: &Plane) -> f64 {
         let lean = 0.5 * a.normal.distance(b.normal);
         100.0 * lean.max((a.offset - b.offset).abs() / self.width)
@@ -95,7 +96,8 @@ impl Planes {
         2 * kept < maps.len()
     }
 
-    /// Returns how far the nearest plane of the stone lies from an image, in percent of the width; infinite where none is near.
+    /// Returns the distance of an image from the nearest plane of the stone, in percent of the width; infinite where
+    /// none is near.
     fn to_nearest(&self, image: &Plane) -> f64 {
         let reach = 2.0 * FAR * self.slack / 100.0;
         let first = self.sorted.partition_point(|plane| plane.normal.z < image.normal.z - reach);
@@ -103,15 +105,16 @@ impl Planes {
         near.map(|plane| self.apart(plane, image)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns how far half of the images of a plane, the nearer ones, lie from planes of the stone at most, in percent of the
-    /// width: above the slack where the plane [`departs`](Self::departs).
+    /// Returns the greatest distance of the nearer half of a plane's images from planes of the stone, in percent of
+    /// the width: above the slack where the plane [`departs`](Self::departs).
     fn usual_departure(&self, plane: &Plane, maps: &[Map]) -> f64 {
         let mut all: Vec<f64> = maps.iter().map(|map| self.to_nearest(&map.image(plane))).collect();
         all.sort_by(f64::total_cmp);
         all[(all.len() - 1) / 2]
     }
 
-    /// Returns how far, at most, an image of a plane lies from the nearest plane of the stone, in percent of the width.
+    /// Returns the greatest distance of an image of a plane from the nearest plane of the stone, in percent of the
+    /// width.
     fn departure(&self, plane: &Plane, maps: &[Map]) -> f64 {
         let nearest = |image: Plane| {
             self.sorted.iter().map(|other| self.apart(other, &image)).fold(f64::INFINITY, f64::min)
@@ -120,8 +123,9 @@ impl Planes {
     }
 }
 
-/// Returns how far an image may lie from a plane, in percent of the width. Where the teeth of the gear are no multiple of the
-/// stated symmetry, indices are rounded to teeth, so that a whole tooth is no departure.
+/// Returns the greatest distance of an image from a plane that counts as kept, in percent of the width. Where the
+/// teeth of the gear are no multiple of the stated symmetry, indices are rounded to teeth, so that a whole tooth is
+/// no departure.
 fn slack(tiers: Option<&Tiers>) -> f64 {
     let rounded =
         tiers.filter(|tiers| tiers.symmetry > 0 && !tiers.gear.unsigned_abs().is_multiple_of(tiers.symmetry));
@@ -129,7 +133,7 @@ fn slack(tiers: Option<&Tiers>) -> f64 {
     OFF_SYMMETRY + tooth
 }
 
-/// Returns all maps of a symmetry but the identity.
+/// Returns all maps of a symmetry except the identity.
 fn maps(turns: u32, mirror: Option<f64>) -> Vec<Map> {
     let step = TAU / f64::from(turns);
     let turned = (1..turns).map(|k| Map::Turn(f64::from(k) * step));
@@ -180,7 +184,7 @@ pub(super) fn departures(subject: &Subject) -> Vec<Finding> {
     grouped(off, |&a, &b| subject.tier(a) == subject.tier(b)).into_iter().map(finding).collect()
 }
 
-/// Returns the greatest of these values once the greatest ones that are not nearly all are left out.
+/// Returns the greatest of these values after the greatest ones beyond [`NEARLY_ALL`] are left out.
 fn most_of_nearly_all(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -188,8 +192,8 @@ fn most_of_nearly_all(values: &[f64]) -> f64 {
     sorted.get(nearly_all.saturating_sub(1)).copied().unwrap_or(0.0)
 }
 
-/// Returns the part of the facets of crown and pavilion that are not among those `off` the symmetry, in percent. A girdle
-/// of many facets has symmetries that the stone has not.
+/// Returns the part of the facets of crown and pavilion that are not among those `off` the symmetry, in percent. A
+/// girdle of many facets has symmetries that the stone lacks.
 fn kept_percent(subject: &Subject, off: &[usize]) -> f64 {
     let all = (0..subject.facets().len()).filter(|&facet| !subject.is_girdle(facet)).count();
     let off = off.iter().filter(|&&facet| !subject.is_girdle(facet)).count();
@@ -207,8 +211,8 @@ fn not_found(kept: f64, facets: Vec<String>) -> Finding {
     }
 }
 
-/// Returns the maps of the symmetry that the design states. Its mirror is the line through index 0, or, where that line is
-/// none, the best that the facets show.
+/// Returns the maps of the symmetry that the design states. Its mirror is the line through index 0, or, where that
+/// line is not a mirror, the best one that the facets show.
 fn stated_maps(tiers: &Tiers, subject: &Subject, planes: &Planes) -> Vec<Map> {
     let turns = tiers.symmetry.clamp(1, 360);
     let index_0 = -0.25 * TAU - tiers.offset / f64::from(tiers.gear) * TAU;
@@ -221,7 +225,7 @@ fn stated_maps(tiers: &Tiers, subject: &Subject, planes: &Planes) -> Vec<Map> {
     maps(turns, mirror)
 }
 
-/// Returns the maps of the highest symmetry that nearly all facets keep; none where there is none.
+/// Returns the maps of the highest symmetry that nearly all facets keep; an empty list where there is none.
 fn found_maps(subject: &Subject, planes: &Planes) -> Vec<Map> {
     let is_kept = |turns: &u32| planes.keeping(Map::Turn(TAU / f64::from(*turns))) >= NEARLY_ALL;
     let turns = (2..=MOST_TURNS).rev().find(is_kept).unwrap_or(1);
@@ -239,7 +243,7 @@ fn best_mirror(subject: &Subject, planes: &Planes) -> Option<f64> {
     let azimuths: Vec<f64> =
         smallest.iter().map(|&facet| subject.facets()[facet].plane.normal.truncate().to_angle()).collect();
     let lines = azimuths.iter().map(|azimuth| 0.5 * (azimuths[0] + azimuth)).take(MOST_MIRRORS);
-    // Of a facet alone in its tier, the line runs through it, or it comes first of a pair whose line is square to that.
+    // The first line runs through the first facet, the others half way between it and another facet of its tier.
     let kept = lines.map(|line| (planes.keeping(Map::Mirror(line)), line));
     kept.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, line)| line)
 }

@@ -1,4 +1,4 @@
-//! Tests of audits: what is known of real designs, laws, and stones with one fault each.
+//! Tests of audits: known findings of real designs, laws, and stones with one fault each.
 
 use super::*;
 use crate::cut::round_brilliant::{MODERN, RoundBrilliant};
@@ -213,7 +213,8 @@ fn findings_come_back_from_json() {
     assert_eq!(back.findings[0].facets, audit.findings[0].facets);
 }
 
-/// Returns what an audit says whatever the frame: the kind of each finding, and its size in millionths of the threshold's unit.
+/// Returns the findings of an audit in a form that does not depend on the frame: the kind of each finding, and its
+/// size in millionths of the threshold's unit.
 fn told(audit: &Audit) -> Vec<(FindingKind, i64)> {
     let mut told: Vec<(FindingKind, i64)> =
         audit.findings.iter().map(|finding| (finding.kind, (1e6 * finding.size).round() as i64)).collect();

@@ -15,9 +15,9 @@ const NEAR_UP: f64 = 0.996_194_698;
 /// Directions that differ by less than this (length of the difference of unit vectors) are the same.
 const ONE: f64 = 1e-3;
 
-/// A table whose normal is at least this near to an axis of the file (length of the difference of unit vectors, 1.5 degrees)
-/// was laid along that axis, but not to the last digit, as in scans. The axis itself shows almost as much of a girdle as the
-/// table's normal does, and must not be taken instead.
+/// A table whose normal is at least this near to an axis of the file (length of the difference of unit vectors, 1.5
+/// degrees) was laid along that axis, but not to the last digit, as in scans. The axis itself shows almost as much of
+/// a girdle as the table's normal does, and must not be taken in its place.
 const PUT_ALONG: f64 = 0.026;
 
 /// The number of largest facets that are tried as the table.
@@ -29,11 +29,11 @@ const LEAST_PARALLEL: usize = 4;
 /// The number of facets whose edges are searched for parallels.
 const MOST_EDGES: usize = 1_500;
 
-/// The number of directions that are looked at closely. It is limited because symmetry takes long to find.
+/// The number of directions that are examined closely. It is limited because symmetry takes long to find.
 const MOST_CLOSE: usize = 24;
 
-/// The most facets of a solid whose symmetry is tested. The test compares all facets with all, for each direction that is
-/// looked at closely.
+/// The most facets of a solid whose symmetry is tested. The test compares all facets with all, for each direction
+/// that is examined closely.
 const MOST_COMPARED: usize = 400;
 
 /// The weight of each cue, chosen on real cutters' designs, in their own frames and turned.
@@ -43,9 +43,9 @@ mod weight {
     /// Symmetry of all facets. Where only a part of their area is symmetric, the weight is multiplied by the cube of that
     /// part.
     pub const EVEN: f64 = 0.8;
-    /// A table; one smaller than `MEANT` counts less.
+    /// A table; one smaller than `MEANT` scores less.
     pub const TABLE: f64 = 0.3;
-    /// A table as large as the outline, in addition to what any table counts for.
+    /// A table as large as the outline, in addition to the score of any table.
     pub const TABLE_AREA: f64 = 0.4;
     /// A base: a facet at the bottom as large as the outline.
     pub const BASE: f64 = 0.15;
@@ -53,11 +53,12 @@ mod weight {
     pub const FLAT: f64 = 0.5;
     /// The direction is an axis of the file and fits the shape.
     pub const OWN_AXIS: f64 = 0.4;
-    /// The direction is the axis that is up by the custom of the file's format. The other axis that is often up counts half.
+    /// The direction is the axis that is up by the custom of the file's format. The other axis that is often up
+    /// scores half.
     pub const CUSTOM: f64 = 0.5;
 }
 
-/// A table of this part of the outline's area, or a larger one, is surely meant as a table.
+/// A table of this part of the outline's area, or a larger one, is certainly intended.
 const MEANT: f64 = 0.01;
 
 /// A facet of this part of the outline's area is a base.
@@ -67,11 +68,11 @@ const WHOLE: f64 = 0.97;
 /// or symmetry more than this part of the facets' area.
 const FITS: f64 = 0.8;
 
-/// A person might also take a direction whose shape scores lower than the best direction's by less than this, unless it lies
-/// within [`PUT_ALONG`] of the best.
+/// A direction whose shape scores lower than the best by less than this leaves a doubt, unless it lies within
+/// [`PUT_ALONG`] of the best.
 const DOUBTFUL: f64 = 0.15;
 
-/// Another direction that a person might have taken for up.
+/// Another direction that may be up as well.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Doubt {
     /// The direction in the surface's frame, a unit vector.
@@ -84,7 +85,7 @@ pub(super) struct Aim {
     pub axis: DVec3,
     /// The table's place among the facets, if there is a table.
     pub table: Option<usize>,
-    /// Another direction that may be up.
+    /// Another direction that may be up; `None` where there is no doubt.
     pub doubt: Option<Doubt>,
 }
 
@@ -116,7 +117,7 @@ pub(super) fn aim(solid: &Polytope, parts: &FacetParts, up: Up) -> Result<Aim, F
     Ok(Aim { axis, table, doubt })
 }
 
-/// A direction, and the scores that speak for it.
+/// A direction with its scores.
 struct Seen {
     cues: Cues,
     /// The score of the shape.
@@ -145,8 +146,8 @@ impl Seen {
     }
 }
 
-/// Returns the axis where up is given: the normal of the largest facet near to it, or else the given direction. `None` where
-/// the given direction is zero or not finite.
+/// Returns the axis where up is given: the normal of the largest facet near to it, or else the given direction.
+/// `None` where the given direction is zero or not finite.
 fn toward(solid: &Polytope, given: DVec3) -> Option<Aim> {
     let unit = Plane::new(given, 0.0).normalized()?.normal;
     let facets = solid.facets().iter().enumerate();
@@ -156,7 +157,7 @@ fn toward(solid: &Polytope, given: DVec3) -> Option<Aim> {
     Some(Aim { axis: table.map_or(unit, |t| solid.facets()[t].plane.normal), table, doubt: None })
 }
 
-/// Returns the axis where up is known. A facet square to the axis is the table.
+/// Returns the axis where up is known exactly. A facet square to the axis is the table.
 fn known(solid: &Polytope, axis: DVec3) -> Aim {
     Aim { axis, table: Cues::of(solid, axis).and_then(|cues| cues.table), doubt: None }
 }
@@ -264,7 +265,7 @@ pub(super) fn evenness(parts: &FacetParts, axis: DVec3) -> f64 {
     if areas.len() > MOST_COMPARED {
         return 0.0;
     }
-    // Facets of the girdle are compared less closely, so that the axis must be upright here.
+    // Facets of the girdle are compared less closely, for which the axis must be upright here.
     let planes = even::upright(&parts.planes, axis).planes;
     let loose = Match::loose(&planes);
     let carried = |&fold: &u32| {

@@ -1,4 +1,4 @@
-//! The cues that a person looks for in a solid to tell which way its table faces.
+//! The properties of a solid, for a direction, by which the direction of its table is found.
 
 use crate::math::{Calipers, Polytope, area, hull, span};
 use glam::{DVec2, DVec3};
@@ -13,7 +13,7 @@ const SQUARE: f64 = 1.0 - UPRIGHT * UPRIGHT / 2.0;
 /// Corners of a knife edge whose heights differ by less than this, in widths of the solid, are level.
 const LEVEL: f64 = 2e-3;
 
-/// The cues that a solid shows if a direction is taken as up.
+/// The cues of a solid for a direction as up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cues {
     /// The direction, a unit vector.
@@ -43,7 +43,7 @@ struct Piece {
 }
 
 impl Cues {
-    /// Returns the cues of a solid if a unit vector is taken as up; `None` where it has no outline.
+    /// Returns the cues of a solid for a unit vector as up; `None` where it has no outline.
     pub fn of(solid: &Polytope, up: DVec3) -> Option<Self> {
         let (right, back) = up.any_orthonormal_pair();
         let flat = |v: DVec3| DVec2::new(v.dot(right), v.dot(back));

@@ -1,7 +1,8 @@
-//! Gives the planes of a stone the symmetry that it has but for noise: each plane becomes the mean of all its images.
+//! Gives the planes of a stone the symmetry that they have except for noise: each plane becomes the mean of all its
+//! images.
 //!
-//! A stone that is uneven by more than its noise keeps its planes. This is judged by the corners of the surface, which must
-//! not lie much farther from the evened stone than from the one that was found.
+//! A stone that is uneven by more than its noise keeps its planes. The corners of the surface decide: they must not
+//! lie much farther from the evened stone than from the one that was found.
 
 use super::outline::LEAST_UPRIGHT;
 use crate::math::faceting::{Faceted, deviation};
@@ -9,15 +10,15 @@ use crate::math::{Facet, Plane, Polytope, Pose, Symmetry};
 use glam::{DQuat, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// The most turns that are tried: no gem has more of anything but girdle facets.
+/// The most turns that are tried: except for girdle facets, no gem has more of any kind.
 const MOST_TURNS: u32 = 24;
 
 /// Two planes may be images of each other where their normals differ by less than this (2.9 degrees), and their offsets by
 /// less than this part of the largest. Noise causes far less, and facets differ by far more.
 const LOOSE: f64 = 0.05;
 
-/// The corners may lie this many times as far from the evened stone as from the one that was found, or this many tolerances
-/// if that is more. Each facet of the stone that was found could follow the noise of its own corners.
+/// The factor by which the corners may lie farther from the evened stone than from the one that was found, or the
+/// number of tolerances if that is more. Each facet of the found stone could follow the noise of its own corners.
 const EVEN: f64 = 5.0;
 
 /// The weight of differences in slope between girdle facets, which are thin, so that their slope is mostly noise.
@@ -26,7 +27,7 @@ const THIN: f64 = 0.25;
 /// The most facets of a stone that is evened, since all of them are compared with all.
 const MOST_FACETS: usize = 1_000;
 
-/// The planes among which images are looked for.
+/// The planes among which images are sought.
 pub(super) struct Match<'a> {
     planes: &'a [Plane],
     size: f64,
@@ -74,7 +75,7 @@ pub(super) fn centroid(polytope: &Polytope) -> DVec3 {
     apex + moment / content
 }
 
-/// Planes about a middle, with +z along the axis, and the symmetry that they were given.
+/// Planes about a middle, with +z along the axis, and the symmetry that was given to them.
 pub(super) struct Even {
     pub planes: Vec<Plane>,
     /// The rotation from the frame of the planes that were found.
@@ -156,8 +157,8 @@ pub(super) fn evened(parts: &FacetParts, axis: DVec3, is_fixed: bool) -> Even {
     let wanted = tried.filter(|(turns, _, mirror)| *turns > 1 || mirror.is_some());
     let mean =
         wanted.filter_map(|(turns, axis, mirror)| averaged(&Even { turns, mirror, ..upright(planes, axis) }));
-    // Where girdle facets lie at different heights, putting them upright shifts them by different amounts, so they are
-    // averaged anew.
+    // Where girdle facets lie at different heights, putting them upright shifts them by different amounts, so they
+    // are averaged once more.
     let both = mean.flat_map(|even| [averaged(&squared(&even, &parts.middles)), Some(even)]);
     let mut fitting = both.flatten().filter(fits);
     fitting.next().unwrap_or(plain)
@@ -174,7 +175,7 @@ pub(super) fn upright(planes: &[Plane], axis: DVec3) -> Even {
     }
 }
 
-/// Returns the axis as the whole crown and pavilion have it, not the table alone: the normal of the girdle's plane.
+/// Returns the axis that the whole crown and pavilion have, not the table alone: the normal of the girdle's plane.
 ///
 /// Only a stone with rotational symmetry has such an axis; where `turns` is 1 the given axis is returned.
 fn refined(planes: &[Plane], areas: &[f64], axis: DVec3, turns: u32) -> DVec3 {
@@ -258,7 +259,7 @@ fn squared(even: &Even, middles: &[DVec3]) -> Even {
             (_, true) => DVec3::Z * n.z.signum(),
             _ => n,
         };
-        // Each facet is turned about its middle, which stays where it is.
+        // Each facet is turned about its middle, which does not move.
         let middle = even.turn * *middle;
         let foot = middle - p.distance(middle) * n;
         Plane::new(snapped, snapped.dot(foot)).normalized().unwrap_or(*p)

@@ -1,5 +1,5 @@
-//! Makes a stone of the facets that were found on a surface: puts it upright, evens it where noise alone kept it from being
-//! even, scales it by its girdle, and names its facets.
+//! Makes a stone of the facets that were found on a surface: puts it upright, evens it where only noise makes it
+//! uneven, scales it by its girdle, and names its facets.
 //!
 //! The stone's frame is that of docs/architecture.md: +z out of the table, z = 0 at the crown's side of the girdle, +x
 //! through a bezel or another facet of the crown that is its own mirror image. A long stone's width lies along x.
@@ -33,8 +33,8 @@ pub struct FromMesh {
     pub pose: Pose,
     /// The distance from the stone of the surface's corner that is farthest off, girdle radii.
     pub deviation: f64,
-    /// The symmetry that the planes were given because they had it but for noise; [`Symmetry::NONE`] where they were left as
-    /// found.
+    /// The symmetry that was given to the planes, because they had it except for noise; [`Symmetry::NONE`] where they
+    /// were left as found.
     pub evened: Symmetry,
     /// The direction that was taken as up, in the surface's frame, a unit vector.
     pub up: DVec3,
@@ -45,7 +45,7 @@ pub struct FromMesh {
 /// Poses, evens and names the facets of a surface.
 ///
 /// # Errors
-/// A direction up that is zero or not finite, or facets that enclose nothing once they are evened.
+/// Fails where the direction up is zero or not finite, or where the facets enclose nothing once they are evened.
 pub fn from_mesh(found: &Faceted, up: Up) -> Result<FromMesh, FromMeshError> {
     let posed = if let Up::Posed(pose) = up { Some(pose) } else { None };
     let middle = match posed {

@@ -5,10 +5,10 @@ use super::outline::LEAST_UPRIGHT;
 use crate::math::{Plane, grouped};
 use std::f64::consts::TAU;
 
-/// The slopes of one tier's facets differ by less than this, radians, or by what noise adds.
+/// The slopes of one tier's facets differ by less than this, radians, or by the effect of noise.
 const SAME_SLOPE: f64 = 2e-3;
 
-/// The offsets of one tier's facets differ by less than this, girdle radii, or by what noise adds.
+/// The offsets of one tier's facets differ by less than this, girdle radii, or by the effect of noise.
 const SAME_OFFSET: f64 = 2e-3;
 
 /// The number of tolerances by which noise turns (radians) and shifts (girdle radii) the facets of one tier apart. Noise of
@@ -117,10 +117,10 @@ fn letters(number: usize) -> String {
     if number < 26 { last.to_string() } else { format!("{}{last}", letters(number / 26 - 1)) }
 }
 
-/// Whether the tiers are those of a round brilliant.
+/// Returns whether the tiers are those of a round brilliant.
 ///
-/// A round brilliant has tiers of 16, 8 and 8 facets above the girdle and of 16 and 8 below it, with the stars between the
-/// bezels and the mains below the bezels.
+/// A round brilliant has tiers of 16, 8 and 8 facets above the girdle and of 16 and 8 below it, with the stars
+/// between the bezels and the mains below the bezels.
 fn is_brilliant(planes: &[Plane], crown: &[Tier], below: &[&Tier]) -> bool {
     let ([upper, bezel, star], [lower, main]) = (crown, below) else { return false };
     let first = |tier: &Tier| azimuth(&planes[tier[0]]) - BEFORE_ZERO;

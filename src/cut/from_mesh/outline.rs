@@ -1,4 +1,4 @@
-//! Measures the girdle: which facets it has, how wide it is, and which way the stone is turned about its axis.
+//! Measures the girdle: its facets, its width, and the turn of the stone about its axis.
 
 use super::error::FromMeshError;
 use super::even::Even;
@@ -21,7 +21,7 @@ const SAME_AZIMUTH: f64 = 0.02;
 /// Areas are equal if their ratio is below this.
 const SAME_AREA: f64 = 1.01;
 
-/// An outline that is longer than wide by more than this part of its width has a width that a person sees.
+/// An outline that is longer than wide by more than this part of its width visibly has a width.
 const LONG: f64 = 0.01;
 
 /// Widths are equal if their ratio differs from 1 by less than this.
@@ -58,7 +58,7 @@ fn girdle_edge(solid: &Polytope) -> Option<f64> {
     highest(&|v| up[v] && upright[v]).or_else(|| highest(&|v| up[v] && down[v]))
 }
 
-/// Returns what remains of a known pose once the axis is up and the origin in its place.
+/// Returns the rest of a known pose once the axis is up and the origin in its place.
 pub(super) fn as_posed(even: &Even, pose: &Pose) -> Pose {
     let right = pose.turn * (even.turn.inverse() * DVec3::X);
     Pose { scale: pose.scale, ..Pose::turned(DQuat::from_rotation_z(right.y.atan2(right.x))) }
@@ -67,8 +67,8 @@ pub(super) fn as_posed(even: &Even, pose: &Pose) -> Pose {
 /// Returns the azimuth that becomes +x.
 fn azimuth(even: &Even, areas: &[f64], rim: &[DVec2]) -> f64 {
     let mut candidates = candidates(even, rim);
-    // Of equal directions, the one nearest to the surface's own x axis is taken, so that a surface that lies right is not
-    // turned.
+    // Of equal directions, the one nearest to the surface's own x axis is taken, so that a surface in the right
+    // position is not turned.
     let own = even.turn * DVec3::X;
     let apart = |azimuth: f64| -own.dot(DVec3::new(azimuth.cos(), azimuth.sin(), 0.0));
     candidates.sort_by(|&a, &b| apart(a).total_cmp(&apart(b)));
@@ -79,7 +79,8 @@ fn azimuth(even: &Even, areas: &[f64], rim: &[DVec2]) -> f64 {
     };
     let least = candidates.iter().map(|&c| width(c)).fold(f64::INFINITY, f64::min);
     let widest = candidates.iter().map(|&c| width(c)).fold(0.0, f64::max);
-    // A round stone is equally wide in all directions, but for its corners; a square one is narrowest from side to side.
+    // A round stone is equally wide in all directions, except for its corners; a square one is narrowest from side to
+    // side.
     let limit = if least >= ROUND * widest { f64::INFINITY } else { least * (1.0 + SAME_WIDTH) };
     let narrow = candidates.into_iter().filter(|&c| width(c) <= limit);
     let facing = |azimuth: f64| crown_facing(even, areas, azimuth);

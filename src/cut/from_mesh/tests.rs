@@ -18,12 +18,12 @@ const GIRDLE_DEGREES: f64 = 0.08;
 /// The distance of a facet that is found again may be off by this much, girdle radii.
 const PART: f64 = 1e-3;
 
-/// How a stone is spoilt.
+/// The damage that is done to the triangles of a stone.
 #[derive(Debug, Clone, Copy)]
 struct Spoilt {
     /// The most noise that is added to each coordinate, girdle radii.
     noise: f64,
-    /// Whether each triangle's corners have noise of their own.
+    /// True where each triangle's corners have their own noise.
     apart: bool,
     turn: DQuat,
     scale: f64,

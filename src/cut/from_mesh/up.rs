@@ -3,7 +3,7 @@
 use crate::math::Pose;
 use glam::DVec3;
 
-/// The direction that a surface's table faces, and how it is known.
+/// The direction of a surface's table, and the source of that knowledge.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Up {
     /// Found from the shape; z is up by custom.
@@ -15,6 +15,6 @@ pub enum Up {
     Given(DVec3),
     /// Known exactly, in the surface's frame, of length 1. Only a facet square to it is the table.
     Known(DVec3),
-    /// Known together with the whole pose of the stone. The surface is moved exactly so.
+    /// Known together with the whole pose of the stone, by which the surface is then moved exactly.
     Posed(Pose),
 }

@@ -1,10 +1,10 @@
 //! Fits a design to another material by a stated rule.
 //!
-//! Inside a stone the directions of reflected light follow from the facets' angles alone; the index decides which reflections
-//! are total. So both rules move the pavilion, whose margin over the critical angle changes with the material, and leave the
-//! crown, which light crosses near the square and where no such limit is met. The tangent ratio is that of R. Long and
-//! N. Steele, *Facet Design*, vol. 1: tan(new angle) = factor · tan(old angle) for all tiers of one side, which keeps the plan
-//! view. It is a stretch of that side along the axis, so it keeps every meet.
+//! Inside a stone the directions of reflected light follow from the facets' angles alone; the index decides which
+//! reflections are total. So both rules move the pavilion, whose margin over the critical angle changes with the
+//! material, and leave the crown, which light crosses at steep angles, far from that limit. The tangent ratio is that
+//! of R. Long and N. Steele, *Facet Design*, vol. 1: tan(new angle) = factor · tan(old angle) for all tiers of one
+//! side, which keeps the plan view. It is a stretch of that side along the axis, so it keeps every meet.
 
 use super::facet_zones::EXACT;
 use super::side_scale::{
@@ -21,26 +21,28 @@ use serde::Serialize;
 /// A vertex nearer to the lowest one than this, in units of the stone's depth, is at the culet.
 const AT_CULET: f64 = 1e-6;
 
-/// Planes nearer to one another than this, in their normals and in parts of their distance, differ by rounding alone.
+/// Planes nearer to one another than this, in their normals and in parts of their distance, differ only by rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// A meet that the old numbers bear out gives a distance as near to them as this, in lengths of the largest distance.
+/// A meet agrees with the old numbers where its distance differs from them by no more than this, in lengths of the
+/// largest distance.
 const BORNE_OUT: f64 = 1e-4;
 
-/// What is said of tiers that were turned about the girdle.
+/// The note about tiers that were turned about the girdle.
 const TURNED: &str = "every pavilion tier turns by the same angle about the girdle's lower edge; meets of tiers with \
                       different angles open by a little: see `info --audit`";
 
-/// What is said of tiers that were turned and met anew.
+/// The note about tiers that were turned and whose meets were solved anew.
 const MET_ANEW: &str =
     "every pavilion tier turns by the same angle, and its distance is solved anew from its meet";
 
 /// The rule by which a design is fitted to another material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RetargetRule {
-    /// Every tier of the pavilion turns by the difference of the critical angles, each about the line where it crosses the
-    /// height of the girdle's lower edge. Meets of tiers that had different angles open by a little. Tiers of a cutter's design
-    /// go on from there to the points that they met before, where that leaves the stone with no facet less and fewer corners.
+    /// Every tier of the pavilion turns by the difference of the critical angles, each about the line in which it
+    /// crosses the height of the girdle's lower edge. Meets of tiers that had different angles open by a little.
+    /// Tiers of a cutter's design then move to the points that they met before, where that leaves the stone with no
+    /// facet less and fewer corners.
     CriticalAngle,
     /// The tangents of all pavilion angles are multiplied by a factor, 0.1 to 10. Without one, the main tier, the flattest of
     /// those that reach the lowest point, keeps its margin over the critical angle.
@@ -75,11 +77,11 @@ pub struct Retargeted {
     pub factor: f64,
     /// The tiers that changed.
     pub tiers: Vec<RetargetedTier>,
-    /// What a user should know about how it was done, in sentences.
+    /// Notes for the user on the method, in sentences.
     pub notes: Vec<String>,
 }
 
-/// Why a design cannot be fitted to another material.
+/// The reason why a design cannot be fitted to another material.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RetargetError {
     /// The design is at fault, before or afterwards.
@@ -132,12 +134,13 @@ impl From<ScaleError> for RetargetError {
 
 /// Fits a design to another material.
 ///
-/// The size, the name and everything else that the design says stay; a sentence about the change is added to its notes. A
-/// round brilliant changes by its proportions: the mains by the rule, and the lower halves as their length demands, which
-/// keeps every meet under either rule. Any other cut whose facets follow from numbers becomes a list of planes.
+/// The size, the name and all other content of the design stay; a sentence about the change is added to its notes. A
+/// round brilliant changes by its proportions: the mains by the rule, and the lower halves as their length demands,
+/// which keeps every meet under either rule. Any other cut whose facets follow from numbers becomes a list of planes.
 ///
 /// # Errors
-/// A design without planes or a pavilion, a material without a critical angle, and angles that leave the possible range.
+/// Fails for a design without planes or a pavilion, for a material without a critical angle, and where angles leave
+/// the possible range.
 pub fn retarget(
     design: &Design,
     material: MaterialRef,
@@ -251,11 +254,11 @@ fn changed_brilliant(given: &RoundBrilliant, change: &AngleChange) -> RoundBrill
     changed
 }
 
-/// Returns a design of turned tiers with each of them at the point that it met before; `None` where the stone is none the
-/// better for it: where a facet is lost, or no meet closes, so that there are as many corners.
+/// Returns a design of turned tiers with each of them at the point that it met before; `None` where that does not
+/// improve the stone: where a facet is lost, or no meet closes, so that there are as many corners as before.
 ///
-/// A meet that the old numbers do not bear out is not followed, and of several points only the first is, so that the angle
-/// stays.
+/// A meet that does not agree with the old numbers is not followed, and of several points only the first is, so that
+/// the angle stays.
 fn met_anew(before: &Tiers, turned: &Tiers) -> Option<Tiers> {
     let met = before.with_stated_meets().with_found_meets();
     let borne = met.checked_meets();
@@ -299,7 +302,8 @@ fn noted(old: &Design, new: &Design, rule: RetargetRule, factor: f64) -> String 
 /// Angles nearer to one another than this, degrees, are those of one tier: meshes and lists of planes are rounded.
 const SAME_ANGLE_DEG: f64 = 1e-3;
 
-/// Returns the tiers of which a facet differs by more than rounding. Facets of one name but of different angles are different tiers.
+/// Returns the tiers in which a facet changed by more than rounding. Facets of one name but of different angles are
+/// different tiers.
 fn compared(before: &[(String, Plane)], after: &[(String, Plane)]) -> Vec<RetargetedTier> {
     let angle = |plane: &Plane| {
         let normal = plane.normal;

@@ -267,7 +267,7 @@ proptest! {
 #[test]
 fn a_shift_of_angles_solves_the_meets_that_tiers_keep() {
     let mut given = tiers();
-    // The breaks set the girdle line, and the corners go to where they meet the mains.
+    // The breaks set the girdle line, and the corners are cut to the points where the breaks meet the mains.
     given.tiers[1].distance = 0.80;
     given.tiers[3].distance = 1.45;
     given.tiers[4].angle = -56.0;

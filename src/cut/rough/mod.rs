@@ -17,13 +17,14 @@ const SIDES_MM: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
 /// Scales nearer to one another than this part are equal, so that rounding turns no stone.
 const EQUAL: f64 = 1e-9;
 
-/// A turn that makes the stone larger by less than this part is not worth it.
+/// A turn that makes the stone larger by less than this part is not made.
 const WORTH_TURNING: f64 = 1e-3;
 
-/// How often the interval of scales is halved where a weight and the thickness of the girdle are given: to the last digit.
+/// The number of halvings of the interval of scales where a weight and the thickness of the girdle are given: to the
+/// last digit.
 const HALVINGS: u32 = 100;
 
-/// A stone whose weight is off by less than this part has the weight that was wanted.
+/// A stone whose weight differs by less than this part counts as having the requested weight.
 const WEIGHED: f64 = 1e-6;
 
 /// A box of rough, mm.
@@ -33,7 +34,7 @@ pub struct Rough {
     pub sides_mm: [f64; 3],
 }
 
-/// Why no stone can be cut as it is wanted.
+/// The reason why no stone can be cut as requested.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RoughError {
     /// A text that is no box.
@@ -56,12 +57,13 @@ pub enum RoughError {
         /// The thickness that leaves no room for the rest of the stone, mm.
         most: f64,
     },
-    /// A thickness of the girdle that is below 0, not a number, or makes every stone heavier than what is wanted.
+    /// A thickness of the girdle that is below 0, not a number, or makes every stone heavier than the requested
+    /// weight.
     #[error("no stone of {carats} ct has a girdle of {mm} mm; give a thinner one, from 0")]
     GirdleOfWeight {
         /// The thickness as given, mm.
         mm: f64,
-        /// The weight that is wanted, carats.
+        /// The requested weight, carats.
         carats: f64,
     },
     /// A stone that does not close with this girdle.
@@ -96,7 +98,7 @@ pub enum RoughError {
     Size(#[from] SizeError),
 }
 
-/// What keeps a stone from being larger.
+/// The quantity that keeps a stone from being larger.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FitLimit {
@@ -104,7 +106,7 @@ pub enum FitLimit {
     Footprint,
     /// The depth of the rough.
     Depth,
-    /// The weight that is wanted.
+    /// The requested weight.
     Weight,
 }
 
@@ -113,7 +115,8 @@ pub enum FitLimit {
 pub struct Finished {
     /// The diameter, mm, as `docs/formats.md` defines it.
     pub diameter_mm: f64,
-    /// The extents along the sides of the rough, or along the axes of the stone's frame where a weight is wanted, mm.
+    /// The extents along the sides of the rough, or, where a weight is requested, along the axes of the stone's
+    /// frame, mm.
     pub size_mm: [f64; 3],
     /// The angle by which the stone is turned about its axis in the rough, counter-clockwise seen from the table, degrees.
     pub turn_deg: f64,
@@ -121,21 +124,24 @@ pub struct Finished {
     pub girdle_mm: Option<f64>,
     /// The volume, mm³.
     pub volume_mm3: f64,
-    /// What keeps the stone from being larger.
+    /// The quantity that keeps the stone from being larger.
     pub limit: FitLimit,
-    /// The depth of the rough that the stone leaves, by which its girdle could be thicker, mm; 0 where a weight is wanted.
+    /// The depth of the rough that the stone leaves, by which its girdle could be thicker, mm; 0 where a weight is
+    /// requested.
     pub depth_left_mm: f64,
 }
 
 impl Finished {
-    /// Returns the largest stone of this shape that fits into a piece of rough, table up. It is turned about its axis as it
-    /// fits best, and not at all where no turn makes it larger by a thousandth.
+    /// Returns the largest stone of this shape that fits into a piece of rough, table up. It is turned about its axis
+    /// to the best fit, and not at all where no turn makes it larger by a thousandth.
     ///
-    /// `girdle_mm` gives the thickness of the girdle, mm, whatever the scale; without it the girdle scales with the stone. A
-    /// mesh that is not convex, such as a heart, has no girdle to change. The rough is a box, so a cleft saves nothing of it.
+    /// `girdle_mm` gives the thickness of the girdle, mm, whatever the scale; without it the girdle scales with the
+    /// stone. A mesh that is not convex, such as a heart, has no girdle to change. The rough is a box, so a cleft
+    /// saves nothing of it.
     ///
     /// # Errors
-    /// A girdle that does not fit, a body that is no cut stone, and a diameter out of the range of sizes.
+    /// Fails for a girdle that does not fit, for a body that is no cut stone, and where the diameter is out of the
+    /// range of sizes.
     pub fn from_rough<'a>(
         body: impl Into<SolidRef<'a>>,
         rough: &Rough,
@@ -172,8 +178,8 @@ impl Finished {
     /// Returns the stone of this shape that has a weight, carats. `girdle_mm` is as for [`from_rough`](Self::from_rough).
     ///
     /// # Errors
-    /// A weight that is not above 0, a material without a density, a stone out of the range of sizes, a girdle that does not
-    /// fit, and a body that is no cut stone.
+    /// Fails for a weight that is not above 0, a material without a density, a stone out of the range of sizes, a
+    /// girdle that does not fit, and a body that is no cut stone.
     pub fn of_weight<'a>(
         body: impl Into<SolidRef<'a>>,
         carats: f64,
@@ -214,7 +220,7 @@ impl Rough {
     /// Makes a box of rough.
     ///
     /// # Errors
-    /// The first side out of range.
+    /// The error names the first side that is out of range.
     pub fn new(sides_mm: [f64; 3]) -> Result<Self, RoughError> {
         match sides_mm.into_iter().find(|mm| !SIDES_MM.contains(mm)) {
             Some(mm) => Err(RoughError::Side { mm }),
@@ -240,13 +246,13 @@ impl FromStr for Rough {
     }
 }
 
-/// What of a stone's shape decides its size, in the stone's own unit.
+/// The parts of a stone's shape that decide its size, in the stone's own unit.
 struct Shape<'a> {
     plan: Plan,
     diameter: f64,
     depth: f64,
     volume: f64,
-    /// `None` for a mesh, whose facets are not moved.
+    /// The girdle; `None` for a mesh, whose facets are not moved.
     girdle: Option<ShapeGirdle<'a>>,
 }
 
@@ -283,7 +289,8 @@ impl<'a> Shape<'a> {
         self.girdle.ok_or(RoughError::GirdleOfMesh)
     }
 
-    /// Returns the stone at a scale, mm for each unit, turned in its rough. Without a limit that it knows of, it is a weight's.
+    /// Returns the stone at a scale, mm for each unit, turned in its rough. Its limit is at first the weight; the
+    /// caller sets another one.
     fn finished(&self, scale: f64, turn: f64, girdle_mm: Option<f64>) -> Result<Finished, RoughError> {
         let (volume, thicker) = match girdle_mm {
             Some(mm) => {
@@ -364,7 +371,8 @@ impl Plan {
             let by = |a: &&DVec2, b: &&DVec2| a.dot(along).total_cmp(&b.dot(along));
             Some(*self.0.iter().max_by(by)? - *self.0.iter().min_by(by)?)
         };
-        // With u the direction of x, the extents are a·u and b·perp(u) = (b.y, -b.x)·u; both fill their sides where c·u is 0.
+        // With u the direction of x, the extents are a·u and b·perp(u) = (b.y, -b.x)·u; both fill their sides where
+        // c·u is 0.
         let (a, b) = (diagonal(x)?, diagonal(x.perp())?);
         let c = a / sides[0] - DVec2::new(b.y, -b.x) / sides[1];
         let turn = -(c.to_angle() + FRAC_PI_2);

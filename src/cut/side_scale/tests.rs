@@ -185,7 +185,7 @@ fn what_cannot_be_scaled_is_refused() {
     cut.tiers[1].angle = -88.0;
     let error = scaled(&steep, ScaledSide::Pavilion, 6.0).unwrap_err().to_string();
     assert!(error.contains("'P2' would go from 88.00 to 89.") && error.contains("are possible"), "{error}");
-    // One that is too steep already stays as it is.
+    // A tier that is already too steep does not change.
     let Cut::Tiers(cut) = &mut steep.cut else { panic!() };
     cut.tiers[1].angle = -89.7;
     assert!(

@@ -7,10 +7,11 @@ use gif::{AnyExtension, DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 use std::borrow::Cow;
 use std::io;
 
-/// The colours of a frame, one less than a GIF has: the last place is for pixels that show what is behind them.
+/// The number of colours of a frame, one less than a GIF has: the last place is for pixels that keep the colour of
+/// the frame before.
 const COLOURS: usize = 255;
 
-/// The place of pixels that show what is behind them.
+/// The place of pixels that keep the colour of the frame before.
 const CLEAR: u8 = 255;
 
 /// The label of an extension that holds a comment (GIF89a, 24).
@@ -29,7 +30,7 @@ pub(super) struct Gif<'a> {
     size: [u16; 2],
     /// The number of frames written.
     written: u64,
-    /// What stands on the screen before the next frame, so that only what changes is written.
+    /// The colours on the screen before the next frame, so that the file holds only changes.
     shown: Option<Vec<[u8; 3]>>,
 }
 
@@ -48,7 +49,8 @@ impl<'a> Gif<'a> {
         Ok(Self { encoder, frames, size: [across, down], written: 0, shown: None })
     }
 
-    /// Returns for how many ticks the next frame is shown. The rests that are lost by rounding come back in later frames.
+    /// Returns the number of ticks for which the next frame is shown. Remainders of the rounding are added to later
+    /// frames.
     fn ticks(&self) -> u16 {
         let end = |frame: u64| (frame * u64::from(self.frames.delay_ms) + TICK_MS / 2) / TICK_MS;
         u16::try_from(end(self.written + 1) - end(self.written)).unwrap_or(u16::MAX)
@@ -65,7 +67,7 @@ impl<'a> Gif<'a> {
         (palette, places)
     }
 
-    /// Lets pixels that stay as they are show what is behind them, which makes the file smaller.
+    /// Replaces unchanged pixels by [`CLEAR`], which makes the file smaller.
     fn without_what_stays(&mut self, palette: &GifPalette, places: &mut [u8]) {
         let now: Vec<[u8; 3]> = places.iter().map(|&place| palette.colours[usize::from(place)]).collect();
         if let Some(before) = &self.shown {
@@ -80,7 +82,7 @@ impl<'a> Gif<'a> {
 impl FrameSink for Gif<'_> {
     fn push(&mut self, rgba: &[u8]) -> io::Result<()> {
         let (palette, mut places) = self.indexed(rgba);
-        // Where frames are transparent, each is wiped off before the next.
+        // Transparent frames are each wiped off before the next, so all their pixels are written.
         if !self.frames.transparent {
             self.without_what_stays(&palette, &mut places);
         }
@@ -142,7 +144,7 @@ mod tests {
         std::fs::read(path).unwrap()
     }
 
-    /// Returns what a viewer shows of each frame, and its delays; it puts one frame over the other.
+    /// Returns each frame as a viewer shows it, drawn over the one before, with its delay.
     fn shown(bytes: &[u8]) -> Vec<(Vec<u8>, u16)> {
         let mut options = DecodeOptions::new();
         options.set_color_output(ColorOutput::RGBA);

@@ -4,7 +4,8 @@ use color_quant::NeuQuant;
 use std::cmp::Reverse;
 use std::collections::HashMap;
 
-/// The fewest colours that are fitted to those which are too many: as few as the library takes.
+/// The least number of places for fitted colours where a frame has too many colours: the least that the library
+/// takes.
 const FITTED: usize = 64;
 
 /// The part of a frame that a colour must cover to be kept as it is, where there are too many colours: one in so many pixels.
@@ -13,7 +14,7 @@ const COVERED: u64 = 1000;
 /// The library looks at every n-th pixel; 1 is all.
 const EACH_PIXEL: i32 = 1;
 
-/// The colours of a frame, and which stands for each colour of its pixels.
+/// The colours of a frame, and the map from each colour of its pixels to one of them.
 pub(super) struct GifPalette {
     /// The colours, at most as many as were allowed.
     pub colours: Vec<[u8; 3]>,
@@ -23,15 +24,15 @@ pub(super) struct GifPalette {
 impl GifPalette {
     /// Chooses at most `most` colours, 65 to 256, for these pixels.
     ///
-    /// A frame of no more colours keeps each of them. Otherwise those of `exact` that it has are kept, and then the most
-    /// frequent ones, as long as each covers a thousandth of the frame and 64 places are left. So a colour that covers at
-    /// least one part in `most - 64` is always exact where `exact` is empty. The other places are fitted to the other colours,
-    /// each of which becomes the nearest of all.
+    /// A frame with no more colours than that keeps all of them. Otherwise the colours of `exact` in the frame are
+    /// kept, and then the most frequent ones, as long as each covers a thousandth of the frame and 64 places are
+    /// left. So where `exact` is empty, a colour that covers at least one part in `most - 64` stays exact. The other
+    /// places are fitted to the other colours, each of which becomes the nearest of all.
     pub fn of(pixels: impl Iterator<Item = [u8; 3]>, exact: &[[u8; 3]], most: usize) -> Self {
         let mut counts: HashMap<[u8; 3], u32> = HashMap::new();
         pixels.for_each(|colour| *counts.entry(colour).or_default() += 1);
         let mut found: Vec<([u8; 3], u32)> = counts.into_iter().collect();
-        // The colours themselves decide among equally frequent ones, so that the same frame gives the same file.
+        // The order of the colours decides among equally frequent ones, so that the same frame gives the same file.
         found.sort_unstable_by_key(|&(colour, count)| (!exact.contains(&colour), Reverse(count), colour));
         if found.len() <= most {
             return Self::standing_for(found.into_iter().map(|(colour, _)| colour).collect(), &[]);
@@ -46,7 +47,7 @@ impl GifPalette {
         Self::standing_for(colours, &rare)
     }
 
-    /// Lets each of the rare colours be replaced by the nearest of the colours.
+    /// Maps each of the rare colours to the nearest of the colours.
     fn standing_for(colours: Vec<[u8; 3]>, rare: &[([u8; 3], u32)]) -> Self {
         let mut places: HashMap<[u8; 3], u8> = HashMap::new();
         for (place, colour) in (0..=u8::MAX).zip(&colours) {
@@ -65,7 +66,7 @@ impl GifPalette {
     }
 }
 
-/// Fits so many colours to rare ones, which count as often as they occur.
+/// Fits this number of colours to rare ones, which are weighted by their frequency.
 fn fitted(rare: &[([u8; 3], u32)], count: usize) -> Vec<[u8; 3]> {
     let repeated = |&([r, g, b], count): &([u8; 3], u32)| (0..count).flat_map(move |_| [r, g, b, 255]);
     let pixels: Vec<u8> = rare.iter().flat_map(repeated).collect();

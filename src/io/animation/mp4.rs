@@ -11,16 +11,16 @@ use shiguredo_mp4::{TrackKind, Uint, Utf8String};
 use std::io::{self, SeekFrom};
 use std::num::NonZeroU32;
 
-/// How coarsely the encoder rounds, of 255: finer than its usual 100, as borders of facets are sharp.
+/// The coarseness of the encoder's rounding, of 255: finer than its default of 100, as borders of facets are sharp.
 const QUANTIZER: usize = 60;
 
-/// How quickly the encoder works, 0 to 10: at its quickest, as the many borders of facets take it long.
+/// The speed of the encoder, 0 to 10: its highest, as the many borders of facets slow it down.
 const SPEED: u8 = 10;
 
-/// The most frames between two of which a player can begin.
+/// The most frames from one key frame to the next; a player can begin only at a key frame.
 const MOST_BETWEEN: u64 = 48;
 
-/// The units of a second in which frames last.
+/// The time scale of the file: a frame's duration is in 1/1000 s.
 const MILLISECONDS: NonZeroU32 = NonZeroU32::new(1000).unwrap();
 
 /// The mark that begins each packet, and that files leave out (section 2.4 of the binding).
@@ -32,9 +32,9 @@ pub(super) struct Mp4<'a> {
     frames: &'a Frames,
     encoder: Context<u8>,
     muxer: Mp4FileMuxer,
-    /// What the file says of the encoding, with the first frame.
+    /// The description of the encoding in the file, which is known after the first frame.
     entry: Option<SampleEntry>,
-    /// Where the next frame goes in the file.
+    /// The byte offset of the next frame in the file.
     at: u64,
 }
 
@@ -125,7 +125,7 @@ impl FrameSink for Mp4<'_> {
     }
 }
 
-/// Returns what the file says of the encoding.
+/// Returns the description of the encoding for the file.
 fn entry(encoder: &Context<u8>, (width, height): (u32, u32)) -> io::Result<SampleEntry> {
     let header = encoder.container_sequence_header();
     let [_, profile, more, ..] = *header.as_slice() else {

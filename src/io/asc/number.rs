@@ -1,6 +1,6 @@
 //! Numbers of a GemCad text file. The format has decimal points; some programs write the decimal comma of their country.
 
-/// How a token of the file may be understood as a number.
+/// The kind of a token: a number in one of its spellings, or a word.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Token {
     /// A number as the format has it.
@@ -32,7 +32,7 @@ impl Token {
         number.map_or(Self::Broken, Self::WithComma)
     }
 
-    /// Returns the number of a token that is meant as one, also with a decimal comma.
+    /// Returns the value of a number, also with a decimal comma; `None` for any other token.
     pub fn number(self) -> Option<f64> {
         match self {
             Self::Number(number) | Self::WithComma(number) => Some(number),
@@ -40,7 +40,7 @@ impl Token {
         }
     }
 
-    /// Whether the token stands where a number is meant, even if it cannot be read as one.
+    /// Returns whether the token has the shape of a number, even if its value cannot be read.
     pub fn is_numeric(self) -> bool {
         self != Self::Word
     }

@@ -16,7 +16,7 @@ pub(super) struct RingParts<'a> {
     pub stones: Vec<Member<'a>>,
     /// The band, the head and all prongs and seats as one body of metal.
     pub metal: MetalInstance,
-    /// What the ring is made of, in its own frame.
+    /// The metal and the seats of the ring, in its own frame.
     pub mounting: Mounting,
 }
 
@@ -76,7 +76,7 @@ pub(super) fn ring<'a>(
 }
 
 impl<'a> Gem<'a> {
-    /// Takes the material that is asked for, else the ring's own, else the cut file's.
+    /// Makes the stone of the material `asked`, else of the ring's own, else of the cut file's.
     fn new(
         specimen: &'a Arc<Specimen>,
         asked: Option<&MaterialRef>,
@@ -88,7 +88,7 @@ impl<'a> Gem<'a> {
         Ok(Self { specimen, material, diameter_mm })
     }
 
-    /// Returns the stone as rings take it.
+    /// Returns the stone in the form in which rings take it.
     fn set(&self) -> Result<SetStone<'a>, NotConvex> {
         let shape = &self.specimen.stone()?.polytope;
         Ok(SetStone { shape, diameter_mm: self.diameter_mm })

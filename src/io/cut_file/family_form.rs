@@ -27,7 +27,7 @@ impl FamilyForm {
         Ok(FAMILIES.into_iter().filter_map(form).collect())
     }
 
-    /// Returns the cut that the table describes. Its numbers may be out of range, but for those of counts.
+    /// Returns the cut that the table describes. Its numbers may be out of range, except for counts.
     pub fn cut(&self) -> Result<Cut, Fault> {
         self.check_keys()?;
         let mut cut = self.family.first.clone();

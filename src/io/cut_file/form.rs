@@ -13,7 +13,7 @@ use crate::math::{Plane, Surface, TriangleMesh};
 use glam::{DQuat, DVec3};
 use std::collections::HashSet;
 
-/// A whole cut file but for the table of a family. Values come before tables, since TOML must be written so.
+/// A whole cut file except for the table of a family. Values come before tables, since TOML must be written so.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct DesignForm {

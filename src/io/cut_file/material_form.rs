@@ -32,7 +32,7 @@ pub(in crate::io) struct TableForm {
     absorption_e: Option<OneOf<Pairs>>,
     valid_nm: Option<Numbers<2>>,
     density: Option<f64>,
-    /// Whether the colour is chosen for its looks, and not measured.
+    /// True where the colour was chosen for its looks, and not measured.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     illustrative: bool,
     /// A law that has no key of its own, in the form of [`Dispersion`].

@@ -33,7 +33,7 @@ pub(super) enum PointForm {
     Later(LaterForm),
 }
 
-/// One of several corners of the same names.
+/// A corner where several corners have the same names, by its number among them.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct LaterForm {

@@ -1,4 +1,4 @@
-//! What a cut file may and may not say, which messages its faults give, and that reading undoes writing.
+//! Tests of cut files: permitted and refused contents, the messages about faults, and that reading undoes writing.
 
 use std::fs;
 use std::sync::Arc;

@@ -31,9 +31,10 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for TomlTable<T> {
     }
 }
 
-/// Text, a number, or the list or table that `T` takes.
+/// A text, a number, or the list or table that `T` takes.
 ///
-/// It is deserialised by hand, for an error that says what was expected and where, which serde's untagged enums cannot.
+/// Its deserialiser is written by hand, so that an error says what was expected and where, which serde's untagged
+/// enums cannot.
 #[derive(Serialize)]
 #[serde(untagged)]
 pub(in crate::io) enum OneOf<T> {

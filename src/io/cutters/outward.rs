@@ -76,7 +76,7 @@ pub fn as_tiers(specimen: &Specimen) -> Option<Tiers> {
     Some(tiers)
 }
 
-/// Why a body cannot be cut by tiers.
+/// The reason why a body cannot be cut by tiers.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoTiers {
     /// A mesh that is not convex.
@@ -85,16 +85,16 @@ pub enum NoTiers {
     /// A glass shape without flat facets.
     #[error("tiers cut flat facets, and this glass shape is smooth")]
     Smooth,
-    /// The tiers of the stone make none.
+    /// The tiers make no stone.
     #[error("cut by tiers: {0}")]
     Stone(#[from] SpecimenError),
 }
 
-/// Returns the stone cut by tiers: as it is where tiers cut it, else with the tiers of [`as_tiers`] and the meets that its
-/// geometry shows. No facet moves by more than rounding.
+/// Returns the stone cut by tiers: unchanged where its design has tiers, else with the tiers of [`as_tiers`] and the
+/// meets that its geometry shows. No facet moves by more than rounding.
 ///
 /// # Errors
-/// The body is no convex stone between planes, or its tiers make none.
+/// Fails where the body is no convex stone between planes, or where its tiers make none.
 pub fn in_tiers(specimen: &Specimen) -> Result<Cow<'_, Specimen>, NoTiers> {
     if matches!(specimen.design.cut, Cut::Tiers(_)) {
         return Ok(Cow::Borrowed(specimen));
@@ -149,7 +149,7 @@ fn indexed(facets: &[(String, Plane)], gear: Gear) -> Tiers {
     tiers
 }
 
-/// Brings facets that are cut alike together, where others of their name lie between them, as on an oval.
+/// Moves facets that are cut alike next to each other, where others of their name lie between them, as on an oval.
 fn together(pieces: impl Iterator<Item = TierPiece>) -> impl Iterator<Item = TierPiece> {
     let mut groups: Vec<Vec<TierPiece>> = vec![];
     for piece in pieces {
@@ -188,8 +188,8 @@ pub(in super::super) fn refractive_index(specimen: &Specimen, lost: &mut Vec<Str
     index
 }
 
-/// Adds messages about what no cutters' file says of a design. `name` is the name that a reader of the file will give the
-/// design, if it comes from the file's lines.
+/// Adds messages about the parts of a design that no cutters' file can hold. `name` is the name that a reader of the
+/// file will give the design, if it comes from the file's lines.
 pub(in super::super) fn untold(design: &Design, name: Option<&String>, lost: &mut Vec<String>) {
     if name.is_none_or(|name| name.trim() != design.name) {
         lost.push(format!("the name '{}' is not among the lines at the top", design.name));

@@ -1,4 +1,4 @@
-//! A design with all that both `.gem` and `.gcs` can hold, for their tests.
+//! A design that uses everything that both `.gem` and `.gcs` can hold, for their tests.
 
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, Indexed, MaterialRef, Tier, Tiers};
 use crate::math::Pose;

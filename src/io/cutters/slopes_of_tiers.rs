@@ -8,7 +8,8 @@ use crate::render::{Sweep, SweepKey, with_numbers};
 use crate::scene::{Medium, Specimen, Stone, View, Viewpoint};
 use crate::trace::beam::{BeamOptions, Beams, trace_bounces};
 
-/// All stones of a comparison are followed for as many reflections, so that neighbours have the same beams.
+/// The number of reflections through which all stones of a comparison are followed, so that neighbours have the same
+/// beams.
 const BOUNCES: u32 = 4;
 
 const NAMES: [&str; 8] = [
@@ -120,7 +121,7 @@ fn derivatives_by_angles_and_distances_of_tiers_are_those_of_differences() {
                 for (k, own) in own.iter().enumerate() {
                     let found = own.derivatives.along(changes.iter().copied());
                     let unit = fine[k].abs().max(0.01);
-                    // Where two steps disagree, a border lies between them.
+                    // Where two steps disagree, the measure has a kink between them.
                     if (coarse[k] - fine[k]).abs() > 2e-7 * unit {
                         at_borders += 1;
                         continue;
@@ -134,7 +135,7 @@ fn derivatives_by_angles_and_distances_of_tiers_are_those_of_differences() {
         }
     }
     assert_eq!(designs, 20);
-    // Few are worse: there, the planes' own changes are known less well.
+    // Only few slopes are worse: in them, the changes of the planes themselves are known less well.
     assert!(worse * 100 < compared, "{worse} of {compared} differ by more than 1e-6");
     assert!(compared > 5 * at_borders && compared > 400, "{compared} compared, {at_borders} at borders");
 }

@@ -1,10 +1,10 @@
-//! A design as the writer of any format returns it.
+//! A design in the form that the writers of all formats return.
 
-/// The bytes of a design's file, and what the format could not keep.
+/// The bytes of a design's file, and the properties that the format cannot hold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EncodedDesign {
     /// The content of the file.
     pub bytes: Vec<u8>,
-    /// What the format cannot hold of the design, in words.
+    /// The properties of the design that the format cannot hold, in words.
     pub lost: Vec<String>,
 }

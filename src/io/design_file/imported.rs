@@ -1,4 +1,4 @@
-//! A design as the reader of any format returns it.
+//! A design in the form that the readers of all formats return.
 
 use crate::cut::Design;
 
@@ -7,11 +7,11 @@ use crate::cut::Design;
 pub struct ImportedDesign {
     /// The design.
     pub design: Design,
-    /// How the file was understood, in words, where it could be understood otherwise.
+    /// Notes on how the file was understood, where another reading is possible.
     pub notes: Vec<String>,
-    /// What is unusual about the file, in words, each with its line or offset where it has one.
+    /// Warnings about unusual content of the file, each with its line or offset where it has one.
     pub warnings: Vec<String>,
-    /// For a mesh, whether its shape leaves a doubt which way its table faces; `None` for other designs.
+    /// For a mesh, true where its shape leaves a doubt which way its table faces; `None` for other designs.
     pub doubt: Option<bool>,
 }
 

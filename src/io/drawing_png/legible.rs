@@ -3,13 +3,13 @@
 use super::parse;
 use resvg::usvg::{self, Node, Rect};
 
-/// The widest overlap that nobody sees, pixels.
+/// The widest overlap that is invisible, pixels.
 const TOUCHING: f32 = 1.0;
 
-/// The box of a text, and what it says.
+/// The box of a text, with its letters.
 pub type Written = (Rect, String);
 
-/// Returns the boxes of all texts, with what they say.
+/// Returns the boxes of all texts, with their letters.
 pub fn texts(group: &usvg::Group) -> Vec<Written> {
     let of_node = |node: &Node| match node {
         Node::Group(inner) => texts(inner),

@@ -4,14 +4,14 @@ use crate::io::Failure;
 use crate::trace::Watch;
 use std::path::Path;
 
-/// An event to show to a person.
+/// An event of long work, for the user.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Event<'a> {
     /// Work on this output begins.
     Begun(&'a str),
     /// This file is finished.
     Written(&'a Path),
-    /// Something is done differently from the request.
+    /// The work deviates from the request; the text says how.
     Note(&'a str),
     /// Something about the result is unusual. The text begins with the stone's file.
     Warning(&'a str),

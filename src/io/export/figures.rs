@@ -11,17 +11,17 @@ use crate::trace::Watch;
 use serde_json::{Map, Value, json};
 use std::time::Instant;
 
-/// Figures, and how they were measured.
+/// Figures, with the stone, scope and tracer that they belong to.
 pub struct FigureReport<'a> {
-    /// The stone and how it was viewed.
+    /// The stone with its view and tracer.
     pub viewing: Viewing<'a>,
-    /// The scope, with its zones as they are before an observer's head hides some.
+    /// The scope, with its zones before an observer's head hides some.
     pub scoped: Scoped,
     /// The figures.
     pub measured: Measured,
     /// The tracer that was used.
     pub backend: Backend,
-    /// How long the measurement took, in seconds.
+    /// The duration of the measurement, in seconds.
     pub seconds: f64,
 }
 
@@ -57,7 +57,7 @@ pub fn measure<'a>(
 }
 
 impl FigureReport<'_> {
-    /// Returns the figures and how they were measured, as docs/formats.md describes them.
+    /// Returns the figures and the way of measuring, in the form of docs/formats.md.
     ///
     /// Energies are fractions of the silhouette. The time taken is included only if `timing`, so that equal input gives
     /// equal files.

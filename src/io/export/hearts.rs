@@ -7,23 +7,24 @@ use crate::scene::VIEWER_CONES_DEG;
 use crate::trace::Watch;
 use serde_json::{Value, json};
 
-/// The part of the light that may usually stay unresolved in hearts and arrows.
+/// The default part of the light that may stay unresolved in hearts and arrows.
 const UNRESOLVED: f64 = 1e-3;
 
-/// Hearts and arrows, and how they were measured.
+/// Hearts and arrows, with the stone that they belong to.
 pub struct HeartsReport<'a> {
     /// The stone and its light. The view is the patterns' own.
     pub viewing: Viewing<'a>,
     /// The figures of the patterns.
     pub patterns: HeartsAndArrows,
-    /// The deviations of the facets that make them.
+    /// The deviations of the facets that make the patterns.
     pub deviations: Vec<ClassDeviations>,
 }
 
 /// Measures the hearts and arrows of a stone in the program's viewer.
 ///
 /// # Errors
-/// [`Failure::Usage`] where the stone is no convex brilliant of eight mains, or [`Failure::Stopped`] when `watch` asks to stop.
+/// Fails with [`Failure::Usage`] where the stone is no convex brilliant of eight mains, or [`Failure::Stopped`] when
+/// `watch` asks to stop.
 pub fn hearts<'a>(viewing: &Viewing<'a>, watch: Watch) -> Result<HeartsReport<'a>, Failure> {
     let refused = |why: &dyn std::fmt::Display| Failure::Usage(format!("{}: {why}", viewing.file));
     let not_convex = "hearts and arrows are measured of round brilliants, which are convex stones between planes; this is none";
@@ -39,7 +40,7 @@ pub fn hearts<'a>(viewing: &Viewing<'a>, watch: Watch) -> Result<HeartsReport<'a
 }
 
 impl HeartsReport<'_> {
-    /// Returns the figures and how they were measured, as docs/formats.md describes them.
+    /// Returns the figures and the way of measuring, in the form of docs/formats.md.
     pub fn json(&self) -> Value {
         let viewing = &self.viewing;
         json!({

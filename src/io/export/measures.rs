@@ -14,12 +14,12 @@ use crate::scene::{DomeLight, Film};
 use crate::trace::Watch;
 use serde_json::{Map, Value, json};
 
-/// The part of the light that may usually stay unresolved in measures.
+/// The default part of the light that may stay unresolved in measures.
 const UNRESOLVED: f64 = 1e-3;
 
-/// Measures of light, and how they were taken.
+/// Measures of light, with the stone and settings that they belong to.
 pub struct MeasureReport<'a> {
-    /// The stone and how it was viewed.
+    /// The stone with its view and tracer.
     pub viewing: Viewing<'a>,
     /// The light, head and eye of the measures.
     pub settings: MeasureSettings,
@@ -40,7 +40,7 @@ impl Viewing<'_> {
     /// that of the viewing, if it has one.
     pub fn measure_settings(&self, domes: &[DomeLight]) -> MeasureSettings {
         let material = &self.specimen.material;
-        // An index that was given instead of the material's is the same at all wavelengths.
+        // Where the request gives an index instead of the material's, it holds at all wavelengths.
         let index = |nm: f64| self.wavelength_nm.and_then(|_| material.dispersion.try_index(nm).ok());
         let indices =
             [line::FRAUNHOFER_B, line::FRAUNHOFER_G].map(|nm| index(nm).unwrap_or(self.medium.index));
@@ -54,7 +54,8 @@ impl Viewing<'_> {
 /// Takes the measures of a stone's light.
 ///
 /// # Errors
-/// [`Failure::Usage`] where exact beams do not fit, an error of `tell`, or [`Failure::Stopped`] when `watch` asks to stop.
+/// Fails with [`Failure::Usage`] where exact beams do not fit, an error of `tell`, or [`Failure::Stopped`] when
+/// `watch` asks to stop.
 pub fn light_measures<'a>(
     viewing: &Viewing<'a>,
     settings: MeasureSettings,
@@ -85,7 +86,7 @@ impl MeasureReport<'_> {
         all.filter_map(|name| Some((name, name.of(&self.measures)?)))
     }
 
-    /// Returns the measures and how they were taken, as docs/formats.md describes them.
+    /// Returns the measures and the way of measuring, in the form of docs/formats.md.
     pub fn json(&self) -> Value {
         let (viewing, material) = (&self.viewing, &self.viewing.specimen.material);
         let interval = |of: Interval| json!({ "least": of.least, "most": of.most });

@@ -54,7 +54,7 @@ impl<'a> Pictures<'a> {
         }
     }
 
-    /// Returns the marks of all findings of the stone's audit, where they are asked for.
+    /// Returns the marks of all findings of the stone's audit, if the outputs mark them.
     fn marks(&self, stone: &Stone) -> DrawnMarks {
         let audit = self.outputs.mark_audit.then(|| self.viewing.specimen.audit().ok()).flatten();
         audit.map_or_else(DrawnMarks::default, |audit| DrawnMarks::of(stone, &audit.findings))
@@ -112,7 +112,7 @@ impl<'a> Pictures<'a> {
         Ok(())
     }
 
-    /// The readings that are wanted as pixels.
+    /// Returns the readings that are written as pixels.
     fn readings(&self) -> Vec<Reading> {
         match (self.outputs.wants(OutputFormat::Png), self.outputs.strongest) {
             (false, _) => vec![],

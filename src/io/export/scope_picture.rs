@@ -1,4 +1,4 @@
-//! A picture in a scope that is handed out as pixels and not written to a file of its own.
+//! Takes a picture in a scope and returns its pixels, for callers that write no file of its own.
 
 use super::event::Reporter;
 use super::sheet::{ScopeSheet, UNRESOLVED, remark, traced};
@@ -11,10 +11,10 @@ use crate::trace::Watch;
 use crate::trace::ray::Camera;
 use glam::DVec2;
 
-/// A picture of energy in a scope that is to be taken.
+/// The request for a picture of energy in a scope.
 #[derive(Clone, Copy)]
 pub struct ScopeStill<'a> {
-    /// The stone and how it is viewed. A scope that is made for one side of the stone sees that side.
+    /// The stone with its view and tracer. A scope that is made for one side of the stone sees that side.
     pub viewing: Viewing<'a>,
     /// The scope.
     pub scoped: &'a Scoped,
@@ -31,7 +31,7 @@ pub struct ScopeStill<'a> {
 pub struct ScopePicture {
     /// Red, green and blue of each pixel, sRGB, row by row.
     pub rgb: Vec<u8>,
-    /// What the picture shows and how it was traced, as it is stored in the files of pictures.
+    /// The content and the tracer of the picture, in the words that the files of pictures hold.
     pub description: String,
 }
 
@@ -40,7 +40,8 @@ impl<'a> ScopeStill<'a> {
     /// fits into each, as into a picture that [`Export`](super::Export) writes. The pictures are as good as such ones.
     ///
     /// # Errors
-    /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact beams do not fit.
+    /// Fails with [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact
+    /// beams do not fit.
     pub fn alike(
         viewings: &[Viewing<'a>],
         scoped: &'a Scoped,
@@ -61,8 +62,8 @@ impl<'a> ScopeStill<'a> {
     /// Traces the stone and returns its pixels.
     ///
     /// # Errors
-    /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact beams do not fit,
-    /// an error of `tell`, or [`Failure::Stopped`] when `watch` asks to stop.
+    /// Fails with [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact
+    /// beams do not fit, an error of `tell`, or [`Failure::Stopped`] when `watch` asks to stop.
     pub fn take(
         &self,
         renderer: &mut Renderer,
@@ -95,7 +96,7 @@ impl<'a> ScopeStill<'a> {
         Ok(ScopePicture { rgb, description })
     }
 
-    /// Returns a caption with the legend of the scope's zones, which says in these words from where the stone is seen.
+    /// Returns a caption with the legend of the scope's zones, in which `seen` describes the viewpoint.
     pub fn caption(&self, seen: &str) -> Caption {
         self.sheet().moving_caption(seen)
     }

@@ -1,4 +1,4 @@
-//! A picture in a scope as it is written: its pixels, and under them the caption that explains them.
+//! A picture in a scope as it is written: its pixels, and under them the explanatory caption.
 
 use super::viewing::Viewing;
 use super::{OutputFormat, Outputs};
@@ -8,7 +8,7 @@ use crate::render::{Backend, Job, Product, Reading, ScopeProduct};
 use crate::scene::{Glare, Scope};
 use std::path::PathBuf;
 
-/// The share of the light that pictures leave unresolved where no bound is given: less than eight bits can show.
+/// The share of the light that pictures leave unresolved where no bound is given: less than a step of eight bits.
 pub(super) const UNRESOLVED: f64 = 1e-3;
 
 /// The width in pixels up to which a caption's lines are broken to fit; a caption of a wider picture is scaled up instead.
@@ -27,7 +27,7 @@ pub(super) struct ScopeSheet<'a> {
     pub scope: Scope,
     /// The stone, seen from the side that the picture is made for.
     pub viewing: Viewing<'a>,
-    /// Whether the energy includes glare.
+    /// Included where the energy contains glare.
     pub glare: Glare,
 }
 
@@ -87,7 +87,7 @@ impl ScopeSheet<'_> {
         format!("{}: {}", self.viewing.specimen.design.name, self.name)
     }
 
-    /// Returns the text that is stored in a picture's file: what it shows, and how it was traced.
+    /// Returns the text that is stored in a picture's file: the subject of the picture, and its tracer.
     pub fn description(&self, reading: &str, how: &str) -> String {
         let Viewing { medium, polarised, .. } = &self.viewing;
         let polarised = if *polarised { "polarised" } else { "unpolarised" };
@@ -95,14 +95,14 @@ impl ScopeSheet<'_> {
         format!("{}; {view}; index {}, {polarised}; {reading}; {how}", self.title(), medium.index)
     }
 
-    /// Returns the caption; `how` says how the picture was traced.
+    /// Returns the caption; `how` describes the tracing.
     pub fn caption(&self, reading: Reading, how: &str) -> Caption {
         let seen = self.viewing.described().description();
         self.caption_of(reading, &seen, &format!("{how}; "))
     }
 
-    /// Returns the caption of a picture of energy that says in these words from where the stone is seen, and not how it was
-    /// traced.
+    /// Returns the caption of a picture of energy in an animation: `seen` describes the viewpoint, and the tracing is
+    /// left out.
     pub fn moving_caption(&self, seen: &str) -> Caption {
         self.caption_of(Reading::Energy, seen, "")
     }
@@ -112,7 +112,7 @@ impl ScopeSheet<'_> {
         let Viewing { medium, polarised, wavelength_nm, specimen, .. } = viewing;
         let material = &specimen.material;
         let light = match wavelength_nm {
-            // A material that is given by its index alone has no other name.
+            // A material of which only the index is known has no other name.
             Some(nm) if material.name.starts_with("index ") => {
                 format!("index {:.4} at {nm} nm", medium.index)
             }
@@ -173,7 +173,7 @@ impl SheetFile {
         Ok(self.rows_missing == 0)
     }
 
-    /// Adds the caption and brings the file to its place; returns its path.
+    /// Adds the caption and moves the file to its path, which it returns.
     pub fn finish(mut self) -> Result<PathBuf, Failure> {
         self.png.push(&self.caption)?;
         self.png.finish()?;
@@ -184,7 +184,7 @@ impl SheetFile {
 /// Returns a caption's height in pixels and its pixels (red, green and blue), in rows of this width.
 ///
 /// # Errors
-/// [`Failure::Output`] where the caption cannot be drawn.
+/// Fails with [`Failure::Output`] where the caption cannot be drawn.
 pub fn caption_pixels(caption: &Caption, width: u32) -> Result<(u32, Vec<u8>), Failure> {
     let text = caption.document(f64::from(width.min(CAPTION_WIDTH))).to_string();
     let (_, height, pixels) = rasterize(&text, width).map_err(|e| Failure::Output(e.to_string()))?;

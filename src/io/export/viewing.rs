@@ -10,10 +10,10 @@ use crate::trace::{beam, ray};
 use glam::DQuat;
 use std::sync::Arc;
 
-/// The part of the light that may stay unresolved without a warning where no bound was requested.
+/// The greatest part of the light that may stay unresolved without a warning, where no bound was requested.
 const UNASKED: f64 = 1e-3;
 
-/// A stone, with how it is seen and traced.
+/// A stone with its view and the settings by which it is traced.
 #[derive(Clone, Copy)]
 pub struct Viewing<'a> {
     /// The stone.
@@ -27,7 +27,7 @@ pub struct Viewing<'a> {
     pub turned_deg: f64,
     /// The stone's medium, at one wavelength.
     pub medium: Medium,
-    /// The wavelength in nm; `None` where the index was given instead.
+    /// The wavelength in nm; `None` where the request gave the index instead.
     pub wavelength_nm: Option<f64>,
     /// The half angle of the observer's head, in degrees, from 0 to below 90. Scopes with a hole for the eye have an angle
     /// of their own.
@@ -36,9 +36,9 @@ pub struct Viewing<'a> {
     pub unresolved: Option<f64>,
     /// The standard error to which figures estimate what exact beams have left; `None` where they estimate nothing.
     pub standard_error: Option<f64>,
-    /// Whether reflection and refraction take the polarisation of the light into account.
+    /// True where reflection and refraction take the polarisation of the light into account.
     pub polarised: bool,
-    /// Whether glare is shown. With `None`, pictures leave it out and figures list it beside the rest.
+    /// Included where glare is shown. With `None`, pictures leave it out and figures list it beside the rest.
     pub glare: Option<Glare>,
     /// The tracer to use, or the choice of the quickest.
     pub tracer: Wanted,
@@ -50,18 +50,18 @@ impl Viewing<'_> {
         Self { viewpoint: self.viewpoint.facing(side), ..self }
     }
 
-    /// Returns the view of the stone as it is turned.
+    /// Returns the view of the turned stone.
     pub(in crate::io) fn view(&self) -> View {
         self.viewpoint.view().of_turned(DQuat::from_rotation_z(self.turned_deg.to_radians()))
     }
 
-    /// The part of the names of a picture's files that describes the view, without the side where the picture has a side of
-    /// its own.
+    /// Returns the part of the names of a picture's files that describes the view, without the side where the picture
+    /// has a side of its own.
     pub(super) fn suffix(&self, scoped: &Scoped) -> String {
         self.described().facing(scoped.side.map(|_| Side::Table)).suffix()
     }
 
-    /// The viewpoint as texts describe it, with the azimuth in the frame of the cut.
+    /// Returns the viewpoint for texts, with the azimuth in the frame of the cut.
     pub(super) fn described(&self) -> Viewpoint {
         if self.turned_deg == 0.0 {
             return self.viewpoint;
@@ -71,13 +71,14 @@ impl Viewing<'_> {
         Viewpoint { azimuth_deg: if is_upright { 0.0 } else { azimuth_deg }, ..self.viewpoint }
     }
 
-    /// Returns a square film of `size` pixels along each side that holds the stone as it is viewed, with some air around it.
+    /// Returns a square film of `size` pixels along each side that holds the stone in this view, with some air around
+    /// it.
     pub(in crate::io) fn film(&self, size: u32) -> Film {
         let solid = self.specimen.solid();
         Film::reaching(Camera::new(&self.view(), solid).reach(solid).unwrap_or(1.0), size)
     }
 
-    /// Returns a job of this stone as it is viewed, with `usual` as the bound where none was requested.
+    /// Returns a job of this stone in this view, with `usual` as the bound where none was requested.
     pub(in crate::io) fn job(&self, film: Film, product: Product, usual: f64) -> Job {
         let (tracer, beams, rays) = (self.tracer, self.beams(usual), self.rays(usual));
         let quality = Quality { tracer, beams, standard_error: None, rays, samples: None };
@@ -85,21 +86,22 @@ impl Viewing<'_> {
         Job { scene: Arc::new(Scene::alone(self.specimen)), view, film, product, quality }
     }
 
-    /// Refuses a view from which the stone cannot be traced as it is wanted, and says whether exact beams trace it.
+    /// Refuses a view from which the wanted tracer cannot trace the stone, and returns whether exact beams trace it.
     ///
     /// # Errors
-    /// [`Unfit::Eye`] where the eye is not in front of the whole stone; others where exact beams would have to trace a
-    /// perspective or a body that is not convex.
+    /// Fails with [`Unfit::Eye`] where the eye is not in front of the whole stone; others where exact beams would
+    /// have to trace a perspective or a body that is not convex.
     pub fn plans_beams(&self, renderer: &Renderer) -> Result<bool, Unfit> {
         let figures = FiguresProduct { scope: Scoped::aset().scope, medium: self.medium };
         let job = self.job(Film::NONE, Product::Figures(figures), UNASKED);
         Ok(renderer.plan(&job)?.backend.is_beams())
     }
 
-    /// Returns what [`plans_beams`](Self::plans_beams) returns, or an error that names the file.
+    /// Returns the result of [`plans_beams`](Self::plans_beams), or an error that names the file.
     ///
     /// # Errors
-    /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact beams do not fit.
+    /// Fails with [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact
+    /// beams do not fit.
     pub fn check(&self, renderer: &Renderer) -> Result<bool, Failure> {
         self.plans_beams(renderer).map_err(|why| Failure::of_unfit(&why, self.file))
     }
@@ -107,18 +109,18 @@ impl Viewing<'_> {
     /// Returns the convex stone, for outputs that only convex stones have.
     ///
     /// # Errors
-    /// [`Failure::Usage`] where the body is not a convex stone.
+    /// Fails with [`Failure::Usage`] where the body is not a convex stone.
     pub(in crate::io) fn stone(&self) -> Result<&Stone, Failure> {
         self.specimen.stone().map_err(|e| Failure::Usage(format!("{}: {e}", self.file)))
     }
 
-    /// The options of beams, with `usual` as the bound where none was requested.
+    /// Returns the options of beams, with `usual` as the bound where none was requested.
     pub(super) fn beams(&self, usual: f64) -> beam::BeamOptions {
         let unresolved = self.unresolved.unwrap_or(usual);
         beam::BeamOptions { unresolved, polarised: self.polarised, ..beam::BeamOptions::default() }
     }
 
-    /// The options of rays: a ray is given up when no more of it than the bound is left.
+    /// Returns the options of rays: a ray ends when no more of its weight than the bound is left.
     pub(super) fn rays(&self, usual: f64) -> ray::RayOptions {
         let least_weight = self.unresolved.unwrap_or(usual);
         ray::RayOptions { least_weight, polarised: self.polarised, ..ray::RayOptions::default() }

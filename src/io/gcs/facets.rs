@@ -18,7 +18,7 @@ const UNIT_LENGTH: f64 = 1e-6;
 /// A facet that faces along the axis by less than this (cosine) does not cross it.
 const ALONG_THE_AXIS: f64 = 1e-9;
 
-/// A facet as it stands in the file.
+/// A facet of the file.
 struct Raw<'d> {
     at: Node<'d, 'd>,
     /// The facet's plane; its distance may be below 0.
@@ -29,7 +29,7 @@ struct Raw<'d> {
     frosting: f64,
 }
 
-/// The facets of one tier, or, where it has none, a tier of what it says.
+/// The facets of one tier; a tier without facets has its statements as a [`Tier`] instead.
 type RawTier<'d> = (Vec<Raw<'d>>, Option<Tier>);
 
 impl<'d> Reader<'d> {
@@ -101,7 +101,7 @@ impl<'d> Reader<'d> {
         TierPiece { tier: 0, setting, name, instructions, is_cut, frosting }
     }
 
-    /// Reads a tier without facets, which is kept for what it says.
+    /// Reads a tier without facets, which is kept for its statements.
     fn empty_tier(&mut self, node: Node<'_, '_>) -> Option<Tier> {
         let (polar, depth) = (self.number(node, "angle")?, self.number(node, "depth")?);
         let setting = Gear { teeth: 96, offset: 0.0 }.setting(slope_normal(polar, 0.0), depth.max(0.0));
@@ -136,7 +136,7 @@ impl<'d> Reader<'d> {
         for at in node.children().filter(|child| child.has_tag_name("facet")) {
             let plane = self.plane(at, polar, depth)?;
             apart.look(at, polar, &plane);
-            // A name without end is not copied to every facet.
+            // A very long name is not copied to every facet.
             let name = if facets.is_empty() || is_printable(&name) { name.clone() } else { String::new() };
             let frosting = self.stated_frosting(at).unwrap_or(of_tier);
             let instructions = std::mem::take(&mut instructions);
@@ -148,8 +148,8 @@ impl<'d> Reader<'d> {
         Ok(facets)
     }
 
-    /// Returns how much the facets of a tier are frosted that do not say it themselves: as the tier's attribute says, else as
-    /// its instructions do.
+    /// Returns the frosting of facets that state none of their own: the tier's attribute, else that of its
+    /// instructions.
     fn frosting(&mut self, tier: Node<'_, '_>, instructions: &str) -> f64 {
         if let Some(stated) = self.stated_frosting(tier) {
             return stated;
@@ -172,7 +172,7 @@ impl<'d> Reader<'d> {
         }
     }
 
-    /// Returns how much a tier or a facet is frosted by its own attribute; `None` where it has none.
+    /// Returns the frosting that a tier or a facet states by its own attribute; `None` where it has none.
     fn stated_frosting(&mut self, node: Node<'_, '_>) -> Option<f64> {
         let text = node.attribute("frosting")?.trim().to_ascii_lowercase();
         match text.as_str() {

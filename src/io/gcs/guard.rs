@@ -11,8 +11,8 @@ const MOST_ATTRIBUTES: usize = 256;
 /// The most declarations of namespaces; the XML parser copies them down the tree.
 const MOST_NAMESPACES: usize = 16;
 
-/// Returns the text of a file of a sane size and build, UTF-8 or UTF-16 behind its mark, and whether characters of it are
-/// spoilt.
+/// Returns the text of a file of a sane size and structure, UTF-8 or UTF-16 behind its mark, and whether some of its
+/// characters are damaged.
 pub(super) fn text(bytes: &[u8]) -> Result<(Cow<'_, str>, bool), Fault> {
     check_size(bytes.len(), MAX_BYTES as u64)?;
     let (text, _, spoilt) = encoding_rs::UTF_8.decode(bytes);
@@ -37,14 +37,15 @@ fn values(element: &str) -> usize {
     behind.filter(|text| text.trim_start().starts_with(['"', '\''])).count()
 }
 
-/// Returns a value with its line breaks and tabs, for which XML has blanks; `raw` is the value as it stands in the file.
+/// Returns a value with its line breaks and tabs, which XML turns into blanks; `raw` is the value as it stands in the
+/// file.
 pub(super) fn unfolded(raw: &str, value: &str) -> String {
     if !raw.contains(['\n', '\r', '\t']) {
         return value.to_owned();
     }
     let raw = raw.replace("\r\n", "\n");
     let mut raw = raw.chars();
-    // Both texts are the same character by character, except that an entity stands for one character.
+    // Both texts agree character by character, except that an entity stands for one character.
     let unfold = |character| match raw.next() {
         Some('&') => {
             raw.by_ref().find(|c| *c == ';');

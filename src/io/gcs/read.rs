@@ -21,7 +21,7 @@ const FOOTERS: [&str; 2] = ["footer1", "footer2"];
 /// Reads a design of Gem Cut Studio; `label` is the path of the file, which names a design without a title.
 ///
 /// # Errors
-/// When the file is no such design; the error has a line where there is one.
+/// Fails where the file is no such design; the error has a line where there is one.
 pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
     let (text, spoilt) = guard::text(bytes)?;
     if !text.trim_start_matches('\u{feff}').trim_start().starts_with('<') {

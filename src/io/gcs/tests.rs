@@ -292,7 +292,7 @@ fn frosting_is_read_from_facets_tiers_and_instructions_and_written_back() {
     );
     let said = with("Two\nlines", "Leave frosted.");
     assert_eq!(frostings(&said)[0], (4, 0.5));
-    // The attribute of a facet says more than the words of its tier.
+    // The attribute of a facet takes precedence over the words of its tier.
     let polished = said.replacen("index_angle=\"90\"/>", "index_angle=\"90\" frosting=\"0\"/>", 1);
     assert_eq!(frostings(&polished)[..2], [(1, 0.0), (3, 0.5)]);
     for text in [&facet, &said, &polished] {

@@ -8,13 +8,14 @@ use crate::math::{Plane, span};
 use crate::scene::Specimen;
 use glam::DVec3;
 
-/// A stone whose reach and height are this near to what the format wants is left as it is, so that it keeps its digits.
+/// A stone whose reach and height differ from those of the format by less than this is not scaled, so that it keeps
+/// its digits.
 const IN_FORM: f64 = 1e-9;
 
 /// Coordinates of a stone that reaches 1 are rounding, and are written as 0, if they are no larger than this.
 const ROUNDING: f64 = 1e-15;
 
-/// How a stone is scaled and moved for the format.
+/// The scale and the shift of a stone for the format.
 struct Form {
     scale: f64,
     /// The height that lies at z = 0 in the file, in the design's unit.
@@ -58,7 +59,7 @@ impl Page {
     }
 }
 
-/// Encodes the design of a specimen as `.gcs`, with messages about what the format cannot hold of it.
+/// Encodes the design of a specimen as `.gcs`, with messages about the properties that the format cannot hold.
 pub fn write(specimen: &Specimen) -> EncodedDesign {
     let mut lost = Vec::new();
     let tiers = cutters::tiers_of(specimen, &mut lost);
@@ -83,7 +84,7 @@ pub fn write(specimen: &Specimen) -> EncodedDesign {
     EncodedDesign { bytes: page.text.into_bytes(), lost }
 }
 
-/// Adds messages about what the format has no place for.
+/// Adds messages about the properties that the format cannot hold.
 fn left_out(tiers: &Tiers, lost: &mut Vec<String>) {
     let named_apart = |tier: &&Tier| tier.facets.iter().any(|f| !f.name.is_empty() && f.name != tier.name());
     let mut tell = |count: usize, [one, several]: [&str; 2], rest: &str| match count {
@@ -111,7 +112,7 @@ fn is_key(key: &str) -> bool {
 }
 
 impl Form {
-    /// Returns how a stone must be placed to reach 1 across, and as far below z = 0 as above.
+    /// Returns the scale and shift by which a stone reaches 1 across, and as far below z = 0 as above.
     fn of(outlines: &[FacetOutline]) -> Self {
         let corners = || outlines.iter().flat_map(|(_, corners)| corners);
         let reach = corners().map(|corner| corner.truncate().abs().max_element()).fold(0.0, f64::max);
@@ -170,7 +171,8 @@ fn put_tier(tiers: &Tiers, tier: &Tier, facets: &[FacetOutline], form: &Form, pa
             r#"<tier angle="{angle}" depth="{depth}"{name}{instructions} visible="{visible}" guide="false">"#
         ),
     );
-    // Polished facets say nothing, as Gem Cut Studio writes them, unless the instructions would be read otherwise.
+    // Polished facets have no attribute, as in Gem Cut Studio's files, unless the instructions would be read
+    // otherwise.
     let is_plain = tier.frosting == 0.0
         && !matches!(FinishNote::of(&tier.instruction()), FinishNote::Frosting(said) if said > 0.0);
     let frosting = if is_plain { String::new() } else { format!(r#" frosting="{}""#, tier.frosting) };
@@ -231,7 +233,7 @@ fn put_info(tiers: &Tiers, page: &mut Page) {
         ("footer1", line(&tiers.footers, 0)),
         ("footer2", rest(&tiers.footers, 1)),
     ];
-    // The first three stand there even if they are empty, as Gem Cut Studio writes them.
+    // The first three attributes are written even if they are empty, as Gem Cut Studio does.
     let kept = said.iter().enumerate().filter(|(place, (_, text))| *place < 3 || !text.is_empty());
     let mut info: String = kept.map(|(_, (key, text))| page.attribute(key, text)).collect();
     let render = |key: &str| key == COLOUR.0 || RENDER.iter().any(|(known, _)| *known == key);

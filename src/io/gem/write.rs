@@ -8,10 +8,10 @@ use crate::scene::Specimen;
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
-/// The longest text for whose length there is room, in bytes.
+/// The greatest length of a text that the format can hold, in bytes.
 const LONGEST: usize = 255;
 
-/// Encodes texts, and counts what they lost.
+/// Encodes texts, and counts their losses.
 #[derive(Default)]
 struct Texts {
     cut_off: usize,
@@ -50,7 +50,7 @@ impl Texts {
     }
 }
 
-/// Encodes the design of a specimen as `.gem`, with messages about what the format cannot hold of it.
+/// Encodes the design of a specimen as `.gem`, with messages about the properties that the format cannot hold.
 pub fn write(specimen: &Specimen) -> EncodedDesign {
     let mut lost = Vec::new();
     let tiers = cutters::tiers_of(specimen, &mut lost);
@@ -65,7 +65,7 @@ pub fn write(specimen: &Specimen) -> EncodedDesign {
     EncodedDesign { bytes, lost }
 }
 
-/// Adds messages about what the format has no place for.
+/// Adds messages about the properties that the format cannot hold.
 fn left_out(tiers: &Tiers, lost: &mut Vec<String>) {
     let mut tell = |count: usize, what: &str| {
         if count > 0 {

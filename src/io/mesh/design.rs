@@ -1,4 +1,4 @@
-//! Makes stones from meshes: of a convex stone the planes, of any other its triangles.
+//! Makes stones from meshes: a convex stone becomes planes, any other triangles.
 
 use super::file::{self, MaterialHint, MeshFile};
 use super::place::{MeshPlace, MeshRemarks, axes, doubtful};
@@ -19,7 +19,7 @@ const USUAL: &str = "diamond";
 /// Reads a mesh of any format; `bytes` are the content of the file at `path`.
 ///
 /// # Errors
-/// When the mesh makes no stone; the error has the path and the place.
+/// Fails where the mesh makes no stone; the error has the path and the place.
 pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<ImportedDesign, FileError> {
     let label = path.display().to_string();
     let MeshFile { format, surface, hint, statement, warnings, name, .. } =
@@ -43,7 +43,7 @@ pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<Importe
     Ok(brought)
 }
 
-/// The note on a mesh that is traced as triangles though nobody asked for that.
+/// The note on a mesh that is traced as triangles without a request for that.
 const NOT_CONVEX: &str = "it is not convex; --as faceted reads the convex stone around it";
 
 /// Returns the message on why a mesh cannot be read as a faceted stone, and what to do.
@@ -53,7 +53,7 @@ fn impossible(error: TooCurved) -> Fault {
     ))
 }
 
-/// Returns the note on what has changed where a mesh is taken for a convex stone. Lengths of the file times `scale` are
+/// Returns the note on the changes where a mesh is read as a convex stone. Lengths of the file times `scale` are
 /// girdle radii.
 fn changed(change: &Change, tolerance: f64, scale: f64) -> String {
     let (sharpest, volume) = (change.sharpest.to_degrees(), 100.0 * change.volume);
@@ -67,7 +67,7 @@ fn changed(change: &Change, tolerance: f64, scale: f64) -> String {
     )
 }
 
-/// What a file says besides its shape, and how its stone lies.
+/// The statements of a file besides its shape, and the place of its stone.
 struct File {
     hint: Option<MaterialHint>,
     name: String,
@@ -81,7 +81,7 @@ impl File {
         let up = self.place.up(&surface, || directions(&found.polytope), &mut remarks);
         let made = from_mesh(found, up).map_err(Fault::whole)?;
         let FromMesh { mut facets, pose, .. } = made;
-        // A known size counts, whatever width was found.
+        // A known size goes before the width that was found.
         let scale = self.place.scale.unwrap_or(pose.scale);
         let rescaled = scale / pose.scale;
         facets.iter_mut().for_each(|(_, plane)| plane.offset *= rescaled);
@@ -111,7 +111,8 @@ impl File {
         };
         let (shape, scale) =
             MeshShape::framed(&mesh, turn).ok_or("it has no extent across the direction up")?;
-        // A known size stays in mm, though this frame may have another scale than that of the stone that was written.
+        // A known size stays the same in mm, though this frame may have another scale than the frame of the written
+        // stone.
         if let (Some(known), Some(diameter_mm)) = (self.place.scale, &mut self.place.diameter_mm) {
             *diameter_mm *= known / scale;
         }
@@ -133,8 +134,8 @@ impl File {
         ImportedDesign { notes, warnings, doubt: Some(is_doubtful), ..ImportedDesign::of(design) }
     }
 
-    /// Returns the material that the file asks for, with a note where it asks for none or a warning where there is no such
-    /// material.
+    /// Returns the material that the file states, with a note where it states none, or a warning where the library
+    /// lacks it.
     fn material(&self, mm_per_unit: f64) -> (MaterialRef, Result<Option<String>, String>) {
         let usual = MaterialRef::Name(USUAL.to_owned());
         match (&self.place.material, &self.hint) {
@@ -155,7 +156,7 @@ fn unsaid() -> String {
     format!("the file has no material that refracts; {USUAL} is used")
 }
 
-/// Returns notes on what was mended of a mesh, where that is more than any file of triangles needs.
+/// Returns notes on the repairs of a mesh, where they exceed those that any file of triangles needs.
 fn told_of(mending: &Mending) -> Vec<String> {
     let count = |count: usize, what: &str| (count > 0).then(|| format!("{count} {what}"));
     let crack = (mending.crack > 0.0)

@@ -1,9 +1,9 @@
 //! Writes stones as meshes: OBJ and PLY with facets as polygons, STL and binary glTF with triangles.
 //!
-//! `scale` is in units of the file per girdle radius: for OBJ, PLY and STL the radius in mm, as the trade has it; for glTF
-//! the radius in metres, as its standard wants it. OBJ keeps 15 digits of the largest coordinate and PLY all of f64; the
-//! others are f32. Every file states how its stone lies, how large it is and of what material, in a [`Statement`]. OBJ and
-//! glTF give the facets their names back when read. A solid that is not convex is written by its triangles.
+//! `scale` is in units of the file per girdle radius: for OBJ, PLY and STL the radius in mm, as is usual in the
+//! trade; for glTF the radius in metres, as its standard requires. OBJ keeps 15 digits of the largest coordinate and
+//! PLY all of f64; the others are f32. Every file states the direction, the size and the material of its stone, in a
+//! [`Statement`]. OBJ and glTF keep the names of the facets. A solid that is not convex is written by its triangles.
 
 mod ply;
 
@@ -141,7 +141,7 @@ fn decimals(largest: f64) -> usize {
 /// Encodes a solid as binary STL, z up. A statement that does not fit into its header is left out whole.
 ///
 /// # Errors
-/// None but for lack of memory: a list of bytes refuses nothing that is written to it.
+/// Fails only for lack of memory: a list of bytes refuses nothing that is written to it.
 pub fn write_stl(body: &Body, scale: f64, material: Option<&MaterialRef>) -> std::io::Result<Vec<u8>> {
     let all = faces(body);
     let statement = all.statement(DVec3::Z, 1.0, scale, material).text(STL_HEADER);
@@ -161,15 +161,15 @@ pub fn write_stl(body: &Body, scale: f64, material: Option<&MaterialRef>) -> std
     Ok(bytes)
 }
 
-/// What the header of an STL states of its stone.
+/// The statements in the header of an STL.
 pub struct Stated {
-    /// Whether it states how large the stone is and which way it faces.
+    /// True where it states the size of the stone and its direction.
     pub place: bool,
-    /// Whether it states the material.
+    /// True where it states the material.
     pub material: bool,
 }
 
-/// Returns what the header of an STL that [`write_stl`] has encoded states.
+/// Returns the statements in the header of an STL that [`write_stl`] has encoded.
 pub fn stated_in_stl(stl: &[u8]) -> Stated {
     let header = String::from_utf8_lossy(&stl[..stl.len().min(STL_HEADER)]);
     let stated = Statement::parse(header.trim_end_matches('\0')).ok();
@@ -179,7 +179,7 @@ pub fn stated_in_stl(stl: &[u8]) -> Stated {
 /// Encodes a solid as binary PLY, z up: each facet is a polygon.
 ///
 /// # Errors
-/// None but for lack of memory.
+/// Fails only for lack of memory.
 pub fn write_ply(body: &Body, scale: f64, material: Option<&MaterialRef>) -> std::io::Result<Vec<u8>> {
     let all = faces(body);
     let statement = all.statement(DVec3::Z, 1.0, scale, material).text(LONGEST);
@@ -192,7 +192,7 @@ pub fn write_ply(body: &Body, scale: f64, material: Option<&MaterialRef>) -> std
 /// primitive. The material is written by its extensions.
 ///
 /// # Errors
-/// None but for lack of memory.
+/// Fails only for lack of memory.
 pub fn write_glb(
     body: &Body,
     name: &str,
@@ -299,13 +299,14 @@ impl Parts {
     }
 }
 
-/// Returns a material as glTF has it. Renderers that trace no rays take `thickness`, in units of the file, for the way through.
+/// Returns a material in the form of glTF. Renderers that trace no rays use `thickness`, in units of the file, as the
+/// length of the path inside.
 fn material_json(hint: &MaterialHint, thickness: f64) -> Value {
     let mut extensions = serde_json::Map::new();
     let mut extend = |name: &str, value: Value| extensions.insert(format!("KHR_materials_{name}"), value);
     if hint.transmits {
         extend("transmission", json!({ "transmissionFactor": 1.0 }));
-        // A thickness above 0 says that the surface bounds a volume.
+        // A thickness above 0 means that the surface bounds a volume.
         let volume = match hint.attenuation {
             Some((colour, distance)) => {
                 json!({ "thicknessFactor": thickness, "attenuationColor": colour, "attenuationDistance": distance })

@@ -1,4 +1,5 @@
-//! Reads meshes of metal, which need not be closed: their triangles as they are, with the normals of the file or their own.
+//! Reads meshes of metal, which need not be closed: their triangles unchanged, with the normals of the file or
+//! computed ones.
 
 use super::file::{self, MeshFile, MeshFormat};
 use crate::io::file_error::FileError;
@@ -15,7 +16,7 @@ const CREASE_DEG: f64 = 40.0;
 /// lengths keep the file's unit.
 ///
 /// # Errors
-/// When the file holds no triangles that can be read; the error has its path and the place.
+/// Fails where the file holds no triangles that can be read; the error has its path and the place.
 pub fn read_shaded(path: &Path) -> Result<(ShadedMesh, Vec<String>), FileError> {
     let label = path.display().to_string();
     let bytes = text::read_bytes(path, file::MAX_BYTES).map_err(|fault| fault.in_file(&label))?;

@@ -1,12 +1,12 @@
-//! Meshes in and out: glTF, OBJ, STL and PLY.
+//! Reads and writes meshes: glTF, OBJ, STL and PLY.
 //!
 //! A mesh becomes a design in these steps ([`read`]):
 //!
-//! 1. `file` finds the format by the content, reads the triangles, and what the file says of its material and of how its
-//!    stone lies;
+//! 1. `file` finds the format by the content, and reads the triangles, the material and the statement about the
+//!    stone;
 //! 2. the triangles are mended into a closed surface ([`math::mending`](crate::math::mending)), whose facets are found
 //!    ([`math::faceting`](crate::math::faceting));
-//! 3. `place` decides which way is up, and how large the stone is;
+//! 3. `place` decides which way is up, and the size of the stone;
 //! 4. `design` makes a stone of the facets ([`cut::from_mesh`](crate::cut::from_mesh)), or of the triangles where the solid is
 //!    not convex, and collects notes and warnings.
 //!

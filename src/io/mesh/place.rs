@@ -1,4 +1,5 @@
-//! Decides how the stone of a mesh lies in its file: as a person says, as the file itself says, or as its shape shows.
+//! Decides the direction and the size of a mesh's stone: by the user's options, by the file's own statement, or by
+//! its shape.
 
 use super::file::{MeshFormat, Stands, Statement};
 use crate::cut::MaterialRef;
@@ -18,20 +19,20 @@ const SAME_SIZE: f64 = 2e-3;
 pub(super) struct MeshRemarks {
     pub notes: Vec<String>,
     pub warnings: Vec<String>,
-    /// Whether the table may face another way than was taken.
+    /// True where the table may face another way than the direction that was taken.
     pub is_doubtful: bool,
 }
 
-/// What is known of how a stone lies before anyone looks at its shape.
+/// The known direction and size of a stone before its shape is examined.
 #[derive(Debug)]
 pub(super) struct MeshPlace {
     given: Up,
     statement: Option<Statement>,
-    /// Girdle radii per unit of the file, where that is known.
+    /// Girdle radii per unit of the file; `None` where they are unknown.
     pub scale: Option<f64>,
-    /// The girdle diameter in mm, where it is known.
+    /// The girdle diameter in mm; `None` where it is unknown.
     pub diameter_mm: Option<f64>,
-    /// The stone's material, where the file names it.
+    /// The stone's material; `None` where the file names none.
     pub material: Option<MaterialRef>,
 }
 
@@ -39,7 +40,8 @@ impl MeshPlace {
     /// Starts from a file's format. A direction up that a person gives counts above all else.
     pub fn of(format: MeshFormat, given: Up, statement: Option<Statement>) -> Self {
         let given = match given {
-            // The standard of glTF has y up; the others say nothing, and stones are drawn with z up.
+            // The standard of glTF has y up. The other formats state no direction, and stones are usually modelled
+            // with z up.
             Up::Found if matches!(format, MeshFormat::Glb | MeshFormat::Gltf) => Up::FoundBy(DVec3::Y),
             Up::Found => Up::FoundBy(DVec3::Z),
             other => other,
@@ -47,8 +49,8 @@ impl MeshPlace {
         Self { given, statement, scale: None, diameter_mm: None, material: None }
     }
 
-    /// Returns which way is up in the file's surface, by what the file states where that fits its shape. `directions` are
-    /// those in which the table may face.
+    /// Returns which way is up in the file's surface: the direction of the file's statement where that fits the
+    /// shape. `directions` are those in which the table may face.
     pub fn up(
         &mut self,
         surface: &Surface,
@@ -89,7 +91,7 @@ impl MeshPlace {
     }
 }
 
-/// Describes what was done to a stone since its file was written, where that is more than a shift.
+/// Describes the changes to a stone since its file was written, where they are more than a shift.
 fn changes(statement: &Statement, up: DVec3, scale: f64) -> Option<String> {
     let turned = (up - statement.up).length() > ON_AXIS;
     let factor = statement.scale() / scale;

@@ -1,4 +1,5 @@
-//! Reads OpenEXR: the first layer with channels R, G and B, of any type; cover and all else are left out.
+//! Reads OpenEXR: the first layer with channels R, G and B, of any type; its alpha and all other channels are left
+//! out.
 
 use super::{Raw, check_size, damaged};
 use crate::io::file_error::Fault;
@@ -10,7 +11,7 @@ use exr::prelude::{ReadChannels, ReadLayers, Vec2, read as reader};
 use std::fs::File;
 use std::io::{BufReader, Seek};
 
-/// Primaries whose coordinates differ from those of sRGB by less than this are taken as the same.
+/// Primaries whose coordinates differ from those of sRGB by less than this count as sRGB's.
 const SAME: f32 = 0.002;
 
 pub(super) fn read(mut file: BufReader<File>, bytes: u64) -> Result<Raw, Fault> {

@@ -1,4 +1,4 @@
-//! The content of a PDF page: what is drawn on it, as operators (8.5, 9.4).
+//! The content of a PDF page: its drawing as operators (8.5, 9.4).
 
 use super::POINTS;
 use super::fonts::{PdfFonts, name};
@@ -12,7 +12,7 @@ use resvg::usvg::{
     Color, Fill, FillRule, Group, Image, LineCap, LineJoin, Node, Paint, PaintOrder, Path, Stroke, Text, Tree,
 };
 
-/// Glyphs whose places differ by less than this from where the one before leads are not moved, type sizes.
+/// Glyphs that differ in place from the end of the one before by less than this, in type sizes, are not moved.
 const IN_PLACE: f32 = 1e-3;
 
 /// A page that is being written.
@@ -75,7 +75,7 @@ impl<'a> PageContent<'a> {
             return Ok(());
         }
         let transform = self.base.pre_concat(path.abs_transform());
-        // A line has no inside, but viewers draw what is filled at least a pixel wide.
+        // A line has no inside, but viewers paint a filled path at least a pixel wide.
         let bounds = path.data().bounds();
         let has_inside = bounds.width() > 0.0 && bounds.height() > 0.0;
         let paints = (path.fill().filter(|_| has_inside || path.stroke().is_none()), path.stroke());
@@ -207,7 +207,7 @@ impl<'a> PageContent<'a> {
         Ok(())
     }
 
-    /// Shows the glyphs of a span: as long as each stands in line behind the one before, in one piece.
+    /// Shows the glyphs of a span. Glyphs that follow one another in line are shown in one piece.
     fn span(&mut self, span: &Span, transform: Transform) {
         let mut rest = span.positioned_glyphs.as_slice();
         while let Some(first) = rest.first() {
@@ -245,7 +245,7 @@ impl<'a> PageContent<'a> {
     }
 }
 
-/// Returns where a glyph stands on the page, and how it is turned; its scale is left out.
+/// Returns the place and the rotation of a glyph on the page, without its scale.
 fn placed(glyph: &PositionedGlyph, transform: Transform) -> Transform {
     let outline = transform.pre_concat(glyph.outline_transform());
     let scale = outline.sx.hypot(outline.ky).max(f32::MIN_POSITIVE);
@@ -259,8 +259,8 @@ fn placed(glyph: &PositionedGlyph, transform: Transform) -> Transform {
     )
 }
 
-/// Returns how far a glyph stands along the line that another begins, and how far beside it, in type sizes; `None` where it
-/// is turned against it.
+/// Returns the distances of a glyph along the line that another begins, and beside it, in type sizes; `None` where
+/// the one is turned against the other.
 fn along(start: Transform, place: Transform, size: f32) -> Option<(f32, f32)> {
     let turned = (start.sx - place.sx).abs().max((start.ky - place.ky).abs());
     let (x, y) = (place.tx - start.tx, place.ty - start.ty);
@@ -269,7 +269,7 @@ fn along(start: Transform, place: Transform, size: f32) -> Option<(f32, f32)> {
     (turned < IN_PLACE).then_some((forward, aside))
 }
 
-/// Returns how much longer lengths are after a transform.
+/// Returns the factor by which a transform lengthens lengths.
 fn scale_of(transform: Transform) -> f32 {
     (transform.sx * transform.sy - transform.kx * transform.ky).abs().sqrt()
 }

@@ -1,4 +1,4 @@
-//! The fonts of a PDF: of each font of the drawings, the glyphs that are used, with their widths and characters.
+//! The fonts of a PDF: the used glyphs of each font of the drawings, with their widths and characters.
 
 use super::deflate::deflated;
 use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
@@ -19,11 +19,11 @@ pub(super) struct PdfFonts {
     fonts: Vec<PdfFont>,
 }
 
-/// A font and the glyphs of it that are used.
+/// A font and its used glyphs.
 struct PdfFont {
     /// The font's number in the database of the drawings.
     id: ID,
-    /// The bytes of its file, and its place in that.
+    /// The bytes of its file, and the font's place in that file.
     data: Vec<u8>,
     index: u32,
     glyphs: GlyphRemapper,
@@ -46,7 +46,7 @@ impl PdfFonts {
         })
     }
 
-    /// Returns the number that a glyph has in the file, and its width in type sizes.
+    /// Returns the number of a glyph in the file, and its width in type sizes.
     pub fn glyph(&mut self, place: usize, glyph: u16, text: &str) -> (u16, f32) {
         let font = &mut self.fonts[place];
         let number = font.glyphs.remap(glyph);
@@ -73,7 +73,7 @@ pub(super) fn name(place: usize) -> String {
     format!("F{place}")
 }
 
-/// Returns a letter that tells the subsets of fonts apart in their names (9.6.4).
+/// Returns a letter that distinguishes the subsets of fonts by their names (9.6.4).
 fn letter(k: usize) -> char {
     char::from(b'A' + (k % 26) as u8)
 }
@@ -102,7 +102,8 @@ impl PdfFont {
         let mut characters = UnicodeCmap::new(Name(b"Custom"), IDENTITY);
         self.text.iter().for_each(|(&glyph, text)| characters.pair_with_multiple(glyph, text.chars()));
         pdf.stream(unicode, &deflated(&characters.finish())).filter(Filter::FlateDecode);
-        // The program's own fonts can be divided, as a test shows; a viewer sets its own letters for one that cannot.
+        // The program's own fonts can be subset, as a test shows; for a font that cannot, a viewer uses letters of
+        // its own.
         let part = subset(&self.data, self.index, &self.glyphs).unwrap_or_default();
         let bytes = deflated(&part);
         let mut stream = pdf.stream(file, &bytes);

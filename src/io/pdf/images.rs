@@ -26,7 +26,7 @@ impl PdfImages {
     /// Returns the place of a picture among those of the file.
     ///
     /// # Errors
-    /// [`DrawingError::NotForPdf`] for another picture than a PNG of eight-bit red, green and blue.
+    /// Fails with [`DrawingError::NotForPdf`] for another picture than a PNG of eight-bit red, green and blue.
     pub fn place(&mut self, kind: &ImageKind) -> Result<usize, DrawingError> {
         let ImageKind::PNG(png) = kind else { return Err(REFUSED) };
         if let Some(known) = self.pictures.iter().position(|picture| picture.png == *png) {
@@ -55,7 +55,7 @@ impl PdfImages {
     }
 }
 
-/// What is said of a picture that cannot be written.
+/// The error about a picture that cannot be written.
 const REFUSED: DrawingError =
     DrawingError::NotForPdf { what: "a picture that is no PNG of eight-bit red, green and blue" };
 

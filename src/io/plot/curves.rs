@@ -6,10 +6,11 @@ use plotters::prelude::*;
 /// The width of the key of curves.
 const KEY_WIDTH: i32 = 240;
 
-/// The number of colours of curves; from then on they come again.
+/// The number of colours of curves; further curves repeat them.
 pub const COLOURS_OF_CURVES: usize = 7;
 
-/// The colours of curves, told apart by people who see no red or no green (B. Wong, Nature Methods 8, 441 (2011)).
+/// The colours of curves, which people who see no red or no green can tell apart (B. Wong, Nature Methods 8, 441
+/// (2011)).
 const COLOURS: [RGBColor; COLOURS_OF_CURVES] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -26,7 +27,7 @@ const MARK: RGBColor = RGBColor(60, 60, 60);
 /// A curve, drawn as a band from its least to its greatest values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlotCurve {
-    /// What the key calls it.
+    /// The name of the curve in the key.
     pub name: String,
     /// The least and the greatest value at each place of the axis; `None` where there is none.
     pub bands: Vec<Option<[f64; 2]>>,
@@ -36,7 +37,7 @@ pub struct PlotCurve {
 /// takes no room.
 ///
 /// # Errors
-/// A [`PlotError`]: an axis that does not rise or fall, or no number.
+/// Fails with a [`PlotError`] for an axis that does not rise or fall, or no number.
 pub fn curves(
     title: (&str, (u32, u32)),
     axis: &PlotAxis,
@@ -144,7 +145,7 @@ impl PlotCurve {
     }
 }
 
-/// Draws which colour is which curve, from this height down.
+/// Draws the key, with the colour and name of each curve, from this height down.
 pub(super) fn draw_key(area: &Area, top: i32, curves: &[PlotCurve]) -> Result<(), PlotError> {
     for (row, (curve, colour)) in (0..).zip(curves.iter().zip(COLOURS.iter().cycle())) {
         let y = top + 28 * row;

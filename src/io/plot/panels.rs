@@ -7,7 +7,7 @@ use plotters::prelude::*;
 /// One panel of a plot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlotPanel {
-    /// What stands above it.
+    /// The name above it.
     pub name: String,
     /// Its curves, in the same order and with the same names in all panels of a plot.
     pub curves: Vec<PlotCurve>,
@@ -26,7 +26,7 @@ const MARGIN: (u32, u32) = (190, 56);
 /// `unit` stands beside the values.
 ///
 /// # Errors
-/// A [`PlotError`]: an axis that does not rise or fall, or a panel without a number.
+/// Fails with a [`PlotError`] for an axis that does not rise or fall, or a panel without a number.
 pub fn panels(
     title: &str,
     axis: &PlotAxis,

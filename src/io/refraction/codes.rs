@@ -1,4 +1,4 @@
-//! Reads the numbers of a picture as they stand in its file, without taking them for light: PNG and OpenEXR.
+//! Reads the numbers of a picture unchanged, without a conversion to light: PNG and OpenEXR.
 
 use super::{ABOUT, MOST_MAP_PIXELS};
 use crate::io::file_error::Fault;
@@ -33,16 +33,16 @@ pub(super) struct Codes {
     pub alpha: Option<Vec<f32>>,
     /// The number of bits of a channel.
     pub bits: u8,
-    /// Whether the picture is OpenEXR, whose colours are linear and premultiplied by the alpha.
+    /// True for OpenEXR, whose colours are linear and premultiplied by the alpha.
     pub is_exr: bool,
-    /// What the program's own maps say of their bands.
+    /// The description of the bands in the program's own maps.
     pub about: Option<String>,
 }
 
 /// Reads a picture.
 ///
 /// # Errors
-/// When the file is no picture that can be read, or too large for a map; the fault says what to do.
+/// Fails where the file is no picture that can be read, or too large for a map; the fault says what to do.
 pub(super) fn read(path: &Path) -> Result<Codes, Fault> {
     let about = path.metadata().map_err(unreadable)?;
     if !about.is_file() {
@@ -59,7 +59,8 @@ pub(super) fn read(path: &Path) -> Result<Codes, Fault> {
     }
 }
 
-/// Refuses a picture that is too large for a map, or promises more than its bytes hold. Below the places may lie weights.
+/// Refuses a picture that is too large for a map, or promises more than its bytes hold. Its height may be doubled by
+/// weights below the places.
 fn check(width: u64, height: u64, bytes: u64) -> Result<(), Fault> {
     let most = u64::from(MOST_MAP_PIXELS);
     if width > most || height > 2 * most {
@@ -92,7 +93,7 @@ fn of_png(file: BufReader<File>, bytes: u64) -> Result<Codes, Fault> {
     let room = reader.output_buffer_size().ok_or_else(|| damaged("it is too large"))?;
     let mut data = vec![0; room];
     let frame = reader.next_frame(&mut data).map_err(damaged)?;
-    // Texts may follow the pixels; what is wrong behind them does no harm.
+    // Texts may follow the pixels; a fault behind them does no harm.
     let _ = reader.finish();
     let text = reader.info().utf8_text.iter().find(|text| text.keyword == ABOUT);
     let about = text.and_then(|text| text.get_text().ok());

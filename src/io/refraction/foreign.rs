@@ -1,4 +1,4 @@
-//! Makes places of a picture that another renderer made of the template, and finds out what became of it on the way.
+//! Makes places from a picture of the template that another renderer made, and detects changes to it on the way.
 
 use super::codes::Codes;
 use super::mending::{self, MendedPixels};
@@ -12,10 +12,11 @@ use std::collections::HashMap;
 /// The weight below which a pixel of the gradient is empty: its place would be rounding alone.
 const LEAST: f32 = 1.0 / 512.0;
 
-/// The part of all pixels from which on one code that they share is a background's. A map shows no place so often.
+/// The part of all pixels from which on a code that they share is that of a background. A map shows no place so
+/// often.
 const SHARED: f64 = 0.02;
 
-/// The number of triples of pixels below which the course of places is not judged.
+/// The number of triples of pixels below which their straightness is not judged.
 const FEWEST: usize = 32;
 
 /// The part of triples across tiles that runs straight in any map. Photographs have less than a thousandth.
@@ -24,19 +25,19 @@ const STRAIGHT: f64 = 0.01;
 /// The part of neighbouring triples of a gradient that runs straight in any map. Photographs have less.
 const RUNS: f64 = 0.05;
 
-/// So many pixels of a gradient show more than one place; grey pictures do not.
+/// The number of pixels from which on a gradient shows more than one place; grey pictures have fewer.
 const MANY: usize = 256;
 
-/// How much straighter places run if a tone curve is undone before it is taken for the cause.
+/// The factor by which places run straighter without a tone curve, from which on the curve is taken for the cause.
 const STRAIGHTER: f64 = 1.5;
 
 /// The part of pixels whose red or green is more than their blue from which on a picture is no gradient's.
 const BEYOND: f64 = 0.1;
 
-/// The places of one picture, and what is unusual about it.
+/// The places of one picture, and remarks about it.
 pub(super) struct ForeignPlaces {
     pub places: Vec<SourcePlace>,
-    /// Whether the weights say what light the glass has lost.
+    /// True where the weights state the light that the glass has lost.
     pub has_weights: bool,
     pub notes: Vec<String>,
     pub warnings: Vec<String>,
@@ -45,7 +46,7 @@ pub(super) struct ForeignPlaces {
 /// The pixels of a picture that show the template.
 struct Seen {
     width: usize,
-    /// The colours, not premultiplied; `None` where nothing is seen.
+    /// The colours, not premultiplied; `None` where a pixel does not show the template.
     colours: Vec<Option<[f32; 3]>>,
     /// The alpha of each pixel.
     alpha: Vec<f32>,
@@ -61,7 +62,7 @@ pub(super) fn bytes(colour: &[f32; 3]) -> [u8; 3] {
 /// Returns the places of a foreign picture. Without a `template` 8 bits mean tiles, and more mean the gradient.
 ///
 /// # Errors
-/// When the picture shows nothing of the template, or its numbers are no places.
+/// Fails where the picture shows no part of the template, or where its numbers are no places.
 pub(super) fn places(codes: &Codes, template: Option<Template>) -> Result<ForeignPlaces, Fault> {
     let template = template.unwrap_or(if codes.bits == 8 { Template::Tiles } else { Template::Gradient });
     let seen = Seen::of(codes);
@@ -89,7 +90,7 @@ impl Seen {
             let is_number = value.iter().all(|part| part.is_finite());
             let share = if codes.is_exr { alpha } else { 1.0 };
             let colour = value.map(|part| part / share);
-            // Black is what a renderer leaves where it met nothing.
+            // Renderers leave black where a ray met nothing.
             (is_number && alpha > 0.5 / 255.0 && colour.iter().any(|&part| part > 0.5 / 65_535.0))
                 .then_some(colour)
         };
@@ -99,7 +100,7 @@ impl Seen {
         seen
     }
 
-    /// Takes a colour that very many pixels share, to the bit, as that of a background.
+    /// Treats a colour that very many pixels share, to the bit, as that of a background.
     fn leave_out_the_background(&mut self) {
         let mut counts: HashMap<[u32; 3], usize> = HashMap::new();
         for colour in self.colours.iter().flatten() {
@@ -224,7 +225,7 @@ fn of_gradient(seen: Seen) -> Result<ForeignPlaces, Fault> {
     Ok(ForeignPlaces { places, has_weights: true, notes: seen.notes, warnings })
 }
 
-/// What counts as three places in a row that run straight.
+/// The condition by which three places in a row run straight.
 struct Straight {
     /// The distance between the pixels.
     step: usize,
@@ -232,7 +233,7 @@ struct Straight {
     tolerance: f64,
     /// The least distance between the first and the last place.
     least: f64,
-    /// Whether only triples count that lie in more than one tile.
+    /// True where only triples count that lie in more than one tile.
     across_tiles: bool,
 }
 

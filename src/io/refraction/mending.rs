@@ -1,5 +1,5 @@
-//! Mends tiled maps that were antialiased. On a border of two tiles a mixture of codes is the code of a place elsewhere;
-//! the neighbours on both sides show which place was meant.
+//! Mends tiled maps that were antialiased. On a border of two tiles, a mixture of codes is the code of a wrong place;
+//! the neighbours on both sides show the right one.
 
 use super::tiles;
 use glam::DVec2;
@@ -13,11 +13,11 @@ const NEAR: f64 = 12.0 / 255.0;
 /// The part of the way between its neighbours, besides three steps, by which an intact place is off their middle at most.
 const BENT: f64 = 0.08;
 
-/// The number of damaged pixels for each intact border from which on a picture is antialiased. There nearly every border is
-/// damaged; in a map of many small facets up to a tenth looks so.
+/// The number of damaged pixels for each intact border from which on a picture counts as antialiased. In such a
+/// picture nearly every border is damaged; in a map of many small facets up to a tenth seem to be.
 const DAMAGED: f64 = 0.25;
 
-/// How far, in codes, a mixture of two places is off the straight line between their codes at most.
+/// The greatest distance, in codes, of a mixture of two places from the straight line between their codes.
 const OFF: f64 = 6.0;
 
 /// The directions to neighbours; the opposite ones follow.
@@ -32,13 +32,13 @@ pub(super) struct MendedPixels {
     pub edges: usize,
 }
 
-/// What two pixels tell of one between them.
+/// The conclusion from two pixels about one between them.
 struct Between {
-    /// How far apart their places are.
+    /// The distance between their places.
     way: f64,
     /// The place that the one between should have.
     middle: DVec2,
-    /// Whether it has this place.
+    /// True where it has this place.
     is_intact: bool,
 }
 
@@ -75,7 +75,7 @@ fn distance(a: DVec2, b: DVec2) -> f64 {
 }
 
 impl Picture<'_> {
-    /// Returns the pixel that lies `count` steps of (x, y) beside another, where something is seen.
+    /// Returns the pixel that lies `count` steps of (x, y) beside another, if it shows the template.
     fn beside(&self, k: usize, (x, y): (isize, isize), count: isize) -> Option<usize> {
         let column = (k % self.width).checked_add_signed(x * count).filter(|&x| x < self.width)?;
         let row = (k / self.width).checked_add_signed(y * count)?;
@@ -83,8 +83,9 @@ impl Picture<'_> {
         self.codes.get(found).copied().flatten().map(|_| found)
     }
 
-    /// Returns where a pixel should be that mixes the tiles of its neighbours; `None` for an intact one. The nearest
-    /// neighbours on both sides that tell decide: farther ones bend more.
+    /// Returns the right place of a pixel that mixes the tiles of its neighbours; `None` for an intact one. The
+    /// nearest neighbours on both sides that allow a conclusion decide, because the surface bends more toward farther
+    /// ones.
     fn on_border(&self, k: usize) -> Option<DVec2> {
         for (back, on) in [(1, 1), (1, 2), (2, 1), (2, 2)] {
             let told = AROUND.into_iter().filter_map(|direction| {
@@ -102,8 +103,8 @@ impl Picture<'_> {
         None
     }
 
-    /// Returns what two pixels on both sides tell of the one between; `None` where they are of one tile, or not of one
-    /// surface, or the pixel's code is no mixture of theirs.
+    /// Returns the conclusion from two pixels on both sides about the one between; `None` where they are of one tile,
+    /// or not of one surface, or where the pixel's code is no mixture of theirs.
     fn between(&self, k: usize, a: usize, b: usize, part: f64) -> Option<Between> {
         let (own, first, last) = (self.codes[k]?, self.codes[a]?, self.codes[b]?);
         let way = distance(self.places[a], self.places[b]);
@@ -117,7 +118,8 @@ impl Picture<'_> {
         tells.then_some(Between { way, middle, is_intact })
     }
 
-    /// Returns the place of the nearer of two neighbours whose codes a lonely pixel mixes; `None` for other pixels.
+    /// Returns the place of the nearer of two neighbours whose codes an isolated pixel mixes; `None` for other
+    /// pixels.
     fn on_edge(&self, k: usize) -> Option<DVec2> {
         let own = self.codes[k]?.map(f64::from);
         let is_near =

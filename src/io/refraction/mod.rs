@@ -1,8 +1,9 @@
 //! Writes refraction maps: tiled 8-bit PNG, 16-bit PNG, OpenEXR, the diffuse layer beside them, and a page that shows them.
-//! Writes the template that another renderer makes a map of, and reads such maps and the program's own.
+//! Writes the template from which another renderer makes a map, and reads such maps and the program's own.
 //!
-//! No map is antialiased, filtered or coded as colour: a look-up takes the nearest pixel, and no program may change the
-//! numbers of a map as if they were light. The diffuse layer is colour: sRGB, not premultiplied, laid over in linear light.
+//! No map is antialiased, filtered or coded as colour: a look-up takes the nearest pixel, and no program may change
+//! the numbers of a map as if they were light. The diffuse layer is colour: sRGB, not premultiplied, composited in
+//! linear light.
 
 mod codes;
 mod foreign;
@@ -46,18 +47,18 @@ const ABOUT: &str = "Refraction";
 /// The coding of places in files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Coding {
-    /// One PNG for each band: 8 bits, 16 by 16 tiles. The single band of a map for all light has no weights: they are
-    /// what the alpha of the diffuse layer leaves. Of several bands, each has its weights, in grey, below its places, so
-    /// that the picture is twice as high.
+    /// One PNG for each band: 8 bits, 16 by 16 tiles. The single band of a map for all light has no weights of its
+    /// own: they are what the alpha of the diffuse layer leaves. Of several bands, each has its weights, in grey,
+    /// below its places, so that the picture is twice as high.
     Tiles,
-    /// One PNG for each band: red, green and blue of 16 bits are u, v and weight.
+    /// One PNG for each band, whose red, green and blue of 16 bits are u, v and weight.
     Sixteen,
-    /// One OpenEXR for all bands: u, v and weight of each in 32 bits.
+    /// One OpenEXR for all bands, with u, v and weight of each in 32 bits.
     Float,
 }
 
-/// What a file says of a band: its wavelength in nm, and the columns of its response. A file of one band says how it lies
-/// among the files of its map too; older ones do not.
+/// The text in a file about its band: the wavelength in nm, and the columns of the response. A file of one band also
+/// states its place among the files of its map; older files do not.
 #[derive(Serialize, Deserialize)]
 struct About {
     nm: f64,
@@ -65,7 +66,7 @@ struct About {
     /// The number of files of the map, one for each band.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     files: Option<usize>,
-    /// Whether the weights lie below the places.
+    /// True where the weights lie below the places.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     weights_below: Option<bool>,
 }
@@ -103,7 +104,7 @@ pub fn diffuse_path(folder: &Path, stem: &str) -> PathBuf {
 /// Writes the places of a map to its [`paths`]. `description` goes into the files as text.
 ///
 /// # Errors
-/// When the file system refuses, or the map is empty or lacks pixels.
+/// Fails where the file system refuses, or the map is empty or lacks pixels.
 pub fn write_places(
     paths: &[PathBuf],
     map: &RefractionMap,
@@ -123,7 +124,7 @@ pub fn write_places(
 /// Writes the diffuse layer of a map.
 ///
 /// # Errors
-/// When the file system refuses, or the layer is empty or lacks pixels.
+/// Fails where the file system refuses, or the layer is empty or lacks pixels.
 pub fn write_diffuse(path: &Path, map: &RefractionMap, description: &str) -> Result<(), WriteError> {
     write_bytes(path, &diffuse_png(&map.diffuse, description).map_err(|e| WriteError::io(path, e))?)
 }
@@ -172,7 +173,7 @@ fn diffuse_png(diffuse: &Linear, description: &str) -> Result<Vec<u8>, EncodingE
     let code = |&[r, g, b, cover]: &[f32; 4]| {
         let light = [r, g, b].map(|c| if c.is_finite() { c.clamp(0.0, 1.0) } else { 0.0 });
         let most = light.into_iter().fold(cover.clamp(0.0, 1.0), f32::max);
-        // Rounded up where the light would not fit otherwise.
+        // The alpha is rounded up where the light would not fit otherwise.
         let alpha = if most > cover { (most * 255.0).ceil() } else { (most * 255.0).round() };
         let straight = |c: f32| encoder.encode(f64::from(c * 255.0 / alpha.max(1.0)).min(1.0));
         let [r, g, b] = light.map(straight);

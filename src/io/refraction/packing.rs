@@ -14,31 +14,31 @@ use std::io;
 /// Places farther apart than this, in steps of the tiles, are of different paths. The page has the same number.
 const SAME_PATH: i32 = 300;
 
-/// How the bands between two others divide the way is kept in parts of this.
+/// The number of parts into which the way between two bands is divided, for the place of a third.
 const PARTS: i32 = 1024;
 
-/// Nearer places than this, in steps, say nothing of how the way is divided.
+/// Places nearer than this, in steps, do not show how the way is divided.
 const CLOSE: i32 = 8;
 
 /// The remainder that stands for two bytes at the end.
 const ESCAPE: u8 = 255;
 
-/// How one band is predicted.
+/// The prediction of one band.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Step {
     band: usize,
     /// The bands that it is predicted from: none, one twice, or two.
     from: Option<[usize; 2]>,
-    /// How much of the way from the first to the second lies before it, in parts of 1024.
+    /// The part of the way from the first to the second at which the band lies, in parts of 1024.
     part: i32,
 }
 
 /// The numbers of a band as tiles hold them: u and v in steps of 1/4064, and the weight in parts of 255.
 type Planes = [Vec<i32>; 3];
 
-/// What a page needs to unpack a band.
+/// The data by which a page unpacks a band.
 pub(super) struct PackedBand {
-    /// The bytes of a PNG file whose pixels are what the prediction leaves.
+    /// The bytes of a PNG file whose pixels are the remainders of the prediction.
     pub png: Vec<u8>,
     /// The number of the band, the numbers of those it is predicted from, or -1, and the part of the way between them in
     /// parts of 1024.
@@ -49,7 +49,7 @@ pub(super) struct PackedBand {
 /// weights of its own.
 ///
 /// # Errors
-/// When the map lacks pixels.
+/// Fails where the map lacks pixels.
 pub(super) fn packed(map: &RefractionMap) -> Result<Vec<PackedBand>, EncodingError> {
     let [width, height] = map.size.map(|side| side as usize);
     let is_whole = |band: &MapBand| band.places.len() == width * height;
@@ -68,8 +68,8 @@ pub(super) fn packed(map: &RefractionMap) -> Result<Vec<PackedBand>, EncodingErr
     order(&map.bands).into_iter().map(pack).collect()
 }
 
-/// Returns what the prediction of a band leaves. Where nothing is seen, the place may be what costs least, and becomes what
-/// is predicted.
+/// Returns the remainders of a band's prediction. A pixel that shows nothing may have any place, so its place becomes
+/// the predicted one, which costs least.
 fn remainders(found: &mut [Planes], step: Step, band: &MapBand, (count, width): (usize, usize)) -> Vec<u8> {
     let (mut low, mut high) = (vec![], vec![]);
     for plane in 0..count {
@@ -101,7 +101,7 @@ fn as_png(mut bytes: Vec<u8>, width: u32) -> Result<Vec<u8>, EncodingError> {
     let mut encoder = Encoder::new(&mut out, width, (bytes.len() / row) as u32);
     encoder.set_color(ColorType::Rgb);
     encoder.set_compression(Compression::High);
-    // The remainders have nothing in common with their neighbours.
+    // The remainders have no similarity with their neighbours.
     encoder.set_filter(Filter::NoFilter);
     let mut writer = encoder.write_header()?;
     writer.write_image_data(&bytes)?;
@@ -121,7 +121,7 @@ fn planes(band: &MapBand) -> Planes {
 
 /// Returns the bands in the order in which they are packed, each after those that it is predicted from.
 fn order(bands: &[MapBand]) -> Vec<Step> {
-    // Several places of a pixel have a band each, one after the other, with the same wavelength.
+    // Several places of a pixel are bands one after the other, with the same wavelength.
     let places = bands.iter().take_while(|band| band.nm == bands[0].nm).count();
     let mut steps = vec![];
     for place in 0..places {
@@ -143,7 +143,8 @@ fn order(bands: &[MapBand]) -> Vec<Step> {
     steps
 }
 
-/// Returns how much of the way between two bands lies before another: what fits the places of the same path best.
+/// Returns the part of the way between two bands at which another lies: the one that fits the places of the same path
+/// best.
 fn part(planes: &[Planes], band: usize, [a, b]: [usize; 2]) -> i32 {
     let (mut along, mut all) = (0_i64, 0_i64);
     for ((a, b), own) in planes[a].iter().zip(&planes[b]).zip(&planes[band]).take(2) {

@@ -12,14 +12,14 @@ use std::path::Path;
 /// The page without its maps.
 const TEMPLATE: &str = include_str!("page.html");
 
-/// What a page says and shows besides its map.
+/// The texts and the background of a page, besides its map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Page<'a> {
     /// The stone's name.
     pub title: &'a str,
-    /// How the map was made, in words.
+    /// A description of how the map was made.
     pub description: &'a str,
-    /// How many times as wide as the map the background is, at least 1.
+    /// The width of the background as a multiple of the map's, at least 1.
     pub span: f64,
     /// A picture to begin with: its name, and the bytes of its PNG or JPEG. Without one the page draws its own.
     pub background: Option<(&'a str, &'a [u8])>,
@@ -37,7 +37,7 @@ pub fn takes(picture: &[u8]) -> bool {
 /// Writes the web page of a map.
 ///
 /// # Errors
-/// When the file system refuses, or the map is empty or lacks pixels.
+/// Fails where the file system refuses, or the map is empty or lacks pixels.
 pub fn write_page(path: &Path, map: &RefractionMap, page: &Page) -> Result<(), WriteError> {
     let html = html(map, page).map_err(|e| WriteError::io(path, e))?;
     write_bytes(path, html.as_bytes())
@@ -57,7 +57,7 @@ fn html(map: &RefractionMap, page: &Page) -> Result<String, png::EncodingError> 
     });
     // Without a `<`, nothing in the data can end the script element or begin another.
     let data = data.to_string().replace('<', "\\u003c");
-    // The data come last, so that no text of theirs is taken for a placeholder of the template.
+    // The data are inserted last, so that no part of them is taken for a placeholder of the template.
     let html = TEMPLATE
         .replace("{{description}}", &escaped(page.description))
         .replace("{{title}}", &escaped(page.title));

@@ -15,27 +15,28 @@ const COLOURS: [f64; 3] = [610.0, 550.0, 465.0];
 /// The wavelength that stands for all light, in nm.
 const ALL: f64 = 555.0;
 
-/// A map that was read from files, and what is unusual about them.
+/// A map that was read from files, and remarks about them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadedMap {
     /// The map. Places and weights are numbers of 0 to 1.
     pub map: RefractionMap,
-    /// What was counted as empty or mended, in words that name the file.
+    /// Notes, with the name of the file, on pixels that were counted as empty or mended.
     pub notes: Vec<String>,
-    /// What makes the map wrong or doubtful, in words that name the file.
+    /// Warnings, with the name of the file, about faults that make the map wrong or doubtful.
     pub warnings: Vec<String>,
 }
 
 /// Reads a map from its pictures, PNG or OpenEXR.
 ///
-/// The program's own files carry a text that says which bands they hold; all files of a map are given in their order. A
-/// picture without this text is foreign: another renderer made it of the `template`, which by default is the tiled one
-/// where channels have 8 bits and the gradient otherwise. One foreign picture is for all light; three are for red, green
-/// and blue. The diffuse layer is a picture with alpha, of the same size; without it, what does not come from the
-/// background is dark.
+/// The program's own files carry a text about their bands; the caller gives all files of a map, in their order. A
+/// picture without this text is foreign: another renderer made it of the `template`, which by default is the tiled
+/// one where channels have 8 bits and the gradient otherwise. One foreign picture is for all light; three are for
+/// red, green and blue. The diffuse layer is a picture with alpha, of the same size; without it, light that does not
+/// come from the background is dark.
 ///
 /// # Errors
-/// When a file cannot be read or is no map, or the files do not fit together; the error names the file and what to do.
+/// Fails where a file cannot be read or is no map, or where the files do not fit together; the error names the file
+/// and what to do.
 pub fn read(
     pictures: &[PathBuf],
     diffuse: Option<&Path>,
@@ -69,7 +70,7 @@ pub fn read(
     foreign_map(pictures, &all, layer, template)
 }
 
-/// Reads the pictures of a map. What cannot be a map is refused before more of it is read.
+/// Reads the pictures of a map. A file that cannot be a map is refused before the next is read.
 fn all_codes(pictures: &[PathBuf]) -> Result<Vec<Codes>, FileError> {
     let mut all: Vec<Codes> = vec![];
     for path in pictures {
@@ -136,7 +137,7 @@ fn foreign_map(
         let label = path.display();
         let mut found = foreign::places(codes, template).map_err(|fault| fault.in_file(&label))?;
         if let Some(layer) = layer.as_ref().filter(|_| !found.has_weights) {
-            // What the layer hides does not come from the background.
+            // Light from behind the cover of the layer does not come from the background.
             found
                 .places
                 .iter_mut()
@@ -159,7 +160,7 @@ fn foreign_map(
     Ok(LoadedMap { map: RefractionMap { size, bands, diffuse }, notes, warnings })
 }
 
-/// Returns a diffuse layer without light, whose cover is what the bands leave of white light.
+/// Returns a diffuse layer without light, whose cover is the part of white light that the bands leave.
 fn covers(bands: &[MapBand]) -> Vec<[f32; 4]> {
     let luminance = DVec3::from_array(LUMINANCE.map(f64::from));
     let shares: Vec<f64> = bands.iter().map(|band| (band.response * DVec3::ONE).dot(luminance)).collect();
@@ -204,8 +205,8 @@ fn is_sane(about: &About) -> bool {
     about.nm.is_finite() && about.response.iter().flatten().all(|part| part.is_finite() && part.abs() < 1e3)
 }
 
-/// Returns the places of one of the program's own maps in tiles. The weights are below them, or what the diffuse layer
-/// leaves, or else 1 but for black.
+/// Returns the places of one of the program's own maps in tiles. The weights are those below the places, else the
+/// part that the diffuse layer leaves, else 0 for black and 1 for all other pixels.
 fn own_tiles((codes, weights): (&[[f32; 3]], &[[f32; 3]]), layer: Option<&Linear>) -> Vec<SourcePlace> {
     let place = |(k, value): (usize, &[f32; 3])| {
         let code = foreign::bytes(value);

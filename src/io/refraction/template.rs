@@ -1,5 +1,5 @@
-//! Writes the template: a gradient whose colours say where on it they are. Another renderer shows it through its own
-//! glass, and what it renders is a map in the template's coding.
+//! Writes the template: a gradient whose colours state their place on it. Another renderer shows it through its own
+//! glass, and its picture is a map in the template's coding.
 
 use super::{MOST_MAP_PIXELS, tiles, write_bytes};
 use crate::io::WriteError;
@@ -9,13 +9,13 @@ use glam::DVec2;
 use std::io;
 use std::path::Path;
 
-/// The gradient that another renderer makes a map of.
+/// The gradient from which another renderer makes a map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Template {
     /// 8 bits, 16 by 16 tiles: for pictures of 8 bits, without filtering, and through glass that takes no light away.
     Tiles,
-    /// 16 bits: red and green are u and v, blue is white. What takes light away from all three alike leaves the place, and
-    /// the blue is the weight.
+    /// 16 bits: red and green are u and v, blue is white. A loss of light that is equal in all three leaves the place
+    /// unchanged, and the blue is the weight.
     Gradient,
 }
 
@@ -32,7 +32,7 @@ impl Template {
 /// Writes a square template of `side` pixels each way as PNG. Each pixel has the colour of its middle.
 ///
 /// # Errors
-/// When the file system refuses, or `side` is 0 or more than [`MOST_MAP_PIXELS`].
+/// Fails where the file system refuses, or `side` is 0 or more than [`MOST_MAP_PIXELS`].
 pub fn write_template(path: &Path, template: Template, side: u32) -> Result<(), WriteError> {
     if side == 0 || side > MOST_MAP_PIXELS {
         let message = format!("a template has 1 to {MOST_MAP_PIXELS} pixels each way");

@@ -42,7 +42,7 @@ fn again(map: &RefractionMap, coding: Coding) -> RefractionMap {
     maps::read(&paths, &diffuse)
 }
 
-/// Returns the largest differences of places, and of weights, between two maps where something comes from behind.
+/// Returns the largest differences of places, and of weights, between two maps, where light comes from the background.
 fn apart(a: &RefractionMap, b: &RefractionMap) -> (f64, f64) {
     let both = a.bands.iter().zip(&b.bands).flat_map(|(a, b)| a.places.iter().zip(&b.places));
     both.filter(|(a, _)| a.weight > 0.0).fold((0.0, 0.0), |(place, weight), (a, b)| {
@@ -117,7 +117,7 @@ fn the_diffuse_layer_keeps_its_light_and_what_it_hides() {
             // A code of sRGB is 0.9 % of the light at the brightest.
             assert!((a[c] - b[c]).abs() < 0.006, "{k}: {} is not {}", b[c], a[c]);
         }
-        // Tiles without weights of their own take what the layer leaves.
+        // Tiles without their own weights take the share that the layer leaves.
         assert_eq!(found.bands[0].places[k].weight, 1.0 - b[3]);
     }
 }

@@ -28,7 +28,7 @@ pub(super) fn code(at: DVec2) -> [u8; 3] {
     [red, green, column << 4 | row]
 }
 
-/// Returns the code of a map's pixel: black where nothing comes from behind, which the weight shows.
+/// Returns the code of a map's pixel: black where no light comes from behind, which the weight shows.
 pub fn code_of(place: &SourcePlace) -> [u8; 3] {
     if place.weight > 0.0 { code(DVec2::new(f64::from(place.u), f64::from(place.v))) } else { [0; 3] }
 }

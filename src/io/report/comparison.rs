@@ -101,7 +101,7 @@ fn pairs(stones: &[ReportedStone], of: fn(&ReportedStone) -> Vec<[String; 2]>) -
     table
 }
 
-/// Says which stones have no measures, and why; `None` where all have some.
+/// Describes which stones have no measures, and why; `None` where all have some.
 fn without_measures(stones: &[ReportedStone]) -> Option<String> {
     let names: Vec<&str> =
         stones.iter().filter(|stone| stone.measures().is_empty()).map(ReportedStone::name).collect();
@@ -131,7 +131,7 @@ fn light(stones: &[ReportedStone]) -> ReportTable {
     table
 }
 
-/// Returns the place of the best interval where it overlaps no other, and looks no different from none at two decimals.
+/// Returns the place of the best interval where it overlaps no other and its advantage shows at two decimals.
 fn best(found: &[Option<Interval>], better: Ordering) -> Option<usize> {
     let known: Vec<(usize, Interval)> =
         found.iter().enumerate().filter_map(|(k, found)| Some((k, (*found)?))).collect();

@@ -8,27 +8,27 @@ use crate::measure::{
 };
 use crate::picture::{ReportTable, TextFlow};
 
-/// Deviations and departures below this are shown as 0, and then nothing is the worst.
+/// Deviations and departures below this are printed as 0, and then no facet or octant is named as the worst.
 const NOT_SHOWN: f64 = 5e-4;
 
-/// Formats a number with this many decimal places, without a minus before nought.
+/// Formats a number with this many decimal places, without a minus before zero.
 pub(super) fn fixed(value: f64, digits: usize) -> String {
     let scale = 10_f64.powi(digits as i32);
     format!("{:.digits$}", (value * scale).round() / scale + 0.0)
 }
 
-/// Formats a part in percent with the most by which it may be off.
+/// Formats a part in percent with the greatest error.
 pub(super) fn bounded(found: Interval) -> [String; 2] {
     if !found.most.is_finite() {
         return [format!("at least {}", fixed(100.0 * found.least, 2)), String::new()];
     }
     // Bounds are rounded up.
-    // Adding 0 leaves no minus before nought.
+    // The sum with 0 leaves no minus before zero.
     let error = (1e4 * found.error() - 1e-6).ceil().max(0.0) / 100.0 + 0.0;
     [fixed(100.0 * found.middle(), 2), format!("± {error:.2}")]
 }
 
-/// Returns the proportions that the cut's family has: those that the design gives, and those that follow.
+/// Returns the proportions of the cut's family: those that the design gives, and those that follow.
 pub(super) fn designed(stone: &ReportedStone) -> Vec<[String; 2]> {
     let cut = &stone.viewing.specimen.design.cut;
     let rows = cut.proportions().iter().map(|row| (row, (row.get)(cut)));
@@ -112,7 +112,7 @@ pub(super) fn light(stone: &ReportedStone) -> (ReportTable, String) {
     let mut last = "";
     for (name, found) in report.by_name().filter(|(name, _)| is_listed(*name)) {
         let [value, error] = bounded(found);
-        // The returns of several domes count the same.
+        // Returns of all domes share one meaning.
         let meaning = measure_words::meaning(name);
         let said = if meaning == last { "" } else { meaning };
         last = meaning;
@@ -137,7 +137,8 @@ pub(super) fn light(stone: &ReportedStone) -> (ReportTable, String) {
     (table, how)
 }
 
-/// Whether a report lists a measure: returns with glare differ from those without it by the same number under all cuts.
+/// Returns whether a report lists a measure: returns with glare differ from those without it by the same number under
+/// all cuts.
 pub(super) fn is_listed(name: MeasureName) -> bool {
     !matches!(name, MeasureName::ReturnWithGlare(_))
 }
@@ -165,7 +166,7 @@ fn sampled(report: &FigureReport) -> (ReportTable, String) {
     (table, how)
 }
 
-/// Returns how far the facets of a round brilliant deviate from their classes; `None` of any other stone.
+/// Returns the deviations of the facets of a round brilliant from their classes; `None` for any other stone.
 pub(super) fn deviations(stone: &ReportedStone) -> Option<ReportTable> {
     let classes = facet_deviations(stone.viewing.specimen.stone().ok()?).ok()?;
     let numbers = TextFlow::Numbers;

@@ -6,11 +6,11 @@ use glam::DVec3;
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
 
-/// Slopes and azimuths are rounded to this, degrees. A crown angle that is 0.01° off is another stone.
+/// Slopes and azimuths are rounded to this, degrees. A crown angle that differs by 0.01° makes another stone.
 const ANGLE_STEP_DEG: f64 = 0.005;
 
-/// Distances of planes from the stone's lowest height on the axis are rounded to this, girdle radii: more than what files of
-/// six digits lose.
+/// Distances of planes from the stone's lowest height on the axis are rounded to this, girdle radii: more than the
+/// loss of files with six digits.
 const DISTANCE_STEP: f64 = 2e-4;
 
 /// Frosting, which is from 0 to 1, is rounded to this.
@@ -25,7 +25,7 @@ pub fn fingerprint(body: &Body) -> String {
     let text = match body {
         Body::Stone(stone) => planes(&stone.polytope),
         Body::Mesh(mesh) => triangles(mesh),
-        // Its dimensions are its numbers as they were given, which no file rounds.
+        // Its dimensions are the given numbers, which no file rounds.
         Body::Glass(_) => serde_json::to_string(body).unwrap_or_default(),
     };
     let digest = Sha256::digest(text.as_bytes());
@@ -55,7 +55,7 @@ fn plane(facet: &Facet, lowest: f64) -> String {
     // The arc tangent is exact to rounding for level facets as well, where the arc cosine is not.
     let slope = steps(normal.truncate().length().atan2(normal.z).to_degrees(), ANGLE_STEP_DEG);
     let azimuth = match slope {
-        // The azimuth of a level facet is chance.
+        // Rounding alone decides the azimuth of a level facet.
         0 => 0,
         _ if slope == full_turn / 2 => 0,
         _ => steps(normal.truncate().to_angle().to_degrees(), ANGLE_STEP_DEG).rem_euclid(full_turn),
@@ -73,7 +73,7 @@ fn triangles(mesh: &TriangleMesh) -> String {
     };
     let triangle = |corners: &[u32; 3]| {
         let [a, b, c] = corners.map(corner);
-        // Of the three ways to write it that keep its sense, the least is taken.
+        // Of the three rotations of the corners that keep their sense, the least is taken.
         [[a, b, c], [b, c, a], [c, a, b]].into_iter().min().unwrap_or_default()
     };
     let mut triangles: Vec<[[i64; 3]; 3]> = surface.triangles.iter().map(triangle).collect();

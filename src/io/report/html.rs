@@ -1,11 +1,11 @@
-//! A report as a web page of one file: pictures, drawings and font are in it, and nothing is fetched.
+//! A report as a web page of one file: it contains pictures, drawings and font, and fetches nothing.
 
 use crate::picture::{FigureRow, Report, ReportCell, ReportPart, ReportTable, TextFlow};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write;
 
-/// How the page looks, on a screen and in print.
+/// The style of the page, on a screen and in print.
 const STYLE: &str = include_str!("page.css");
 
 /// Returns a report as the text of a web page.
@@ -57,7 +57,7 @@ fn pairs(class: &str, pairs: &[[String; 2]]) -> String {
 fn figures(row: &FigureRow) -> String {
     let mut text = "<div class=\"figures\">\n".to_owned();
     let aspects: f64 = row.figures.iter().map(|figure| figure.drawing.aspect()).sum();
-    // Where the height of the pictures is limited, so is the width that they fill together.
+    // Where the height of the pictures is limited, the width that they fill together is limited as well.
     let width = (100.0 * row.most_height * aspects).min(100.0);
     for figure in &row.figures {
         let caption = escaped(&figure.caption);

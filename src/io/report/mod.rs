@@ -1,5 +1,5 @@
-//! Reports on stones: puts together what a laboratory would hand out with a stone, or what compares several, and writes it as
-//! PDF or as a web page of one file.
+//! Reports on stones: puts together a report as laboratories give it out, on one stone or on the comparison of
+//! several, and writes it as PDF or as a web page of one file.
 //!
 //! The same stones, options and program give the same bytes.
 
@@ -49,10 +49,10 @@ impl ReportFormat {
     }
 }
 
-/// The usual number of pixels along each side of a picture: 300 an inch where five stand side by side.
+/// The default number of pixels along each side of a picture: 300 per inch where five stand side by side.
 pub const PICTURE_SIDE: u32 = 420;
 
-/// How a report comes about.
+/// The origin of a report.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReportOrigin {
     /// The command that makes the same report again.
@@ -66,7 +66,7 @@ pub struct ReportOrigin {
 /// Refuses a report on so many stones.
 ///
 /// # Errors
-/// [`Failure::Usage`] for none or more than [`MOST_COMPARED`].
+/// Fails with [`Failure::Usage`] for none or more than [`MOST_COMPARED`].
 pub fn check_count(count: usize) -> Result<(), Failure> {
     if (1..=MOST_COMPARED).contains(&count) {
         return Ok(());
@@ -74,11 +74,11 @@ pub fn check_count(count: usize) -> Result<(), Failure> {
     Err(Failure::Usage(format!("a report is on 1 to {MOST_COMPARED} stones; {count} were given")))
 }
 
-/// Takes the pictures and the measures of one stone, or of several, and returns the report on it or on how they compare.
+/// Takes the pictures and the measures of one stone, or of several, and returns the report on it or the comparison.
 ///
 /// # Errors
-/// [`Failure::Usage`] for no stone or more than [`MOST_COMPARED`], an error of `tell`, the errors of tracing, or
-/// [`Failure::Stopped`] when `watch` asks to stop.
+/// Fails with [`Failure::Usage`] for no stone or more than [`MOST_COMPARED`], an error of `tell`, the errors of
+/// tracing, or [`Failure::Stopped`] when `watch` asks to stop.
 pub fn report(
     viewings: &[Viewing],
     origin: &ReportOrigin,
@@ -104,7 +104,7 @@ pub fn report(
 /// Writes a report, whole or not at all; the paper is that of a PDF.
 ///
 /// # Errors
-/// [`Failure::Output`] where the file system refuses.
+/// Fails with [`Failure::Output`] where the file system refuses.
 pub fn write(path: &Path, format: ReportFormat, report: &Report, paper: PaperSize) -> Result<(), Failure> {
     let bytes = match format {
         ReportFormat::Html => report_html(report).into_bytes(),
@@ -117,7 +117,7 @@ pub fn write(path: &Path, format: ReportFormat, report: &Report, paper: PaperSiz
     Ok(())
 }
 
-/// Returns how a report was made, after the lines that tell the stones' fingerprints.
+/// Returns the lines on how a report was made, after those with the stones' fingerprints.
 fn provenance(fingerprints: Vec<[String; 2]>, origin: &ReportOrigin) -> Vec<[String; 2]> {
     let line = |label: &str, value: &str| [label.to_owned(), value.to_owned()];
     let mut lines = fingerprints;

@@ -32,23 +32,23 @@ const UNRESOLVED: f64 = 2e-3;
 /// The background of the picture under light, as an sRGB code of each channel.
 const BEHIND: u8 = 0xf2;
 
-/// The width and the height at which the facet diagram is shown on paper, points; its names are readable there.
+/// The width and the height of the facet diagram on paper, points, at which its names are readable.
 const DIAGRAM: [f64; 2] = [140.0, 262.0];
 
-/// The scopes of every stone: names of pictures, and what they are called on paper.
+/// The scopes of every stone: names of pictures, with their titles on paper.
 const SCOPES: [(&str, &str); 2] = [("aset", "ASET"), ("ideal-scope", "Ideal-Scope")];
 
-/// The scopes of round brilliants alone.
+/// The scopes for round brilliants only.
 const SCOPES_OF_ROUNDS: [(&str, &str); 2] = [("hearts", "Hearts"), ("arrows", "Arrows")];
 
-/// A picture, and what it is called.
+/// A picture with its title.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct NamedDrawing {
     pub name: &'static str,
     pub drawing: EmbeddedDrawing,
 }
 
-/// Returns the scopes that are for the cut of a stone, each with what it is called.
+/// Returns the scopes that suit the cut of a stone, each with its title.
 fn scopes(viewing: &Viewing) -> Vec<(&'static str, Scoped)> {
     let is_round = viewing.specimen.stone().is_ok_and(|stone| facet_deviations(stone).is_ok());
     let more = if is_round { SCOPES_OF_ROUNDS.as_slice() } else { &[] };
@@ -59,7 +59,7 @@ fn scopes(viewing: &Viewing) -> Vec<(&'static str, Scoped)> {
     SCOPES.iter().chain(more).filter_map(scoped).collect()
 }
 
-/// Takes the pictures of a stone, `side` pixels along each side: under light, and in every scope that is for its cut.
+/// Takes the pictures of a stone, `side` pixels along each side: under light, and in every scope that suits its cut.
 pub(super) fn pictures(
     (viewing, side): (&Viewing, u32),
     renderer: &mut Renderer,

@@ -71,7 +71,7 @@ pub(super) fn report(stone: &ReportedStone, origin: &ReportOrigin) -> Result<Rep
     })
 }
 
-/// Draws what comes back and what is lost, and the play of light, against tilt.
+/// Draws two plots against tilt: returned and lost light, and the play of light.
 fn plots(tilts: &TiltCurves) -> Result<Vec<ReportPart>, Failure> {
     let of = |list: &[(MeasureName, &str)]| -> Vec<(&TiltCurves, MeasureName, String)> {
         list.iter().map(|&(measure, name)| (tilts, measure, name.to_owned())).collect()

@@ -1,4 +1,4 @@
-//! One stone of a report, with everything that was found out about it.
+//! One stone of a report, with its pictures and measures.
 
 use super::fingerprint::fingerprint;
 use super::pictures::{NamedDrawing, drawings, pictures};
@@ -16,11 +16,11 @@ use crate::render::Renderer;
 use crate::trace::Watch;
 use glam::DVec3;
 
-/// The part of the light that measures leave unresolved: of a stone with as many alike parts as this, and of any other.
+/// The number of alike parts from which on a stone is measured to the finer bound of unresolved light, and both bounds.
 const ALIKE_PARTS: u32 = 4;
 const UNRESOLVED: [f64; 2] = [1e-3, 5e-3];
 
-/// How long the steps take, roughly: pictures, measures, curves over tilt, hearts and arrows.
+/// The rough durations of the steps: pictures, measures, curves over tilt, hearts and arrows.
 const SHARES: [f64; 4] = [3.0, 1.0, 4.0, 2.0];
 
 /// A stone with its pictures and measures.
@@ -105,7 +105,7 @@ impl<'a> ReportedStone<'a> {
         }
     }
 
-    /// Returns what is known of the stone before it is measured.
+    /// Returns the known facts of the stone before it is measured.
     pub fn facts(&self) -> Vec<[String; 2]> {
         let specimen = self.viewing.specimen;
         let nm = self.viewing.wavelength_nm.map_or(String::new(), |nm| format!(" at {nm} nm"));

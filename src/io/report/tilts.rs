@@ -62,8 +62,8 @@ impl TiltCurves {
     }
 }
 
-/// Draws curves against tilt under a title: for each, the stone's tilts, a measure and what the key calls it. Returns `None`
-/// where there is nothing to draw.
+/// Draws curves against tilt under a title: for each, the stone's tilts, a measure and its name in the key. Returns
+/// `None` where there is nothing to draw.
 pub(super) fn tilt_plot(
     title: &str,
     wanted: &[(&TiltCurves, MeasureName, String)],

@@ -1,4 +1,4 @@
-//! The keys of a scene file, in the order in which they are written, and what they may be.
+//! The keys of a scene file, in the order in which they are written, and their ranges.
 
 use super::super::background::BackgroundRef;
 use super::super::cut_file::material_form::MaterialForm;
@@ -97,7 +97,7 @@ impl SceneForm {
         }
     }
 
-    /// Returns the scene that the form of a text describes, checked; files that it names are looked for from `folder`.
+    /// Returns the scene that the form of a text describes, checked; files that it names are sought from `folder`.
     pub fn scene(self, text: &str, folder: Option<&Path>) -> Result<SceneFile, Fault> {
         if !is_printable(&self.name) {
             return Err(Fault::key("name", "name: a name of 1 to 200 printable characters is expected"));
@@ -153,8 +153,8 @@ impl SceneForm {
     }
 }
 
-/// Checks the numbers of how a scene is pictured: the strength of refraction, the angle of view, the turn of its light and the
-/// exposure.
+/// Checks the numbers of a scene's picture: the strength of refraction, the angle of view, the turn of its light and
+/// the exposure.
 fn check_picture(
     strength: f64,
     angle_of_view: Option<f64>,
@@ -227,7 +227,7 @@ impl StoneForm {
         }
     }
 
-    /// Checks that a place is given where there is no layout, and only there; a stone alone needs none.
+    /// Checks that a stone states its place where there is no layout, and only there; a single stone needs none.
     fn check_place(&self, layout: Option<Layout>, alone: bool) -> Result<(), Fault> {
         match (layout, self.at) {
             (Some(_), Some(_)) => {

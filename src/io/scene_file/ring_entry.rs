@@ -13,7 +13,7 @@ pub struct RingEntry {
     pub ring: Ring,
     /// The metal.
     pub metal: Metal,
-    /// How rough its surface is, 0 to 1.
+    /// The roughness of its surface, 0 to 1.
     pub roughness: f64,
     /// The cut of the main stone, as in [`Entry::cut`](super::Entry::cut), where the style has one.
     pub stone: Option<String>,

@@ -139,7 +139,7 @@ pub(super) fn ring(form: Spanned<TomlTable<RingForm>>, text: &str) -> Result<Rin
     form.entry(line).map_err(|fault| fault.within("ring/", "ring: "))
 }
 
-/// Returns what a name stands for.
+/// Returns the value of a name; the fault names the key and the known names.
 fn named<T: Copy>(key: &str, given: &str, known: &[(&'static str, T)]) -> Result<T, Fault> {
     let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
     let unknown = || format!("{key}: '{}' is unknown{}", shown(given), likely(given, &names));

@@ -1,4 +1,4 @@
-//! What the tables of a scene file share: sizes, ranges, names and rotations.
+//! Parts that the tables of a scene file share: sizes, ranges, names and rotations.
 
 use super::super::cut_file::material_form::{MaterialForm, path_of};
 use super::super::cut_file::values::{Numbers, OneOf, Pairs};
@@ -58,8 +58,8 @@ pub(super) fn within(
     Err(Fault::key(path, format!("{key}: {value} must be from {least} to {most} {unit}")))
 }
 
-/// Checks the turn, tilt and azimuth of a body, in degrees, and its place. Returns the place in mm, the origin where none is
-/// given.
+/// Checks the turn, tilt and azimuth of a body, in degrees, and its place. Returns the place in mm, by default the
+/// origin.
 pub(super) fn place_mm([turn, tilt, azimuth]: [f64; 3], at: Option<Numbers<3>>) -> Result<DVec3, Fault> {
     within("turn", "turn", turn, DEGREES, "degrees")?;
     within("tilt", "tilt", tilt, LEANING, "degrees")?;
@@ -86,7 +86,7 @@ pub(super) fn metal(given: &str) -> Result<Metal, Fault> {
     found.ok_or_else(|| Fault::key("metal", unknown()))
 }
 
-/// Returns the roughness of a metal, checked; that of a polished one where none is given.
+/// Returns the roughness of a metal, checked; by default that of a polished one.
 pub(super) fn roughness(given: Option<f64>) -> Result<f64, Fault> {
     let roughness = given.unwrap_or(POLISHED);
     if ROUGHNESSES.contains(&roughness) {
@@ -101,7 +101,7 @@ pub(super) fn likely(asked: &str, known: &[&str]) -> String {
     format!("{meant} known: {}", known.join(", "))
 }
 
-/// Returns as much of a text as a person reads.
+/// Returns a text, cut to a readable length.
 pub(super) fn shown(text: &str) -> String {
     text.chars().take(80).collect()
 }
@@ -113,7 +113,7 @@ pub(super) fn leaning(turn: f64, tilt: f64, azimuth: f64) -> DQuat {
     DQuat::from_axis_angle(axis, tilt.to_radians()) * DQuat::from_rotation_z(turn.to_radians())
 }
 
-/// A rotation as scene files say it: first a turn about z, then a lean of z toward an azimuth, in degrees.
+/// A rotation in the form of scene files: first a turn about z, then a lean of z toward an azimuth, in degrees.
 pub(super) struct Angles {
     pub turn: f64,
     pub tilt: f64,

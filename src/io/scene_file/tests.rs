@@ -1,4 +1,4 @@
-//! What a scene file may and may not say, and which messages its faults give.
+//! Tests of scene files: permitted and refused contents, and the messages about faults.
 
 use super::*;
 use crate::io::library;

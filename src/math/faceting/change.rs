@@ -1,4 +1,4 @@
-//! What changes when a convex solid takes the place of a surface.
+//! The differences between a surface and the convex solid that replaces it.
 
 use super::deviation::outermost;
 use crate::math::edges::Edges;
@@ -9,24 +9,25 @@ use rayon::prelude::*;
 /// Edges that bend inward by less than this are flat, in radians: 0.06 degrees.
 const BENT: f64 = 1e-3;
 
-/// The steps in which the deepest point of a triangle is sought. Each leaves 0.62 of the range, so all leave a millionth.
+/// The number of steps of the search for the deepest point of a triangle. Each step leaves 0.62 of the range, so all
+/// of them leave a millionth.
 const STEPS: usize = 30;
 
 /// The differences between a convex solid and the surface that it was made from. Lengths are in the surface's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Change {
-    /// How much more volume the solid has, as a part of the surface's volume.
+    /// The additional volume of the solid, as a part of the surface's volume.
     pub volume: f64,
-    /// How far below the solid's surface the deepest point of the surface lies.
+    /// The depth of the deepest point of the surface below the solid's surface.
     pub deepest: f64,
-    /// The number of the surface's edges that bend inward.
+    /// The number of edges of the surface that bend inward.
     pub bent: usize,
     /// The greatest angle between the normals beside one of these edges, in radians.
     pub sharpest: f64,
 }
 
 impl Change {
-    /// Compares a closed surface with a solid that holds it, apart from noise.
+    /// Compares a closed surface with a solid that contains it, except for noise.
     pub fn of(surface: &Surface, solid: &Polytope) -> Self {
         let angles = bends(surface);
         Self {
@@ -53,9 +54,9 @@ fn bends(surface: &Surface) -> Vec<f64> {
 
 /// Returns the greatest depth of a surface below the surface of a convex solid.
 ///
-/// The depth of a point is its least distance from a plane, which is a concave function of the place. So it has one greatest
-/// value within a triangle. An upper bound of this value is the greatest depth of the three corners below the plane that is
-/// nearest to one of them.
+/// The depth of a point is its least distance from a plane, which is a concave function of the place. So it has one
+/// greatest value within a triangle. An upper bound of this value is the greatest depth of the three corners below
+/// the plane that is nearest to one of them.
 fn deepest(surface: &Surface, solid: &Polytope) -> f64 {
     let planes: Vec<Plane> = solid.planes().collect();
     let depth = |point: DVec3| -outermost(&planes, point).1;
@@ -81,7 +82,7 @@ fn deepest(surface: &Surface, solid: &Polytope) -> f64 {
     most
 }
 
-/// Returns the greatest value of a concave function on 0 to 1, found by golden section.
+/// Returns the greatest value of a concave function on 0 to 1, by golden section search.
 fn greatest(of: impl Fn(f64) -> f64) -> f64 {
     let part = (5.0_f64.sqrt() - 1.0) / 2.0;
     let (mut low, mut high) = (0.0, 1.0);

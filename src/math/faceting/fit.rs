@@ -4,23 +4,24 @@ use crate::math::eigen::{eigen, outer};
 use crate::math::{Plane, Surface};
 use glam::{DMat3, DVec3};
 
-/// A plane fitted to triangles, with the area and width of these.
+/// A plane fitted to triangles, with the area and the width of the triangles.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PlaneFit {
     /// The plane; its unit normal is on the side that the triangles face.
     pub plane: Plane,
     /// The area of the triangles.
     pub area: f64,
-    /// The width of the triangles in the plane, where they are narrowest: that of a rectangle with the same spread.
+    /// The least width of the triangles in the plane: that of a rectangle with the same second moments.
     pub width: f64,
 }
 
-/// Returns the plane with the least square distance from the triangles, in which each point of their area counts the same.
+/// Returns the plane with the least mean square distance from the triangles, in which each point of their area has
+/// the same weight.
 ///
 /// The plane runs through the centroid. `None` where the triangles have no area.
 pub(super) fn fit(surface: &Surface, triangles: &[u32]) -> Option<PlaneFit> {
     let corners = || triangles.iter().map(|&t| surface.corners(t as usize));
-    // Measuring from one of the corners keeps the digits of a small region far from the middle.
+    // The corner as origin keeps the digits of a small region far from the middle.
     let origin = surface.corners(*triangles.first()? as usize)[0];
     let (mut area, mut first, mut facing) = (0.0, DVec3::ZERO, DVec3::ZERO);
     for [a, b, c] in corners() {

@@ -1,15 +1,18 @@
-//! Finds the facets of a closed surface of triangles, and the convex solid that it stands for: [`facets`].
+//! Finds the facets of a closed surface of triangles, and the convex solid that the surface represents: [`facets`].
 //!
-//! The steps, in their order; each is tried where those before found nothing:
+//! The steps, in their order; each is tried where the steps before it found nothing:
 //!
-//! 1. triangles that share a plane are gathered into regions, the planes being fitted by least squares (`regions`, `fit`), and
-//!    the solid between the planes must reproduce the surface (`search`). This is tried at growing tolerances;
-//! 2. planes that cut the hull of the corners are left out, and each triangle goes to the facet that it lies on (`settle`);
-//! 3. the same is tried at the tolerances of scans, and on a smoothed copy, if what is left is noise (`noise`);
-//! 4. the hull itself is taken where the surface is meant to be it (`hull`).
+//! 1. triangles that share a plane are gathered into regions, whose planes are fitted by least squares (`regions`,
+//!    `fit`); the solid between the planes must reproduce the surface (`search`). This is tried at growing
+//!    tolerances;
+//! 2. planes that cut the hull of the corners are left out, and each triangle is assigned to the facet that it lies
+//!    on (`settle`);
+//! 3. the same is tried at the tolerances of scans, and on a smoothed copy, if the remaining differences are noise
+//!    (`noise`);
+//! 4. the hull itself is taken, if the surface is meant to be its hull (`hull`).
 //!
-//! Where the solid is not quite the surface, `change` measures how they differ. Lengths are in the surface's unit; tolerances
-//! are parts of [`Surface::size`].
+//! Where the solid differs from the surface, `change` measures the differences. Lengths are in the surface's unit;
+//! tolerances are parts of [`Surface::size`].
 
 mod change;
 mod deviation;
@@ -31,26 +34,26 @@ use hull::Hull;
 use regions::{NOWHERE, Regions};
 use search::{MOST_FACETS, MatchingSolid, SolidSearch};
 
-/// A region and a group of the file are the same if they share this part of the area of each.
+/// A region and a group of the file are the same facet if they share this part of the area of each.
 const ONE: f64 = 0.99;
 
 /// A facet that was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Face {
-    /// The plane, with [`Faceted::centre`] as its origin.
+    /// The plane of the facet, in the frame whose origin is [`Faceted::centre`].
     pub plane: Plane,
-    /// The area of its triangles.
+    /// The area of the facet's triangles.
     pub area: f64,
-    /// The name that the file gives the facet, where one of the file's groups is exactly this facet.
+    /// The name of the facet in the file, where one of the file's groups is exactly this facet.
     pub name: Option<String>,
 }
 
-/// A surface that is a convex solid between planes. Lengths are in the surface's unit.
+/// A surface that represents a convex solid between planes. Lengths are in the surface's unit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Faceted {
     /// The surface, with its `centre` moved to the origin.
     pub surface: Surface,
-    /// Where the origin of the planes lies in the surface's own frame.
+    /// The origin of the planes, in the surface's original frame.
     pub centre: DVec3,
     /// The facets, the largest first, in the order of the facets of `polytope`.
     pub faces: Vec<Face>,
@@ -58,23 +61,23 @@ pub struct Faceted {
     pub polytope: Polytope,
     /// The greatest distance of a corner from the solid's surface.
     pub deviation: f64,
-    /// The tolerance at which facets were found: their corners lie within it of their planes.
+    /// The tolerance at which the facets were found: their corners lie within it of their planes.
     pub tolerance: f64,
-    /// The differences between the solid and a surface that is not convex itself; `None` for a surface that is convex up to
-    /// a thousandth.
+    /// The differences between the solid and a surface that is not convex itself; `None` for a surface that is convex
+    /// up to a thousandth.
     pub change: Option<Change>,
 }
 
-/// The kind of solid that a closed surface stands for.
+/// The kind of solid that a closed surface represents.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SurfaceKind {
     /// A convex solid between planes.
     Convex(Box<Faceted>),
-    /// Anything else, to be traced as triangles, just as it was given.
+    /// Any other solid. It is traced as triangles, exactly as it was given.
     Concave(Surface),
 }
 
-/// Finds the facets of a closed surface, as [`Surface::mend`] returns it.
+/// Finds the facets of a closed surface that [`Surface::mend`] has returned.
 pub fn facets(surface: Surface) -> SurfaceKind {
     let (moved, centre) = centred(&surface);
     let search = SolidSearch::of(&moved);
@@ -84,12 +87,12 @@ pub fn facets(surface: Surface) -> SurfaceKind {
     SurfaceKind::Convex(Box::new(faceted(moved, centre, solid, is_changed)))
 }
 
-/// Returns the convex solid around a closed surface's corners, whatever lies between them.
+/// Returns the convex solid around the corners of a closed surface, whatever lies between them.
 ///
-/// Its facets are the surface's own where that is convex, and otherwise those of its hull.
+/// Its facets are the surface's own facets where the surface is convex, and otherwise those of its hull.
 ///
 /// # Errors
-/// Returns [`TooCurved`] where the hull is curved: it would take too many facets.
+/// Fails with [`TooCurved`] where the hull is curved and would need too many facets.
 pub fn faceted_hull(surface: Surface) -> Result<Box<Faceted>, TooCurved> {
     let surface = match facets(surface) {
         SurfaceKind::Convex(found) => return Ok(found),
@@ -105,15 +108,15 @@ pub fn faceted_hull(surface: Surface) -> Result<Box<Faceted>, TooCurved> {
 #[error("its convex hull is curved, or has more than {MOST_FACETS} facets")]
 pub struct TooCurved;
 
-/// Returns a surface with the middle of its box at the origin, and where that middle was.
+/// Returns a surface with the middle of its box at the origin, and the former place of that middle.
 fn centred(surface: &Surface) -> (Surface, DVec3) {
     let (low, high) = surface.bounds();
     let centre = (low + high) / 2.0;
     (surface.moved(-centre), centre)
 }
 
-/// Returns the facets of a surface with its centre at the origin. `is_changed` says that the surface is not convex and is read
-/// as this solid nevertheless.
+/// Returns the facets of a surface with its centre at the origin. `is_changed` is true where the surface is not
+/// convex but is read as this solid nevertheless.
 fn faceted(surface: Surface, centre: DVec3, solid: MatchingSolid, is_changed: bool) -> Faceted {
     let MatchingSolid { found, polytope, deviation, tolerance } = solid;
     let names = names(&surface, &found);

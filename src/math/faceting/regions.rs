@@ -5,37 +5,38 @@ use crate::math::edges::{Edges, NONE};
 use crate::math::{Plane, Surface};
 use glam::DVec3;
 
-/// How often, at most, a region is gathered again from its improved plane.
+/// The greatest number of times that a region is gathered again from its improved plane.
 const ROUNDS: usize = 6;
 
-/// The plane is fitted again when a region has grown by this factor.
+/// The plane is fitted again whenever a region has grown by this factor.
 const GROWN: f64 = 1.5;
 
-/// A smaller region is joined to a larger one where it lies within this many tolerances of the larger one's plane: that
-/// plane may be one tolerance off, and corners another.
+/// A smaller region is joined to a larger one if it lies within this many tolerances of the larger one's plane: that
+/// plane may be one tolerance off, and corners one more.
 const MERGED: f64 = 3.0;
 
-/// Two regions are also joined where both lie within this many tolerances of the plane fitted to both, and their planes are
-/// turned apart by no more than [`TURNED`] allows. Two halves of a square whose corners are each one tolerance off are up to
-/// four tolerances apart.
+/// Two regions are also joined if both lie within this many tolerances of the plane fitted to both, and their planes
+/// differ in direction by no more than [`TURNED`] allows. Two halves of a square whose corners are each one tolerance
+/// off are up to four tolerances apart.
 const JOINT: f64 = 1.2;
-/// Planes may be turned apart as far as this many tolerances would turn them at the width of each region.
+/// The greatest difference in direction of the planes of joined regions: the angle that this many tolerances make at
+/// the width of each region.
 const TURNED: f64 = 3.0;
 
-/// The normal of a triangle whose height is below this many tolerances is mere noise.
+/// The normal of a triangle whose height is below this many tolerances is only noise.
 const SLIVER: f64 = 4.0;
 
-/// The plane of a region narrower than this many tolerances is mere noise.
+/// The plane of a region narrower than this many tolerances is only noise.
 const NARROW: f64 = 6.0;
 
 /// The mark of a triangle that belongs to no region.
 pub(super) const NOWHERE: u32 = u32::MAX;
 
-/// A surface cut into regions.
+/// A surface that is divided into regions.
 pub(super) struct Regions {
     /// The region of each triangle, or [`NOWHERE`].
     pub of: Vec<u32>,
-    /// The plane of each region, that of the largest first.
+    /// The plane of each region; the largest region is first.
     pub fits: Vec<PlaneFit>,
 }
 
@@ -85,12 +86,12 @@ struct Grower<'a> {
     areas: Vec<DVec3>,
     tolerance: f64,
     of: Vec<u32>,
-    /// The last round in which each triangle was looked at.
+    /// The last round in which each triangle was visited.
     seen: Vec<u32>,
     round: u32,
 }
 
-/// Whether a triangle is so low that its normal is mere noise.
+/// Returns whether a triangle is so low that its normal is only noise.
 pub(super) fn is_sliver(surface: &Surface, triangle: usize, tolerance: f64) -> bool {
     2.0 * surface.area_vector(triangle).length() <= SLIVER * tolerance * surface.longest_edge(triangle)
 }
@@ -114,8 +115,8 @@ impl Grower<'_> {
         best
     }
 
-    /// Returns connected triangles within the tolerance of a plane. If `follows` is true, the plane is fitted again as
-    /// triangles are found.
+    /// Returns connected triangles within the tolerance of a plane. If `follows` is true, the plane is fitted again
+    /// while the region grows.
     fn flood(&mut self, seed: u32, mut plane: Plane, follows: bool) -> Vec<u32> {
         self.round += 1;
         self.seen[seed as usize] = self.round;
@@ -147,14 +148,14 @@ impl Grower<'_> {
     }
 }
 
-/// Joins regions, small ones first, to larger neighbours in whose plane they lie.
+/// Joins regions, small ones first, to larger neighbours that share their plane.
 struct Joiner<'a> {
     surface: &'a Surface,
     edges: &'a Edges,
     tolerance: f64,
     of: Vec<u32>,
     members: Vec<Vec<u32>>,
-    /// `None` for a region that has been joined to another.
+    /// The fitted plane of each region; `None` for a region that has been joined to another.
     fits: Vec<Option<PlaneFit>>,
 }
 
@@ -181,7 +182,7 @@ impl Joiner<'_> {
         self.fits[region as usize].map_or(0.0, |f| f.area)
     }
 
-    /// Returns the neighbouring regions that are no smaller.
+    /// Returns the neighbouring regions that are no smaller than this one.
     fn beside(&self, region: u32) -> Vec<u32> {
         let across = self.members[region as usize].iter().flat_map(|&t| self.edges.neighbours[t as usize]);
         let regions = across.filter(|&n| n != NONE).map(|n| self.of[n as usize]);
@@ -192,8 +193,8 @@ impl Joiner<'_> {
         beside
     }
 
-    /// Returns how far from a common plane the corners of two regions lie at most; `None` where the two do not share a
-    /// plane.
+    /// Returns the greatest distance of the corners of two regions from a common plane; `None` where the two do not
+    /// share a plane.
     fn misfit(&self, small: u32, large: u32) -> Option<f64> {
         let (mine, other) = (&self.members[small as usize], &self.members[large as usize]);
         let (own, fits) = (self.fits[small as usize], self.fits[large as usize]?);
@@ -206,7 +207,7 @@ impl Joiner<'_> {
         if facing && reached <= MERGED * self.tolerance {
             return Some(reached);
         }
-        // Noise alone may have turned the planes apart, so the plane fitted to both regions decides.
+        // Noise alone may have turned the two planes apart, so the plane fitted to both regions decides.
         let own = own?;
         let apart = (own.plane.normal - fits.plane.normal).length();
         if apart > TURNED * self.tolerance * (1.0 / own.width + 1.0 / fits.width) {

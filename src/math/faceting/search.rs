@@ -1,4 +1,4 @@
-//! Seeks the solid between the planes of regions that reproduces a surface, at growing tolerances.
+//! Searches for the solid that reproduces a surface, between the planes of regions, at growing tolerances.
 
 use super::deviation::deviation;
 use super::hull::Hull;
@@ -9,40 +9,42 @@ use crate::math::{Facet, Plane, Polytope, Surface};
 use glam::DVec3;
 use std::cell::OnceCell;
 
-/// The tolerances tried one after the other, as parts of the size: from the rounding of f32 to a thousandth, the noise that
-/// careless modelling leaves.
+/// The tolerances that are tried one after the other, as parts of the size: from the rounding of f32 to a thousandth,
+/// which is the noise of careless modelling.
 pub(super) const NOISE: [f64; 7] = [1e-6, 1e-5, 4e-5, 1e-4, 2e-4, 4e-4, 1e-3];
 
-/// The tolerances for scans, which count only where noise is what moves corners off their planes.
+/// The tolerances for scans. A solid found with them counts only where noise moves corners off their planes.
 const SCANS: [f64; 5] = [4e-4, 1e-3, 1.5e-3, 2e-3, 4e-3];
 
-/// A solid reproduces a surface if no corner lies farther from the solid's surface than this many tolerances: a corner may
-/// be one tolerance off its own plane and, where regions were joined, three.
+/// A solid reproduces a surface if no corner lies farther from the solid's surface than this many tolerances, and its
+/// volume differs by no more than its area times this many tolerances. A corner may be one tolerance off its own
+/// plane and, where regions were joined, three.
 pub(super) const SAME: f64 = 3.0;
 
-/// How far a scan's corners may lie from the solid, as a part of the size: noise hides a culet that is narrower than that.
+/// The greatest distance of a scan's corners from the solid, as a part of the size: noise hides a culet that is
+/// narrower.
 const SAME_SCAN: f64 = 6e-3;
 
-/// A solid at a larger tolerance is better if it has fewer facets, or as many that lie closer, and its deviation is within
-/// this many times that of the first solid found.
+/// A solid at a larger tolerance is better if it has fewer facets, or as many with a smaller deviation, and its
+/// deviation is within this many times that of the first solid found.
 ///
-/// Halves of a facet have few corners and fit them too well: whole facets lie up to 3.3 times as far off. At 4 the small
-/// facets of a real princess (deepar-princess.obj) are lost.
+/// The halves of a facet have few corners and fit them too well: whole facets deviate up to 3.3 times as much. At 4
+/// the small facets of a real princess (deepar-princess.obj) are lost.
 const AS_GOOD: f64 = 3.5;
-/// How many of the next larger tolerances are tried for a better solid.
+/// The number of larger tolerances that are tried next for a better solid.
 const FURTHER: usize = 2;
 
-/// Neighbouring facets may be one facet that noise has split if their angle is less than this many tolerances make at the
-/// width of each.
+/// Neighbouring facets may be halves of one facet that noise has divided, if the angle between them is less than this
+/// many tolerances make at the width of each.
 const NEARLY_ONE: f64 = 10.0;
 
-/// The most facets of a solid. A surface with more is curved, and cutting it takes too long.
+/// The greatest number of facets of a solid. A surface with more is curved, and cutting it takes too long.
 pub(super) const MOST_FACETS: usize = 2_500;
 
-/// A surface is round if more than this part of its turning lies within regions and not between them.
+/// A surface is round if more than this part of its total turning lies within regions and not between them.
 const ROUND: f64 = 0.1;
 
-/// How far a solid may be from the surface that it reproduces.
+/// The limits within which a solid reproduces a surface.
 #[derive(Clone, Copy)]
 pub(super) struct Limits {
     /// The distance within which corners lie in one plane.
@@ -59,11 +61,12 @@ pub(super) struct MatchingSolid {
     pub tolerance: f64,
 }
 
-/// A surface with its centre at the origin, and what is known of it.
+/// A surface with its centre at the origin, and the data that the search for its solid needs.
 pub(super) struct SolidSearch<'a> {
     surface: &'a Surface,
     edges: Edges,
-    /// The hull of the corners, computed at first use, since most surfaces do without; `None` where all lie in one plane.
+    /// The hull of the corners, computed at first use, since most surfaces do not need it; `None` where all corners
+    /// lie in one plane.
     hull: OnceCell<Option<Hull>>,
 }
 
@@ -76,7 +79,8 @@ impl<'a> SolidSearch<'a> {
         self.hull.get_or_init(|| Hull::of(self.surface)).as_ref()
     }
 
-    /// Returns the solid that reproduces the surface up to the noise of careless modelling.
+    /// Returns the solid that reproduces the surface up to the noise of careless modelling; `None` where there is no
+    /// such solid.
     pub fn exact(&self) -> Option<MatchingSolid> {
         let size = self.surface.size();
         let mut limits = NOISE.iter().map(|noise| Limits { tolerance: noise * size, same: SAME });
@@ -86,7 +90,7 @@ impl<'a> SolidSearch<'a> {
             .find_map(|limits| self.gathered(limits).map_err(|found| failed.push((limits, found))).ok());
         let settled = || failed.into_iter().find_map(|(limits, found)| self.put_right(found?, limits));
         let mut best = first.or_else(settled)?;
-        // Noise may have split facets that a larger tolerance keeps whole.
+        // Noise may have divided facets that stay whole at a larger tolerance.
         let limit = AS_GOOD * best.deviation;
         let further = if is_split(&best) { FURTHER } else { 0 };
         for next in limits.take(further).filter_map(|limits| self.gathered(limits).ok()) {
@@ -99,7 +103,8 @@ impl<'a> SolidSearch<'a> {
         Some(best)
     }
 
-    /// Returns the solid that a scan stands for, or the hull where the surface is meant to be that.
+    /// Returns the solid that a scan represents, or the hull where the surface is meant to be its hull; `None` where
+    /// there is neither.
     pub fn meant(&self) -> Option<MatchingSolid> {
         let (surface, size) = (self.surface, self.surface.size());
         let smooth = noise::smoothed(surface);
@@ -112,8 +117,8 @@ impl<'a> SolidSearch<'a> {
         SCANS.iter().find_map(of_scan).or_else(|| self.hull()?.meant(surface))
     }
 
-    /// Returns the solid between the planes of regions of one tolerance, if it reproduces the surface. Where needed, the
-    /// planes are corrected by the hull.
+    /// Returns the solid between the planes of regions of one tolerance, if it reproduces the surface. Where
+    /// necessary, the planes are corrected with the hull.
     pub fn solid(&self, limits: Limits) -> Option<MatchingSolid> {
         match self.gathered(limits) {
             Ok(solid) => Some(solid),
@@ -121,7 +126,8 @@ impl<'a> SolidSearch<'a> {
         }
     }
 
-    /// Returns the solid between the planes of regions after the hull has corrected them, if it reproduces the surface.
+    /// Returns the solid between the planes of regions after their correction with the hull, if it reproduces the
+    /// surface.
     fn put_right(&self, found: Regions, limits: Limits) -> Option<MatchingSolid> {
         let found = settle::settled(self.surface, &self.edges, self.hull()?, found, limits.tolerance)?;
         self.reproduced(found, limits).ok()
@@ -129,20 +135,23 @@ impl<'a> SolidSearch<'a> {
 
     /// Returns the solid between the planes of regions as they were gathered, if it reproduces the surface.
     ///
-    /// Otherwise returns those regions, unless there are too many or the surface is round.
+    /// Otherwise it returns those regions, unless there are too many or the surface is round.
     fn gathered(&self, limits: Limits) -> Result<MatchingSolid, Option<Regions>> {
         let found = self.flat_regions(self.surface, limits.tolerance).ok_or(None)?;
         self.reproduced(found, limits).map_err(Some)
     }
 
-    /// Returns the solid between the planes of regions that are found on a smoother copy of the surface.
+    /// Returns the solid between the planes of regions that are found on a smoothed copy of the surface, if it
+    /// reproduces the surface.
     ///
-    /// Noise tilts triangles that are small beside it so much that no region would grow from them on the surface itself.
+    /// Noise tilts triangles that are small compared with it so much that no region would grow from them on the
+    /// surface itself.
     fn of_smooth(&self, smooth: &Surface, limits: Limits) -> Option<MatchingSolid> {
         self.put_right(self.flat_regions(smooth, limits.tolerance)?, limits)
     }
 
-    /// Returns the regions of this surface, or of a copy with other corners, unless there are too many or they are round.
+    /// Returns the regions of this surface, or of a copy with other corners; `None` where there are too many or the
+    /// surface is round.
     fn flat_regions(&self, surface: &Surface, tolerance: f64) -> Option<Regions> {
         let found = regions(surface, &self.edges, tolerance, MOST_FACETS)?;
         (!is_round(surface, &self.edges, &found, tolerance)).then_some(found)
@@ -160,7 +169,8 @@ impl<'a> SolidSearch<'a> {
     }
 }
 
-/// Whether some neighbouring facets lean apart by no more than noise could make the halves of one facet lean.
+/// Returns whether some neighbouring facets differ in direction by no more than noise could turn the halves of one
+/// facet.
 fn is_split(solid: &MatchingSolid) -> bool {
     let facets = solid.polytope.facets();
     let fit = |f: &Facet| solid.found.fits[f.source];
@@ -172,9 +182,10 @@ fn is_split(solid: &MatchingSolid) -> bool {
     facets.iter().any(|f| f.neighbours.iter().any(|&n| near(f, &facets[n as usize])))
 }
 
-/// Whether the surface turns outward within regions and not only at their edges. Noise turns it inward as much as outward.
+/// Returns whether the surface turns outward within regions and not only at their edges. Noise turns it inward as
+/// much as outward.
 fn is_round(surface: &Surface, edges: &Edges, found: &Regions, tolerance: f64) -> bool {
-    // A sliver's own normal is noise, so the normal of its region is used.
+    // The normal of a sliver is only noise, so the normal of its region is used.
     let unit = |t: usize| match found.of[t] {
         region if region != NOWHERE && is_sliver(surface, t, tolerance) => {
             found.fits[region as usize].plane.normal
@@ -186,7 +197,7 @@ fn is_round(surface: &Surface, edges: &Edges, found: &Regions, tolerance: f64) -
     for (t, k, n) in edges.pairs() {
         let corners = surface.corners(t);
         let outward = units[n] - units[t];
-        // Across an edge that stands out, normals lean apart.
+        // At an edge that bends outward, the two normals point away from each other.
         let across = surface.corners(n).iter().sum::<DVec3>() - corners.iter().sum::<DVec3>();
         let turn =
             (corners[(k + 1) % 3] - corners[k]).length() * outward.length().copysign(outward.dot(across));

@@ -1,4 +1,4 @@
-//! Corrects the planes of regions that noise has spoilt, by what must be true of a convex solid.
+//! Corrects the planes of regions that noise has spoilt, by properties that every convex solid has.
 //!
 //! Where noise has tilted a region of a few triangles, its plane cuts the solid. No facet of a convex solid does, so such
 //! planes are left out, and each triangle is assigned to the facet that it lies on.
@@ -12,10 +12,12 @@ use crate::math::edges::Edges;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// How often, at most, triangles are assigned anew. Planes that noise has tilted settle in three or four rounds.
+/// The greatest number of rounds in which triangles are assigned again. Planes that noise has tilted settle in three
+/// or four rounds.
 const ROUNDS: usize = 6;
 
-/// The most distances of triangles from planes that are computed in a round. A surface that needs more is no cut stone.
+/// The greatest number of distances between triangles and planes that are computed in a round. A surface that needs
+/// more is no cut stone.
 const MOST_DISTANCES: usize = 200_000_000;
 
 /// Returns the regions with each triangle assigned to the facet that it lies on. `None` where too few planes are left, or

@@ -2,18 +2,18 @@
 
 use glam::DVec3;
 
-/// Why a surface could not be mended. Fields count triangles and corners from 0; messages count from 1.
+/// The reason why a surface could not be mended. Fields count triangles and corners from 0; messages count from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SurfaceError {
-    /// There is no triangle, or none that has an area.
+    /// The surface has no triangle, or none that has an area.
     #[error("there is no triangle with an area; a closed surface of triangles is expected")]
     Empty,
     /// A triangle refers to a corner that does not exist.
     #[error("triangle {} refers to corner {}, and there are {vertices}", .triangle + 1, .vertex + 1)]
     Index {
-        /// The triangle.
+        /// The triangle, counted from 0.
         triangle: usize,
-        /// The corner that it refers to.
+        /// The corner that the triangle refers to.
         vertex: u32,
         /// The number of corners.
         vertices: usize,
@@ -21,13 +21,13 @@ pub enum SurfaceError {
     /// A coordinate is NaN or infinite.
     #[error("corner {} is at {at}; finite coordinates are expected", .vertex + 1)]
     NotFinite {
-        /// The corner.
+        /// The corner, counted from 0.
         vertex: usize,
         /// The coordinates given for it.
         at: DVec3,
     },
-    /// The surface is so small or large that areas and volumes cannot be computed, or so far from the origin that its digits
-    /// are lost.
+    /// The surface is so small or so large that areas and volumes cannot be computed, or so far from the origin that
+    /// its digits are lost.
     #[error("the surface is {size:e} across and {distance:e} from the origin; move it there, or rescale it")]
     OutOfScale {
         /// Half the diagonal of the surface's box.
@@ -35,7 +35,7 @@ pub enum SurfaceError {
         /// The distance of the middle of the box from the origin.
         distance: f64,
     },
-    /// Edges lack a triangle on one side, and the gaps are too wide for cracks.
+    /// Some edges have a triangle on one side only, and the gaps are too wide to be cracks.
     #[error("{}", open_edges_text(*.count, .edges, *.crack))]
     Open {
         /// The number of such edges.
@@ -45,13 +45,13 @@ pub enum SurfaceError {
         /// The widest gap that would have been closed.
         crack: f64,
     },
-    /// The surface has one side only, like a Möbius strip.
+    /// The surface has only one side, like a Möbius strip.
     #[error("the surface has no outside: its sides meet at the edge from {} to {}", point_text(.edge[0]), point_text(.edge[1]))]
     OneSided {
         /// The ends of an edge where the two sides meet.
         edge: [DVec3; 2],
     },
-    /// The surface encloses no volume: all its triangles are in one plane, or it is folded onto itself.
+    /// The surface encloses no volume: all its triangles lie in one plane, or it is folded onto itself.
     #[error("the surface encloses nothing; a solid is expected")]
     Flat,
 }
@@ -60,7 +60,7 @@ pub enum SurfaceError {
 pub(super) const MOST_EDGES: usize = 4;
 
 fn point_text(point: DVec3) -> String {
-    // Seven digits are what f32, and so most files, hold.
+    // An f32 holds seven digits, and most files store f32.
     let digits = |x: f64| format!("{}", format!("{x:.6e}").parse::<f64>().unwrap_or(x));
     format!("({}, {}, {})", digits(point.x), digits(point.y), digits(point.z))
 }

@@ -1,11 +1,12 @@
-//! Mends surfaces of triangles as files have them into closed ones, turned outward: [`Surface::mend`].
+//! Mends surfaces of triangles from files: makes them closed, and turns them outward: [`Surface::mend`].
 //!
 //! The steps, in their order:
 //!
-//! 1. coordinates, numbering and scale are checked, which all further steps rely on;
+//! 1. coordinates, numbering and scale are checked, because all further steps rely on them;
 //! 2. corners at exactly the same place become one (`weld`);
-//! 3. wider and wider gaps are closed until no edge is open: corners of open edges within the gap become one (`weld`),
-//!    triangles are split where corners lie on their edges (`seams`), and triangles without area and copies are left out;
+//! 3. wider and wider gaps are closed until no edge is open: corners of open edges within the gap become one
+//!    (`weld`), triangles are divided where corners lie on their edges (`seams`), and triangles without area and
+//!    copies are left out;
 //! 4. triangles are turned to agree with their neighbours and with the outside (`orient`).
 //!
 //! Lengths are in the file's own unit; tolerances are parts of [`Surface::size`].
@@ -23,30 +24,30 @@ use fault::MOST_EDGES;
 pub use fault::SurfaceError;
 use glam::DVec3;
 
-/// The gaps that are closed, tried in turn until nothing is open, as parts of the size. They go from the rounding of f32 to
-/// a fifth of a percent; a wider gap is a hole.
+/// The widths of gaps that are closed, tried one after the other until no edge is open, as parts of the size. They
+/// range from the rounding of f32 to a fifth of a percent; a wider gap is a hole.
 const CRACKS: [f64; 9] = [1e-7, 1e-6, 1e-5, 5e-5, 1e-4, 2e-4, 4e-4, 1e-3, 2e-3];
 
-/// The sizes that are accepted, so that areas and volumes neither overflow nor vanish.
+/// The range of sizes that are accepted, so that areas and volumes neither overflow nor vanish.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 
-/// A surface farther from the origin than this many times its size has lost its digits, even in f64.
+/// A surface that is farther from the origin than this many times its size has lost its digits, even in f64.
 const FARTHEST: f64 = 1e9;
 
-/// A surface whose volume is below this part of its area times its size encloses nothing.
+/// A surface encloses nothing if its volume is below this part of its area times its size.
 const FLAT: f64 = 1e-9;
 
-/// A closed surface that is turned outward, and what was done to make it so.
+/// A closed surface that is turned outward, and the repairs that made it so.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mended {
     /// The surface. Its corners are welded, it has no copies of triangles, and each of its edges has an even number of
     /// triangles.
     pub surface: Surface,
-    /// What had to be mended.
+    /// The repairs that were necessary.
     pub mending: Mending,
 }
 
-/// What had to be mended in a surface.
+/// The repairs that a surface needed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Mending {
     /// The number of corners left out because they coincided with another or belonged to no triangle.
@@ -66,14 +67,15 @@ pub struct Mending {
 }
 
 impl Surface {
-    /// Returns the same surface closed, with all triangles turned outward.
+    /// Returns the same surface, closed, with all triangles turned outward.
     ///
     /// Corners are welded, triangles without area and copies of others are left out, and cracks of up to 0.2 % of the size
     /// are closed.
     ///
     /// # Errors
-    /// Names what cannot be mended: coordinates that are not finite, corners that do not exist, sizes out of scale, holes
-    /// (with the ends of their edges), a surface with one side only, or one that encloses nothing.
+    /// The error names the fault that cannot be mended: coordinates that are not finite, corners that do not exist,
+    /// sizes out of scale, holes (with the ends of their edges), a surface with only one side, or one that encloses
+    /// nothing.
     pub fn mend(&self) -> Result<Mended, SurfaceError> {
         self.check()?;
         let size = self.size();
@@ -90,7 +92,7 @@ impl Surface {
         Ok(Mended { surface, mending })
     }
 
-    /// Checks what every further step relies on: the coordinates, the numbering and the scale.
+    /// Checks the properties that every further step relies on: coordinates, numbering and scale.
     fn check(&self) -> Result<(), SurfaceError> {
         let vertices = self.vertices.len();
         for (triangle, &vertex) in
@@ -137,7 +139,7 @@ fn close(exact: &Surface, size: f64) -> Result<(Surface, Edges, Mending), Surfac
         }
         still_open = Some((surface, edges));
     }
-    // The edges that are open even after the widest gap has been closed belong to holes; all others were cracks.
+    // The edges that are still open after the widest gap has been closed belong to holes; all others were cracks.
     let Some((surface, edges)) = still_open else { return Err(SurfaceError::Empty) };
     let mut open: Vec<[DVec3; 2]> =
         edges.open.iter().map(|e| e.map(|v| surface.vertices[v as usize])).collect();

@@ -7,14 +7,15 @@ use glam::DVec3;
 use std::collections::VecDeque;
 use std::f64::consts::PI;
 
-/// The most points of a shell that are tested for lying within another shell.
+/// The greatest number of points of a shell that are tested for lying within another shell.
 const SAMPLES: usize = 24;
 
-/// The least mean winding number of a shell around points within it. It is a half around a point on a flat wall; the rest is
-/// room for walls that are bent there.
+/// The least mean winding number of a shell around points within it. Around a point on a flat wall it is a half; the
+/// difference allows for walls that are bent there.
 const ON_WALL: f64 = 0.6;
 
-/// The most shells that are tested for lying within one another: enough for a stone's inclusions, not for a heap of stones.
+/// The greatest number of shells that are tested for lying within one another: enough for a stone's inclusions, not
+/// for a heap of stones.
 const MOST_NESTED: usize = 64;
 
 /// Turns triangles that disagree with their neighbours or with the outside. Returns the number of triangles turned and the
@@ -34,7 +35,7 @@ pub(super) fn outward(surface: &mut Surface, edges: &Edges) -> Result<(usize, us
     Ok((turned, shells.len()))
 }
 
-/// Makes neighbours run the same way round. Returns the triangles of each connected shell.
+/// Makes neighbouring triangles run in the same sense. Returns the triangles of each connected shell.
 fn align(surface: &mut Surface, edges: &Edges) -> Result<Vec<Vec<u32>>, SurfaceError> {
     let mut seen = vec![false; surface.triangles.len()];
     let mut shells = vec![];
@@ -76,13 +77,13 @@ fn flood(
     Ok(shell)
 }
 
-/// Returns an edge that two triangles run along in the same direction; neighbours that agree have none.
+/// Returns an edge along which two triangles run in the same direction; neighbours that agree have none.
 fn shared_same_way(one: &[u32; 3], other: &[u32; 3]) -> Option<[u32; 2]> {
     let run = |t: &[u32; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
     run(one).into_iter().find(|edge| run(other).contains(edge))
 }
 
-/// Whether a shell lies within an odd number of the others, so that its outside is the inside of the stone.
+/// Returns whether a shell lies within an odd number of the others, so that its outside is the inside of the stone.
 fn is_cavity(surface: &Surface, shells: &[Vec<u32>], shell: &[u32]) -> bool {
     if shells.len() == 1 || shells.len() > MOST_NESTED {
         return false;
@@ -99,11 +100,11 @@ fn is_cavity(surface: &Surface, shells: &[Vec<u32>], shell: &[u32]) -> bool {
     shells.iter().filter(holds).count() % 2 == 1
 }
 
-/// Whether points of one shell show that it lies within another, whose wall it may touch.
+/// Returns whether a shell contains all these points of another shell, which may touch its wall.
 ///
-/// A closed shell winds once around a point within, half around a point on its wall, and not around a point outside,
-/// whichever way its triangles run. A shell that touches another from outside, or overlaps it, has points around which the
-/// other does not wind.
+/// A closed shell winds once around a point inside it, half around a point on its wall, and not around a point
+/// outside, whatever the sense of its triangles. A shell that touches another from outside, or overlaps it, has
+/// points around which the other does not wind.
 fn is_within(surface: &Surface, shell: &[u32], points: &[DVec3]) -> bool {
     let winds = |point: &DVec3| {
         let angle = |&t: &u32| solid_angle(surface.corners(t as usize).map(|v| v - *point));

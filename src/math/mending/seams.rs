@@ -4,15 +4,16 @@ use crate::math::Surface;
 use crate::math::edges::{Edges, ends};
 use std::collections::HashMap;
 
-/// The most open edges among which seams are looked for. The search compares each edge with the corners that could lie on
-/// it, and a surface with more open edges is not cracked but rubble.
+/// The greatest number of open edges among which seams are sought. The search compares each edge with the corners
+/// that could lie on it, and a surface with more open edges is not cracked but rubble.
 const MOST_OPEN: usize = 5_000;
 
-/// How deep the pieces of a triangle are split again. Each of its edges is split once; rubble could go on without end.
+/// The greatest number of rounds in which the pieces of a triangle are divided again. Each edge is divided once;
+/// without a limit, rubble could be divided endlessly.
 const MOST_ROUNDS: u32 = 3;
 
-/// Splits triangles with open edges at the corners of other open edges that lie on them within `gap`. Returns how many
-/// corners were put in.
+/// Divides triangles with open edges at the corners of other open edges that lie on them within `gap`. Returns the
+/// number of corners that were inserted.
 pub(super) fn split(surface: &mut Surface, gap: f64) -> usize {
     let open = Edges::of(surface).open;
     if open.len() > MOST_OPEN {
@@ -27,7 +28,7 @@ pub(super) fn split(surface: &mut Surface, gap: f64) -> usize {
         .filter(|(_, list)| !list.is_empty())
         .collect();
     let before = surface.triangles.len();
-    // A triangle is replaced by its pieces, each of which may have another edge to split.
+    // A triangle is replaced by its pieces, each of which may have another edge to divide.
     for t in 0..before {
         split_one(surface, t, &between, MOST_ROUNDS);
     }

@@ -1,4 +1,4 @@
-//! Known surfaces, spoilt in every way that files are, and mended.
+//! Tests that damage known surfaces in every way that occurs in files, and mend them.
 
 use super::*;
 use crate::math::{Plane, Polytope, triangulate};

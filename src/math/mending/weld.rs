@@ -1,4 +1,4 @@
-//! Welds corners: makes one corner of several that a file lists separately.
+//! Welds corners: several corners that a file lists separately become one.
 
 use super::Mending;
 use crate::math::Surface;
@@ -7,7 +7,7 @@ use glam::{DVec3, I64Vec3};
 use rayon::slice::ParallelSliceMut;
 use std::collections::HashMap;
 
-/// Makes one corner of those at exactly the same place, and leaves out corners of no triangle.
+/// Welds corners at exactly the same place, and leaves out corners that belong to no triangle.
 pub(super) fn exactly(surface: &Surface) -> Surface {
     // Adding 0 turns -0 into 0, which compares equal to it.
     let bits = |v: DVec3| (v + DVec3::ZERO).to_array().map(f64::to_bits);
@@ -28,7 +28,8 @@ pub(super) fn exactly(surface: &Surface) -> Surface {
     Surface { vertices, triangles, groups: surface.groups.clone(), names: surface.names.clone() }
 }
 
-/// Makes one corner of corners of open edges that lie within `gap` of one another, in the middle of all that meet.
+/// Welds corners of open edges that lie within `gap` of one another. The welded corner is in the middle of all that
+/// meet.
 pub(super) fn along_gaps(surface: &mut Surface, gap: f64) {
     let mut loose: Vec<u32> = Edges::of(surface).open.into_iter().flatten().collect();
     loose.sort_unstable();
@@ -45,8 +46,8 @@ pub(super) fn along_gaps(surface: &mut Surface, gap: f64) {
     surface.triangles.iter_mut().flatten().for_each(|v| *v = target[*v as usize]);
 }
 
-/// Points gathered into clusters around the first point of each. These first points are more than the gap apart, so a cell
-/// holds few.
+/// Points gathered into clusters around the first point of each. These first points are farther apart than the gap,
+/// so a cell holds few of them.
 struct Clusters {
     gap: f64,
     cells: HashMap<I64Vec3, Vec<usize>>,
@@ -78,10 +79,11 @@ impl Clusters {
     }
 }
 
-/// Leaves out triangles of fewer than three corners, and copies of a triangle, whichever way they run, and counts both.
+/// Leaves out triangles with fewer than three distinct corners, and copies of a triangle in either sense, and counts
+/// both.
 ///
-/// One of several copies is kept, unless it would hang on the surface by edges of an odd number of triangles: the two sides
-/// of something flat enclose nothing.
+/// One of several copies is kept, unless the surface would then have an odd number of triangles at its edges: the two
+/// sides of a flat sheet enclose nothing.
 pub(super) fn tidy(surface: &mut Surface, mending: &mut Mending) {
     let key = |(t, corners): (u32, &[u32; 3])| {
         let mut key = *corners;
@@ -104,8 +106,8 @@ pub(super) fn tidy(surface: &mut Surface, mending: &mut Mending) {
     mending.copies += flat_left(surface, &copied);
 }
 
-/// Leaves out the triangles with these corners all of whose edges are open, and returns how many. `copied` is sorted, and so
-/// are the corners in it.
+/// Leaves out the triangles with these corners all of whose edges are open, and returns their number. `copied` is
+/// sorted, and so are the corners in each of its triangles.
 fn flat_left(surface: &mut Surface, copied: &[[u32; 3]]) -> usize {
     if copied.is_empty() {
         return 0;

@@ -8,7 +8,7 @@ use crate::scene::{DomeLight, elevation_deg};
 use crate::trace::beam::{Beam, BeamPartials, Beams};
 use glam::DVec3;
 
-/// Which exits a measure counts, and by what it weighs them.
+/// The exits that a measure counts, with the parameters of their weights.
 pub(super) enum CountedExits {
     Dome { dome: DomeLight, with_glare: bool },
     Below { only_straight: bool },
@@ -16,12 +16,12 @@ pub(super) enum CountedExits {
     Fire { blur_deg: f64 },
 }
 
-/// What an exit is weighed by.
+/// The weight of an exit, and its derivatives.
 struct ExitWeight {
     value: f64,
-    /// Its change with the direction of the exit.
+    /// The derivative by the direction of the exit.
     per_exit: DVec3,
-    /// Its change per radian of the exit's fan.
+    /// The derivative per radian of the exit's fan.
     per_fan: f64,
 }
 
@@ -67,7 +67,8 @@ impl CountedExits {
         sum
     }
 
-    /// Returns what an exit is weighed by, whose colours spread over an angle of `fan` radians; `None` where it is not counted.
+    /// Returns the weight of an exit whose colours spread over an angle of `fan` radians; `None` where it is not
+    /// counted.
     fn weight(&self, beam: &Beam, beams: &Beams, fan: f64) -> Option<ExitWeight> {
         let elevation = elevation_deg(beam.exit, beams.zenith);
         match *self {
@@ -91,7 +92,8 @@ impl CountedExits {
             }
             Self::Fire { blur_deg } => {
                 let value = seen_apart(fan, blur_deg);
-                // The part seen is 1 - blur / fan. Where one colour is totally reflected the fan is π and stays so.
+                // The weight is 1 - blur / fan. Where one colour is totally reflected, the fan is π and does not
+                // change.
                 let changes = value > 0.0 && fan < std::f64::consts::PI;
                 let per_fan = if changes { (1.0 - value) / fan } else { 0.0 };
                 let is_counted = !beam.is_surface() && elevation >= 0.0;
@@ -101,7 +103,7 @@ impl CountedExits {
     }
 }
 
-/// Sums what the stone absorbs.
+/// Sums the light that the stone absorbs.
 pub(super) fn absorbed(beams: &Beams) -> BeamSum {
     let share = share(beams);
     let value = beams.iter().map(|beam| beam.absorbed * share).sum();

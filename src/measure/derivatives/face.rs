@@ -1,4 +1,4 @@
-//! Derivatives of measures of the face: how much of it is dark, and how uneven its brightness is.
+//! Derivatives of measures of the face: its dark part, and the unevenness of its brightness.
 
 use super::super::exit_sight::{ExitSight, brightness, shines};
 use super::{BeamSum, divide_by_silhouette, share};
@@ -37,7 +37,7 @@ pub(super) fn contrast(beams: &Beams, head_deg: f64) -> BeamSum {
     if deviation > 0.0 && mean > 0.0 {
         let per_square = 0.5 / (mean * deviation);
         let per_mean = -1.0 / deviation - deviation / (mean * mean);
-        // The change per brightness through each beam: that of all parts of it.
+        // The derivative by the brightness through each beam, summed over all its parts.
         let mut per_bright = vec![0.0; beams.len()];
         let mut parts = 0.0;
         for &id in &leaves {
@@ -50,7 +50,7 @@ pub(super) fn contrast(beams: &Beams, head_deg: f64) -> BeamSum {
         for id in (0..beams.len() as u32).rev() {
             let (beam, per) = (beams.get(id), per_bright[id as usize]);
             if shines(&beam, beams, head_deg) {
-                // The exit's weight is its energy by the area.
+                // The exit's weight is its energy divided by the area.
                 partials.energy[id as usize] += per / beam.area;
                 partials.area[id as usize] -= per * beam.weight / beam.area;
             }

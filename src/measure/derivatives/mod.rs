@@ -1,4 +1,4 @@
-//! How measures of light change with the planes of the stone and with its index.
+//! The derivatives of measures of light by the planes of the stone and by its index.
 
 mod exits;
 mod face;
@@ -11,35 +11,35 @@ use exits::CountedExits;
 /// A measure with its derivatives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasureDerivatives {
-    /// The measure of the light that was followed: its least value, but for contrast, whose bounds are about it.
+    /// The measure of the traced light: its least value, except for contrast, whose bounds lie on both sides of it.
     pub value: f64,
-    /// How `value` changes with each plane and with the index, while the stone keeps the symmetry of the picture. Absorption
-    /// per length and dispersion are held.
+    /// The derivatives of `value` by each plane and by the index, as long as the stone keeps the symmetry of the
+    /// picture. Absorption per length and dispersion are held.
     pub derivatives: PlaneDerivatives,
 }
 
-/// A number that beams make up, and how it changes with each of them.
+/// A number that is a function of the beams, with its derivatives by each of them.
 struct BeamSum {
     value: f64,
     partials: BeamPartials,
-    /// The change per radian of each beam's fan; empty where fans do not count.
+    /// The derivative per radian of each beam's fan; empty where the number does not depend on fans.
     per_fan: Vec<f64>,
 }
 
 impl MeasureName {
-    /// Whether this measure is a sum of light: a return, leakage, windowing, obstruction, fire, or what is absorbed. Such a
-    /// measure jumps only where a whole exit crosses a border of the light.
+    /// Returns whether this measure is a sum of light: a return, leakage, windowing, obstruction, fire, or absorbed
+    /// light. Such a measure jumps only where a whole exit crosses a border of the light.
     pub fn is_energy(&self) -> bool {
         matches!(self, Self::Absorbed) || CountedExits::of(self, 0.0, 0.0).is_some()
     }
 
-    /// Whether this measure has derivatives: a sum of light, extinction or contrast.
+    /// Returns whether this measure has derivatives: a sum of light, extinction or contrast.
     pub fn has_derivatives(&self) -> bool {
         self.is_energy() || matches!(self, Self::Extinction | Self::Contrast)
     }
 
-    /// Returns how this measure changes with the planes of `polytope`, which must be the one that was traced, and with the
-    /// index; `None` for measures without derivatives ([`has_derivatives`](Self::has_derivatives)).
+    /// Returns the derivatives of this measure by the planes of `polytope`, which must be the one that was traced,
+    /// and by the index; `None` for measures without derivatives ([`has_derivatives`](Self::has_derivatives)).
     ///
     /// They are the derivatives of the light that was followed, between the borders of domes, heads and horizon: light that
     /// crosses a border makes a measure jump, and a facet through which light ceases to leave makes a kink. Extinction jumps
@@ -67,13 +67,14 @@ impl MeasureName {
     }
 }
 
-/// Returns the part of the whole silhouette's area that one unit of a beam's area is, with the copies of the symmetry.
+/// Returns the part of the whole silhouette's area that a unit of a beam's area stands for, with the copies of the
+/// symmetry.
 fn share(beams: &Beams) -> f64 {
     f64::from(beams.symmetry.order()) / beams.silhouette_area
 }
 
-/// Adds that a sum is a part of the silhouette, which the beams that enter make up. `parts` is the sum of all parts, each times
-/// its change.
+/// Adds the derivatives that come from dividing a sum by the silhouette's area, to which the beams that enter add up.
+/// `parts` is the sum of all parts, each times its derivative.
 fn divide_by_silhouette(partials: &mut BeamPartials, beams: &Beams, parts: f64) {
     for beam in beams.iter().filter(Beam::is_surface) {
         partials.area[beam.id as usize] -= parts * share(beams);

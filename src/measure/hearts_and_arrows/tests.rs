@@ -6,10 +6,10 @@ use crate::scene::{Scope, VIEWER_CONES_DEG};
 use crate::trace::unwatched;
 use glam::DVec2;
 
-/// What is done to a stone before it is measured.
+/// A change of a stone before it is measured.
 #[derive(Clone, Copy)]
 struct Change {
-    /// The facet that is turned about the axis, and by how much, degrees.
+    /// The facet that is turned about the axis, and the angle in degrees.
     turned: (&'static str, f64),
     /// The turn of the whole stone, degrees.
     whole: f64,

@@ -1,6 +1,6 @@
-//! A gem as the table lists it: plain numbers and words.
+//! The rows of the table of gems, as plain numbers and words.
 
-/// A gem: its host and what colours it.
+/// A gem: its host, and the bands and the edge that colour it.
 pub(super) struct Gem {
     pub name: &'static str,
     /// The look of the gem and the cause of its colour, in words.
@@ -10,18 +10,19 @@ pub(super) struct Gem {
     pub bands: &'static [AbsorptionBand],
 }
 
-/// The material that holds the colour; it gives the index.
+/// The host of a gem: the material that holds the colour and gives the index.
 pub(super) enum Host {
-    /// The colourless material of this name, described as this kind.
+    /// A colourless material with this name; the gem is described as this kind.
     Known(&'static str, &'static str),
-    /// A mineral of this kind, by the least and the greatest of its index, its B-G dispersion and its density in g/cm³.
+    /// A mineral of this kind, with the least and the greatest value of its index, its B-G dispersion and its density
+    /// in g/cm³.
     Trade(&'static str, f64, f64, f64, f64),
 }
 
 /// An absorption edge: absorption grows toward the ultraviolet by a factor of e every `fold_nm`.
 ///
-/// At 400 nm it is `at_400` per mm, for the ordinary and the extraordinary polarisation. The edge is a plain stand-in for
-/// the wide bands of charge transfer.
+/// At 400 nm the coefficient is `at_400` per mm, for the ordinary and the extraordinary polarisation. The edge is a
+/// simple approximation of the wide bands of charge transfer.
 pub(super) struct AbsorptionEdge {
     pub at_400: [f64; 2],
     pub fold_nm: f64,

@@ -1,7 +1,8 @@
-//! Stones from trade tables and coloured gems: each has an index, and an absorption made of bands and an edge.
+//! Stones from trade tables, and coloured gems. Each has an index, and an absorption spectrum made of bands and an
+//! edge.
 //!
-//! It is known where the bands of each gem lie. Their strengths differ from stone to stone, and are chosen so that a stone
-//! of 6.5 mm, in which light travels about 14 mm, has the colour that the gem is loved for.
+//! The wavelengths of each gem's bands are known. Their strengths differ from stone to stone; they are chosen so that
+//! a stone of 6.5 mm, in which light travels about 14 mm, has the colour for which the gem is valued.
 
 mod gem;
 mod table;
@@ -15,7 +16,7 @@ use gem::{AbsorptionBand, Gem, Host};
 
 /// The step between the samples of a spectrum, in nm: about half the width of the narrowest band.
 const STEP_NM: usize = 5;
-/// 4 ln 2: exp(-4 ln 2 x²) is a half where x, in full widths, is a half.
+/// 4 ln 2: the function exp(-4 ln 2 x²) is a half where x, in full widths, is ±1/2.
 const PER_WIDTH_SQUARED: f64 = 4.0 * std::f64::consts::LN_2;
 const TRADE: &str = "trade tables, from memory, not yet checked";
 const COLOUR: &str = "illustrative: band positions from the literature, from memory, not yet checked; strengths chosen \
@@ -51,7 +52,8 @@ impl Gem {
         })
     }
 
-    /// Returns the coefficient at a wavelength, for the ordinary polarisation (0) or the extraordinary one (1).
+    /// Returns the absorption coefficient at a wavelength, per mm, for the ordinary polarisation (0) or the
+    /// extraordinary one (1).
     fn per_mm(&self, nm: f64, axis: usize) -> f64 {
         let edge = self.edge.at_400[axis] * ((400.0 - nm) / self.edge.fold_nm).exp();
         edge + self.bands.iter().map(|band| band.per_mm(nm, axis)).sum::<f64>()
@@ -59,7 +61,7 @@ impl Gem {
 }
 
 impl Host {
-    /// Returns the clear material; its description still lacks the words on the gem.
+    /// Returns the colourless material of the host; the words on the gem are not yet in its description.
     fn material(&self, colourless: &[Material]) -> Material {
         match *self {
             Self::Known(name, kind) => {
@@ -83,7 +85,7 @@ impl AbsorptionBand {
     }
 }
 
-/// Rounds to four decimals, far more than is known, so that a spectrum written to a file is easy to read.
+/// Rounds to four decimals, more than are known, so that a spectrum written to a file is easy to read.
 fn rounded(per_mm: f64) -> f64 {
     (1e4 * per_mm).round() / 1e4
 }

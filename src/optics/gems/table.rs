@@ -1,5 +1,5 @@
-//! The table of gems with their hosts and bands. All of it is from memory; the parent module says what is known and what is
-//! chosen.
+//! The table of gems with their hosts and bands. All numbers are from memory; the parent module says which of them
+//! are known and which are chosen.
 
 use super::gem::{AbsorptionBand, AbsorptionEdge, Gem, Host};
 

@@ -21,7 +21,7 @@ fn luck(k: u32) -> [f64; 3] {
     steps.map(|step| (0.5 + step * f64::from(k)).fract())
 }
 
-/// Returns the mean of what a surface sends back along `out`, of light that depends on its direction.
+/// Returns the mean of the light that a surface reflects along `out`, from light that depends on its direction.
 fn sampled(metal: &RoughMetal, out: DVec3, light: impl Fn(DVec3) -> f64) -> f64 {
     let count = 120_000;
     let of = |k| metal.sample(out, luck(k)).map_or(0.0, |found| found.weight * light(found.direction));

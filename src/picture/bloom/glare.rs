@@ -10,10 +10,10 @@ use std::ops::Range;
 /// The number of pixels whose light is gathered at once.
 const AT_ONCE: usize = 1 << 20;
 
-/// How far below the threshold spreading begins, as a part of the threshold.
+/// The part of the threshold by which spreading begins below it.
 const KNEE: f32 = 0.5;
 
-/// What light of a pixel is spread.
+/// The settings that decide the light of a pixel to be spread.
 #[derive(Clone, Copy)]
 pub(super) struct BrightPass {
     /// The part of the light above the threshold that is spread, 0 to 1.
@@ -27,7 +27,7 @@ pub(in crate::picture) struct GatheredGlare {
     pub(super) bright: BrightPass,
     /// The number of pixels across and down.
     pub(super) size: [u32; 2],
-    /// How often the picture's grid was halved for the grid on which light was spread.
+    /// The number of halvings from the picture's grid to the one on which light was spread.
     pub(super) halvings: u32,
     /// The light that was spread, in each colour.
     pub(super) spread: [LightGrid; 3],

@@ -18,7 +18,7 @@ pub(super) struct LightGrid {
 /// The greatest standard deviation, in cells, that is summed up tap by tap.
 const WIDEST: f64 = 3.0;
 
-/// The reach of the taps, in standard deviations: what lies beyond is 1e-6 of the whole.
+/// The reach of the taps, in standard deviations: the weights beyond it add up to 1e-6 of the whole.
 const REACH: f64 = 5.0;
 
 /// The variance that halving and then doubling a grid adds, in square cells: 3/4 each.
@@ -179,7 +179,7 @@ fn add_halved(row: &[f32], padded: &mut [f32], share: f32, out: &mut [f32]) {
     let width = row.len();
     padded[0] = first;
     padded[1..=width].copy_from_slice(row);
-    // The light of the last cell of a pair stays with it; a cell without its pair has darkness beside it.
+    // The last cell of a pair keeps its share of the light; a cell without a partner has darkness beside it.
     padded[width + 1] = if width.is_multiple_of(2) { last } else { 0.0 };
     for (cell, four) in out.iter_mut().zip(padded.windows(4).step_by(2)) {
         let light: f32 = four.iter().zip(SHARED).map(|(light, share)| light * share).sum();

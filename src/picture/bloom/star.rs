@@ -21,9 +21,9 @@ const SHORTEST: f64 = 1e-3;
 /// slowly.
 const FADED: f32 = 1e-18;
 
-/// One streak, in a grid whose rows it crosses.
+/// A streak, in a grid whose rows it crosses.
 struct Streak {
-    /// Whether the streak runs toward the last row.
+    /// True where the streak runs toward the last row.
     down: bool,
     /// Cells that the streak moves to the right for each row.
     slope: f64,
@@ -38,7 +38,7 @@ pub(super) fn star(source: LightGrid, rays: u32, length: f64) -> LightGrid {
         angles.map(|a| (a.sin(), -a.cos())).partition(|(x, y)| y.abs() >= x.abs());
     let flat: Vec<_> = flat.into_iter().map(|(x, y)| (y, x)).collect();
     let share = 1.0 / rays as f32;
-    // Each list is summed in a fixed order: the bytes are the same on any number of threads.
+    // The lists are summed in a fixed order, so the bytes are the same on any number of threads.
     let (mut upright, lying) = rayon::join(
         || rows_of(&source, &steep, length, share),
         || (!flat.is_empty()).then(|| rows_of(&source.transposed(), &flat, length, share)),

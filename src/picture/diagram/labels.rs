@@ -15,14 +15,14 @@ const EVEN: f64 = 1e-6;
 
 /// Angles at which leaders end, in degrees from the x axis in each quarter of a view.
 const SLOTS: [f64; 3] = [74.0, 56.0, 40.0];
-/// While no more tiers than this are left, leaders may be long: a few long ones are still easy to read.
+/// The most tiers without room for their labels for which leaders may be long: a few long leaders are still easy to read.
 const FEW: usize = 6;
-/// How much longer than one from the view's middle a leader may be while there are few, in units of the drawing.
+/// The length by which a leader may exceed one from the view's middle while there are few, in units of the drawing.
 const MORE_OF_FEW: f64 = 4.0;
 /// The greatest length of a leader where there are many, in units of the drawing.
 const LONGEST_OF_MANY: f64 = 120.0;
-/// The most tiers left for which leaders are drawn. With more, the few leaders that find room would say little about the
-/// stone.
+/// The most tiers left for which leaders are drawn. With more, the few leaders that find room would not help the
+/// reader.
 const MOST_LED: usize = 200;
 /// Gap between a leader's end and its label.
 const BESIDE: f64 = 5.0;
@@ -46,7 +46,7 @@ struct Piece {
 struct Label {
     pieces: Vec<Piece>,
     size: DVec2,
-    /// Whether the label is turned by a right angle, to be read from the right.
+    /// True where the label is turned by a right angle, to be read from the right.
     upright: bool,
 }
 
@@ -95,13 +95,13 @@ impl Label {
     }
 }
 
-/// The places in a view where labels may still go.
+/// The places in a view that are still free for labels.
 pub(super) struct Labels<'a> {
     view: &'a View,
     stone: &'a Stone,
     /// Ends of leaders that are not yet taken.
     slots: Vec<DVec2>,
-    /// What leaders keep clear of: the index's numbers, labels and other leaders.
+    /// The lines and boxes that leaders keep clear of: the index's numbers, labels and other leaders.
     room: LeaderRoom,
 }
 
@@ -139,7 +139,7 @@ impl<'a> Labels<'a> {
             ];
             !labels.iter().any(|label| self.inside(sheet, tier, label))
         });
-        // The leader of least cost comes first, whichever tier it belongs to.
+        // The leader of least cost is drawn first, whichever tier it belongs to.
         let longest =
             if rest.len() <= FEW { self.view.style.leaders() + MORE_OF_FEW } else { LONGEST_OF_MANY };
         while rest.len() <= MOST_LED

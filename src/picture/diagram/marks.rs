@@ -9,7 +9,7 @@ use glam::DVec3;
 /// Corners nearer to one another than this, girdle radii, are one.
 const SAME_CORNER: f64 = 1e-6;
 
-/// What a drawing of a stone marks.
+/// The facets and corners of a stone that a drawing marks.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DrawnMarks {
     /// The places of facets among those of the stone.
@@ -34,12 +34,12 @@ impl DrawnMarks {
         marks
     }
 
-    /// Whether nothing is marked.
+    /// Returns whether there are no marks.
     pub fn is_empty(&self) -> bool {
         self.facets.is_empty() && self.corners.is_empty()
     }
 
-    /// Marks in a view what it shows: the facets that it `holds`, and the corners of such facets.
+    /// Marks the facets and corners in sight of a view: the facets that it `holds`, and their corners.
     pub(super) fn draw(
         &self,
         sheet: &mut Sheet,

@@ -26,7 +26,7 @@ const STEP: f64 = 4.0;
 /// The least height of names, in points: smaller ones are hard to read.
 const LEAST_TYPE: f64 = 9.5;
 
-/// Height of a sheet's heading, of its paper above and below, and of what stands between views and list.
+/// Height of a sheet's heading, of its paper above and below, and of the text between views and list.
 const SHEET_EXTRA: f64 = 230.0;
 /// The corresponding height of a small diagram.
 const SMALL_EXTRA: f64 = 112.0;
@@ -39,11 +39,11 @@ pub struct DiagramStyle {
     pub inks: Inks,
     /// Radius of the circle that holds the stone, in units of the drawing.
     pub(super) radius: f64,
-    /// Whether the diagram has a heading, an index of azimuths and all columns of the list.
+    /// True where the diagram has a heading, an index of azimuths and all columns of the list.
     pub(super) is_sheet: bool,
     /// The most lines of the list; further tiers are only counted. With 0 there is no list.
     pub(super) most_lines: usize,
-    /// Whether the views stand one above the other, without lists.
+    /// True where the views stand one above the other, without lists.
     pub(super) is_stacked: bool,
 }
 
@@ -57,11 +57,11 @@ impl DiagramStyle {
         Self { inks, ..Self::SHEET }
     }
 
-    /// Returns the style whose names are large enough to be read where the diagram is shown at this width and height in
-    /// points.
+    /// Returns the style in which names are legible where the diagram is shown at this width and height in points.
     ///
-    /// That is the whole sheet if possible, otherwise a diagram without heading and index, at last without the list, its
-    /// views side by side or one above the other. If no style is readable, it is the one with the largest names.
+    /// That is the whole sheet if possible, otherwise a diagram without heading and index, and at last one without
+    /// the list, its views side by side or one above the other. If no style is legible, it is the one with the
+    /// largest names.
     pub fn fitting(stone: &Stone, inks: Inks, points: [f64; 2]) -> Self {
         let tiers = tiers(stone);
         let lines = |basis| {
@@ -94,7 +94,7 @@ impl DiagramStyle {
         NAME.size * (points[0] / size[0]).min(points[1] / size[1])
     }
 
-    /// Returns where the middle of a view stands: the crown's to the left of the pavilion's, or above it.
+    /// Returns the place of the middle of a view: the crown's to the left of the pavilion's, or above it.
     pub(super) fn place(&self, is_crown: bool) -> DVec2 {
         let side = if is_crown { -1.0 } else { 1.0 };
         match self.is_stacked {
@@ -123,12 +123,12 @@ impl DiagramStyle {
         self.radius + if self.is_sheet { 38.0 } else { 16.0 }
     }
 
-    /// Returns how far above the middle of a view its name stands.
+    /// Returns the distance of a view's name above its middle.
     pub(super) fn name_above(&self) -> f64 {
         self.leaders() + if self.is_sheet { 32.0 } else { 26.0 }
     }
 
-    /// Returns how far below the middle of a view the list begins.
+    /// Returns the distance of the list below the middle of a view.
     pub(super) fn list_below(&self) -> f64 {
         self.leaders() + if self.is_sheet { 46.0 } else { 34.0 }
     }

@@ -1,8 +1,8 @@
-//! Hatching, by which drawings tell frosted facets from polished ones.
+//! Hatching, which distinguishes frosted facets from polished ones in drawings.
 
 use glam::DVec2;
 
-/// What drawings say of it.
+/// The remark on hatching under drawings.
 pub(in crate::picture) const LEGEND: &str = "Hatched facets are frosted.";
 
 /// The distance between two lines of the hatching.
@@ -11,7 +11,7 @@ const STEP: f64 = 5.5;
 /// Returns lines that rise to the right across a convex outline. They are parts of lines that are spread evenly over the whole
 /// sheet, so that the hatching of neighbours is one.
 pub(super) fn hatched(outline: &[DVec2]) -> Vec<(DVec2, DVec2)> {
-    // How far a point lies across the lines; y points down.
+    // Returns the coordinate of a point across the lines, in steps; y points down.
     let across = |p: DVec2| (p.x + p.y) * std::f64::consts::FRAC_1_SQRT_2 / STEP;
     let (low, high) = outline
         .iter()

@@ -13,7 +13,7 @@ pub struct Inks {
     pub quiet: [u8; 3],
     /// Dimensions and slopes.
     pub accent: [u8; 3],
-    /// Extension lines, which lead from a dimension to what it measures.
+    /// Extension lines, which lead from a dimension to the measured points.
     pub extension: [u8; 3],
     /// Facets seen edge on, and facets that face the eye; the others are mixtures of the two.
     pub faces: [[u8; 3]; 2],

@@ -46,8 +46,8 @@ impl Frame {
 /// Distance from a text's base line to the middle of its figures, in type sizes.
 pub(super) const MIDDLE_OF_FIGURES: f64 = 0.35;
 
-/// Returns the width of a line of text, from the font's own advances. Characters beyond ASCII count as wide as they may
-/// be, except a few that are known.
+/// Returns the width of a line of text, from the font's own advances. Characters beyond ASCII count as wide as the
+/// widest, except for a few known ones.
 pub(in crate::picture) fn text_width(text: &str, size: f64) -> f64 {
     /// Advances of U+0020 to U+007E in Ubuntu Light, thousandths of the type size.
     const ADVANCES: [u16; 95] = [

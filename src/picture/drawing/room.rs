@@ -29,7 +29,7 @@ pub(in crate::picture) fn room_for(corners: &[DVec2], size: DVec2, clearance: f6
     (area > 0.0).then(|| (area, centroid(&room)))
 }
 
-/// What leaders and their labels must keep clear of.
+/// The lines, boxes and corners that leaders and their labels must keep clear of.
 #[derive(Debug, Clone)]
 pub(in crate::picture) struct LeaderRoom {
     /// The middle of the view, from which leaders run outward.

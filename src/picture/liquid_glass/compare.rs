@@ -1,4 +1,4 @@
-//! Traces the pane as a real body of glass, and measures how far the approximation is from it.
+//! Traces the pane as a real body of glass, and measures the error of the approximation.
 //!
 //! The body is a slab of glass with the pane's outline and both edges rolled around. It lies a little above the
 //! background and is seen along parallel rays. The strengths mean: depth is the thickness, as in the specification;
@@ -23,7 +23,7 @@ use crate::trace::{Stopped, Watch};
 use cost::Sums;
 use glam::DVec2;
 
-/// How much the index is above 1 at strength 100.
+/// The index at strength 100, less 1.
 const INDEX: f64 = 0.5;
 /// The Abbe number at strength 100.
 const ABBE: f64 = 55.0;
@@ -44,7 +44,7 @@ pub struct PaneLighting<'a> {
     pub passes: u32,
 }
 
-/// A drawn pane, the same pane traced, and how they differ.
+/// A drawn pane, the same pane traced, and their difference.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
     /// The drawn pane, of as many sample passes as the traced one.
@@ -75,7 +75,7 @@ pub enum PaneError {
     Stopped(#[from] Stopped),
 }
 
-/// Returns the light that a pane's light and tint stand for.
+/// Returns the light that corresponds to a pane's light and tint.
 ///
 /// It consists of a lamp, which glass shows about as bright and as large as the specification's shine, and an even sky,
 /// which shows at the rim as bright as the specification's rim. Glass has no counterpart of the specification's Lambert
@@ -101,7 +101,8 @@ pub fn surroundings(pane: &GlassPane) -> Light {
 /// Draws and traces the pane before the background, which is as large as the picture, and compares the two.
 ///
 /// # Errors
-/// A [`PaneError`] that names the fault of the pane, or [`PaneError::Stopped`] when `watch` stops the work.
+/// Fails with a [`PaneError`] that names the fault of the pane, or [`PaneError::Stopped`] when `watch` stops the
+/// work.
 pub fn compare(
     pane: &GlassPane,
     background: &Panorama,
@@ -126,7 +127,8 @@ pub fn compare(
 /// Traces the pane before the background, without a comparison.
 ///
 /// # Errors
-/// A [`PaneError`] that names the fault of the pane, or [`PaneError::Stopped`] when `watch` stops the work.
+/// Fails with a [`PaneError`] that names the fault of the pane, or [`PaneError::Stopped`] when `watch` stops the
+/// work.
 pub fn traced(
     pane: &GlassPane,
     background: &Panorama,
@@ -250,7 +252,7 @@ impl<'a> PaneScene<'a> {
         let mut sums = Sums::default();
         let whole = self.size * self.pane.unit();
         for (k, at, middle) in self.pixels(pane.width) {
-            // Only pixels whose middle the pane covers count.
+            // Only pixels whose middle the pane covers are compared.
             if self.pane.cover(middle) <= 0.5 {
                 continue;
             }

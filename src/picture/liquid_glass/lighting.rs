@@ -7,7 +7,7 @@ use pulp::{Simd, WithSimd};
 /// The weights of the diffuse light, the shine and the rim.
 const WEIGHTS: [f32; 3] = [0.3, 0.5, 0.3];
 
-/// What a pane's strength, light and tint make of the light on its surface.
+/// The light on a pane's surface, which follows from its strength, direction and tint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SurfaceLight {
     /// Unit direction toward the light.
@@ -32,8 +32,8 @@ impl SurfaceLight {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Normals(pub [Vec<f32>; 3]);
 
-/// Computes how bright the light of strength 100 makes a row of normals: the diffuse light of J. H. Lambert, the shine of
-/// J. F. Blinn (1977), and a rim in place of Fresnel's reflection.
+/// Computes the brightness of a row of normals under the light of strength 100: the diffuse light of J. H. Lambert,
+/// the shine of J. F. Blinn (1977), and a rim in place of Fresnel's reflection.
 pub(super) struct Brightness<'a> {
     pub light: SurfaceLight,
     pub normals: &'a Normals,

@@ -91,7 +91,7 @@ impl BesideAndOn {
     }
 }
 
-/// The pixels around a place: two in each of two rows, and how far the place is from the first to the others.
+/// The pixels around a place: two in each of two rows, and the offset of the place from the first of them.
 struct Around<'a> {
     high: [&'a [f32; 3]; 2],
     low: [&'a [f32; 3]; 2],
@@ -154,7 +154,7 @@ impl<'a> Ground<'a> {
         Some((high.dot(columns.on + columns.beside) + low.dot(columns.on)) / 3.0)
     }
 
-    /// Returns one channel of the mean of what is seen around a place.
+    /// Returns one channel of the mean of the background around a place.
     #[inline(always)]
     fn channel(&self, at: [i32; 2], by: [f32; 2], channel: usize, blur: f32, taps: &[FrostTap]) -> f32 {
         let mut sum = 0.0;
@@ -166,7 +166,7 @@ impl<'a> Ground<'a> {
         sum
     }
 
-    /// Returns the mean of what is seen around a place.
+    /// Returns the mean of the background around a place.
     #[inline(always)]
     fn colour(&self, at: [i32; 2], by: [f32; 2], blur: f32, taps: &[FrostTap]) -> [f32; 3] {
         let mut sum = [0.0; 3];

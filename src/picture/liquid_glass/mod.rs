@@ -1,13 +1,15 @@
-//! Liquid glass: a pane that only looks as if it refracted. Each pixel takes five parts of arithmetic, and no ray is
-//! traced.
+//! Liquid glass: a pane that only looks as if it refracted light. Each pixel takes five pieces of arithmetic, and no
+//! ray is traced.
 //!
-//! The effect is that of screens: flat, cheap, approximate by design. docs/optics.md, "Liquid glass", says what its
-//! specification gives, and what it leaves open and was chosen here. [`compare()`] traces the same pane rightly.
+//! The effect is that of screens: flat, cheap, approximate by design. docs/optics.md, "Liquid glass", separates the
+//! parts that its specification gives from the choices that were made here. [`compare()`] traces the same pane
+//! physically.
 //!
 //! A pixel is drawn in these steps: `outline` finds its place on the dome over the pane; `parts` gives the shifts of
 //! refraction, depth and dispersion there; `frost` spreads the look-up; `lighting` adds the light of the surface, which the
-//! tint colours. `look_up` reads the background; `prepared` keeps what of this depends on the pane's shape alone, so that a
-//! moving light or background costs little. `on_card` does the same on a graphics card, by `shaders/liquid_glass.wgsl`.
+//! tint colours. `look_up` reads the background; `prepared` keeps the results that depend on the pane's shape alone,
+//! so that a moving light or background costs little. `on_card` does the same on a graphics card, by
+//! `shaders/liquid_glass.wgsl`.
 //!
 //! Lengths are parts of the pane's shorter side, measured from the pane's middle, x to the right and y down. A pixel
 //! shows the background at a shifted place, so a shift toward the middle makes the background look larger.
@@ -39,7 +41,7 @@ use std::str::FromStr;
 /// The greatest coordinate and size of a pane, in pixels; sums of such numbers stay exact whole numbers.
 const FARTHEST: f64 = 1e6;
 
-/// How much of the effect is computed.
+/// The quality of the effect: the parts of it that are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum PaneQuality {
@@ -71,12 +73,12 @@ pub struct GlassPane {
     pub frost: f64,
     /// Strength of the light.
     pub light: f64,
-    /// Where the light comes from.
+    /// The direction that the light comes from.
     #[serde(default)]
     pub light_from: LightFrom,
-    /// The base colour in linear sRGB, and how far it colours the light, 0 to 1.
+    /// The base colour in linear sRGB, and the part, 0 to 1, by which it colours the light.
     pub tint: DVec4,
-    /// How much of the effect is computed.
+    /// The quality: the parts of the effect that are computed.
     pub quality: PaneQuality,
 }
 
@@ -121,7 +123,7 @@ impl GlassPane {
         }
     }
 
-    /// Whether the pane's place, size and corner radius are valid.
+    /// Returns whether the pane's place, size and corner radius are valid.
     fn is_somewhere(&self) -> bool {
         let range = -FARTHEST..=FARTHEST;
         let within = |v: DVec2| range.contains(&v.x) && range.contains(&v.y);
@@ -147,14 +149,14 @@ impl GlassPane {
         (at - self.corner - self.size / 2.0) / self.unit()
     }
 
-    /// Returns how much of a pixel the pane covers, 0 to 1; `at` is the pixel's middle in pixels. At the outline it
-    /// changes over the width of one pixel.
+    /// Returns the part of a pixel that the pane covers, 0 to 1; `at` is the pixel's middle in pixels. At the outline
+    /// the part changes over the width of one pixel.
     fn cover(&self, at: DVec2) -> f64 {
         (0.5 - self.outline().distance(self.own(at)) * self.unit()).clamp(0.0, 1.0)
     }
 
-    /// Returns how far from a place of the pane red, green and blue are looked up. Place and shifts are in pixels; frost
-    /// is not included.
+    /// Returns the shifts from a place of the pane at which red, green and blue are looked up. Place and shifts are
+    /// in pixels; frost is not included.
     fn shifts(&self, at: DVec2) -> [DVec2; 3] {
         let pane = self.effective();
         let (green, apart) = pane.shifts_on(&pane.outline().dome(pane.own(at)));
@@ -162,8 +164,8 @@ impl GlassPane {
         [red, green, blue]
     }
 
-    /// Returns how far from a point of its dome the pane, whose numbers are within their ranges, looks green light up, and
-    /// how far from there a unit of dispersion is, both in pixels.
+    /// Returns the shift from a point of its dome at which the pane, whose numbers are within their ranges, looks up
+    /// green light, and the further shift by a unit of dispersion, both in pixels.
     fn shifts_on(&self, dome: &DomePoint) -> (DVec2, DVec2) {
         let all = refraction(dome, self.refraction) + depth(dome, self.depth);
         (-all * self.unit(), dispersion(dome, self.dispersion) * self.unit())
@@ -176,13 +178,13 @@ impl GlassPane {
         DVec3::new(level * cos, -level * sin, up)
     }
 
-    /// Returns the colour of the light in linear sRGB: white, and the base colour as far as the tint covers it.
+    /// Returns the colour of the light in linear sRGB: white, mixed with the base colour by the tint's part.
     fn light_colour(&self) -> DVec3 {
         DVec3::ONE.lerp(self.tint.truncate(), self.tint.w)
     }
 }
 
-/// Where a pane's light comes from.
+/// The direction of a pane's light.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct LightFrom {
     /// The azimuth in degrees, counter-clockwise from the right as the pane is seen; 90 is above.
@@ -192,14 +194,14 @@ pub struct LightFrom {
 }
 
 impl Default for LightFrom {
-    /// From above; its height has a sine of 0.8.
+    /// Returns light from above; its height has a sine of 0.8.
     fn default() -> Self {
         Self { azimuth: 90.0, height: 53.130_102_354_155_98 }
     }
 }
 
 impl LightFrom {
-    /// Returns the direction with its numbers within their ranges; what is not finite counts as 0.
+    /// Returns the direction with its numbers within their ranges; a number that is not finite counts as 0.
     fn checked(self) -> Self {
         let finite = |v: f64| if v.is_finite() { v } else { 0.0 };
         Self { azimuth: finite(self.azimuth).rem_euclid(360.0), height: finite(self.height).clamp(0.0, 90.0) }
@@ -208,8 +210,8 @@ impl LightFrom {
 
 /// Draws the pane over a background, which is as large as the picture; all pixels are covered.
 ///
-/// With `passes` of 1, a pixel shows what is seen at its middle, as on screens; with more, the mean over as many places
-/// in it. A pane without extent, or with corners rounder than half of its shorter side, is not drawn.
+/// With `passes` of 1, a pixel shows the background as seen at its middle, as on screens; with more, the mean over as
+/// many places in it. A pane without extent, or with corners rounder than half of its shorter side, is not drawn.
 pub fn pane(pane: &GlassPane, background: &Panorama, passes: u32) -> Linear {
     drawn(pane, background, passes, true)
 }

@@ -19,7 +19,7 @@ impl<'a> PanesOnCard<'a> {
     /// Copies a background to the card.
     ///
     /// # Errors
-    /// [`GpuError`], where the picture is too large for the card, or the card has failed.
+    /// Fails with [`GpuError`], where the picture is too large for the card, or the card has failed.
     pub fn new(gpu: &'a Gpu, background: &Panorama) -> Result<Self, GpuError> {
         let size = [background.width, background.height];
         Ok(Self { stage: PaneStage::new(gpu, size, &background.pixels)?, size })
@@ -28,7 +28,7 @@ impl<'a> PanesOnCard<'a> {
     /// Draws a pane and leaves its picture on the card: over the background, or alone and premultiplied by cover.
     ///
     /// # Errors
-    /// [`GpuError`], where the card has failed.
+    /// Fails with [`GpuError`], where the card has failed.
     pub fn draw(&self, pane: &GlassPane, is_over: bool) -> Result<(), GpuError> {
         self.stage.draw(&pane.data(is_over))
     }
@@ -36,7 +36,7 @@ impl<'a> PanesOnCard<'a> {
     /// Reads the picture of the last pane.
     ///
     /// # Errors
-    /// [`GpuError`], where the card has failed.
+    /// Fails with [`GpuError`], where the card has failed.
     pub fn read(&self) -> Result<Linear, GpuError> {
         let [width, height] = self.size;
         Ok(Linear { width, height, pixels: self.stage.read()? })

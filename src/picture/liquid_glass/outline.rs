@@ -27,11 +27,12 @@ const FLAT: f64 = 1e-9;
 pub(super) struct PaneOutline {
     /// Half the width and height, above 0.
     pub half: DVec2,
-    /// Where the rim begins along each axis.
+    /// The place along each axis at which the rim begins.
     pub level: DVec2,
     /// The share of the square in the ramp along each axis; the rest is the cube.
     pub round: DVec2,
-    /// How far the ramps exclude each other at the corners: 1 makes them sharp, 0 those of an ellipse.
+    /// The degree to which the ramps exclude each other at the corners: 1 makes the corners sharp, 0 makes them those
+    /// of an ellipse.
     pub corner: f64,
 }
 
@@ -40,7 +41,7 @@ pub(super) struct PaneOutline {
 pub(super) struct PaneField {
     /// 0 in the middle, 1 on the outline.
     pub value: f64,
-    /// How fast the field grows along x and y.
+    /// The derivative of the field along x and y.
     pub slope: DVec2,
 }
 

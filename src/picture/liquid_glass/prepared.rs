@@ -1,4 +1,4 @@
-//! A pane that is drawn again and again: what depends on its shape alone is computed once.
+//! A pane that is drawn again and again: the results that depend on its shape alone are computed once.
 
 use super::frost::{FIVE, FrostTap, THREE, blur};
 use super::lighting::{Brightness, Normals, SurfaceLight};
@@ -21,7 +21,7 @@ pub struct PreparedPane {
     rows: Vec<PaneRow>,
 }
 
-/// What is seen through a prepared pane, before light falls on it.
+/// The background as seen through a prepared pane, before light falls on the pane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SeenThrough {
     /// The colours of the pixels that the pane may cover, row by row.
@@ -39,14 +39,14 @@ struct PaneArea {
     corner: [i64; 2],
 }
 
-/// One row of the pixels that a pane may cover. Each list has a number for each of these pixels.
+/// A row of the pixels that a pane may cover. Each list has a number for each of these pixels.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PaneRow {
-    /// How much of the pixel the pane covers, 0 to 1.
+    /// The part of the pixel that the pane covers, 0 to 1.
     pub cover: Vec<f32>,
-    /// How far to the right and down green light is looked up, pixels.
+    /// The shift to the right and down at which green light is looked up, pixels.
     pub shift: [Vec<f32>; 2],
-    /// How far from there a unit of dispersion moves a look-up, pixels.
+    /// The further shift of the look-up by a unit of dispersion, pixels.
     pub apart: [Vec<f32>; 2],
     /// The standard deviation of the frost, pixels.
     pub blur: Vec<f32>,
@@ -64,13 +64,14 @@ impl PaneArea {
         Self { first: low.to_array(), count, corner: pane.corner.floor().to_array().map(|x| x as i64) }
     }
 
-    /// Returns the first pixel, counted from that of the pane's corner; far off, the farthest number there is.
+    /// Returns the first pixel, counted from that of the pane's corner; for panes that are far off, the largest
+    /// number of the type.
     fn start(&self) -> [i64; 2] {
         [0, 1].map(|axis| i64::from(self.first[axis]).saturating_sub(self.corner[axis]))
     }
 }
 
-/// Returns what of a pane its shape depends on: its corner counts within its pixel.
+/// Returns the pane with only those numbers on which its shape depends: its corner within its pixel.
 fn shape_of(pane: &GlassPane) -> GlassPane {
     let pane = pane.effective();
     let corner = pane.corner - pane.corner.floor();
@@ -83,7 +84,7 @@ impl PreparedPane {
         Self::at(pane, size, DVec2::splat(0.5))
     }
 
-    /// Prepares a pane as it is seen at a place in each pixel, 0 to 1 each way.
+    /// Prepares a pane for a place in each pixel, 0 to 1 each way.
     pub(super) fn at(pane: &GlassPane, size: [u32; 2], place: DVec2) -> Self {
         let (shape, area) = (shape_of(pane), PaneArea::new(pane, size));
         let rows = 0..area.count[1];
@@ -104,7 +105,7 @@ impl PreparedPane {
         self.area = PaneArea::new(pane, self.size);
     }
 
-    /// Looks up what of a background, in the size of the picture, is seen through the pane.
+    /// Looks up the part of a background, in the size of the picture, that is seen through the pane.
     pub fn through(&self, background: &Panorama) -> SeenThrough {
         let [across, down] = self.area.count.map(|count| count as usize);
         let mut colours = vec![[0.0; 3]; across * down];
@@ -215,7 +216,7 @@ impl PaneRow {
 
 #[cfg(test)]
 impl SeenThrough {
-    /// Returns the greatest difference from what is seen through another pane of the same size.
+    /// Returns the greatest difference from the view through another pane of the same size.
     pub(super) fn apart(&self, other: &Self) -> f32 {
         let pairs = self.colours.iter().flatten().zip(other.colours.iter().flatten());
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)

@@ -79,7 +79,7 @@ fn outside_of_the_outline_nothing_changes() {
     assert!(outside > 1900 && changed > 1600, "{outside} {changed}");
 }
 
-/// Returns how bright the light of a pane makes a normal.
+/// Returns the brightness that the light of a pane gives a normal.
 fn brightness(pane: &GlassPane, normal: DVec3) -> f64 {
     let normals = Normals(normal.as_vec3().to_array().map(|part| vec![part]));
     let mut to = [0.0];

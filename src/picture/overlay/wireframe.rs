@@ -19,19 +19,19 @@ const REACH: f64 = SHADE_WIDTH / 2.0 + 0.5;
 /// Colours of a line and of its shade: a blue that light in stones seldom has, and white for places where it has.
 const COLOURS: [Code; 2] = [[0, 96, 255], [255, 255, 255]];
 
-/// How much a line and its shade hide, for edges that the eye sees and for edges behind.
+/// The parts that a line and its shade hide, for visible edges and for hidden ones.
 const SHARES: [[f32; 2]; 2] = [[1.0, 0.5], [0.45, 0.2]];
 
 /// An edge of a stone in the picture.
 struct Wire {
     /// The edge's ends, in pixels from the upper left.
     ends: [DVec2; 2],
-    /// How much larger things look at the edge's ends than in the image plane through the origin.
+    /// The factors by which things are larger at the edge's ends than in the image plane through the origin.
     sizes: [f64; 2],
     /// The edge's ends in the world.
     points: [DVec3; 2],
     stone: usize,
-    /// Whether a facet at the edge faces the eye.
+    /// True where a facet at the edge faces the eye.
     is_front: bool,
 }
 
@@ -48,7 +48,7 @@ impl Wires {
     /// Draws all lines near the middle of row `y` over that row.
     pub fn draw(&self, sight: &SceneProbe, y: usize, row: &mut [u8]) {
         let (pixels, _) = row.as_chunks_mut();
-        // For each pixel, the distance from the nearest line that the eye sees, and from the nearest line behind.
+        // For each pixel, the distance from the nearest visible line, and from the nearest hidden one.
         let mut nearest = vec![[f64::INFINITY; 2]; pixels.len()];
         for wire in &self.0 {
             wire.mark(sight, y as f64 + 0.5, &mut nearest);
@@ -74,7 +74,7 @@ fn wires(lit_scene: &LitScene, sight: &SceneProbe, stone: usize, solid: PosedSol
 }
 
 impl Wire {
-    /// Notes how near the line comes to the pixels of the row whose middle is at height `y`.
+    /// Records the distance of the line from each pixel of the row whose middle is at height `y`.
     fn mark(&self, sight: &SceneProbe, y: f64, nearest: &mut [[f64; 2]]) {
         let [a, b] = self.ends;
         let Some((from, to)) = columns(self.ends, y, nearest.len()) else { return };
@@ -92,7 +92,7 @@ impl Wire {
         }
     }
 
-    /// Whether a stone hides the point at this part of the edge's way through the picture.
+    /// Returns whether a stone hides the point at this part of the edge's way through the picture.
     fn is_hidden(&self, sight: &SceneProbe, part: f64) -> bool {
         if sight.tracers.len() < 2 && sight.tracers[0].is_convex() {
             return false;

@@ -1,5 +1,5 @@
-//! The page of text: four columns, of which a picture shows the two in the middle with headline and picture; the others
-//! go on beside it.
+//! The page of text: four columns. A picture shows the two in the middle with headline and picture; the others
+//! continue beside it.
 
 use super::{INK, PATTERN_SIDE, rectangle};
 use std::fmt::Write as _;
@@ -7,7 +7,7 @@ use std::iter::Peekable;
 use svg::Document;
 use svg::node::element::{Circle, Definitions, LinearGradient, Path, Stop, Text};
 
-/// The text of the page, which is about what is seen there.
+/// The text of the page, which describes the view through glass.
 const WORDS: &str = "Light that enters glass is bent toward the normal, blue more than red, and bent back where it leaves. \
     Between parallel faces both cancel and the page only shifts; at a rounded rim they do not, and letters are drawn out, \
     turned over and given coloured edges. How far they move depends on how far behind the glass the page lies: laid against \
@@ -60,7 +60,7 @@ pub(super) fn page(sheet: Document) -> Document {
     let end = PATTERN_SIDE - MARGIN;
     let [first, second, third, fourth] = COLUMNS;
     let mut sheet = sheet.add(paper);
-    // Around the middle: more of the same, which glass bends in.
+    // These columns lie around the middle, from where glass bends light in.
     for (x, from, to) in [(first, MARGIN, 900), (first, 1260, end), (second, MARGIN, 470)] {
         sheet = column(sheet, x, [from, to], &mut words);
     }
@@ -69,7 +69,7 @@ pub(super) fn page(sheet: Document) -> Document {
     sheet = column(sheet, fourth, [MARGIN, 620], &mut words);
     sheet = plate(sheet, &EVENING, [fourth, 640, WIDTH, 330]);
     sheet = column(sheet, fourth, [1000, end], &mut words);
-    // The middle half.
+    // The middle half of the sheet follows.
     let both = third + WIDTH - second;
     sheet = sheet.add(rectangle((second, 506, both, 10)).set("fill", RED));
     sheet = line(sheet, "OPTICS AT HOME", [second, 556], 30, RED, 1);
@@ -95,7 +95,7 @@ fn column<'a>(
     [from, to]: [u32; 2],
     words: &mut Peekable<impl Iterator<Item = &'a str>>,
 ) -> Document {
-    // Letters are 0.46 of the size wide, on average.
+    // Letters are 0.46 of the size wide on average.
     let letters = (WIDTH * 50 / (23 * SIZE)) as usize;
     let lines = (to - from) / LEADING;
     (1..=lines).fold(sheet, |sheet, row| {

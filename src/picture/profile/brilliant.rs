@@ -52,7 +52,7 @@ pub(super) fn draw(stone: &Stone, title: &str, given: &RoundBrilliant, derived: 
     drawing.sheet.document(title, subtitle, &remarks)
 }
 
-/// Returns where a star begins at the table and where it ends, on the right of the profile, in radii.
+/// Returns the ends of a star, at the table and below it, on the right of the profile, in radii.
 pub(crate) fn star_ends(given: &RoundBrilliant, derived: &Derived) -> [DVec2; 2] {
     let cos = FRAC_PI_8.cos();
     let edge = given.table / 100.0 * cos;
@@ -61,8 +61,8 @@ pub(crate) fn star_ends(given: &RoundBrilliant, derived: &Derived) -> [DVec2; 2]
     [DVec2::new(edge * cos, derived.crown_height / 50.0), DVec2::new(tip * cos, tip_height)]
 }
 
-/// Returns where a lower half ends, or is cut off by a culet, and where it begins at the girdle, on the right of the
-/// profile, in radii.
+/// Returns the ends of a lower half, at the culet or its point and at the girdle, on the right of the profile, in
+/// radii.
 pub(crate) fn lower_half_ends(given: &RoundBrilliant, derived: &Derived) -> [DVec2; 2] {
     let cos = FRAC_PI_8.cos();
     let tip = (1.0 - derived.lower_half_length / 100.0) * cos;

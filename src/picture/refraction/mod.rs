@@ -24,13 +24,13 @@ pub struct Backdrop {
     pub distance: f64,
     /// Width and height of the plane, in world units; its middle lies on the axis.
     pub size: DVec2,
-    /// Whether the same picture, mirrored, also hangs at the same distance in front of the stones, where only they see
-    /// it. Light that a stone sends back toward the eye's side then comes from it; in a brilliant that is most of the
-    /// light.
+    /// True where the same picture, mirrored, also hangs at the same distance in front of the stones, where only they
+    /// see it. Light that a stone sends back toward the eye's side then comes from it; in a brilliant that is most of
+    /// the light.
     pub both_sides: bool,
 }
 
-/// A place on the background from which light comes, and how much of it.
+/// A place on the background from which light comes, with its weight.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SourcePlace {
     /// Position across the background, 0 at its left border, 1 at its right one.
@@ -41,7 +41,7 @@ pub struct SourcePlace {
     pub weight: f32,
 }
 
-/// One place for each pixel, at one wavelength.
+/// The places of all pixels at one wavelength.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapBand {
     /// The wavelength in nm.
@@ -56,16 +56,16 @@ pub struct MapBand {
     pub places: Vec<SourcePlace>,
 }
 
-/// A picture that says where its light comes from.
+/// A picture whose pixels give the places that their light comes from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RefractionMap {
     /// The number of pixels across and down.
     pub size: [u32; 2],
-    /// The bands: one for all light, or several, so that the look-up keeps the rainbow. Each is there as often as pixels
-    /// have places.
+    /// The bands: one for all light, or several, so that the look-up keeps the rainbow. Each occurs as often as
+    /// pixels have places.
     pub bands: Vec<MapBand>,
-    /// The diffuse layer: light that does not come from the background, premultiplied. Its cover is how much it hides of
-    /// the background: 1 less the weight, as seen in white light and averaged over the pixel.
+    /// The diffuse layer: light that does not come from the background, premultiplied. Its cover is the part of the
+    /// background that it hides: 1 less the weight, for white light and averaged over the pixel.
     pub diffuse: Linear,
 }
 
@@ -74,8 +74,8 @@ pub struct RefractionMap {
 pub struct Survey<'a> {
     /// The map's bands, which are whole strata.
     pub bands: &'a Strata,
-    /// The number of places of a pixel in each band, at least 1. With more, what is seen twice through a pixel is looked
-    /// up twice.
+    /// The number of places of a pixel in each band, at least 1. With more, two views through one pixel are both
+    /// looked up.
     pub places: u32,
     /// The wavelengths at which the diffuse layer is traced.
     pub shades: &'a Strata,
@@ -83,7 +83,7 @@ pub struct Survey<'a> {
     pub passes: u32,
 }
 
-/// How much of the light a map can show, as means over the pixels that the stones cover.
+/// The share of the light that a map can show, as means over the pixels that the stones cover.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Carried {
     /// The share of light that comes from the background.

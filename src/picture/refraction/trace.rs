@@ -16,8 +16,8 @@ const SAME: f64 = 0.25;
 /// The number of rows traced between two calls of the watch.
 const PIECE: u32 = 8;
 
-/// One row of a map: its places band by band, its diffuse layer, and the sums for [`Carried`] with the number of pixels
-/// in them.
+/// A row of a map: its places band by band, its diffuse layer, and the sums for [`Carried`] with the number of their
+/// pixels.
 struct Row {
     places: Vec<Vec<SourcePlace>>,
     diffuse: Vec<[f32; 4]>,
@@ -26,7 +26,7 @@ struct Row {
     hits: u32,
 }
 
-/// The scene and the plane that a map is traced of.
+/// The scene and the plane of a map.
 struct MapScene<'a> {
     lit_scene: &'a LitScene<'a>,
     environment: Environment<'a>,
@@ -41,7 +41,7 @@ impl RefractionMap {
     /// Traces a map of a lit scene; a photograph behind the scene is left out.
     ///
     /// # Errors
-    /// [`Stopped`] when `watch` stops the work.
+    /// Fails with [`Stopped`] when `watch` stops the work.
     pub fn trace(
         lit_scene: &LitScene,
         plane: &Backdrop,
@@ -194,7 +194,7 @@ impl MapScene<'_> {
         (kept.into_iter().map(place).collect(), own)
     }
 
-    /// Returns what one sample pass sees at a pixel.
+    /// Returns the light of a pixel in one sample pass.
     fn shade(&self, pass: &SamplePass, bands: &[SceneTracer], corner: DVec2) -> Shade {
         let (start, first) = self.start(corner + pass.shift);
         let mut light = Shade::default();

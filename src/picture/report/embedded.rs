@@ -1,4 +1,4 @@
-//! A drawing that stands on a page among others.
+//! A drawing that is placed on a page among others.
 
 use super::super::drawing::Frame;
 use glam::DVec2;
@@ -6,7 +6,7 @@ use glam::DVec2;
 /// A finished SVG drawing, taken apart so that it can be put on a page or into a web page.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EmbeddedDrawing {
-    /// The upper left corner and the size of what the drawing shows, in its own units.
+    /// The upper left corner and the size of the drawing's contents, in its own units.
     view: [f64; 4],
     /// Everything within the drawing's root.
     content: String,
@@ -51,7 +51,7 @@ impl EmbeddedDrawing {
         let [x, y, width, height] = self.view;
         let (low, size) = (frame.low, frame.high - frame.low);
         let DVec2 { x: across, y: down } = size;
-        // Nothing is cut off at the border of the box, which PDF files of the program have no means for.
+        // The border of the box clips nothing, because PDF files of the program cannot clip.
         format!(
             "<svg x=\"{:.3}\" y=\"{:.3}\" width=\"{across:.3}\" height=\"{down:.3}\" \
              viewBox=\"{x} {y} {width} {height}\" overflow=\"visible\">{}</svg>",

@@ -1,4 +1,5 @@
-//! Lays a report out on pages: a head with what is known of the stone, then part below part, on as many pages as they take.
+//! Lays a report out on pages: a head with the known facts of the stone, then part below part, on as many pages as
+//! they take.
 //!
 //! A unit of the drawing is half a point, 1/144 inch.
 
@@ -91,7 +92,7 @@ impl ReportFlow {
         self.sheet.quiet_lines(&[ends], "rule", width);
     }
 
-    /// Begins a page unless so much is left on this one, or nothing stands on it.
+    /// Begins a page unless this one has so much room left, or is empty.
     fn need(&mut self, height: f64) {
         if self.y + height > self.frame.high.y && self.y > self.frame.low.y {
             self.pages.push(std::mem::replace(&mut self.sheet, Sheet::new(Inks::PAPER)));
@@ -99,7 +100,7 @@ impl ReportFlow {
         }
     }
 
-    /// Writes the title and what is known of the stone.
+    /// Writes the title and the known facts of the stone.
     fn head(&mut self, report: &Report) {
         let top = self.frame.low.y;
         self.sheet.strong_text(IMPRINT, Align::Start, self.left(top + 8.0), "BRILLIANTEER");
@@ -162,7 +163,7 @@ impl ReportFlow {
         let aspects: f64 = row.figures.iter().map(|figure| figure.drawing.aspect()).sum();
         let mut left = self.frame.low.x;
         for figure in &row.figures {
-            // Where pictures could be wider, each stands in the middle of its part of the width.
+            // Pictures that could be wider stand in the middle of their part of the width.
             let cell = (self.width() - gaps) * figure.drawing.aspect() / aspects;
             let (middle, half) = (left + cell / 2.0, height * figure.drawing.aspect() / 2.0);
             let low = DVec2::new(middle - half, self.y);
@@ -183,9 +184,9 @@ impl ReportFlow {
             let least = placed.height(from, (placed.count() - from).min(LEAST_ROWS * table.across.max(1)));
             self.need(placed.head_height() + least);
             let room = self.frame.high.y - self.y - placed.head_height();
-            // A row that is higher than a page stands on it all the same.
+            // A row that is higher than a page is still drawn on one.
             let count = placed.fitting(from, room).max(1);
-            // No row or two stand alone on the next page.
+            // No one or two rows are left alone on the next page.
             let (rest, few) = (placed.count() - from - count, LEAST_ROWS * table.across.max(1));
             let count = if rest > 0 && rest < few { count.saturating_sub(few - rest).max(1) } else { count };
             placed.draw(&mut self.sheet, (from, count), self.y);
@@ -204,7 +205,7 @@ impl ReportFlow {
         self.y += BELOW / 2.0;
     }
 
-    /// Writes how the report was made.
+    /// Writes the lines on how the report was made.
     fn provenance(&mut self, lines: &[[String; 2]]) {
         let labels = lines.iter().map(|[label, _]| text_width(label, SMALL.size)).fold(0.0, f64::max) + GAP;
         let lines: Vec<(&str, Vec<String>)> = lines

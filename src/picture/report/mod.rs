@@ -1,6 +1,6 @@
 //! Reports on stones: pictures, drawings, tables and text as plain data, laid out on pages of paper.
 //!
-//! What a report says is put together in `io::report`, which writes the same data as a web page too.
+//! `io::report` puts the content together, and also writes the same data as a web page.
 
 mod embedded;
 mod flow;
@@ -10,20 +10,20 @@ pub use embedded::EmbeddedDrawing;
 pub use flow::report_pages;
 pub use table::{ReportCell, ReportColumn, ReportTable, TextFlow};
 
-/// Everything that stands on a report.
+/// The content of a report.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
     /// The name of the stone, or those of the stones that are compared.
     pub title: String,
-    /// What the report is about, in a line or two.
+    /// The subject of the report, in a line or two.
     pub subtitle: String,
-    /// What is known before anything is measured, such as the material: pairs of a label and a value.
+    /// The known facts before anything is measured, such as the material: pairs of a label and a value.
     pub facts: Vec<[String; 2]>,
-    /// What follows, from top to bottom.
+    /// The parts below, from top to bottom.
     pub parts: Vec<ReportPart>,
-    /// How the report was made, so that it can be made again: pairs of a label and a value.
+    /// The way in which the report was made, so that it can be made again: pairs of a label and a value.
     pub provenance: Vec<[String; 2]>,
-    /// What stands at the foot of each page, such as a date; may be empty.
+    /// The text at the foot of each page, such as a date; may be empty.
     pub mark: String,
 }
 
@@ -52,7 +52,7 @@ pub struct FigureRow {
 /// A picture with its caption.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReportFigure {
-    /// What the picture shows.
+    /// The text under the picture.
     pub caption: String,
     /// The picture.
     pub drawing: EmbeddedDrawing,

@@ -1,12 +1,12 @@
-//! The tables of reports, and how they are drawn on pages.
+//! The tables of reports, and their drawing on pages.
 
 use super::super::drawing::{Align, Ink, Sheet, Type, shortened, text_width};
 use super::super::sheet::words;
 use glam::DVec2;
 
-/// Type of what stands in tables.
+/// Type of the cells of tables.
 const BODY: Type = Type { size: 16.5, colour: Ink::Main };
-/// Type of what stands above the columns.
+/// Type of the heads of columns.
 const HEAD: Type = Type { size: 14.0, colour: Ink::Quiet };
 /// Type of columns of sentences.
 const REMARK: Type = Type { size: 13.5, colour: Ink::Quiet };
@@ -35,13 +35,13 @@ pub struct ReportTable {
 /// A column of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReportColumn {
-    /// What stands above the column; where all heads are empty there is no line for them.
+    /// The head above the column; where all heads are empty there is no line for them.
     pub head: String,
-    /// How its cells are set.
+    /// The setting of its cells.
     pub flow: TextFlow,
 }
 
-/// How the cells of a column are set.
+/// The setting of the cells of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TextFlow {
     /// Words, from the left.
@@ -55,9 +55,9 @@ pub enum TextFlow {
 /// A cell of a table.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ReportCell {
-    /// What stands in the cell.
+    /// The text in the cell.
     pub text: String,
-    /// Whether the cell is set off from the others of its row, as the best is.
+    /// True where the cell is set off from the others of its row, as the best one is.
     pub is_marked: bool,
 }
 
@@ -80,7 +80,7 @@ impl ReportTable {
         Self { rows, across, ..Self::new(&[("", TextFlow::Words), ("", TextFlow::Numbers)]) }
     }
 
-    /// Whether there is a line of heads.
+    /// Returns whether there is a line of heads.
     pub fn has_heads(&self) -> bool {
         self.columns.iter().any(|column| !column.head.is_empty())
     }
@@ -94,7 +94,7 @@ pub(super) struct PlacedTable<'a> {
     width: f64,
     /// The left border and the width of each column, from the left of its part.
     columns: Vec<(f64, f64)>,
-    /// For each row, its cells as lines of print.
+    /// The cells of each row as lines of print.
     rows: Vec<PlacedRow>,
 }
 
@@ -134,7 +134,8 @@ impl<'a> PlacedTable<'a> {
         self.rows.len()
     }
 
-    /// Returns how many rows from this one on fit into a height below the heads, side by side as far as they are.
+    /// Returns the number of rows from this one on that fit into a height below the heads, where parts of the table
+    /// stand side by side.
     pub fn fitting(&self, from: usize, room: f64) -> usize {
         let rest = self.count() - from;
         (1..=rest).rev().find(|&count| self.height(from, count) <= room).unwrap_or(0)
@@ -192,7 +193,7 @@ impl<'a> PlacedTable<'a> {
     }
 }
 
-/// Returns how the cells of a column stand, and at which of its sides.
+/// Returns the alignment of a column's cells, and the x of the side that they are aligned to.
 fn aligned(flow: TextFlow, left: f64, width: f64) -> (Align, f64) {
     match flow {
         TextFlow::Numbers => (Align::End, left + width),
@@ -200,8 +201,8 @@ fn aligned(flow: TextFlow, left: f64, width: f64) -> (Align, f64) {
     }
 }
 
-/// Divides a width among the columns. What is left over goes to the column of sentences, or else to the first; where there is
-/// too little, every column but that one is narrowed alike.
+/// Divides a width among the columns. A surplus goes to the column of sentences, or else to the first; where there is
+/// too little, every column except that one is narrowed alike.
 fn columns(table: &ReportTable, width: f64) -> Vec<(f64, f64)> {
     let count = table.columns.len();
     let sentences = table.columns.iter().position(|column| column.flow == TextFlow::Sentences);

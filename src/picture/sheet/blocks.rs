@@ -17,7 +17,7 @@ pub enum BlockKind {
 }
 
 impl BlockKind {
-    /// All blocks, in the order of the sheet.
+    /// The blocks in the order of the sheet.
     pub const ALL: [Self; 3] = [Self::Preform, Self::Pavilion, Self::Crown];
 
     /// Returns the heading of the block.
@@ -39,7 +39,7 @@ impl Serialize for BlockKind {
 /// The tiers of one block, in the order in which they are cut.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SheetBlock {
-    /// Which block it is.
+    /// The kind of the block.
     pub name: BlockKind,
     /// The tiers.
     pub tiers: Vec<SheetRow>,
@@ -56,9 +56,9 @@ pub struct SheetRow {
     /// The indices, rising, above 0 and up to the number of teeth; the tooth 0 is the last one, and comes first. None for
     /// table and culet, which have no direction.
     pub indices: Vec<f64>,
-    /// What the cutter writes about it; "Table" or "Culet" where a flat tier says nothing.
+    /// The cutter's instruction; "Table" or "Culet" where a flat tier has none.
     pub instruction: String,
-    /// Whether the tier is a leaning one of the pavilion, below the critical angle of the material.
+    /// True for a leaning tier of the pavilion below the critical angle of the material.
     pub below_critical: bool,
     /// The number of the tier in the design, from 0.
     #[serde(skip)]
@@ -80,7 +80,7 @@ pub(super) fn index_text(index: f64) -> String {
     format!("{}", rounded(index))
 }
 
-/// Whether an index is printed with decimals, because it lies between two teeth.
+/// Returns whether an index is printed with decimals, because it lies between two teeth.
 pub(super) fn is_between_teeth(index: f64) -> bool {
     rounded(index).fract() != 0.0
 }

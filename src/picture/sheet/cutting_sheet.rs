@@ -1,4 +1,4 @@
-//! What stands on a cutter's sheet, as plain data.
+//! The content of a cutter's sheet, as plain data.
 
 use super::blocks::{SheetBlock, SheetRow, blocks, cleaned, is_between_teeth, tiers_of_planes};
 use crate::cut::{Cut, MaterialRef, SheetFigures, Tiers};
@@ -9,24 +9,24 @@ use serde::Serialize;
 /// The note about a design whose facets leave the stone open.
 const OPEN: &str = "The facets of the design leave the stone open; the block that it is cut from closes it.";
 
-/// Everything that a cutter's sheet says about a design.
+/// The content of a cutter's sheet about a design.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CuttingSheet {
     /// The name of the design.
     pub title: String,
     /// The designer, the dates and the source, a line each, as the design gives them.
     pub lines: Vec<String>,
-    /// The index of refraction in sodium light for which the angles are meant.
+    /// The index of refraction in sodium light for which the angles were designed.
     pub refractive_index: f64,
     /// The name of the material; `None` where the design gives an index alone.
     pub material: Option<String>,
     /// The number of times that the design repeats around its axis.
     pub symmetry: u32,
-    /// Whether each repeat is its own mirror image.
+    /// True where each repeat is its own mirror image.
     pub mirror: bool,
     /// The teeth of the index gear.
     pub gear: u32,
-    /// Whether the teeth count clockwise, seen from above the table.
+    /// True where the teeth count clockwise, seen from above the table.
     pub clockwise: bool,
     /// The ratios and counts, measured on the stone.
     pub figures: SheetFigures,
@@ -36,11 +36,11 @@ pub struct CuttingSheet {
     pub below_critical: Vec<String>,
     /// The tiers in the order in which they are cut: preform, pavilion, crown.
     pub blocks: Vec<SheetBlock>,
-    /// Whether facets of the stone are frosted.
+    /// True where facets of the stone are frosted.
     pub is_frosted: bool,
     /// The names of the tiers with an index between two teeth of the gear.
     pub between_teeth: Vec<String>,
-    /// What else the design says, and what is unusual about it.
+    /// Further statements of the design, and remarks on its unusual properties.
     pub notes: Vec<String>,
     /// The stone that the tiers make.
     #[serde(skip)]

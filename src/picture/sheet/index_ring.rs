@@ -1,5 +1,5 @@
-//! The ring of index numbers around a plan: a tick for every tooth of the gear, and the numbers of the teeth at which the
-//! facets in sight are cut, as far as they have room; the quarters of the gear are always there.
+//! The ring of index numbers around a plan: a tick for every tooth of the gear, and the numbers of the teeth at which
+//! the facets in sight are cut, as far as they have room; the quarters of the gear always have a number.
 
 use super::super::drawing::{Align, Frame, Ink, Sheet, Type, overlap, text_frame, text_width};
 use super::blocks::index_text;
@@ -37,7 +37,7 @@ pub(super) struct IndexRing<'a> {
     pub radius: f64,
     /// The least and the greatest x that a number may reach.
     pub sides: [f64; 2],
-    /// Whether the plan shows the stone from below, turned over about its y axis.
+    /// True where the plan shows the stone from below, turned over about its y axis.
     pub from_below: bool,
 }
 
@@ -73,7 +73,7 @@ impl IndexRing<'_> {
         written.collect()
     }
 
-    /// Returns the numbers that have room: index, place, and whether it is used.
+    /// Returns the numbers that have room: index, place, and whether a facet in sight is cut there.
     fn numbers(&self, used: &[f64]) -> Vec<(f64, DVec2, bool)> {
         let teeth = f64::from(self.tiers.gear.unsigned_abs());
         let quarters = [4.0, 1.0, 2.0, 3.0].map(|k| teeth * k / 4.0);
@@ -95,7 +95,7 @@ impl IndexRing<'_> {
         placed
     }
 
-    /// Returns where the number of an index stands; the box of the text decides how far out.
+    /// Returns the place of an index's number; the box of the text decides its distance from the ring.
     fn number_at(&self, index: f64) -> DVec2 {
         let half = DVec2::new(text_width(&index_text(index), SIZE), 0.8 * SIZE) / 2.0;
         let toward = self.toward(index);

@@ -1,7 +1,8 @@
-//! The cutter's sheet: all that a faceter needs at the machine, on one page of paper or as many as its instructions take.
+//! The cutter's sheet: everything that a faceter needs at the machine, on one page of paper or as many as its
+//! instructions take.
 //!
-//! [`CuttingSheet`] says as plain data what stands on it; [`sheet_pages`] draws it. Source of the order: the sheets that
-//! GemCad prints (R. Strickland, gemcad.com/lesson4.htm).
+//! [`CuttingSheet`] is its content as plain data; [`sheet_pages`] draws it. The order follows the sheets that GemCad
+//! prints (R. Strickland, gemcad.com/lesson4.htm).
 
 mod blocks;
 mod cutting_sheet;

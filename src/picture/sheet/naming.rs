@@ -19,26 +19,26 @@ const BESIDE: f64 = 4.0;
 const EVEN: f64 = 1e-6;
 /// The most tiers left for which leaders are drawn.
 const MOST_LED: usize = 40;
-/// While no more tiers than this are left, leaders may be of any length.
+/// The most tiers without room for their names for which leaders may have any length.
 const FEW: usize = 5;
 /// The greatest length of a leader where there are many.
 const LONGEST_OF_MANY: f64 = 110.0;
 /// The most facets of a tier that are tried for a leader.
 const MOST_TRIED: usize = 64;
 
-/// A tier as it is seen in a view.
+/// A tier in a view.
 pub(super) struct SeenTier {
     /// The tier's name.
     pub name: String,
-    /// Whether its name may stand outside, at the end of a leader.
+    /// True where its name may stand outside, at the end of a leader.
     pub is_led: bool,
     /// The outlines of its facets in sight, on the sheet.
     pub outlines: Vec<Vec<DVec2>>,
 }
 
-/// Where names may stand.
+/// The places for names.
 pub(super) struct Places {
-    /// What leaders keep clear of.
+    /// The lines and boxes that leaders keep clear of.
     pub room: LeaderRoom,
     /// The ends that leaders may have.
     pub slots: Vec<DVec2>,
@@ -128,7 +128,7 @@ fn write_outside(sheet: &mut Sheet, places: &mut Places, tier: &SeenTier, leader
 }
 
 impl Places {
-    /// Returns how a name at the end of a leader is aligned, and where it begins or ends.
+    /// Returns the alignment of a name at the end of a leader, and the place where it begins or ends.
     fn beside(&self, to: DVec2) -> (Align, DVec2) {
         match to.x < self.room.middle.x {
             true => (Align::End, to - DVec2::X * BESIDE),

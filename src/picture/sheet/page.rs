@@ -1,5 +1,5 @@
-//! Lays a cutter's sheet out on pages: heading, plans, figures and profiles on the first, then the tiers, which go on over
-//! as many pages as they take.
+//! Lays a cutter's sheet out on pages: heading, plans, figures and profiles on the first, then the tiers, which
+//! continue over as many pages as they take.
 //!
 //! A unit of the drawing is half a point, 1/144 inch.
 
@@ -86,7 +86,7 @@ pub fn sheet_pages(data: &CuttingSheet, paper: PaperSize) -> Vec<Document> {
         (sheet, y)
     });
     let list: f64 = groups.iter().map(LineGroup::height).sum();
-    // Where no size of the drawings leaves room for the whole list, they are as large as possible.
+    // Where no size of the drawings leaves room for the whole list, they are drawn as large as possible.
     let fits = |&(_, y): &(Sheet, f64)| y + list <= frame.high.y;
     let (mut first, mut all) = (None, drawn);
     let found = all.find(|drawing| {
@@ -102,7 +102,7 @@ pub fn sheet_pages(data: &CuttingSheet, paper: PaperSize) -> Vec<Document> {
     pages.into_iter().map(|page| page.page(&data.title, size, paper.size_mm())).collect()
 }
 
-/// What is laid out, and the box of each page that it fills.
+/// The content to be laid out, and the box of each page that it fills.
 struct Layout<'a> {
     data: &'a CuttingSheet,
     stone: &'a Stone,
@@ -114,7 +114,7 @@ impl Layout<'_> {
         self.frame.high.x - self.frame.low.x
     }
 
-    /// Draws all that stands above the list. Returns where the list begins.
+    /// Draws everything above the list. Returns the height at which the list begins.
     fn drawings(&self, sheet: &mut Sheet, radius: f64) -> f64 {
         let top = self.heading(sheet);
         let middle = (self.frame.low.x + self.frame.high.x) / 2.0;
@@ -130,7 +130,7 @@ impl Layout<'_> {
         figures.max(profiles)
     }
 
-    /// Writes the title and the lines below it. Returns where they end.
+    /// Writes the title and the lines below it. Returns the height at which they end.
     fn heading(&self, sheet: &mut Sheet) -> f64 {
         let at = |y: f64| DVec2::new(self.frame.low.x, y);
         let top = self.frame.low.y;
@@ -147,7 +147,7 @@ impl Layout<'_> {
         y + 18.0
     }
 
-    /// Writes the figures. Returns where they end.
+    /// Writes the figures. Returns the height at which they end.
     fn figures(&self, sheet: &mut Sheet, top: f64) -> f64 {
         let left = self.frame.low.x;
         let mut y = top + 10.0;
@@ -182,7 +182,7 @@ impl Layout<'_> {
         y
     }
 
-    /// Draws end and side beside the figures. Returns where they end.
+    /// Draws end and side beside the figures. Returns the height at which they end.
     fn profiles(&self, sheet: &mut Sheet, top: f64, part: f64) -> f64 {
         let left = self.frame.low.x + FIGURES_WIDTH;
         let width = (self.frame.high.x - left) / 2.0;
@@ -250,7 +250,7 @@ fn short_number(value: f64) -> String {
     format!("{}", (value * 1e4).round() / 1e4)
 }
 
-/// Returns what is said of the design in words.
+/// Returns the facts about the design in words.
 fn facts(data: &CuttingSheet) -> Vec<String> {
     let figures = &data.figures;
     let (facets, girdle) = (figures.facets, figures.girdle_facets);
@@ -266,7 +266,7 @@ fn facts(data: &CuttingSheet) -> Vec<String> {
     facts
 }
 
-/// Returns what small print says about the figures.
+/// Returns the remarks on the figures in small print.
 fn remarks(data: &CuttingSheet) -> Vec<String> {
     let mut remarks =
         vec!["H is P + C and the girdle as it is measured, G; GemCad prints 0.02 W for G.".to_owned()];
@@ -286,7 +286,7 @@ fn remarks(data: &CuttingSheet) -> Vec<String> {
     remarks
 }
 
-/// Says that indices are no whole teeth, and what to do; `None` where all are.
+/// Returns a note on indices that are no whole teeth, which says what to do; `None` where all are whole.
 fn between_teeth(data: &CuttingSheet) -> Option<String> {
     let said = format!(
         "Indices with decimals lie between teeth of the gear of {}, rounded to 0.001 tooth: set the tooth, and the rest by the \

@@ -29,7 +29,7 @@ const LEAST_INSTRUCTIONS: f64 = 200.0;
 /// The greatest part of the page's width that instructions take.
 const INSTRUCTIONS: f64 = 0.4;
 
-/// A line of the list with what stands in its columns.
+/// A line of the list, with the contents of its columns.
 #[derive(Debug, Clone, PartialEq)]
 enum TableLine {
     Heading(&'static str),
@@ -171,7 +171,7 @@ impl LineGroup {
         self.lines.iter().map(TableLine::height).sum::<f64>() + BETWEEN
     }
 
-    /// Whether a block begins with this group.
+    /// Returns whether a block begins with this group.
     pub fn begins_block(&self) -> bool {
         matches!(self.lines.first(), Some(TableLine::Heading(_)))
     }

@@ -1,4 +1,4 @@
-//! The reasons why a ring cannot be made, each with the number at fault and by how much.
+//! The reasons why a ring cannot be made, each with the number at fault and the excess.
 
 use super::RingStyle;
 
@@ -31,7 +31,7 @@ pub enum RingError {
         /// The style.
         style: RingStyle,
     },
-    /// A stone is given that the style has no place for.
+    /// A stone is given for which the style has no place.
     #[error("{key}: a ring of style '{}' has no place for it; leave it out", style.name())]
     NoPlace {
         /// The key of the stone.
@@ -50,11 +50,11 @@ pub enum RingError {
     NoRoom {
         /// The key of the number to be changed.
         key: &'static str,
-        /// What collides with what.
+        /// The parts that collide.
         what: &'static str,
-        /// By how much, in mm.
+        /// The overlap, in mm.
         by_mm: f64,
-        /// What to change.
+        /// The number to change, and its direction.
         change: &'static str,
     },
     /// Metal would lie inside a stone.
@@ -62,10 +62,10 @@ pub enum RingError {
     InsideStone {
         /// The part of the ring.
         part: &'static str,
-        /// By how much, in mm.
+        /// The depth of the metal in the stone, in mm.
         by_mm: f64,
     },
-    /// There are more stones than a scene may have.
+    /// The ring has more stones than a scene can have.
     #[error("small_diameter_mm: {count} small stones are too many, at most {most}; raise it")]
     TooMany {
         /// The number of small stones.

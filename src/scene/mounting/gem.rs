@@ -1,4 +1,4 @@
-//! A stone as the metal meets it: its planes in mm, in its place.
+//! A stone for the metal around it: its planes in mm, in its place.
 
 use crate::math::{Affine, Ball, Plane, Polytope, Pose, clip};
 use glam::{DQuat, DVec2, DVec3};
@@ -68,7 +68,7 @@ impl MountedStone {
         Self { planes, ball: Ball { middle: pose.at, radius } }
     }
 
-    /// Returns how deep a point lies inside the stone; below 0 outside, where it is no distance.
+    /// Returns the depth of a point inside the stone; below 0 outside, where it is not the distance.
     #[cfg(test)]
     pub fn depth(&self, point: DVec3) -> f64 {
         if point.distance_squared(self.ball.middle) > self.ball.radius.powi(2) {
@@ -77,8 +77,8 @@ impl MountedStone {
         -self.planes.iter().map(|plane| plane.distance(point)).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Returns how deep the deepest point of a triangle lies inside the stone, in mm, within a thousandth of
-    /// [`TOUCHING_MM`]; 0 where it lies no deeper than that.
+    /// Returns the depth of the deepest point of a triangle inside the stone, in mm, within a thousandth of
+    /// [`TOUCHING_MM`]; 0 where it is no more than that.
     pub fn depth_of(&self, triangle: [DVec3; 3]) -> f64 {
         let [a, b, c] = triangle;
         let middle = (a + b + c) / 3.0;
@@ -86,7 +86,7 @@ impl MountedStone {
         if !self.is_near(middle, reach) {
             return 0.0;
         }
-        // A point of the triangle is a + u (b - a) + v (c - a); what lies deeper than a depth is a polygon of (u, v).
+        // A point of the triangle is a + u (b - a) + v (c - a); its part below a depth is a polygon of (u, v).
         let lies_deeper = |depth: f64| {
             let mut rest = vec![DVec2::ZERO, DVec2::X, DVec2::Y];
             for plane in &self.planes {
@@ -115,8 +115,8 @@ impl MountedStone {
         low
     }
 
-    /// Returns how far a point can go in a direction before it comes to within the clearance of the stone; infinite where it
-    /// never does, 0 where it is there already.
+    /// Returns the way that a point can go in a direction before it comes within the clearance of the stone; infinite
+    /// where it never does, 0 where it starts there.
     pub fn free_way(&self, from: DVec3, way: DVec3) -> f64 {
         let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
         for plane in &self.planes {

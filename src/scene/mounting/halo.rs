@@ -11,7 +11,7 @@ use crate::scene::MOST_STONES;
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// How far the small stones' girdles lie below the main stone's, as a part of their radius.
+/// The distance of the small stones' girdles below the main stone's, as a part of their radius.
 const LOWER: f64 = 0.25;
 
 /// The least gap between a prong and a small stone, in mm.

@@ -11,7 +11,7 @@ use crate::math::Pose;
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// How far the base stands above the band's middle, in mm.
+/// The height of the base above the band's middle, in mm.
 const BASE_LIFT_MM: f64 = 0.15;
 
 /// The height of the base's rim, in mm.
@@ -26,7 +26,7 @@ const STEEPEST_LEG: f64 = 0.8;
 /// The thickness of a prong's tip, as a part of the prong's.
 const TIP: f64 = 0.7;
 
-/// Where the rail is looked for, from the base (0) to the girdle (1), and the step of the search.
+/// The place from which the rail is sought, from the base (0) to the girdle (1), and the step of the search.
 const RAIL_AT: f64 = 0.5;
 const RAIL_STEP: f64 = 0.05;
 
@@ -36,7 +36,7 @@ const RAIL_GAP_MM: f64 = 0.05;
 /// The least gap between neighbouring prongs at the girdle, in mm.
 const PRONG_GAP_MM: f64 = 0.3;
 
-/// One prong: where it stands around the stone, the way that it takes, and the outline of the stone that it grips.
+/// A prong: its azimuth around the stone, its way, and the outline of the stone that it grips.
 pub(super) struct Prong {
     /// The azimuth about the stone's axis, radians.
     pub azimuth: f64,
@@ -46,7 +46,7 @@ pub(super) struct Prong {
     pub section: Vec<DVec2>,
 }
 
-/// The prongs of a head, and how high it stands.
+/// The prongs of a head, and its heights.
 pub(super) struct Prongs {
     /// The prongs.
     pub prongs: Vec<Prong>,
@@ -93,7 +93,7 @@ pub(super) fn metal(ring: &Ring, prongs: &Prongs, stones: &[MountedStone], mount
     }
 }
 
-/// Returns how far a prong's middle stays away from the stone, in mm.
+/// Returns the distance of a prong's middle from the stone, in mm.
 pub(super) fn apart(ring: &Ring) -> f64 {
     (0.5 - ring.notch) * ring.prong_diameter_mm
 }
@@ -189,7 +189,7 @@ pub(super) fn distance(section: &[DVec2], from: DVec2) -> f64 {
     if is_inside { 0.0 } else { least }
 }
 
-/// Returns the pose of something that is built about the z axis, its middle at a place.
+/// Returns the pose of a part that is built about the z axis, with its middle at a place.
 pub(super) fn upright(at: DVec3, turn: DQuat) -> Pose {
     Pose { at, turn, scale: 1.0 }
 }

@@ -9,7 +9,8 @@ impl Ring {
     /// diameter is `small_diameter_mm`.
     ///
     /// # Errors
-    /// A number out of its range, a stone too many or too few, or parts that do not fit one another, by how much.
+    /// Fails where a number is out of its range, where stones are missing or too many, or where parts do not fit; the
+    /// error gives the excess.
     pub fn mounting(
         &self,
         stone: Option<&SetStone>,
@@ -29,10 +30,10 @@ impl Ring {
         Ok(mounting)
     }
 
-    /// Checks the numbers, and whether the stones are given that the style holds, and no others.
+    /// Checks the numbers, and whether exactly the stones are given that the style holds.
     ///
     /// # Errors
-    /// The first thing at fault.
+    /// The error names the first fault.
     pub fn check(&self, has_stone: bool, has_small: bool) -> Result<(), RingError> {
         let style = self.style;
         RING_NUMBERS.iter().try_for_each(|number| number.check(self))?;

@@ -1,5 +1,5 @@
-//! Rings of the program's own making: a few numbers and the stones that are set give the metal's surfaces and the places of
-//! the stones. Plain data; nothing here traces light.
+//! Rings of the program's own making: a few numbers and the stones give the metal's surfaces and the places of the
+//! stones. Plain data; nothing here traces light.
 //!
 //! Lengths are in mm. The finger runs along y, the middle of its hole is the origin, and the head lies in the direction +z.
 

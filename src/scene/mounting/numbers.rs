@@ -1,9 +1,9 @@
-//! The numbers that describe a ring: key, unit and range of each, one row a number. `Ring::default` has their usual values;
-//! docs/formats.md says what they mean.
+//! The numbers that describe a ring: key, unit and range of each, in one row. `Ring::default` has their usual values;
+//! docs/formats.md gives their meanings.
 
 use super::{Ring, RingError};
 
-/// One number that describes a ring, such as the width of its band.
+/// A number that describes a ring, such as the width of its band.
 pub struct RingNumber {
     /// The key in scene files.
     pub key: &'static str,
@@ -50,7 +50,7 @@ impl RingNumber {
     /// Checks that a ring's number lies in its range.
     ///
     /// # Errors
-    /// The number does not, or it is not finite.
+    /// Fails where the number is out of its range or not finite.
     pub fn check(&self, ring: &Ring) -> Result<(), RingError> {
         let value = (self.get)(ring);
         let [least, most] = self.range;

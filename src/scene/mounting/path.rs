@@ -10,7 +10,7 @@ pub(super) struct Waypoint {
     pub at: DVec2,
     /// The unit direction away from the stone, square to the way.
     pub out: DVec2,
-    /// Whether the way follows the stone here.
+    /// True where the way follows the stone.
     pub is_beside: bool,
     /// The part of the way beside the stone that lies behind this place: 0 on the leg, 1 at the end.
     pub part: f64,
@@ -62,7 +62,7 @@ fn first_touched(section: &[DVec2], foot: DVec2, apart: f64) -> Option<(usize, D
         let along = DVec2::from_angle(-aside).rotate(corner / distance);
         Some((k, along))
     };
-    // Of all legs the one that leans most outward leaves the whole stone on its left.
+    // Of all legs, the one that leans most outward leaves the whole stone on its left.
     let legs = (0..section.len()).map(leg).collect::<Option<Vec<_>>>()?;
     legs.into_iter().max_by(|(_, a), (_, b)| (-a.to_angle()).total_cmp(&-b.to_angle()))
 }
@@ -89,7 +89,7 @@ fn follow(
         }
         out = -along.perp();
         is_beyond |= k == top;
-        // On the crown's last edge before the axis the way goes on straight, in the air above the table.
+        // On the crown's last edge before the axis, the way continues straight, in the air above the table.
         let is_last = next.x < 1e-9;
         let left = if is_beyond { grip - beyond } else { f64::INFINITY };
         let length = if is_last && is_beyond { left } else { edge.length().min(left) };
@@ -108,7 +108,7 @@ fn follow(
     }
 }
 
-/// Says of each place beside the stone which part of the way lies behind it.
+/// Computes for each place beside the stone the part of the way that lies behind it.
 fn measure(way: &mut [Waypoint]) {
     let (mut length, mut last) = (0.0, None::<DVec2>);
     for at in way.iter_mut().filter(|at| at.is_beside) {

@@ -1,9 +1,9 @@
-//! A ring as a few numbers, and what is made of them: plain data.
+//! A ring as a few numbers, and its parts: plain data.
 
 use crate::math::{Pose, ShadedSurface};
 use serde::{Deserialize, Serialize};
 
-/// What a ring looks like.
+/// The style of a ring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum RingStyle {
@@ -13,7 +13,7 @@ pub enum RingStyle {
     FourProng,
     /// A solitaire: one stone in six prongs.
     SixProng,
-    /// One stone in four prongs, with small stones around it.
+    /// One stone in four prongs, with a circle of small stones around it.
     Halo,
     /// A band with small stones all around.
     Eternity,
@@ -73,7 +73,7 @@ impl OuterShape {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ring {
-    /// What the ring looks like.
+    /// The style.
     pub style: RingStyle,
     /// The shape of the band's outside.
     pub outside: OuterShape,
@@ -83,7 +83,7 @@ pub struct Ring {
     pub width_mm: f64,
     /// The thickness of the band in its middle, in mm.
     pub thickness_mm: f64,
-    /// How far the inside rises toward the edges, in mm.
+    /// The rise of the inside toward the edges, in mm.
     pub comfort_mm: f64,
     /// The width of the band at the head, as a part of `width_mm`.
     pub taper: f64,
@@ -91,7 +91,7 @@ pub struct Ring {
     pub prong_diameter_mm: f64,
     /// The depth of the prongs' notches, as a part of their diameter.
     pub notch: f64,
-    /// How far the middle of a prong goes over the crown, in mm.
+    /// The length of a prong's middle over the crown, in mm.
     pub grip_mm: f64,
     /// The height of the stone's lowest point above the metal under it, in mm.
     pub culet_gap_mm: f64,
@@ -127,31 +127,31 @@ impl Default for Ring {
 /// A piece of metal. Pieces of one ring reach into one another; each is closed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MetalPart {
-    /// What a jeweller calls it.
+    /// The jeweller's name of the part.
     pub name: &'static str,
     /// Its surface, in mm.
     pub surface: ShadedSurface,
 }
 
-/// Which of a ring's stones sits in a seat.
+/// The kind of stone in a seat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SeatKind {
     /// The main stone, which prongs hold in the middle of the head.
     Main,
-    /// One of the small stones, which stand around the main stone or along the band.
+    /// A small stone, around the main stone or along the band.
     Small,
 }
 
 /// The place of a stone in a ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RingSeat {
-    /// Which stone sits there.
+    /// The kind of its stone.
     pub kind: SeatKind,
     /// The pose that carries the stone from its frame (girdle radius 1, +z out of the table) into the ring's, in mm.
     pub pose: Pose,
 }
 
-/// A ring without its stones, and where they sit.
+/// A ring without its stones, with their places.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mounting {
     /// The metal.

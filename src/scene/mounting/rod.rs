@@ -7,7 +7,7 @@ use crate::math::ShadedSurface;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// One cross-section of a rod: where its middle is, how it lies there, and how thick it is.
+/// A cross-section of a rod: its place, its directions and its thickness.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Station {
     /// The place, in mm.
@@ -18,7 +18,7 @@ pub(super) struct Station {
     pub out: DVec3,
     /// The radius, in mm.
     pub radius: f64,
-    /// How far toward the stone the section may reach, in mm: where the rod bends, its inner side must not fold.
+    /// The greatest reach of the section toward the stone, in mm: where the rod bends, its inner side must not fold.
     pub inward: f64,
 }
 

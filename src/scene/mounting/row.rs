@@ -11,14 +11,14 @@ use crate::scene::MOST_STONES;
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// The thickness of a collet's wall, as a part of the gap between girdles: neighbouring walls reach into one another, and
-/// not to the neighbour's stone.
+/// The thickness of a collet's wall, as a part of the gap between girdles: neighbouring walls overlap, but do not
+/// reach the neighbour's stone.
 const WALL: f64 = 0.75;
 
 /// The greatest thickness of a collet's wall, in mm.
 const THICKEST_MM: f64 = 0.35;
 
-/// The radius of a bead, and how far its middle stands from the stones' girdles, as parts of a stone's radius.
+/// The radius of a bead, and the distance of its middle from the stones' girdles, as parts of a stone's radius.
 const BEAD: f64 = 0.3;
 const BEAD_APART: f64 = 0.14;
 
@@ -36,7 +36,7 @@ pub(super) struct SmallSizes {
 /// Returns the sizes of a small stone.
 ///
 /// # Errors
-/// Its axis does not run through it.
+/// Fails where the stone's axis does not run through it.
 pub(super) fn sizes(stone: &SetStone) -> Result<SmallSizes, RingError> {
     let corners = stone.shape.vertices().iter().map(|&corner| corner * 0.5 * stone.diameter_mm);
     let radius = corners.clone().map(|corner| corner.truncate().length()).fold(0.0, f64::max);

@@ -1,10 +1,10 @@
-//! Surfaces of rows of points, and how finely curves are divided.
+//! Surfaces of rows of points, and the number of chords by which curves are divided.
 
 use crate::math::ShadedSurface;
 use glam::{DVec2, DVec3};
 
-/// How far a chord may lie from its curve, in mm: two of them are a tenth of a pixel of a picture that shows a ring of
-/// 20 mm at 1024 pixels.
+/// The greatest distance of a chord from its curve, in mm: two of them are a tenth of a pixel of a picture that shows
+/// a ring of 20 mm at 1024 pixels.
 pub(super) const CHORD_MM: f64 = 0.002;
 
 /// The cosine of the angle between triangles from which their edge is a crease: 40 degrees.

@@ -54,7 +54,7 @@ fn mounted(mounting: &Mounting, shape: &Polytope) -> Vec<MountedStone> {
     mounting.seats.iter().map(stone).collect()
 }
 
-/// Returns what is wrong with a closed surface.
+/// Returns the fault of a surface that should be closed; `None` where it has none.
 fn open(surface: &ShadedSurface) -> Option<String> {
     // Points less than a tenth of a nanometre apart count as one; a triangle between them has no area.
     let place = |k: u32| surface.points[k as usize].to_array().map(|x| (x * 1e7).round() as i64);

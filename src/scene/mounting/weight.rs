@@ -1,4 +1,4 @@
-//! What a ring weighs: the volume of metal whose pieces reach into one another, and the densities of alloys.
+//! The weight of a ring: the volume of metal whose pieces overlap, and the densities of alloys.
 
 use super::Mounting;
 use crate::math::bounds;
@@ -102,7 +102,7 @@ impl RowTriangle {
     /// Returns a triangle over lines that lie `apart`; `None` where none can cross it.
     fn new(triangle: [DVec3; 3], first: DVec2, apart: f64) -> Option<Self> {
         let [a, b, c] = triangle.map(|v| (DVec2::new(v.x, v.z) - first) / apart);
-        // In the plane of x and z seen along y, faces turned toward y run clockwise.
+        // In the plane of x and z, seen along y, faces turned toward y run clockwise.
         let twice = (b - a).perp_dot(c - a);
         let rows = [a.y.min(b.y).min(c.y).ceil().max(0.0), a.y.max(b.y).max(c.y).floor()];
         let is_crossed = twice != 0.0 && rows[0] <= rows[1];
@@ -121,7 +121,7 @@ impl RowTriangle {
             let is_met = (p.y.min(q.y)..=p.y.max(q.y)).contains(&(row as f64));
             (low, high) = if is_met { (low.min(x), high.max(x)) } else { (low, high) };
         }
-        // One line more on each side, because what rounding does to the ends is decided below.
+        // One more line on each side is tested, because the test below decides about rounded ends.
         for line in (low.floor() as i64).max(0)..=high.ceil() as i64 {
             let at = DVec2::new(line as f64, row as f64);
             // An edge belongs to one of its two triangles: each computes the same product of it, with the other sign.
@@ -135,7 +135,8 @@ impl RowTriangle {
     }
 }
 
-/// Returns twice the area of the triangle of an edge and a point, the same but for its sign for both directions of the edge.
+/// Returns twice the area of the triangle of an edge and a point. Both directions of the edge give the same number
+/// with opposite signs.
 fn edge(p: DVec2, q: DVec2, at: DVec2) -> f64 {
     if (p.x, p.y) < (q.x, q.y) { (p - at).perp_dot(q - at) } else { -(q - at).perp_dot(p - at) }
 }

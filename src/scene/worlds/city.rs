@@ -1,5 +1,6 @@
-//! A city at night across water: towers in several depths with warm and cool windows, signs, lamps along the shore, the
-//! glow of the sky, and all of it drawn out in the water. z is up; the middle of the picture is at azimuth 0.
+//! A city at night across water: towers in several depths with warm and cool windows, signs, lamps along the shore,
+//! the glow of the sky, and their drawn-out reflections in the water. z is up; the middle of the picture is at
+//! azimuth 0.
 //!
 //! Towers are strips of azimuth. Windows that are finer than the footprint fade to their mean. In the water, light of the
 //! city is gathered over the elevations from which the waves send it to the eye.
@@ -10,7 +11,7 @@ use glam::{DMat2, DVec2, DVec3};
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-/// One depth of the skyline.
+/// A depth of the skyline.
 struct Depth {
     /// The number of plots around the horizon.
     plots: f64,
@@ -23,7 +24,7 @@ struct Depth {
     lit: f64,
     /// The radiance of lit windows, white being 1.
     bright: f64,
-    /// How much the glow of the air lies over the towers.
+    /// The strength of the air's glow over the towers, 0 to 1.
     haze: f64,
     /// The seed of the plots.
     seed: u32,
@@ -103,7 +104,7 @@ fn above(d: DVec3, footprint: f64) -> DVec3 {
     light
 }
 
-/// Returns how much city there is at an azimuth, 0 to 1: most before the viewer.
+/// Returns the density of the city at an azimuth, 0 to 1: greatest before the viewer.
 fn downtown(azimuth: f64) -> f64 {
     let away = (azimuth + 0.06).abs();
     0.30 + 0.70 * (-(away / 0.50).powi(2)).exp() + 0.45 * (-((azimuth.abs() - 2.2) / 0.4).powi(2)).exp()
@@ -118,7 +119,7 @@ fn glow(azimuth: f64, z: f64) -> DVec3 {
         + DVec3::new(0.0035, 0.0085, 0.027)
 }
 
-/// The night sky: the glow, clouds that it lights from below, stars.
+/// Returns the night sky: the glow, clouds that it lights from below, stars.
 fn sky(d: DVec3, azimuth: f64, footprint: f64) -> DVec3 {
     let z = d.z.max(0.0);
     let light = glow(azimuth, z);
@@ -153,7 +154,7 @@ fn stars(d: DVec3, footprint: f64) -> DVec3 {
     DVec3::new(0.85, 0.92, 1.1) * (magnitude * share * (-off).exp())
 }
 
-/// The towers of every depth: what [`tower`] returns, by plot.
+/// The towers of every depth, by plot, each as [`tower`] returns it.
 static TOWERS: LazyLock<Vec<Vec<[f64; 3]>>> = LazyLock::new(|| {
     let all = |depth: &Depth| (0..depth.plots as i64).map(|plot| tower(depth, plot)).collect();
     DEPTHS.iter().map(all).collect()
@@ -167,7 +168,7 @@ fn tower(depth: &Depth, plot: i64) -> [f64; 3] {
     let rank = of(1);
     let tall = downtown(azimuth) * (0.25 * rank + 0.75 * rank.powi(4));
     let roof = depth.low * (0.5 + 0.5 * of(2)) + (depth.high - depth.low) * tall;
-    // Towers reach over the next plot, so that some hide others.
+    // Towers reach into the next plot, so that some hide others.
     let wide = (0.62 + 0.24 * of(4)) * (1.0 + 0.7 * random(plot, 3, depth.seed));
     [0.18 * of(3), wide, roof]
 }
@@ -290,7 +291,7 @@ fn crown(depth: &Depth, ring: i64, at: DVec2, size: DVec2, [pixel, footprint]: [
     let middle = (at.x - 0.5 * size.x).abs();
     let colour = NEON[(of(2) * 5.999) as usize];
     if is_tall && of(1) > 0.35 {
-        // Light that washes down from the roof.
+        // This light washes down from the roof.
         let wash = (-below.max(0.0) / (0.07 * size.y)).exp() * band(0.0, 1e9, below, footprint);
         light += colour * 0.10 * wash * inside;
         light += colour * 0.75 * inside * band(0.0, 0.0016, below, footprint);

@@ -11,7 +11,7 @@ const PLACES: [DVec2; 4] =
 /// The footprint of each of these, as a share of the pixel.
 const SHARE: f64 = 0.6;
 
-/// How much the brightness of neighbours may differ, on a scale from 0 to 1.
+/// The greatest difference in brightness of neighbours that get one sample, on a scale from 0 to 1.
 const EVEN: f64 = 0.06;
 
 /// The light at the middle of the scale of brightness.

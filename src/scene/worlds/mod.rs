@@ -33,7 +33,7 @@ pub enum World {
 }
 
 impl World {
-    /// All worlds with their names.
+    /// The worlds with their names.
     pub const NAMES: [(&str, Self); 3] =
         [("sunset", Self::Sunset), ("room", Self::Room), ("city", Self::City)];
 
@@ -52,7 +52,7 @@ impl World {
     }
 
     /// Returns the radiance from a unit direction, as linear light of sRGB's primaries, each finite and at least 0.
-    /// `footprint` is the angle in radians over which it is averaged, softly and about.
+    /// `footprint` is the angle in radians over which it is averaged, approximately and with soft borders.
     pub fn radiance(self, direction: DVec3, footprint: f64) -> DVec3 {
         let light = match self {
             Self::Sunset => sunset::radiance(direction, footprint),
@@ -62,8 +62,8 @@ impl World {
         light.max(DVec3::ZERO)
     }
 
-    /// Returns the world's direction of a direction in the frame of a light, whose z points to the eye and whose y is up in
-    /// the picture: whoever looks at the stones sees the middle of the photograph behind them.
+    /// Returns the world's direction that corresponds to a direction in the frame of a light, whose z points to the
+    /// eye and whose y is up in the picture: the middle of the photograph lies behind the stones.
     pub fn from_light(direction: DVec3) -> DVec3 {
         DVec3::new(-direction.z, -direction.x, direction.y)
     }

@@ -1,4 +1,4 @@
-//! Smooth noise, the same on every machine for the same seed: what clouds, waves, wood and windows are made of.
+//! Smooth noise, the same on every machine for the same seed, from which clouds, waves, wood and windows are made.
 //!
 //! Gradient noise after K. Perlin, *An Image Synthesizer*, SIGGRAPH 1985, with the fade of *Improving Noise*, 2002.
 
@@ -102,7 +102,7 @@ pub(super) fn ramp(from: f64, to: f64, x: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// Returns how much of a footprint around `x` lies between two edges, 0 to 1.
+/// Returns the part of a footprint around `x` that lies between two edges, 0 to 1.
 pub(super) fn band(from: f64, to: f64, x: f64, footprint: f64) -> f64 {
     let half = 0.5 * footprint.max(1e-9);
     (((x + half).min(to) - (x - half).max(from)) / (2.0 * half)).clamp(0.0, 1.0)
@@ -119,8 +119,8 @@ pub(super) fn curve(colours: &[DVec3], x: f64) -> DVec3 {
     smooth.max(DVec3::ZERO)
 }
 
-/// A ring of values by azimuth or a map by azimuth and elevation, looked up between its entries: what would be too slow to
-/// compute for every pixel.
+/// A ring of values by azimuth, or a map by azimuth and elevation, interpolated between its entries, for values that
+/// would take too long to compute for every pixel.
 pub(super) struct Table<T> {
     across: usize,
     down: usize,
@@ -131,7 +131,7 @@ impl<T> Table<T>
 where
     T: Copy + Send + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
 {
-    /// Fills a table with what `entry` returns for places from 0 to 1. Across, the table is a ring.
+    /// Fills a table with the values of `entry` for places from 0 to 1. Across, the table is a ring.
     pub(super) fn new([across, down]: [usize; 2], entry: impl Fn(f64, f64) -> T + Sync) -> Self {
         let at = |k: usize| {
             let (x, y) = (k % across, k / across);
@@ -146,7 +146,7 @@ where
         let v = y.clamp(0.0, 1.0) * (self.down - 1) as f64;
         let (i, j) = (whole(u), (v as usize).min(self.down - 1));
         let (fu, fv) = (u - i as f64, v - j as f64);
-        // Half an entry beside either end lies the other end.
+        // Beyond half an entry at either end, the other end continues the ring.
         let left = if i < 0 { self.across - 1 } else { (i as usize).min(self.across - 1) };
         let right = if left + 1 < self.across { left + 1 } else { 0 };
         let row = |j: usize| {

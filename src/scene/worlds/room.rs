@@ -18,18 +18,18 @@ const HIGH: DVec3 = DVec3::new(5.0, 2.3, 1.55);
 
 const WARM: DVec3 = DVec3::new(1.0, 0.58, 0.25);
 
-/// How a lamp spreads its light.
+/// The distribution of a lamp's light.
 #[derive(Clone, Copy)]
 enum Spread {
     /// Through the openings of a shade, above and below, and a little through its cloth.
     Shade,
     /// Evenly in all directions, as a globe of frosted glass does.
     Globe,
-    /// Downward alone, as a lamp in the ceiling does.
+    /// Downward alone, like a lamp in the ceiling.
     Down,
 }
 
-/// A lamp as it lights surfaces: its place, its colour times its intensity, its spread.
+/// A light source: its place, its colour times its intensity, its distribution.
 struct Light(DVec3, DVec3, Spread);
 
 const fn warm(by: f64) -> DVec3 {
@@ -95,7 +95,7 @@ pub(super) fn radiance(d: DVec3, footprint: f64) -> DVec3 {
     light + mirror * (lit(&other, q, out) + flames(from, out, reach, blur))
 }
 
-/// Returns what a ray meets first, where, and how far away.
+/// Returns the surface that a ray meets first, the point, and its distance.
 fn hit(from: DVec3, d: DVec3, footprint: f64) -> (RoomSurface, DVec3, f64) {
     let walls = (LOW - from) / d;
     let far = ((HIGH - from) / d).max(walls);
@@ -125,7 +125,7 @@ fn hit(from: DVec3, d: DVec3, footprint: f64) -> (RoomSurface, DVec3, f64) {
     (surface, p, reach)
 }
 
-/// Returns the light that a surface sends back: what the lamps and the window give it, and its own.
+/// Returns the light that a surface sends back, of the lamps and the window, and its own.
 fn lit(surface: &RoomSurface, p: DVec3, d: DVec3) -> DVec3 {
     if surface.albedo == DVec3::ZERO {
         return surface.own;
@@ -153,7 +153,7 @@ fn lit(surface: &RoomSurface, p: DVec3, d: DVec3) -> DVec3 {
     surface.own + surface.albedo * (sum * surface.shelter.sqrt() + bounced * corners(p, n) * surface.shelter)
 }
 
-/// Returns the share of a surface's view that the window takes.
+/// Returns the part of a surface's view that the window takes.
 fn window_share(n: DVec3, p: DVec3) -> f64 {
     let quarter = |y: f64| {
         let to = WINDOW + DVec3::new(0.0, y, 0.0) - p;
@@ -164,7 +164,7 @@ fn window_share(n: DVec3, p: DVec3) -> f64 {
     3.0 * (quarter(-0.4) + quarter(0.4))
 }
 
-/// Returns how much of the light of the room reaches a point: less in corners.
+/// Returns the part of the room's light that reaches a point: less in corners.
 fn corners(p: DVec3, n: DVec3) -> f64 {
     let near = |gap: f64| 1.0 - 0.55 * (-gap.abs() / 0.30).exp();
     let (low, high) = (p - LOW, HIGH - p);

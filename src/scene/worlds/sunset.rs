@@ -1,9 +1,9 @@
 //! A sunset over water: a sky from deep blue through rose to gold, thin clouds with lit edges, far hills, and the path of
 //! the sun's light on the waves. z is up; the sun stands low, a little to the right of azimuth 0.
 //!
-//! Glitter is the sun in facets of waves whose slopes are normally distributed (C. Cox and W. Munk, *Measurement of the
-//! Roughness of the Sea Surface from Photographs of the Sun's Glitter*, 1954). Waves wider than the footprint have their
-//! shape; the finer ones add to the spread of slopes.
+//! Glitter is the reflection of the sun in facets of waves whose slopes are normally distributed (C. Cox and W. Munk,
+//! *Measurement of the Roughness of the Sea Surface from Photographs of the Sun's Glitter*, 1954). Waves wider than
+//! the footprint are drawn as shapes; the finer ones add to the spread of slopes.
 
 use super::noise::{Table, curve, fractal, noise, ramp};
 use super::waves::{WaterPoint, Waves, swells};
@@ -12,7 +12,7 @@ use std::sync::LazyLock;
 
 /// Azimuth and elevation of the sun, radians.
 const SUN_AT: DVec2 = DVec2::new(-0.17, 0.052);
-/// Half the sun's width, radians; wider than the true sun, as haze shows it.
+/// Half the sun's width, radians; wider than the true sun, as in haze.
 const SUN_RADIUS: f64 = 0.0095;
 const SUN_COLOUR: DVec3 = DVec3::new(900.0, 520.0, 200.0);
 
@@ -38,7 +38,7 @@ const AWAY: [DVec3; 7] = [
     DVec3::new(0.013, 0.030, 0.10),
 ];
 
-/// The light that comes from within the water.
+/// The radiance of the water itself.
 const WATER: DVec3 = DVec3::new(0.004, 0.017, 0.030);
 
 /// The direction to the sun.
@@ -160,7 +160,7 @@ fn streaks(d: DVec3, footprint: f64, behind: DVec3, from_sun: f64, side: f64) ->
 fn ranges(x: f64) -> DVec3 {
     let azimuth = (x - (x + 0.5).floor()) * std::f64::consts::TAU;
     let range = |k: u32, height: f64, coarse: f64, bay: f64| {
-        // On a circle, so that the ranges close behind the viewer.
+        // The noise is taken on a circle, so that the ranges close behind the viewer.
         let at = DVec2::from_angle(azimuth) * coarse + 31.0 * f64::from(k);
         let shape = 0.30 + 0.95 * fractal(at, 7, 0.0008 * coarse, 40 + 8 * k);
         let from = azimuth - SUN_AT.x;
@@ -188,7 +188,7 @@ fn hills(d: DVec3, footprint: f64, behind: DVec3, from_sun: f64) -> DVec3 {
 /// Returns the water: the sky and the sun in its waves.
 fn water(d: DVec3, footprint: f64) -> DVec3 {
     let WaterPoint { distance, slope, hidden, facing, mut mirrored } = WAVES.met(d, footprint);
-    // Rough water is seen by the sides of waves that face the eye.
+    // Rough water shows mostly the sides of waves that face the eye.
     let spread = hidden.sqrt();
     let facing = (facing * facing + 0.6 * hidden).sqrt().min(1.0);
     let fresnel = 0.02 + 0.98 * (1.0 - facing).powi(5);

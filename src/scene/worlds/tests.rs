@@ -124,6 +124,6 @@ fn the_middle_half_of_a_wide_photograph_is_the_narrow_one() {
 fn the_viewer_of_a_light_sees_the_middle_of_the_photograph_behind_the_stones() {
     assert_eq!(World::from_light(-DVec3::Z), DVec3::X);
     assert_eq!(World::from_light(DVec3::Y), DVec3::Z);
-    // What lies to the right in the image lies at azimuths below 0.
+    // Places to the right in the image have azimuths below 0.
     assert_eq!(World::from_light(DVec3::X), -DVec3::Y);
 }

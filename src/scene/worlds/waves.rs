@@ -1,5 +1,5 @@
-//! Water with waves: octaves of smooth noise. Waves wider than the footprint of a look have their shape; the finer ones add
-//! to the spread of slopes.
+//! Water with waves: octaves of smooth noise. Waves wider than the footprint of a line of sight are drawn as shapes;
+//! the finer ones add to the spread of slopes.
 
 use super::noise::{noise, ramp};
 use glam::{DMat2, DVec2, DVec3};
@@ -9,7 +9,7 @@ const SEED: u32 = 60;
 
 /// Water with `N` octaves of waves, seen from a height above it.
 pub(super) struct Waves<const N: usize> {
-    /// Height of the eye above the water in metres; it sets how far apart waves seem.
+    /// Height of the eye above the water in metres; it sets the apparent distance between waves.
     pub eye: f64,
     /// The length of the finest waves in metres.
     pub finest: f64,
@@ -17,27 +17,27 @@ pub(super) struct Waves<const N: usize> {
     pub coarser: f64,
     /// The slope of each octave.
     pub slopes: [f64; N],
-    /// How each octave is turned, and drawn out along its crests.
+    /// The turn of each octave, and its stretch along the crests.
     pub swells: [DMat2; N],
     /// The spread of slopes that no footprint resolves.
     pub calm: f64,
-    /// The footprint, as a part of their length, from which on waves have no shape.
+    /// The footprint, as a part of their length, from which on waves are not drawn as shapes.
     pub hidden_from: f64,
-    /// How much longer than wide a footprint on the water counts at most.
+    /// The greatest ratio of length to width of a footprint on the water.
     pub longest: f64,
 }
 
-/// What a look meets on the water.
+/// The point of the water on a line of sight.
 pub(super) struct WaterPoint {
     /// The distance to it in metres.
     pub distance: f64,
-    /// The slope of the waves that have a shape.
+    /// The slope of the waves that are drawn as shapes.
     pub slope: DVec2,
-    /// The variance of the slopes of those that are finer than the footprint, along the view and across it.
+    /// The variance of the slopes of the finer waves, along the view and across it.
     pub hidden: f64,
-    /// The cosine between the look and the normal, 0 where the water faces away.
+    /// The cosine between the line of sight and the normal, 0 where the water faces away.
     pub facing: f64,
-    /// The direction in which the look is reflected, of length 1.
+    /// The direction in which the line of sight is reflected, of length 1.
     pub mirrored: DVec3,
 }
 
@@ -50,7 +50,7 @@ pub(super) fn swells<const N: usize>(wind: DMat2, drawn_out: f64, (first, step):
 }
 
 impl<const N: usize> Waves<N> {
-    /// Returns what a look down in a unit direction meets; the footprint is in radians.
+    /// Returns the point of the water in a unit direction that looks down; the footprint is in radians.
     pub fn met(&self, d: DVec3, footprint: f64) -> WaterPoint {
         let down = (-d.z).max(0.25 * footprint).max(1e-4);
         let distance = self.eye / down;

@@ -1,4 +1,4 @@
-//! The picture behind the bodies, on a plane perpendicular to the axis to the eye. Its twins are
+//! The photograph behind the bodies, on a plane perpendicular to the axis to the eye. The twins of this module are
 //! `src/trace/packet/backplate.rs` and `photo_at` in `shaders/environment.wgsl`.
 
 use crate::math::Basis;
@@ -6,7 +6,7 @@ use crate::scene::{Film, Mipmap, View};
 use crate::trace::DispersedRay;
 use glam::{DVec2, DVec3, DVec4, Vec4Swizzles as _};
 
-/// The cosine between a ray and the axis to the eye below which the ray counts as running along the backplate.
+/// A ray counts as parallel to the backplate if the cosine between it and the axis to the eye is below this.
 pub(in crate::trace) const ALONG: f64 = 1e-6;
 
 /// A photograph on a plane behind the stones, perpendicular to the axis to the eye.
@@ -14,14 +14,14 @@ pub(in crate::trace) const ALONG: f64 = 1e-6;
 pub struct Backplate<'a> {
     /// The picture, in linear light, with its coarser levels.
     pub picture: &'a Mipmap,
-    /// Distance of the plane behind the origin, in world units.
+    /// The distance of the plane behind the origin, in world units.
     pub distance: f64,
-    /// The picture's width on that plane, in world units.
+    /// The width of the picture on that plane, in world units.
     pub width: f64,
 }
 
-/// Returns the image coordinates of the point where a ray meets the plane at a distance behind the origin, perpendicular to
-/// the axis to the eye; `None` where it does not meet the plane.
+/// Returns the image coordinates of the point where a ray meets the plane at this distance behind the origin,
+/// perpendicular to the axis to the eye; `None` where the ray does not meet the plane.
 pub fn backplate_point(eye: &Basis, distance: f64, from: DVec3, direction: DVec3) -> Option<DVec2> {
     let (speed, height) = (-direction.dot(eye.toward), from.dot(eye.toward) + distance);
     let meets = speed > ALONG && height > 0.0;
@@ -29,8 +29,8 @@ pub fn backplate_point(eye: &Basis, distance: f64, from: DVec3, direction: DVec3
 }
 
 impl<'a> Backplate<'a> {
-    /// Places a picture at this distance behind the origin, wide enough to fill a view's film `span` times over, whatever
-    /// its shape.
+    /// Places a picture at this distance behind the origin. It is wide enough to cover `span` times a view's film,
+    /// whatever its shape.
     pub fn filling(picture: &'a Mipmap, span: f64, distance: f64, view: &View, film: &Film) -> Self {
         let [across, down] = film.size.map(f64::from);
         let shape = f64::from(picture.picture().width) / f64::from(picture.picture().height);
@@ -38,14 +38,16 @@ impl<'a> Backplate<'a> {
         Self { picture, distance, width }
     }
 
-    /// Returns what a ray sees of the picture, averaged over its fan and its shift; `None` where it does not meet it.
+    /// Returns the light of the picture along a ray, averaged over the ray's fan and shift; `None` where the ray does
+    /// not meet the picture.
     pub(super) fn at(&self, eye: &Basis, ray: &DispersedRay) -> Option<Photographed> {
         let DispersedRay { origin: from, direction, .. } = *ray;
         let height = from.dot(eye.toward) + self.distance;
         let fan = fan_onto_plane(ray, eye.toward, height);
         let (speed, faster) = (-direction.dot(eye.toward), -fan.dot(eye.toward));
         let speed = |part: f64| speed + faster * part;
-        // The part of the fan that runs toward the plane, from half of it before the ray's direction to half after it.
+        // The fan reaches from half its length before the ray's direction to half after it; this is its part that
+        // runs toward the plane.
         let (low, high) = (speed(-0.5), speed(0.5));
         if height <= 0.0 || low.max(high) <= ALONG {
             return None;
@@ -54,13 +56,14 @@ impl<'a> Backplate<'a> {
         let (first, last) = (meets(low, high) - 0.5, 0.5 - meets(high, low));
         let picture = self.picture.picture();
         let size = DVec2::new(f64::from(picture.width), f64::from(picture.height));
-        // In pixels from the middle of the first: rows count down, and both axes have the same scale.
+        // The unit is a pixel, counted from the middle of the first one. Rows count down, and both axes have the same
+        // scale.
         let pixels = |v: DVec3| eye.project(v) * DVec2::new(1.0, -1.0) * (size.x / self.width);
         let (start, way, turn) = (pixels(from) + 0.5 * size - 0.5, pixels(direction), pixels(fan));
         let place = |part: f64| start + (way + turn * part) * (height / speed(part).max(ALONG));
         let (from, to) = (place(first), if fan == DVec3::ZERO { place(first) } else { place(last) });
         let (enters, leaves) = inside(from, to, size)?;
-        // Along the line, places are projected: parts of its length become parts of the fan.
+        // The line is seen in perspective, so parts of its length are converted to parts of the fan.
         let of_fan = |q: f64| {
             let (near, far) = (q * speed(first), (1.0 - q) * speed(last));
             first + (last - first) * (near / (near + far))
@@ -73,25 +76,25 @@ impl<'a> Backplate<'a> {
     }
 }
 
-/// Returns the fan by which a ray runs over the same stretch of a plane, to first order, as by its fan and its shift together.
-/// The plane is square to `toward`, and the ray's origin lies at `height` before it.
+/// Returns a fan by which a ray covers, to first order, the same stretch of a plane as by its fan and its shift
+/// together. The plane is perpendicular to `toward`, and the ray's origin is at `height` before it.
 fn fan_onto_plane(ray: &DispersedRay, toward: DVec3, height: f64) -> DVec3 {
-    // The shift is moved along the ray until it lies in a parallel of the plane.
+    // The shift is moved along the ray until it is parallel to the plane.
     let along = ray.shift * -ray.direction.dot(toward) + ray.direction * ray.shift.dot(toward);
     if along == DVec3::ZERO { ray.fan } else { ray.fan + along / height }
 }
 
-/// What a ray sees of a picture.
+/// The light of the picture along a ray, and the share of the ray that meets it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::trace) struct Photographed {
-    /// The light by channel, of that part of the ray's wavelengths which meets the picture, times this part.
+    /// The light by channel of the part of the ray's wavelengths that meets the picture, times the share.
     pub light: DVec4,
-    /// That part, 0 to 1.
+    /// The share of the ray's wavelengths that meets the picture, 0 to 1.
     pub share: f64,
 }
 
-/// Returns the parts, 0 to 1, at which a line enters a picture and leaves it, in pixels from the middle of the first;
-/// `None` where it does not meet the picture.
+/// Returns the parts, 0 to 1, of a line at which it enters a picture and leaves it; `None` where the line does not
+/// meet the picture. Places are in pixels from the middle of the first pixel.
 fn inside(from: DVec2, to: DVec2, size: DVec2) -> Option<(f64, f64)> {
     if !from.is_finite() || !to.is_finite() {
         return None;

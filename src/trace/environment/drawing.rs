@@ -1,17 +1,18 @@
-//! The radiance of a light's parts by direction, in the light's own frame.
+//! The radiance of the parts of a light by direction, in the light's own frame.
 
 use crate::optics::linear_from_encoded;
 use crate::scene::{Dome, Light, Panorama, SoftBox, toward};
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 
-/// Returns a radiance of 1 by channel: of the key illuminant, or of a colour in encoded sRGB.
+/// Returns a radiance of 1 by channel, of the key illuminant or of a colour in encoded sRGB.
 pub fn channels(colour: Option<[u8; 3]>) -> DVec4 {
     colour.map_or(DVec4::X, |rgb| {
         DVec3::from_array(rgb.map(|c| linear_from_encoded(f64::from(c) / 255.0))).extend(0.0).wxyz()
     })
 }
 
-/// Returns the radiance of the broad light, which is all but the lamps, from a direction of the light's own frame.
+/// Returns the radiance of the broad light from a direction of the light's own frame. The broad light is all light
+/// except the lamps.
 pub fn shine(light: &Light, panorama: Option<&Panorama>, d: DVec3) -> DVec4 {
     let domes = light.dome.iter().map(|dome| channels(dome.colour) * belt(dome, d));
     let boxes = light.boxes.iter().map(|b| channels(b.colour) * b.radiance * box_cover(b, d));
@@ -22,7 +23,7 @@ pub fn shine(light: &Light, panorama: Option<&Panorama>, d: DVec3) -> DVec4 {
     domes.chain(boxes).chain(picture).sum()
 }
 
-/// Rises smoothly from 0 to 1 as `x` rises through 0, over this width.
+/// Rises smoothly from 0 to 1 over this width while `x` rises through 0.
 fn step(x: f64, width: f64) -> f64 {
     if width <= 0.0 {
         return if x >= 0.0 { 1.0 } else { 0.0 };
@@ -31,10 +32,10 @@ fn step(x: f64, width: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// Returns the radiance of a dome from a direction.
+/// Returns the radiance that a dome gives from a direction.
 fn belt(dome: &Dome, d: DVec3) -> f64 {
     let elevation = d.z.clamp(-1.0, 1.0).asin().to_degrees();
-    // A belt that reaches a pole has no edge there.
+    // A belt that reaches a pole has no edge at that pole.
     let above = if dome.from <= -90.0 { 1.0 } else { step(elevation - dome.from, dome.soft) };
     let below = if dome.to >= 90.0 { 1.0 } else { step(dome.to - elevation, dome.soft) };
     let (low, high) = (dome.from.to_radians().sin(), dome.to.to_radians().sin());
@@ -43,7 +44,7 @@ fn belt(dome: &Dome, d: DVec3) -> f64 {
     (dome.radiance + (end - dome.radiance) * part) * above * below
 }
 
-/// Returns how far a soft box covers a direction: 1 inside, 0 outside, between these along its soft edge.
+/// Returns the coverage of a direction by a soft box: 1 inside, 0 outside, between these along its soft edge.
 fn box_cover(b: &SoftBox, d: DVec3) -> f64 {
     let middle = toward(b.azimuth, b.elevation);
     let (sin, cos) = b.azimuth.to_radians().sin_cos();

@@ -1,4 +1,4 @@
-//! The picture behind the bodies as packets of rays see it, in single precision: the twin of `Backplate::at` in
+//! The picture behind the bodies, for packets of rays in single precision. It is the twin of `Backplate::at` in
 //! `src/trace/environment/backplate.rs` and of `photo_at` in `shaders/environment.wgsl`.
 
 use super::lanes::{Lanes, MOST_LANES, Vectors};
@@ -7,36 +7,36 @@ use crate::trace::environment::{ALONG, Backplate, Environment};
 use glam::{Vec2, Vec3, Vec4};
 use pulp::Simd;
 
-/// A least stretch across the picture, in pixels, so that no division is by 0.
+/// The least stretch across the picture, in pixels, which prevents divisions by 0.
 const LEAST_STRETCH: f32 = 1e-20;
 
-/// A least height above the picture, so that no division is by 0.
+/// The least height above the picture, which prevents divisions by 0.
 const LEAST_HEIGHT: f32 = 1e-20;
 
 /// A picture on a plane behind the bodies, with its axes in pixels.
 #[derive(Clone)]
 pub(super) struct PacketBackplate<'a> {
     picture: &'a Mipmap,
-    /// Width and height of the picture in pixels.
+    /// The width and the height of the picture in pixels.
     size: Vec2,
-    /// The directions across and down the picture, as long as there are pixels in a world unit.
+    /// The directions across and down the picture; their length is the number of pixels per world unit.
     across: Vec3,
     down: Vec3,
-    /// The direction to the eye.
+    /// The unit direction to the eye.
     toward: Vec3,
     /// The distance of the plane behind the origin.
     distance: f32,
 }
 
-/// What rays see of the picture.
+/// The light of the picture along each ray.
 pub(super) struct SeenStretch<S: Simd> {
     /// The share of the wavelengths of each ray that meets the picture, 0 to 1.
     pub share: Lanes<S>,
-    /// The mean light of that part: red, green and blue.
+    /// The mean light of that share: red, green and blue.
     pub light: [Vec3; MOST_LANES],
 }
 
-/// Rays that run to the plane of the picture, in its pixels.
+/// Rays that run to the plane of the picture, in pixels of the picture.
 struct Projection<S: Simd> {
     start: [Lanes<S>; 2],
     way: [Lanes<S>; 2],
@@ -47,13 +47,14 @@ struct Projection<S: Simd> {
 }
 
 impl<S: Simd> Projection<S> {
-    /// Returns how quickly the rays approach the plane at a part of their fan, which runs from -0.5 to 0.5.
+    /// Returns the speed at which the rays approach the plane at a part of their fan, from -0.5 to 0.5.
     #[inline(always)]
     fn speed_at(&self, part: Lanes<S>) -> Lanes<S> {
         self.speed + self.faster * part
     }
 
-    /// Returns where the rays meet the picture at a part of their fan, in pixels from the middle of the first.
+    /// Returns the places where the rays meet the picture at a part of their fan, in pixels from the middle of the
+    /// first.
     #[inline(always)]
     fn place(&self, part: Lanes<S>) -> [Lanes<S>; 2] {
         let far = self.height / self.speed_at(part).max(part.all(ALONG as f32));
@@ -65,7 +66,7 @@ impl<S: Simd> Projection<S> {
 }
 
 impl<'a> PacketBackplate<'a> {
-    /// Takes over the backplate of an environment; `None` where it has none.
+    /// Converts the backplate of an environment; `None` where it has none.
     pub fn of(environment: &Environment<'a>) -> Option<Self> {
         let Backplate { picture, distance, width } = environment.backplate?;
         let (eye, whole) = (&environment.eye, picture.picture());
@@ -80,7 +81,7 @@ impl<'a> PacketBackplate<'a> {
         })
     }
 
-    /// Returns what rays of the world see of the picture: the mean over the fan and the shift of each.
+    /// Returns the light of the picture along rays of the world, as the mean over the fan and the shift of each.
     #[inline(always)]
     pub fn seen<S: Simd>(
         &self,
@@ -99,8 +100,8 @@ impl<'a> PacketBackplate<'a> {
         let (first, last) = (meets(along, low, high) - half, half - meets(along, high, low));
         let (start, end) = (rays.place(first), rays.place(last));
         let [enters, leaves] = self.inside(&start, &end);
-        // Along the line, places are projected: parts of its length become parts of the fan.
-        // Where a fan is wide, rounding may leave nothing of a low speed.
+        // The line is seen in perspective, so parts of its length are converted to parts of the fan. Where a fan is
+        // wide, rounding may take all of a low speed, hence the limit.
         let speeds = [rays.speed_at(first).max(along), rays.speed_at(last).max(along)];
         let begin = first + (last - first) * of_fan(enters, speeds);
         let finish = first + (last - first) * of_fan(leaves, speeds);
@@ -113,8 +114,9 @@ impl<'a> PacketBackplate<'a> {
         SeenStretch { share, light }
     }
 
-    /// Returns the fans by which rays run over the same stretches of the picture's plane, to first order, as by their fans and
-    /// shifts together: the twin of the function of that name in `src/trace/environment/backplate.rs`.
+    /// Returns fans by which rays cover, to first order, the same stretches of the picture's plane as by their fans
+    /// and shifts together. It is the twin of the function with the same name in
+    /// `src/trace/environment/backplate.rs`.
     #[inline(always)]
     fn fan_onto_plane<S: Simd>(
         &self,
@@ -126,7 +128,7 @@ impl<'a> PacketBackplate<'a> {
         let toward = Vectors::splat(simd, self.toward);
         let height = toward.dot(from) + self.distance;
         let along = shift * -toward.dot(direction) + direction * toward.dot(shift);
-        // A plane that a ray does not come to is not seen.
+        // The limit does not matter for rays that do not approach the plane, because they do not see it.
         fan + along * (height.all(1.0) / height.max(height.all(LEAST_HEIGHT)))
     }
 
@@ -151,7 +153,8 @@ impl<'a> PacketBackplate<'a> {
         }
     }
 
-    /// Returns the parts, 0 to 1, at which lines enter the picture and leave it; the first is the greater where a line misses.
+    /// Returns the parts, 0 to 1, of lines at which they enter the picture and leave it. Where a line misses, the
+    /// first part is the greater.
     #[inline(always)]
     fn inside<S: Simd>(&self, start: &[Lanes<S>; 2], end: &[Lanes<S>; 2]) -> [Lanes<S>; 2] {
         let mut parts = [start[0].all(0.0), start[0].all(1.0)];
@@ -165,8 +168,8 @@ impl<'a> PacketBackplate<'a> {
         parts
     }
 
-    /// Returns the mean light along the stretch of each ray that has a share, as [`Mipmap::along`] does; `lengths` are those of
-    /// the stretches in pixels.
+    /// Returns the mean light along the stretch of each ray whose share is not 0, as [`Mipmap::along`] does.
+    /// `lengths` are the lengths of the stretches in pixels.
     #[inline(always)]
     fn mean<S: Simd>(
         &self,
@@ -203,21 +206,21 @@ impl<'a> PacketBackplate<'a> {
     }
 }
 
-/// Returns the part of a fan, from its end of speed `of` toward that of speed `other`, at which rays begin to run toward the
-/// plane; 0 where they do all along.
+/// Returns the part of a fan at which rays begin to run toward the plane, counted from the end with speed `of` toward
+/// the end with speed `other`; 0 where the whole fan runs toward the plane.
 #[inline(always)]
 fn meets<S: Simd>(along: Lanes<S>, of: Lanes<S>, other: Lanes<S>) -> Lanes<S> {
     along.less(of).select(of.all(0.0), (along - of) / (other - of))
 }
 
-/// Returns which part of a fan a part of its line across the picture is, by the speeds at both ends.
+/// Returns the part of a fan that corresponds to a part of its line across the picture, from the speeds at both ends.
 #[inline(always)]
 fn of_fan<S: Simd>(line: Lanes<S>, [slow, fast]: [Lanes<S>; 2]) -> Lanes<S> {
     let (near, far) = (line * slow, (line.all(1.0) - line) * fast);
     near / (near + far)
 }
 
-/// Returns light by channel: that of a photograph has none of the key illuminant's.
+/// Returns the light of a photograph by channel; it has none in the channel of the key illuminant.
 #[inline(always)]
 pub(super) fn by_channel(light: Vec3) -> Vec4 {
     Vec4::new(0.0, light.x, light.y, light.z)

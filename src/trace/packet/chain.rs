@@ -1,4 +1,4 @@
-//! Chains of bounces inside a body, one in each lane.
+//! Chains of bounces inside a body, with one chain in each lane.
 
 use super::entering::enter;
 use super::lanes::{Lanes, MOST_LANES, Vectors};
@@ -8,24 +8,24 @@ use super::{PacketHit, PacketSurface};
 use crate::trace::ray::RayOptions;
 use pulp::{Simd, WithSimd};
 
-/// The greatest component of a fan or a shift. Larger ones mean a fan beyond the whole sphere or a shift beyond the body,
-/// and each bounce may multiply them.
+/// The greatest component of a fan or a shift. A larger fan would cover more than the whole sphere, and a larger
+/// shift more than the body, and each bounce may multiply them.
 const WIDEST_FAN: f32 = 1e4;
 
-/// The least luck of a ray: with less, it would be followed until nothing is left.
+/// The least random number of a ray. With a smaller one, the ray would be followed until no light is left.
 const LEAST_LUCK: f32 = 1e-9;
 
-/// The passage of rays through one body, from where they enter until too little light is left.
+/// The passage of rays through one body, from their entry until too little light is left.
 pub(super) struct Passage<'a, P> {
     pub surface: &'a P,
     pub rays: &'a [EnteringRay],
     pub options: RayOptions,
-    /// The weight below which light goes on by chance, and counts for more where it does; 0 where all light is followed until
-    /// no more than the least weight of the options is left.
+    /// The weight below which light goes on only by chance, and counts for more where it does. It is 0 where all
+    /// light is followed until its weight is at most the least weight of the options.
     pub threshold: f32,
-    /// Takes the light that leaves.
+    /// The list to which light that leaves is added.
     pub leaving: &'a mut Vec<SingleRay>,
-    /// Takes what does not leave.
+    /// The list to which light that does not leave is added.
     pub losses: &'a mut Vec<PacketLoss>,
 }
 
@@ -70,7 +70,7 @@ impl<P: PacketSurface> WithSimd for Passage<'_, P> {
 }
 
 impl<P: PacketSurface> Passage<'_, P> {
-    /// Sets with how little light a ray ends. Light of less than the threshold is followed only as far as one number says
+    /// Sets the weight at which a ray ends. Light below the threshold is followed as far as one random number decides
     /// (`ChainRoulette` in `trace/ray`).
     #[inline(always)]
     fn draw(&self, ray: &mut InnerRay, luck: f32) {
@@ -82,7 +82,7 @@ impl<P: PacketSurface> Passage<'_, P> {
         }
     }
 
-    /// Returns the occupant that a ray becomes; `None` where it has too little light to be followed.
+    /// Returns the lane's occupant for a ray; `None` where the ray has too little light to be followed.
     #[inline(always)]
     fn admitted(&mut self, InnerRay { ray, least, .. }: &InnerRay) -> Occupant {
         let &SingleRay { light, travelled: Travelled { bounces, .. }, tag, .. } = ray;
@@ -94,7 +94,7 @@ impl<P: PacketSurface> Passage<'_, P> {
         None
     }
 
-    /// Follows all rays to the next facet: a part of their light leaves, the rest is reflected.
+    /// Follows all rays to the next facet, where a part of their light leaves and the rest is reflected.
     #[inline(always)]
     fn bounce<S: Simd>(
         &mut self,
@@ -157,8 +157,8 @@ impl<P: PacketSurface> Passage<'_, P> {
         rays.origin = point;
     }
 
-    /// Counts the bounce, and empties the lanes of rays that end. `before` is the light before the bounce, as it counts, and
-    /// what was absorbed until then.
+    /// Counts the bounce, and empties the lanes of rays that end. `before` is the weighted light before the bounce,
+    /// and the light absorbed until then.
     #[inline(always)]
     fn end<S: Simd>(
         &mut self,
@@ -172,7 +172,8 @@ impl<P: PacketSurface> Passage<'_, P> {
             let Some((tag, bounces)) = occupant else { continue };
             *bounces += 1;
             let (weight, absorbed) = (weights.lane(lane), rays.absorbed.lane(lane));
-            // Rounding may let a ray slip out of the body at an edge. It is then nowhere, and what is left of it unresolved.
+            // Rounding may let a ray slip out of the body at an edge. Such a ray has no place, and its remaining
+            // light counts as unresolved.
             let has_slipped = !rays.path.lane(lane).is_finite() || !(weight + absorbed).is_finite();
             let is_caught = weight <= rays.least.lane(lane);
             if !has_slipped && !is_caught && *bounces < self.options.most_bounces {
@@ -192,7 +193,8 @@ impl<P: PacketSurface> Passage<'_, P> {
     }
 }
 
-/// Describes polarised light by its fields across and along the plane of incidence at a facet with this normal.
+/// Describes polarised light by its fields perpendicular and parallel to the plane of incidence at a facet with this
+/// normal.
 #[inline(always)]
 fn turn_to_plane_of_incidence<S: Simd>(rays: &mut InnerRays<S>, normal: Vectors<S>) {
     let across = s_axis(rays.direction, normal, rays.s);
@@ -201,7 +203,7 @@ fn turn_to_plane_of_incidence<S: Simd>(rays: &mut InnerRays<S>, normal: Vectors<
     rays.s = across;
 }
 
-/// Takes out the light that is absorbed on the way; it counts by this factor.
+/// Removes the light that is absorbed on the way to the facet, and counts it times this factor.
 #[inline(always)]
 fn absorb<S: Simd>(rays: &mut InnerRays<S>, factor: Lanes<S>) {
     let mut after = rays.left;
@@ -214,7 +216,7 @@ fn absorb<S: Simd>(rays: &mut InnerRays<S>, factor: Lanes<S>) {
     rays.left = after;
 }
 
-/// Returns the displacements along the surface of the points where rays meet it, when the rays there move by `by`.
+/// Returns the displacements along the surface of the points where rays meet it, when the rays move by `by` there.
 #[inline(always)]
 pub(super) fn along_surface<S: Simd>(
     by: Vectors<S>,
@@ -226,7 +228,7 @@ pub(super) fn along_surface<S: Simd>(
     tamed(by - direction * (normal.dot(by) / divisor))
 }
 
-/// Returns vectors, scaled down until no component exceeds `WIDEST_FAN`.
+/// Returns the vectors, scaled down so that no component exceeds `WIDEST_FAN`.
 #[inline(always)]
 fn tamed<S: Simd>(v: Vectors<S>) -> Vectors<S> {
     let most = v[0].abs().max(v[1].abs()).max(v[2].abs()).max(v[0].all(1e-30));
@@ -280,7 +282,8 @@ mod tests {
                 losses: &mut losses,
             };
             Arch::new().dispatch(passage);
-            // Glare, and what leaves below; the rest goes up, where there is no facet.
+            // The leaving light is the glare and the light that leaves below; the rest goes up, where there is no
+            // facet.
             assert_eq!((leaving.len(), losses.len()), (6, 3));
             let r = 0.04_f32;
             let inside = (1.0 - r) * (-absorption).exp();

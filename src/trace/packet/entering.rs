@@ -1,4 +1,4 @@
-//! Light that enters a body: the surface's glare, and what goes on inside.
+//! The entry of light into a body: the glare of the surface, and the light that goes on inside.
 
 use super::PacketSurface;
 use super::chain::along_surface;
@@ -8,7 +8,7 @@ use super::rays::{EnteringRay, InnerRay, SingleRay};
 use glam::Vec3;
 use pulp::Simd;
 
-/// Splits the light of rays that enter: glare is put into `leaving`, and what goes on inside is returned.
+/// Splits the light of rays that enter: the glare is added to `leaving`, and the rays that go on inside are returned.
 #[inline(always)]
 pub(super) fn enter<S: Simd, P: PacketSurface>(
     simd: S,
@@ -49,7 +49,7 @@ struct Arrivals<S: Simd> {
     spread: Lanes<S>,
 }
 
-/// What becomes of the light of such rays.
+/// The two parts of the light of such rays: the glare, and the light that goes on inside.
 struct Split<S: Simd> {
     point: Vectors<S>,
     shift: Vectors<S>,

@@ -1,5 +1,5 @@
-//! Looks the light around the bodies up for many rays at once, in single precision: the twin of `Environment::radiance` in
-//! `src/trace/environment.rs` and of `shaders/environment.wgsl`.
+//! Looks up the light around the bodies for many rays at once, in single precision. It is the twin of
+//! `Environment::radiance` in `src/trace/environment.rs` and of `shaders/environment.wgsl`.
 
 use super::backplate::{PacketBackplate, by_channel};
 use super::lanes::{Lanes, Vectors};
@@ -8,31 +8,31 @@ use crate::trace::environment::{Environment, EnvironmentMap, HEAD_EDGE, STILL, T
 use glam::{DVec4, IVec2, Vec2, Vec3, Vec4};
 use pulp::{Simd, WithSimd};
 
-/// Light that has left all bodies.
+/// A ray of light that has left all bodies.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LookUpRay {
-    /// Where the light left the last body, in the world.
+    /// The place where the light left the last body, in the world.
     pub origin: Vec3,
-    /// The direction in the middle of the wavelengths that the ray stands for.
+    /// The direction in the middle of the wavelengths that the ray represents.
     pub direction: Vec3,
-    /// The change of that direction over these wavelengths and a stretch of the pixel.
+    /// The change of the direction over these wavelengths and a stretch of the pixel.
     pub fan: Vec3,
-    /// The displacement of the origin over the same.
+    /// The displacement of the origin over the same wavelengths and stretch.
     pub shift: Vec3,
     pub weight: f32,
     pub tag: u32,
 }
 
 impl LookUpRay {
-    /// Returns the look-up of light that has left all bodies on a ray of the world.
+    /// Returns the look-up for light that has left all bodies along a ray of the world.
     pub fn of(ray: &SingleRay, weight: f32, tag: u32) -> Self {
         let &SingleRay { origin, direction, fan, shift, .. } = ray;
         Self { origin, direction, fan, shift, weight, tag }
     }
 }
 
-/// A ray from the eye as it would go on without any body: a point near the middle of the world, the unit direction, and how
-/// both change over the stretch of the pixel that the ray stands for.
+/// A ray from the eye as it would go on without any body: a point near the middle of the world, the unit direction,
+/// and the changes of both over the stretch of the pixel that the ray represents.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StraightRay {
     pub near: Vec3,
@@ -41,7 +41,7 @@ pub(super) struct StraightRay {
     pub shift: Vec3,
 }
 
-/// The environment in single precision.
+/// The environment of a picture in single precision.
 #[derive(Clone)]
 pub(super) struct PacketEnvironment<'a> {
     map: &'a EnvironmentMap,
@@ -62,14 +62,15 @@ struct Lamp {
     radiance: Vec4,
 }
 
-/// A look-up of many rays; the light of each is added to `light` at its tag.
+/// A look-up of many rays; the light of each is added to `light` at the ray's tag.
 pub(super) struct LookUp<'a> {
     pub environment: &'a PacketEnvironment<'a>,
     pub rays: &'a [LookUpRay],
-    /// The straight ray of each pixel. The pixel of a ray is its tag, divided by the number of bands.
+    /// The straight ray of each pixel. The pixel of a ray is the ray's tag divided by the number of bands.
     pub straight: &'a [StraightRay],
     pub bands: usize,
-    /// The share of refraction's turning of light that is followed; see [`SamplePass::mixed`](crate::trace::sampling::SamplePass::mixed).
+    /// The share of refraction's change of direction that is followed; see
+    /// [`SamplePass::mixed`](crate::trace::sampling::SamplePass::mixed).
     pub strength: f32,
     pub light: &'a mut [DVec4],
 }
@@ -92,7 +93,7 @@ impl<'a> PacketEnvironment<'a> {
         }
     }
 
-    /// Returns vectors of the world in the light's frame.
+    /// Returns vectors of the world as vectors in the light's frame.
     #[inline(always)]
     fn own<S: Simd>(&self, simd: S, v: Vectors<S>) -> Vectors<S> {
         let [right, up, toward] = &self.axes;
@@ -103,7 +104,7 @@ impl<'a> PacketEnvironment<'a> {
         ])
     }
 
-    /// Returns the light of the map at a place, 0 to 1 along each side, averaged over some texels.
+    /// Returns the light of the map at a place, 0 to 1 along each side, averaged over this many texels.
     fn at(&self, at: Vec2, texels: f32) -> Vec4 {
         let level = texels.max(1.0).log2().min((self.map.levels.len() - 1) as f32);
         let (fine, part) = (level as usize, level.fract());
@@ -157,7 +158,7 @@ impl WithSimd for LookUp<'_> {
     }
 }
 
-/// Rays that are looked up, one in each lane.
+/// The rays along which light is looked up, one in each lane.
 #[derive(Clone, Copy)]
 struct LookUpLanes<S: Simd> {
     origin: Vectors<S>,
@@ -167,7 +168,7 @@ struct LookUpLanes<S: Simd> {
 }
 
 impl LookUp<'_> {
-    /// Returns the rays on which light is looked up below full strength: the twin of `SamplePass::mixed`.
+    /// Returns the rays along which light is looked up below full strength. It is the twin of `SamplePass::mixed`.
     #[inline(always)]
     fn mixed<S: Simd>(&self, simd: S, chunk: &[LookUpRay], own: LookUpLanes<S>) -> LookUpLanes<S> {
         let (mut near, mut straight, mut fan, mut shift) = (own.origin, own.direction, own.fan, own.shift);
@@ -192,7 +193,7 @@ impl LookUp<'_> {
         }
     }
 
-    /// Adds the light of rays: what they see of the backplate, and of the light around for the rest of their wavelengths.
+    /// Adds the light of rays: that of the backplate, and that of the environment for the rest of their wavelengths.
     #[inline(always)]
     fn look_up<S: Simd>(&mut self, simd: S, chunk: &[LookUpRay], ray: LookUpLanes<S>) {
         let mut beside = Lanes::splat(simd, 1.0);
@@ -232,7 +233,8 @@ impl LookUp<'_> {
 }
 
 impl PacketEnvironment<'_> {
-    /// Returns the share of the light that passes the observer's head, whose edge is as wide as the fan.
+    /// Returns the share of the light that passes the observer's head. The edge of the head's shadow is as wide as
+    /// the fan.
     #[inline(always)]
     fn beside_the_head<S: Simd>(&self, simd: S, direction: Vectors<S>, fanned: Lanes<S>) -> Lanes<S> {
         let (zero, one) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 1.0));
@@ -244,14 +246,14 @@ impl PacketEnvironment<'_> {
     }
 }
 
-/// Directions in the light's frame, and how they fan.
+/// Directions in the light's frame, and their fans.
 struct FannedLight<S: Simd> {
     direction: Vectors<S>,
     fan: Vectors<S>,
 }
 
 impl<S: Simd> FannedLight<S> {
-    /// Returns the light of the lamps, channel by channel: of each lamp, by the share of the fan that lies inside its disc.
+    /// Returns the light of the lamps by channel; each lamp counts by the share of the fan that lies inside its disc.
     #[inline(always)]
     fn lamps(&self, simd: S, lamps: &[Lamp]) -> [Lanes<S>; 4] {
         let (zero, one, half) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 1.0), Lanes::splat(simd, 0.5));
@@ -263,7 +265,8 @@ impl<S: Simd> FannedLight<S> {
         for lamp in lamps {
             let from_middle = self.direction - Vectors::splat(simd, lamp.toward);
             let chord_squared = Lanes::splat(simd, lamp.chord_squared);
-            // Computed from the nearest point, as the difference of large squares has no digits in single precision.
+            // The distance is computed from the nearest point, because the difference of large squares has no digits
+            // in single precision.
             let nearest = is_fanned.select(-from_middle.dot(self.fan) * per_square, zero);
             let inside = chord_squared - (from_middle + self.fan * nearest).length_squared();
             let is_inside = inside.is_positive();
@@ -281,7 +284,7 @@ impl<S: Simd> FannedLight<S> {
     }
 }
 
-/// Returns the places of directions in the map, 0 to 1 along each side.
+/// Returns the places in the map of directions, 0 to 1 along each side.
 #[inline(always)]
 fn octahedral<S: Simd>(d: Vectors<S>) -> (Lanes<S>, Lanes<S>) {
     let one = d[0].all(1.0);

@@ -1,14 +1,16 @@
-//! Glass shapes that packets of rays meet: the twin of `math/implicit/roots.rs` in f32, in the same frame and unit.
+//! Glass shapes that packets of rays meet. It is the twin of `math/implicit/roots.rs` in f32, in the same frame and
+//! unit.
 //!
-//! Along a line the function of a convex shape is convex, and wherever the surface is a plane, a cylinder or a sphere, its
-//! square with the right radius added is a quadratic. The root of that is tried first. Where it leads past the surface, into
-//! another piece of it, the tangent leads nearer without passing it. A ray leaves where the opposite ray enters, so no ray
-//! finds its own start.
+//! Along a line the function of a convex shape is convex. Wherever the surface is a plane, a cylinder or a sphere,
+//! the square of the function plus the right radius is a quadratic. The root of this quadratic is tried first. Where
+//! it leads past the surface, into another piece of it, a step along the tangent leads nearer without passing the
+//! surface. A ray leaves where the opposite ray enters, so no ray finds its own start.
 //!
-//! A plate with waves is entered as in `roots.rs`. It is left first as if its edges were sharp: its sides are planes, and
-//! the distance of its upper and lower face is a function of one variable whose second derivative is bounded. Where that
-//! leads out of the rounded plate, the opposite ray enters from there. So a ray that leaves through the rounded edge and
-//! enters again before it reaches the sharp plate's surface is not seen to do so: one in thousands, where waves are steep.
+//! A plate with waves is entered as in `roots.rs`. The exit is first sought as if the plate's edges were sharp: its
+//! sides are planes, and the distance of its upper and lower face is a function of one variable with a bounded second
+//! derivative. Where that exit lies outside the rounded plate, the opposite ray enters from there. So where a ray
+//! leaves through the rounded edge and enters again before it reaches the sharp plate's surface, both points are
+//! missed. This concerns one ray in thousands, where waves are steep.
 
 mod body;
 mod wave;
@@ -23,16 +25,17 @@ use super::{PacketHit, PacketSurface};
 use crate::math::ImplicitSurface;
 use pulp::Simd;
 
-/// The most steps to a root of a convex shape; most rays take two.
+/// The greatest number of steps to a root of a convex shape; most rays take two.
 const MOST_STEPS: usize = 32;
 
-/// The most steps to a root of a plate with waves.
+/// The greatest number of steps to a root of a plate with waves.
 const MOST_WAVE_STEPS: usize = 200;
 
-/// A point counts as on the surface where the function is no more than this part of the reach: some roundings.
+/// A point counts as on the surface if the function is at most this part of the reach, which is some roundings.
 const ROUNDING: f32 = 5e-7;
 
-/// Where a ray falls this steeply onto a surface, the tangent leads from a point almost on it to a nearer one.
+/// Where a ray meets a surface at least this steeply, a step along the tangent improves a point that is almost on the
+/// surface.
 const STEEP: f32 = 0.02;
 
 /// The least step along a wave, as a part of the reach; rounding would lose a smaller one.
@@ -41,7 +44,7 @@ const LEAST_STEP: f32 = 1e-7;
 /// The least divisor.
 const LEAST: f32 = 1e-30;
 
-/// A glass shape as packets of rays meet it, in girdle radii.
+/// A glass shape for packets of rays, in girdle radii.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PacketShape {
     body: PacketBody,
@@ -49,15 +52,15 @@ pub(super) struct PacketShape {
     reach: f32,
 }
 
-/// A line with its distances counted from its point nearest to the origin.
+/// A line, with distances counted from its point nearest to the origin.
 struct Line<S: Simd> {
     from: Vectors<S>,
     direction: Vectors<S>,
-    /// Where the ray's origin is.
+    /// The distance of the ray's origin along the line.
     start: Lanes<S>,
 }
 
-/// Where the search on a line begins and ends, and the lanes that take part in it.
+/// The part of a line where the search takes place, and the lanes that take part in it.
 struct Stretch<S: Simd> {
     first: Lanes<S>,
     last: Lanes<S>,
@@ -65,7 +68,7 @@ struct Stretch<S: Simd> {
 }
 
 impl PacketShape {
-    /// Takes over a shape.
+    /// Converts a shape to single precision.
     pub fn new(surface: &ImplicitSurface) -> Self {
         Self { body: PacketBody::new(surface), wave: PacketWave::new(surface), reach: surface.reach() as f32 }
     }
@@ -78,7 +81,7 @@ impl PacketShape {
         Line { from: o + direction * nearest, direction, start: -nearest }
     }
 
-    /// Returns what the rays have met at this place on their line; infinity where they have met nothing.
+    /// Returns the hits of the rays at this place on their lines; an infinite distance where a ray has met nothing.
     #[inline(always)]
     fn met<S: Simd>(&self, line: &Line<S>, at: Lanes<S>) -> PacketHit<S> {
         let normal = self.normal(line.from + line.direction * at);
@@ -95,7 +98,7 @@ impl PacketShape {
         sheared * (x.all(1.0) / sheared.length_squared().sqrt())
     }
 
-    /// Returns where a line enters a convex shape; infinity where it misses.
+    /// Returns the distance at which a line enters a convex shape; infinity where it misses.
     #[inline(always)]
     fn crossing<S: Simd>(&self, from: Vectors<S>, direction: Vectors<S>) -> Lanes<S> {
         let [first, last] = self.body.between(from, direction, 0.0);
@@ -118,7 +121,8 @@ impl PacketShape {
             found = is_met.select(slope.less(steep).select(tangent, t), found);
             open = open & !is_met;
 
-            // (value + radius)² is a quadratic of the distance within each piece of the surface; near a torus, almost.
+            // (value + radius)² is a quadratic function of the distance within each piece of the surface,
+            // approximately so near a torus.
             let is_before = falls & !is_near;
             let (away, sum) = (value + radius, value + radius + radius);
             let turn = slope * radius;
@@ -126,7 +130,7 @@ impl PacketShape {
             let root = square.max(value.all(0.0)).sqrt();
             let trial = t + value * sum / (root - away * slope);
             let is_trial = is_before & (-square).at_most(value.all(0.0)) & trial.at_most(last);
-            // A trial that has led too far is taken back, and the tangent followed instead.
+            // A trial that has led too far is taken back, and a step along the tangent is taken instead.
             open = open & (is_before | is_tried);
             t = is_trial.select(trial, is_before.select(tangent, sure));
             sure = is_before.select(tangent, sure);
@@ -136,7 +140,7 @@ impl PacketShape {
         found
     }
 
-    /// Returns the value of the plate's function and its slope along a line.
+    /// Returns the value of the plate's function, and its slope along a line.
     #[inline(always)]
     fn sheared<S: Simd>(&self, wave: &PacketWave, p: Vectors<S>, v: Vectors<S>) -> [Lanes<S>; 2] {
         let wave = wave.at(p);
@@ -145,7 +149,7 @@ impl PacketShape {
         [jet.value, jet.gradient.dot(v)]
     }
 
-    /// Returns where lines enter a plate with waves from outside; infinity where they do not.
+    /// Returns the distances at which lines enter a plate with waves from outside; infinity where they do not.
     #[inline(always)]
     fn way_in<S: Simd>(
         &self,
@@ -167,7 +171,7 @@ impl PacketShape {
             let [value, slope] = self.sheared(wave, from + v * t, v);
             let falls = slope.is_negative();
             let is_met = open & falls & value.at_most(tolerance);
-            // The root of value + slope s - bend s²/2.
+            // The step is the root of value + slope s - bend s²/2.
             let value = value.max(zero);
             let root = (slope * slope + bend * value * 2.0).sqrt();
             let step = falls.select(value * 2.0, slope + root) / falls.select(root - slope, bend);
@@ -178,7 +182,7 @@ impl PacketShape {
         found
     }
 
-    /// Returns where lines leave a plate whose edges would be sharp.
+    /// Returns the distances at which lines would leave the plate if its edges were sharp.
     #[inline(always)]
     fn way_out<S: Simd>(
         &self,
@@ -211,7 +215,7 @@ impl PacketShape {
         t
     }
 
-    /// Returns where a ray leaves a plate with waves.
+    /// Returns the distance at which a ray leaves a plate with waves.
     #[inline(always)]
     fn leave<S: Simd>(&self, wave: &PacketWave, line: &Line<S>) -> Lanes<S> {
         let Line { from, direction, start } = *line;
@@ -231,7 +235,7 @@ impl PacketShape {
     }
 }
 
-/// Returns the first root of value + slope s + bend s²/2, where the value is 0 or negative.
+/// Returns the positive root of value + slope s + bend s²/2, where the value is 0 or negative.
 #[inline(always)]
 fn far_root<S: Simd>(value: Lanes<S>, slope: Lanes<S>, bend: Lanes<S>) -> Lanes<S> {
     let root = (slope * slope - bend * value * 2.0).sqrt();

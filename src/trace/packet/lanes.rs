@@ -1,7 +1,7 @@
-//! Numbers and vectors in single precision, one in each lane of the processor's registers.
+//! Numbers and vectors in single precision, with one ray's in each lane of the processor's registers.
 //!
-//! Every function is inlined into the code that the processor's widest instructions are chosen for; closures would not be.
-//! Sums are not fused, so that an answer does not depend on the processor.
+//! Every function is inlined into the code that is compiled for the processor's widest instructions; closures would
+//! not be. Products and sums are not fused, so that the result does not depend on the processor.
 
 use glam::Vec3;
 use pulp::{Simd, bytemuck};
@@ -17,11 +17,11 @@ pub(super) struct Lanes<S: Simd> {
     values: S::f32s,
 }
 
-/// A vector in each lane: its coordinates, lane by lane.
+/// A vector in each lane; each of the three coordinates has all lanes.
 #[derive(Clone, Copy)]
 pub(super) struct Vectors<S: Simd>(pub [Lanes<S>; 3]);
 
-/// A yes or no in each lane.
+/// A truth value in each lane.
 #[derive(Clone, Copy)]
 pub(super) struct Mask<S: Simd> {
     simd: S,
@@ -105,32 +105,32 @@ impl<S: Simd> Lanes<S> {
 }
 
 impl<S: Simd> Mask<S> {
-    /// Whether any lane says yes.
+    /// Returns whether the mask is true in any lane.
     #[inline(always)]
     pub fn any(self) -> bool {
         self.simd.first_true_m32s(self.mask) != S::F32_LANES
     }
 
-    /// Whether all lanes say yes.
+    /// Returns whether the mask is true in all lanes.
     #[inline(always)]
     pub fn all(self) -> bool {
         self.simd.first_true_m32s(self.simd.not_m32s(self.mask)) == S::F32_LANES
     }
 
-    /// Returns `yes` in the lanes of the mask, else `no`.
+    /// Returns `yes` in the lanes where the mask is true, and `no` in the others.
     #[inline(always)]
     pub fn select(self, yes: Lanes<S>, no: Lanes<S>) -> Lanes<S> {
         Lanes { values: self.simd.select_f32s(self.mask, yes.values, no.values), ..yes }
     }
 
-    /// Returns `yes` in the lanes of the mask, else `no`.
+    /// Returns `yes` in the lanes where the mask is true, and `no` in the others.
     #[inline(always)]
     pub fn select_vectors(self, yes: Vectors<S>, no: Vectors<S>) -> Vectors<S> {
         Vectors([self.select(yes[0], no[0]), self.select(yes[1], no[1]), self.select(yes[2], no[2])])
     }
 }
 
-/// Implements an operator between numbers of the same lane, and between those of every lane and one number.
+/// Implements an operator between numbers lane by lane, and between the numbers of all lanes and one number.
 macro_rules! operator {
     ($operator:ident, $method:ident, $instruction:ident) => {
         impl<S: Simd> $operator for Lanes<S> {

@@ -1,23 +1,23 @@
-//! Snell, Fresnel and polarisation in lanes, in single precision: the twins of `src/optics` and of `shaders/optics.wgsl`, where
-//! the sources are.
+//! Snell's law, Fresnel's formulae and polarisation in lanes, in single precision. These are the twins of
+//! `src/optics` and of `shaders/optics.wgsl`, where the sources are named.
 
 use super::lanes::{Lanes, Mask, Vectors};
 use pulp::Simd;
 
-/// The sine of the angle between a ray and a facet's normal below which the ray counts as square to the facet.
+/// The sine of the angle between a ray and a facet's normal below which the ray counts as perpendicular to the facet.
 const SQUARE_ON: f32 = 1e-4;
 
-/// The least cosine that a change is divided by.
+/// The least cosine by which a change is divided.
 pub(super) const LEAST_COS: f32 = 1e-4;
 
-/// The amplitudes of reflection of s and p, each as its real and imaginary part.
+/// The amplitudes of reflection of s- and p-polarised light, each as its real and imaginary part.
 #[derive(Clone, Copy)]
 pub(super) struct Reflection<S: Simd> {
     s: [Lanes<S>; 2],
     p: [Lanes<S>; 2],
     /// The cosine of the angle of refraction; 0 where reflection is total.
     pub cos_t: Lanes<S>,
-    /// Where a part of the light passes.
+    /// The lanes in which a part of the light passes the surface.
     pub is_partial: Mask<S>,
 }
 
@@ -30,7 +30,7 @@ pub(super) struct PacketLight<T> {
     pub im: T,
 }
 
-/// Directions of light that meets a surface, and how they change over the spread of wavelengths.
+/// Directions of light that meets a surface, and their changes over the range that each ray represents.
 #[derive(Clone, Copy)]
 pub(super) struct Incidence<S: Simd> {
     pub direction: Vectors<S>,
@@ -40,13 +40,13 @@ pub(super) struct Incidence<S: Simd> {
     pub cos_i: Lanes<S>,
     /// The change of the direction.
     pub of_direction: Vectors<S>,
-    /// The change of that normal; `None` on flat facets.
+    /// The change of the normal; `None` on flat facets.
     pub of_normal: Option<Vectors<S>>,
 }
 
 impl<S: Simd> Reflection<S> {
-    /// Returns the coefficients for light that meets a surface at an angle of cosine `cos_i`; `eta` is the incident index
-    /// over the transmitted one.
+    /// Returns the coefficients for light that meets a surface at an angle of cosine `cos_i`; `eta` is the incident
+    /// index over the transmitted index.
     #[inline(always)]
     pub fn of(cos_i: Lanes<S>, eta: Lanes<S>) -> Self {
         let (zero, one) = (cos_i.all(0.0), cos_i.all(1.0));
@@ -64,7 +64,7 @@ impl<S: Simd> Reflection<S> {
         }
     }
 
-    /// Returns the reflected shares of the power of s and of p.
+    /// Returns the reflected shares of the power of s- and of p-polarised light.
     #[inline(always)]
     fn powers(&self) -> [Lanes<S>; 2] {
         let one = self.cos_t.all(1.0);
@@ -98,7 +98,7 @@ impl<S: Simd> PacketLight<Lanes<S>> {
         Self { ss: half, pp: half, re: none, im: none }
     }
 
-    /// Returns the light in axes turned from s toward p by the angle of this cosine and sine.
+    /// Returns the light in axes that are turned from s toward p by the angle with this cosine and sine.
     #[inline(always)]
     pub fn turned(self, cos: Lanes<S>, sin: Lanes<S>) -> Self {
         let (cc, ss, cs) = (cos * cos, sin * sin, cos * sin);
@@ -125,7 +125,7 @@ impl<S: Simd> PacketLight<Lanes<S>> {
         }
     }
 
-    /// Returns the light that passes a surface; refraction shifts no phase.
+    /// Returns the light that passes a surface. Refraction shifts no phase.
     #[inline(always)]
     pub fn transmitted(self, by: &Reflection<S>) -> Self {
         let (zero, one) = (self.ss.all(0.0), self.ss.all(1.0));
@@ -141,7 +141,7 @@ impl<S: Simd> Incidence<S> {
     #[inline(always)]
     pub fn reflected(&self) -> Vectors<S> {
         let reflected = self.direction + self.normal * (self.cos_i + self.cos_i);
-        // One Newton step toward unit length: a chain of bounces would drift from it.
+        // One Newton step toward unit length prevents the drift of a chain of bounces.
         let (half, three_halves) = (self.cos_i.all(0.5), self.cos_i.all(1.5));
         reflected * (three_halves - half * reflected.dot(reflected))
     }
@@ -187,8 +187,8 @@ impl<S: Simd> Incidence<S> {
     }
 }
 
-/// Returns the unit axes perpendicular to rays and to the facets' normals. Where a ray is square to its facet, the axis is
-/// `otherwise`, made perpendicular to the ray.
+/// Returns the unit axes perpendicular to rays and to the facets' normals. Where a ray is perpendicular to its facet,
+/// the axis is `otherwise`, made perpendicular to the ray.
 #[inline(always)]
 pub(super) fn s_axis<S: Simd>(
     direction: Vectors<S>,
@@ -198,7 +198,7 @@ pub(super) fn s_axis<S: Simd>(
     let across = direction.cross(normal);
     let square = across.dot(across);
     let is_clear = square.all(SQUARE_ON * SQUARE_ON).less(square);
-    // Made perpendicular to this ray, so that the axes do not drift.
+    // The axis is made perpendicular to this ray, so that the axes do not drift.
     let kept = otherwise - direction * direction.dot(otherwise);
     let axis = Vectors([
         is_clear.select(across[0], kept[0]),

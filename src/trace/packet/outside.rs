@@ -1,4 +1,4 @@
-//! Rays outside bodies, and where they meet the bodies of a scene.
+//! Rays outside bodies, and the places where they meet the bodies of a scene.
 
 use super::PacketSurface;
 use super::chain::Passage;
@@ -25,7 +25,7 @@ pub(super) enum PacketSolid {
 #[derive(Clone)]
 pub(super) struct PacketInstance {
     solid: PacketSolid,
-    /// Whether light that has left may meet the body again.
+    /// True where light that has left the body may meet it again.
     branches: bool,
     pose: Pose,
     single: SinglePose,
@@ -41,14 +41,14 @@ struct SingleBall {
     radius: f32,
 }
 
-/// A part of a squared distance that is more than single precision may lose of it.
+/// A bound on the part of a squared distance that single precision may lose.
 const ROUNDING: f32 = 2e-6;
 
-/// How many times its own radius a body may be away from the middle of the world: a rounding of its place is then less than a
-/// part in ten thousand of its radius.
+/// The greatest distance of a body from the middle of the world, in radii of the body. The rounding of its place is
+/// then less than a ten-thousandth of its radius.
 const FARTHEST: f64 = 1e3;
 
-/// Where rays from the eye begin, in radii of the ball around a body before the ball's middle.
+/// The distance before the middle of the ball around a body at which rays from the eye begin, in radii of the ball.
 const ROUND_BALL: f64 = 1.01;
 
 /// A [`Pose`] in single precision.
@@ -94,12 +94,12 @@ impl PacketInstance {
         Some(all)
     }
 
-    /// Whether a ray of the world may meet the body; `has_left` says that it has just left it.
+    /// Returns whether a ray of the world may meet the body; `has_left` is true where the ray has just left the body.
     pub fn may_meet(&self, ray: &SingleRay, has_left: bool) -> bool {
         (!has_left || self.branches) && self.may_reach(ray)
     }
 
-    /// Whether a ray of the world runs through the ball around the body, or may do so but for rounding.
+    /// Returns whether a ray of the world runs through the ball around the body, or might do so because of rounding.
     #[inline]
     fn may_reach(&self, ray: &SingleRay) -> bool {
         let SingleBall { middle, radius } = self.single_ball;
@@ -108,13 +108,14 @@ impl PacketInstance {
         along > -radius && square * (1.0 - ROUNDING) - along * along < radius * radius
     }
 
-    /// Returns the length in the world of the unit of the body's frame.
+    /// Returns the length of the unit of the body's frame in the world.
     pub fn unit(&self) -> f32 {
         self.single.scale
     }
 
-    /// Carries a ray from the eye into the frame of the body, in double precision, as the eye may be far away. The ray begins
-    /// near the body; the second number is how far from the eye that is, in the world's unit. `None` where the ray misses.
+    /// Carries a ray from the eye into the frame of the body, in double precision, because the eye may be far away.
+    /// The ray begins near the body; the second number is the distance from the eye to that beginning, in the world's
+    /// unit. `None` where the ray misses.
     pub fn seen(&self, ray: &SingleRay, from_eye: &DispersedRay) -> Option<(SingleRay, f64)> {
         let &DispersedRay { origin: eye, direction, .. } = from_eye;
         if !self.ball.is_met(eye, direction) {
@@ -161,7 +162,7 @@ impl PacketInstance {
         }
     }
 
-    /// Returns where rays of the body's frame enter the body.
+    /// Returns the places where rays of the body's frame enter the body.
     pub fn entries(&self, arch: Arch, rays: &[SingleRay]) -> Vec<SingleHit> {
         match &self.solid {
             PacketSolid::Planes(planes) => arch.dispatch(Entries { surface: &**planes, rays }),
@@ -169,7 +170,8 @@ impl PacketInstance {
         }
     }
 
-    /// Follows rays through the body; returns the light that leaves, in the body's frame, and what does not leave.
+    /// Follows rays through the body. Returns the light that leaves, in the body's frame, and the light that does not
+    /// leave.
     pub fn passage(
         &self,
         arch: Arch,

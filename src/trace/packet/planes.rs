@@ -1,4 +1,4 @@
-//! The planes of a convex stone, as packets of rays meet them.
+//! The planes of a convex stone, for packets of rays.
 
 use super::lanes::{Lanes, Vectors};
 use super::{PacketHit, PacketSurface};
@@ -6,27 +6,29 @@ use crate::math::{Plane, Polytope};
 use glam::{DVec3, Vec3, Vec4};
 use pulp::Simd;
 
-/// The least gap between a point and a plane; smaller ones count as this. So where rounding has put a point a hair outside a
-/// plane, that plane is met at once.
+/// The least gap between a point and a plane; smaller gaps count as this one. So where rounding has put a point just
+/// outside a plane, the ray meets that plane at once.
 const LEAST_GAP: f32 = 1e-30;
 
 /// The greatest part of a girdle facet's normal along the stone's axis.
 const GIRDLE_TILT: f64 = 0.05;
 
-/// The share of a length or a cosine that rounding in single precision may take.
+/// The part of a length or a cosine that may be lost by rounding in single precision.
 const ROUNDING: f64 = 1e-5;
 
-/// Planes, each its unit outward normal and its offset: of the crown, then of the pavilion, then of the girdle.
+/// The planes, each as its unit outward normal and its offset: those of the crown first, then those of the pavilion,
+/// then those of the girdle.
 ///
-/// Rays that run steeply up meet no facet of the pavilion, and rays that run steeply down none of the crown. A girdle of a
-/// hundred facets is met by few rays: most leave by the crown or the pavilion inside a cylinder that the girdle encloses.
+/// Rays that run steeply up meet no facet of the pavilion, and rays that run steeply down meet none of the crown. Few
+/// rays meet a girdle of a hundred facets: most leave through the crown or the pavilion inside a cylinder that the
+/// girdle encloses.
 #[derive(Debug, Clone)]
 pub(super) struct PacketPlanes {
     planes: Vec<Vec4>,
-    /// The number of planes of the crown, and of crown and pavilion.
+    /// The number of planes of the crown, and the number of planes of crown and pavilion together.
     ends: [usize; 2],
-    /// The upward parts of directions at and below which no facet of the crown, and at and above which none of the pavilion
-    /// is met.
+    /// Two limits for the upward component of a direction: a ray at or below the first meets no facet of the crown,
+    /// and a ray at or above the second meets no facet of the pavilion.
     steep: [f32; 2],
     cylinder: Cylinder,
 }
@@ -35,7 +37,7 @@ pub(super) struct PacketPlanes {
 #[derive(Debug, Clone, Copy)]
 struct Cylinder {
     middle: Vec3,
-    /// What x and y are multiplied by, so that the cylinder has radius 1; z is multiplied by 0.
+    /// The factors of x and y that give the cylinder the radius 1; the factor of z is 0.
     scale: Vec3,
 }
 
@@ -45,7 +47,7 @@ impl PacketPlanes {
         let is_girdle = |plane: &&Plane| plane.normal.z.abs() <= GIRDLE_TILT;
         let (girdle, faces): (Vec<&Plane>, Vec<&Plane>) = all.iter().partition(is_girdle);
         let (crown, pavilion): (Vec<&Plane>, Vec<&Plane>) = faces.iter().partition(|p| p.normal.z > 0.0);
-        // Light that runs down at more than 90 degrees less the slope of a crown facet runs away from it.
+        // Light that runs down at more than 90 degrees minus the slope of a crown facet runs away from that facet.
         let steep = |planes: &[&Plane]| {
             let least = planes.iter().map(|plane| plane.normal.z.abs()).fold(1.0, f64::min);
             ((1.0 - least * least).max(0.0).sqrt() + ROUNDING) as f32
@@ -65,7 +67,8 @@ impl PacketPlanes {
 }
 
 impl Cylinder {
-    /// Returns the largest cylinder of the outline's proportions inside these planes, as far as the stone reaches.
+    /// Returns the largest cylinder with the outline's proportions that is inside these planes over the whole height
+    /// of the stone.
     fn inside(polytope: &Polytope, planes: &[&Plane]) -> Self {
         let (low, high) = polytope.bounds();
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
@@ -79,7 +82,7 @@ impl Cylinder {
         Self { middle: middle.as_vec3(), scale: scale.as_vec3() }
     }
 
-    /// Whether any of these points lies outside, or is not a point.
+    /// Returns whether any of these points is outside the cylinder or is NaN.
     #[inline(always)]
     fn is_left<S: Simd>(&self, simd: S, points: Vectors<S>) -> bool {
         let from = points - Vectors::splat(simd, self.middle);
@@ -88,15 +91,15 @@ impl Cylinder {
     }
 }
 
-/// The plane that each ray meets first, so far: the one with the greatest ratio of the speed toward it to the gap before it.
-/// Planes behind have negative ratios.
+/// The plane that each ray meets first among those tried so far: the plane with the greatest ratio of the speed
+/// toward it to the gap before it. Planes behind the ray have negative ratios.
 struct Nearest<S: Simd> {
     ratio: Lanes<S>,
     plane: Lanes<S>,
 }
 
 impl<S: Simd> Nearest<S> {
-    /// Tries some planes, of which the first has this number.
+    /// Tries some planes; the first of them has the number `first`.
     #[inline(always)]
     fn among(
         self,
@@ -142,7 +145,7 @@ impl PacketSurface for PacketPlanes {
                 is_entered.select(own[2], normal[2]),
             ]);
             out = speed.is_positive().select(out.min(distance), out);
-            // A ray that runs along a plane on its outer side never enters.
+            // A ray that runs along a plane on its outer side never enters the stone.
             let is_beside = speed.at_most(zero) & zero.at_most(speed) & gap.is_negative();
             out = is_beside.select(zero, out);
         }

@@ -1,4 +1,4 @@
-//! Rays outside bodies and inside them: single ones, or one in each lane.
+//! Rays outside and inside bodies, as single rays or one in each lane.
 
 use super::lanes::{Lanes, Vectors};
 use super::optics::PacketLight;
@@ -10,18 +10,18 @@ use pulp::Simd;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PacketMedium {
     pub index: f32,
-    /// The change of the index over the wavelengths that this one stands for.
+    /// The change of the index over the wavelengths that this wavelength represents.
     pub spread: f32,
-    /// Absorption of the two polarisations, per unit of the body's frame.
+    /// The absorption of the two polarisations, per unit of the body's frame.
     pub absorption: [f32; 2],
 }
 
-/// How light has travelled inside the body that it left, or is in.
+/// The history of light inside the body that it has left or is in.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Travelled {
     /// The share of the light that absorption has left.
     pub left: f32,
-    /// Length of the way inside the body so far, in the unit of its frame.
+    /// The length of the path inside the body so far, in the unit of the body's frame.
     pub path: f32,
     pub bounces: u32,
 }
@@ -32,25 +32,26 @@ pub(super) struct SingleRay {
     pub origin: Vec3,
     /// The unit direction in which the light travels.
     pub direction: Vec3,
-    /// The change of that direction over what the ray stands for: a band of wavelengths and a stretch of the pixel.
+    /// The change of the direction over the range that the ray represents: a band of wavelengths and a stretch of the
+    /// pixel.
     pub fan: Vec3,
-    /// The displacement of the origin over the same.
+    /// The displacement of the origin over the same range.
     pub shift: Vec3,
-    /// The axis s of the light's polarisation.
+    /// The axis of s polarisation of the light.
     pub s: Vec3,
-    /// The light, less what was absorbed.
+    /// The light that absorption has left.
     pub light: PacketLight<f32>,
     pub travelled: Travelled,
-    /// Which ray of the picture this is a part of.
+    /// The number of the ray of the picture to which this ray belongs.
     pub tag: u32,
 }
 
-/// Where a ray meets a body, in the frame of the body.
+/// The point where a ray meets a body, in the frame of the body.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SingleHit {
-    /// Infinite where the ray misses.
+    /// The distance along the ray; infinite where the ray misses.
     pub distance: f32,
-    /// The unit outward normal; anything where the ray misses.
+    /// The unit outward normal; undefined where the ray misses.
     pub normal: Vec3,
 }
 
@@ -61,17 +62,17 @@ pub(super) struct EnteringRay {
     pub met: SingleHit,
     /// The body's medium.
     pub medium: PacketMedium,
-    /// The number, from 0 to below 1, that decides how far the ray's light is followed inside the body where it goes on by
-    /// chance.
+    /// The random number, from 0 to below 1, that decides how far the ray's light is followed inside the body where
+    /// it goes on by chance.
     pub luck: f32,
 }
 
-/// A ray inside a body, in the frame of the body, where it has just entered.
+/// A ray that has just entered a body, in the frame of the body.
 #[derive(Clone, Copy)]
 pub(super) struct InnerRay {
     pub ray: SingleRay,
     pub medium: PacketMedium,
-    /// The weight below which the light goes on by chance; 0 where all of it is followed.
+    /// The weight below which the light goes on only by chance; 0 where all of it is followed.
     pub threshold: f32,
     /// The weight at which the ray ends.
     pub least: f32,
@@ -93,18 +94,18 @@ pub(super) struct InnerRays<S: Simd> {
     pub fan: Vectors<S>,
     pub shift: Vectors<S>,
     pub s: Vectors<S>,
-    /// The light without absorption.
+    /// The light before the loss by absorption.
     pub light: PacketLight<Lanes<S>>,
     pub index: Lanes<S>,
     pub spread: Lanes<S>,
     pub absorption: [Lanes<S>; 2],
     /// The share of the light that absorption has left.
     pub left: Lanes<S>,
-    /// Length of the way inside the body so far, in the unit of its frame.
+    /// The length of the path inside the body so far, in the unit of the body's frame.
     pub path: Lanes<S>,
-    /// The light that was absorbed.
+    /// The light that the body has absorbed.
     pub absorbed: Lanes<S>,
-    /// The weight below which the light goes on by chance; 0 where all of it is followed.
+    /// The weight below which the light goes on only by chance; 0 where all of it is followed.
     pub threshold: Lanes<S>,
     /// The weight at which each ray ends.
     pub least: Lanes<S>,
@@ -167,12 +168,12 @@ impl PacketMedium {
 }
 
 impl Travelled {
-    /// What light has that has not been in the body.
+    /// The history of light that has not been in the body.
     pub const NONE: Self = Self { left: 1.0, path: 0.0, bounces: 0 };
 }
 
 impl InnerRay {
-    /// No light, in a lane that waits for a ray.
+    /// A ray without light, for a lane that waits for a ray.
     pub const DARK: Self = Self {
         ray: SingleRay {
             origin: Vec3::ZERO,
@@ -191,7 +192,7 @@ impl InnerRay {
 }
 
 impl<S: Simd> InnerRays<S> {
-    /// Returns lanes without light.
+    /// Returns lanes that hold no light.
     #[inline(always)]
     pub fn dark(simd: S) -> Self {
         let zero = Lanes::splat(simd, 0.0);
@@ -227,7 +228,7 @@ impl<S: Simd> InnerRays<S> {
         self.fan.set_lane(lane, ray.fan);
         self.shift.set_lane(lane, ray.shift);
         self.s.set_lane(lane, ray.s);
-        // Light of which absorption has left next to nothing is not followed unless the least weight is 0.
+        // Light of which absorption has left almost nothing is not followed, unless the least weight is 0.
         self.light.set_lane(lane, &ray.light.times(1.0 / left.max(f32::MIN_POSITIVE)));
         self.index.set_lane(lane, medium.index);
         self.spread.set_lane(lane, medium.spread);
@@ -245,7 +246,8 @@ impl<S: Simd> InnerRays<S> {
         self.light.weight() * self.left
     }
 
-    /// Returns the factor by which light counts that has come this far: below the threshold, only a part of such rays has.
+    /// Returns the factor by which light counts that has come so far. Below the threshold it exceeds 1, because only
+    /// a part of such rays has come so far.
     #[inline(always)]
     pub fn factor(&self) -> Lanes<S> {
         let one = self.left.all(1.0);

@@ -1,4 +1,4 @@
-//! What pixels see of a scene under light, by packets of rays.
+//! Computes the light that pixels receive from a scene, by packets of rays.
 
 use super::environment::{LookUp, LookUpRay, PacketEnvironment, StraightRay};
 use super::optics::PacketLight;
@@ -19,17 +19,18 @@ pub(in crate::trace) struct PacketTracer<'a> {
     arch: Arch,
 }
 
-/// The most passages of light through bodies, one after the other; each time that it enters the same body counts. Light that
-/// would enter once more is unresolved.
+/// The greatest number of passages of light through bodies, one after the other; each entry into the same body
+/// counts. Light that would enter once more counts as unresolved.
 const MOST_PASSAGES: usize = 1000;
 
-/// A bit that no number of an exit has: it marks the number that decides whether weak light enters another body.
+/// A bit that the number of an exit never has. It marks the random number that decides whether weak light enters
+/// another body.
 const ENTERS: u64 = 1 << 31;
 
 /// A ray from the eye through a pixel.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::trace) struct EyeRay {
-    /// Column and row of the pixel.
+    /// The column and the row of the pixel.
     pub pixel: [u32; 2],
     pub ray: DispersedRay,
 }
@@ -39,18 +40,18 @@ struct Pixels<'a> {
     pass: &'a SamplePass,
     eye_rays: &'a [EyeRay],
     straight: Vec<StraightRay>,
-    /// The light of each pixel and band: the pixel's number times the number of bands, and the band.
+    /// The light of each pixel and band, at the pixel's number times the number of bands, plus the band's number.
     light: Vec<DVec4>,
     lit: Vec<RadiancePixel>,
-    /// Of each body, in each band.
+    /// The media of each body, band by band.
     media: Vec<Vec<PacketMedium>>,
 }
 
-/// A body that a ray meets first, and where.
+/// The first body that a ray meets, and the place where it meets the body.
 #[derive(Clone, Copy)]
 struct FirstHit {
     body: usize,
-    /// The distance to it, in the world's unit.
+    /// The distance along the ray to the body, in the world's unit.
     distance: f64,
     /// The ray in the body's frame.
     ray: SingleRay,
@@ -58,7 +59,7 @@ struct FirstHit {
 }
 
 impl<'a> PacketTracer<'a> {
-    /// The number of rays, over all bands, for which a processor's cache has room.
+    /// The number of rays, over all bands, that fit in a processor's cache.
     pub const RAYS_AT_ONCE: usize = 1024;
 
     /// Prepares the bodies of a scene; `None` where one of them has triangles or frosted facets, or is of
@@ -76,7 +77,7 @@ impl<'a> PacketTracer<'a> {
         })
     }
 
-    /// Adds what pixels see, each along one ray from the eye, to their sums.
+    /// Adds the light of pixels, each along one ray from the eye, to their sums.
     pub fn see(&self, pass: &SamplePass, eye_rays: &[EyeRay], sums: &mut [RadiancePixel]) {
         let bands = pass.responses.len();
         let mut pixels = Pixels {
@@ -118,7 +119,7 @@ impl<'a> PacketTracer<'a> {
         self.first(rays.len(), seen)
     }
 
-    /// Returns, body by body, the rays that enter it straight from the eye.
+    /// Returns, body by body, the rays that enter the body straight from the eye.
     fn seen_first(&self, pixels: &mut Pixels) -> Vec<Vec<EnteringRay>> {
         let mut queues = vec![vec![]; self.instances.len()];
         let bands = pixels.pass.responses.len();
@@ -130,7 +131,7 @@ impl<'a> PacketTracer<'a> {
             }
             match first {
                 Some(FirstHit { body, ray, met, .. }) => {
-                    // The ray meets the body at the same point in all wavelengths.
+                    // The ray meets the body at the same point at all wavelengths.
                     let tags = (pixel * bands) as u32..;
                     queues[body].extend(pixels.media[body].iter().zip(tags).map(|(&medium, tag)| {
                         EnteringRay { ray: SingleRay { tag, ..ray }, met, medium, luck: pixels.luck(tag, 0) }
@@ -146,8 +147,9 @@ impl<'a> PacketTracer<'a> {
         queues
     }
 
-    /// Returns the bodies that some rays meet first. `arriving` carries a ray, given by its number, into the frame of a body,
-    /// where it begins at a distance from its origin in the world; `None` where it cannot meet the body.
+    /// Returns the first body that each of some rays meets. `arriving` carries a ray, given by its number, into the
+    /// frame of a body. Its second result is the distance at which the carried ray begins, from the ray's origin in
+    /// the world. `None` where the ray cannot meet the body.
     fn first(
         &self,
         count: usize,
@@ -173,8 +175,8 @@ impl<'a> PacketTracer<'a> {
         first
     }
 
-    /// Follows rays through one body, which is the passage of this number of their light. Light that meets a body next is put
-    /// into `next`; all else is looked up.
+    /// Follows rays through one body; `passage` is the number of this passage of their light. Light that meets a body
+    /// next is added to `next`, and all other light is looked up in the environment.
     fn pass_through(
         &self,
         (body, queue): (usize, &[EnteringRay]),
@@ -197,14 +199,15 @@ impl<'a> PacketTracer<'a> {
             self.go_on(from, &leaving, pixels, next);
             return;
         }
-        // The glare of rays from the eye comes first, band by band, and goes the same way in all bands.
+        // The glare of rays from the eye comes first, band by band, and takes the same path in all bands.
         let (glare, rest) = leaving.split_at(queue.len());
         let meets = self.shared(from, glare, pixels);
         self.go_on(from, &meets, pixels, next);
         self.go_on(from, rest, pixels, next);
     }
 
-    /// Adds the light of the first glare of pixels, looked up once for all bands of each, and returns what meets another body.
+    /// Adds the light of the first glare of pixels, looked up once for all bands of each pixel. Returns the glare
+    /// that meets another body.
     fn shared(&self, from: Departure, glare: &[SingleRay], pixels: &mut Pixels) -> Vec<SingleRay> {
         let bands = pixels.pass.responses.len();
         let first = |place: usize| glare[place * bands];
@@ -234,7 +237,7 @@ impl<'a> PacketTracer<'a> {
         meets
     }
 
-    /// Puts light that meets a body next into `next`, and looks all else up.
+    /// Adds light that meets a body next to `next`, and looks up all other light in the environment.
     fn go_on(
         &self,
         from: Departure,
@@ -254,7 +257,7 @@ impl<'a> PacketTracer<'a> {
             match first {
                 None => to_look_up.push(LookUpRay::of(ray, weight, ray.tag)),
                 Some(FirstHit { body: then, mut ray, met, .. }) => {
-                    // Exits of one ray differ in the number of bounces before them.
+                    // The exits of one ray differ in the number of bounces before them.
                     let exit = from.passage << 32 | u64::from(ray.travelled.bounces);
                     if threshold <= 0.0 && f64::from(weight) <= options.least_weight {
                         pixels.lit[tag / bands].unresolved += f64::from(weight);
@@ -279,8 +282,8 @@ impl<'a> PacketTracer<'a> {
         self.look_up(&to_look_up, (&pixels.straight, bands), strength, &mut pixels.light);
     }
 
-    /// Adds the light that rays see around all bodies, each at its tag; the straight ray of a tag is that of its pixel, of so
-    /// many bands.
+    /// Adds the light from around all bodies along each ray, at the ray's tag. The straight ray of a tag is that of
+    /// its pixel, where each pixel has `bands` tags.
     fn look_up(
         &self,
         rays: &[LookUpRay],
@@ -315,7 +318,7 @@ fn eye_ray(EyeRay { ray, .. }: &EyeRay, tag: u32) -> SingleRay {
 }
 
 impl EyeRay {
-    /// Returns the ray from near the middle of the world on, where single precision is fine enough.
+    /// Returns the ray from near the middle of the world on, where single precision suffices.
     fn straight(&self) -> StraightRay {
         let near = self.ray.ahead(-self.ray.origin.dot(self.ray.direction));
         StraightRay {
@@ -328,15 +331,15 @@ impl EyeRay {
 }
 
 impl Pixels<'_> {
-    /// Returns the weight below which light goes on by chance; 0 where all light is followed. Light of no more than the least
-    /// weight, which would end there, goes on by chance as well.
+    /// Returns the weight below which light goes on only by chance; 0 where all light is followed. Light whose weight
+    /// is at most the least weight goes on by chance as well, instead of ending there.
     fn threshold(&self, options: RayOptions) -> f32 {
         let by_chance = self.pass.by_chance;
         if by_chance > 0.0 { by_chance.max(options.least_weight) as f32 } else { 0.0 }
     }
 
-    /// Returns the number that decides how far the light of a ray is followed in a passage; `passage` is 0 for the first one
-    /// and any other number for each further one.
+    /// Returns the random number that decides how far the light of a ray is followed in a passage. `passage` is 0 for
+    /// the first passage and a different number for each further one.
     fn luck(&self, tag: u32, passage: u64) -> f32 {
         let bands = self.pass.responses.len();
         let (pixel, band) = (tag as usize / bands, tag as usize % bands);
@@ -346,7 +349,7 @@ impl Pixels<'_> {
         })
     }
 
-    /// Adds the light, as colours, to the sums of the pixels.
+    /// Adds the light, converted to colours, to the sums of the pixels.
     fn add_to(self, sums: &mut [RadiancePixel]) {
         let bands = self.pass.responses.len();
         let share = 1.0 / bands as f64;

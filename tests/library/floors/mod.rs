@@ -152,7 +152,7 @@ fn imports(text: &str) -> Vec<&str> {
     after.map(|t| t.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("")).collect()
 }
 
-/// Whether a text that lies `steps` modules deep in its room leaves the room by `super`.
+/// Returns whether a text that lies `steps` modules deep in its room leaves the room by `super`.
 fn climbs_out(text: &str, steps: usize) -> bool {
     // Inside a file's `mod tests` one more step is needed to leave the room.
     untested(text).contains(&"super::".repeat(steps + 1))
@@ -406,7 +406,8 @@ fn an_import_that_runs_up_would_be_seen() {
     assert_eq!(floor("main"), None);
 }
 
-/// Returns what a text of the editor's model names that no model may: the window, or what threads share.
+/// Returns the forbidden names in a text of the editor's model: those of the window, and those of data that threads
+/// share.
 fn windows(text: &str) -> Vec<&'static str> {
     let code: String = text.lines().map(|line| line.split("//").next().unwrap_or("")).collect();
     let is_word = |name: &str| {

@@ -1,4 +1,4 @@
-//! What cutters ask of a design: an audit, another material, the size that a piece of rough gives.
+//! Tests of the commands for cutters: an audit, another material, and the size of a stone from a piece of rough.
 
 use super::desk::*;
 
@@ -54,7 +54,7 @@ fn a_family_becomes_tiers_with_meets_in_one_step() {
     near(at(&after, "volume"), at(&before, "volume"), 1e-4 * at(&before, "volume"), "volume");
     let (code, _, stderr) = desk.run("convert --meets oval.toml again.toml");
     assert!(code == 0 && !stderr.contains("becomes") && !stderr.contains("warning"), "{stderr}");
-    // What cutters' files say of it are instructions, which are read as the same meets.
+    // Cutters' files contain its meets as instructions, which are read as the same meets.
     assert_eq!(desk.run("convert --meets emerald emerald.asc").0, 0);
     assert!(desk.read("emerald.asc").contains(" G Meet "), "{}", desk.read("emerald.asc"));
     let (code, table, stderr) = desk.run("info --meets emerald");

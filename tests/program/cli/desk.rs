@@ -1,4 +1,4 @@
-//! A folder in which tests run the program, and readers of what the program writes.
+//! A folder in which tests run the program, and readers of the program's output.
 
 use brillianteer::optics::linear_from_encoded;
 use exr::prelude::{AnyChannel, FlatSamples, read_first_flat_layer_from_file};

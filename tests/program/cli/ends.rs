@@ -1,5 +1,5 @@
-//! How the program ends: by signals, without a screen, in little memory, and with nothing on standard error but its own
-//! messages.
+//! Tests of the program's end: by signals, without a screen, in little memory, and with no messages on standard error
+//! except its own.
 
 use super::desk::*;
 use std::io::{BufRead, BufReader};
@@ -25,7 +25,7 @@ fn temporary(folder: &Path) -> usize {
     names.filter(|name| name.to_string_lossy().starts_with(".brillianteer-")).count()
 }
 
-/// Whether a thread of a program is in the middle of writing to standard output.
+/// Returns whether a thread of a program is just writing to standard output.
 #[cfg(target_os = "linux")]
 fn is_printing(program: &Child) -> bool {
     let mut threads =

@@ -1,4 +1,4 @@
-//! Meshes on the command line: how they are read, and which messages come about them, and how often.
+//! Tests of meshes on the command line: how they are read, and which messages about them appear, and how often.
 
 use super::desk::*;
 

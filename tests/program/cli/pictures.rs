@@ -110,7 +110,7 @@ fn numbers(text: &str) -> Vec<f64> {
     text.split([',', ' ']).map(|number| number.parse().unwrap()).collect()
 }
 
-/// Returns the polygons of a drawing in all copies, as docs/formats.md says how to find them.
+/// Returns the polygons of a drawing in all copies, found as docs/formats.md describes.
 fn drawn<'a>(document: &'a Document<'a>) -> Vec<Drawn<'a>> {
     let copies: BTreeMap<&str, Vec<&str>> = document
         .descendants()
@@ -160,7 +160,7 @@ fn turns(corners: &[DVec2]) -> f64 {
     edges(corners).map(|(a, b)| a.perp_dot(b)).sum()
 }
 
-/// Whether a point lies inside a convex polygon, farther than `margin` from its border.
+/// Returns whether a point lies inside a convex polygon, farther than `margin` from its border.
 fn inside(corners: &[DVec2], p: DVec2, margin: f64) -> bool {
     let sign = turns(corners).signum();
     edges(corners).all(|(a, b)| sign * (b - a).perp_dot(p - a) > margin * (b - a).length())

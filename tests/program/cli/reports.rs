@@ -5,7 +5,7 @@ use flate2::read::ZlibDecoder;
 use std::collections::BTreeSet;
 use std::io::Read;
 
-/// Returns what all compressed streams of a PDF hold, one after the other.
+/// Returns the contents of all compressed streams of a PDF, one after the other.
 fn streams(pdf: &[u8]) -> Vec<String> {
     let find = |from: usize, what: &[u8]| {
         pdf[from..].windows(what.len()).position(|window| window == what).map(|at| from + at)
@@ -42,7 +42,7 @@ fn a_report_is_written_as_pdf_whose_text_can_be_searched_and_is_the_same_again()
     let pdf = std::fs::read(desk.at("a.pdf")).unwrap();
     let text = String::from_utf8_lossy(&pdf);
     assert!(text.starts_with("%PDF-1.7") && text.contains("/MediaBox [0 0 61"));
-    // Every letter of what the report says leads back to its character, and the pictures are in the file.
+    // Every letter of the report's text leads back to its character, and the pictures are in the file.
     let found = letters(&pdf);
     for letter in "brillianteer report cube.toml 2026-11-24 Ideal-Scope °±×".chars().filter(|c| *c != ' ')
     {

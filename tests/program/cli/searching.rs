@@ -24,7 +24,7 @@ fn a_better_brilliant_is_found_written_and_measured_as_it_was_promised() {
         found["curve"].as_array().unwrap().iter().map(|point| point[1].as_f64().unwrap()).collect();
     assert!(curve.len() > 1 && curve.windows(2).all(|pair| pair[0] < pair[1]), "{curve:?}");
     assert!(desk.read("grew.svg").contains("designs appraised"));
-    // What the given design's notes say is not true of the one that was found, which has a name of its own.
+    // The notes of the given design do not hold for the design that was found, which has its own name.
     let written = desk.read("better.toml");
     assert!(written.contains(", improved\"") && !written.contains("notes"), "{written}");
     // The design that was written has the promised measures.

@@ -4,7 +4,7 @@ use super::desk::*;
 use gif::{ColorOutput, DecodeOptions, DisposalMethod, Repeat};
 use std::path::Path;
 
-/// A rocking stone in a scope that few pixels show.
+/// A rocking stone in a scope, in a picture of few pixels.
 const ROCKING: &str = "spin tolkowsky --scope aset --motion rock --swing 20 --frames 8 --size 64";
 
 /// Returns the size of the frames of an animated PNG, or of a still one, their colours, and the file's description.
@@ -25,7 +25,7 @@ fn apng(path: &Path) -> ([u32; 2], Vec<Vec<u8>>, String) {
     ([width, height], all, description)
 }
 
-/// Returns what a viewer shows of each frame of an opaque GIF, and how long all last, in hundredths of a second.
+/// Returns each frame of an opaque GIF as a viewer shows it, and the time of all frames, in hundredths of a second.
 fn gif(path: &Path) -> (Vec<Vec<u8>>, u16) {
     let mut options = DecodeOptions::new();
     options.set_color_output(ColorOutput::RGBA);

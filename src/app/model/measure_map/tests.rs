@@ -1,4 +1,4 @@
-//! Tests of the map: what it offers, where it moves the design, and when it begins anew.
+//! Tests of the map: its choices, its moves of the design, and the changes after which it begins anew.
 
 use super::*;
 use crate::app::model::document::Document;
@@ -209,7 +209,7 @@ fn a_place_without_a_stone_says_why_and_moves_nothing() {
     map.follow(&design, &mut numbers);
     let why = map.moved(&design, [99.9, 34.0]).unwrap_err().to_string();
     assert!(why.starts_with("no stone there: ") && !why.contains('_'), "{why}");
-    // Places of the grid say the same.
+    // The places of the grid give the same.
     let order = map.sweep.wanted().unwrap().clone();
     let mut found = vec![];
     let ends = [point(0, 32), point(STEPS, 32)];

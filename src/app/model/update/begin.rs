@@ -1,4 +1,4 @@
-//! Documents that begin: opened, read again, or out of the program's library.
+//! Begins documents: opened files, files read again, and cuts and scenes of the program's library.
 
 use super::{safe, searching};
 use crate::app::model::Model;
@@ -27,15 +27,15 @@ pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
     session.meet_faults.clear();
     session.audit = SessionAudit::default();
     session.map.begin();
-    // Figures of the stone before do not belong to this one.
+    // The figures in the session are those of the stone before.
     session.measured.figures.retain(|which, _| *which != Which::Present);
     session.measured.tilts = None;
     session.begun += 1;
     session.awaited.opening.retain(|opening| opening.request.is_beside());
     session.on_disk = None;
-    // It waited until the document before was saved.
+    // The action waited for the document before to be saved.
     session.after_save = None;
-    // Another stone is first seen face up.
+    // A new stone is first seen face up.
     workspace.face_up();
     session.notes.clear();
     if session.compared.as_ref().is_some_and(|c| c.is_saved) {
@@ -44,7 +44,7 @@ pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
     safe::note(model, tasks);
 }
 
-/// Begins a document that is the present one, read again: no view moves.
+/// Begins a document that has been read again from the file of the present one; no view moves.
 pub fn begin_again(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
     let (workspace, framing) = (model.workspace.clone(), model.session.framing.clone());
     document.take_copies(&model.document);
@@ -59,7 +59,7 @@ pub fn begin_library(model: &mut Model, tasks: &mut Vec<Task>, name: &str) {
     let Some(document) = model.session.notes.ok_or_report(document) else { return };
     model.workspace.last = None;
     begin(model, tasks, document);
-    // A block has nothing else to be changed by.
+    // A block of rough can be shaped only by its tiers.
     model.workspace.shows_tiers |= model.has_tiers();
 }
 
@@ -67,7 +67,7 @@ pub fn begin_library(model: &mut Model, tasks: &mut Vec<Task>, name: &str) {
 pub fn begin_preset(model: &mut Model, tasks: &mut Vec<Task>, name: &str) {
     let preset = Preset::of_library(name);
     let Some(preset) = model.session.notes.ok_or_report(preset) else { return };
-    // The scene is meant to be seen as a render.
+    // The scene is made to be seen as a render.
     model.workspace.enlarge_render();
     begin_scene(model, tasks, preset);
     model.session.motion.is_on = PRESETS.iter().any(|known| known.name == name && known.moves);
@@ -91,9 +91,9 @@ pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset) {
     model.workspace.last = None;
     let work = &model.document.work;
     let before = model.workspace.light_after_scene((work.light.clone(), work.exposure));
-    // Another scene has a light of its own.
+    // The new scene brings a light of its own.
     model.workspace.forget_light();
-    // What is set before the scene begins is no step that undo takes back.
+    // These settings are part of the scene's beginning, and no step of undo.
     model.document.work.exposure = scene.exposure;
     if let Some(light) = scene.light {
         let light = if light.is_file() { std::path::absolute(&light).unwrap_or(light) } else { light };
@@ -112,7 +112,7 @@ pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset) {
     session.notes.say(&format!("{}: {shown}", scene.name));
 }
 
-/// Ends the comparison: forgets the design compared with, and its figures.
+/// Ends the comparison and drops the other design with its figures.
 pub fn compare_no_more(model: &mut Model) {
     model.session.compared = None;
     model.session.measured.figures.retain(|which, _| *which == Which::Present);

@@ -1,4 +1,4 @@
-//! Commands: when each is possible, whether it is switched on, and what it does.
+//! Commands: when each is possible or switched on, and its effect.
 
 use super::begin::compare_no_more;
 use super::{dialogs, edits, files, fitting, searching};
@@ -16,7 +16,7 @@ use crate::picture::DrawnMarks;
 use crate::scene::{LIGHTS, scattered};
 
 impl Model {
-    /// Whether a command can be carried out now.
+    /// Returns whether a command can be carried out now.
     pub fn is_possible(&self, command: Command) -> bool {
         let (undo, redo) = self.document.steps();
         let (back, on) = self.session.views.steps();
@@ -36,28 +36,28 @@ impl Model {
         }
     }
 
-    /// Whether the design is cut by tiers.
+    /// Returns whether the design is cut by tiers.
     pub fn has_tiers(&self) -> bool {
         matches!(self.document.work.design.cut, Cut::Tiers(_))
     }
 
-    /// Whether one step of the cutting is in sight in the place of the views.
+    /// Returns whether bench mode, with one step of the cutting, is in sight in the place of the views.
     pub fn is_at_bench(&self) -> bool {
         self.workspace.cutting.is_open && self.has_tiers()
     }
 
-    /// Whether the table of tiers is in sight.
+    /// Returns whether the table of tiers is in sight.
     pub fn shows_tiers(&self) -> bool {
         self.workspace.shows_tiers && self.has_tiers() && !self.is_at_bench()
     }
 
-    /// Returns the place of the tier whose meet is being picked in the views; `None` where none is. The stone in sight must be that
-    /// of the tiers, so that a corner means what is seen.
+    /// Returns the place of the tier whose meet is being picked in the views; `None` where none is. The stone in
+    /// sight must be the one that these tiers make, so that a corner on the screen belongs to them.
     pub fn picked_tier(&self) -> Option<usize> {
         self.session.picking.filter(|_| self.shows_tiers() && !self.document.shows_last_possible())
     }
 
-    /// Returns the marks of the finding that is selected in the audit's list, where the list is in sight; none else.
+    /// Returns the marks of the selected finding where the list of the audit is in sight, else no marks.
     pub fn found_marks(&self) -> DrawnMarks {
         let finding = self.session.audit.selected_finding().filter(|_| self.shows_audit());
         match (finding, self.document.specimen().stone()) {
@@ -66,22 +66,22 @@ impl Model {
         }
     }
 
-    /// Whether the list of the audit is in sight.
+    /// Returns whether the list of the audit is in sight.
     pub fn shows_audit(&self) -> bool {
         self.workspace.shows_audit && !self.is_at_bench()
     }
 
-    /// Whether the map of a measure is in sight.
+    /// Returns whether the map of a measure is in sight.
     pub fn shows_map(&self) -> bool {
         self.workspace.shows_map && !self.is_at_bench()
     }
 
-    /// Whether the window of the search for a better cut is in sight.
+    /// Returns whether the window of the search for a better cut is in sight.
     pub fn shows_search(&self) -> bool {
         self.session.search.is_open && !self.is_at_bench()
     }
 
-    /// Whether a command is switched on, as menus show it.
+    /// Returns whether menus show a command as switched on.
     pub fn is_chosen(&self, command: Command) -> bool {
         let workspace = &self.workspace;
         let overlay = |name| workspace.overlay.as_deref() == Some(name);
@@ -150,10 +150,10 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
             }
             model.document.update();
             edits::note_meet_faults(model);
-            // The tiers may stand in other places now.
+            // The step may have reordered the tiers.
             model.session.picking = None;
             if model.document.work.companions != beside {
-                // Another stone of the scene may be edited now.
+                // The step may have changed which stone of the scene is edited.
                 model.session.framing.renew(model.document.specimen());
             }
         }
@@ -161,7 +161,8 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
     }
 }
 
-/// Lights renders by a light of the program that is not the present one, turned to another side. The light is a step of undo.
+/// Lights renders by another light of the program, chosen at random and turned at random. The light is a step of
+/// undo.
 fn another_light(model: &mut Model) {
     model.session.lights_drawn += 1;
     let [place, turn] = [0, 1].map(|k| scattered(2 * model.session.lights_drawn + k));
@@ -172,7 +173,7 @@ fn another_light(model: &mut Model) {
     edits::edit(model, Edit::Light(name.to_owned()));
 }
 
-/// Carries out a command that changes the views alone.
+/// Carries out a command that changes only the views.
 fn look(model: &mut Model, command: Command) {
     let active = model.active();
     let Model { document, workspace, session } = model;
@@ -227,7 +228,7 @@ fn look(model: &mut Model, command: Command) {
     }
 }
 
-/// Looks at the present stone from another side in the view that keys act on, and shows the whole stone.
+/// Fits the views to the present stone and moves the eye of the active view by `look`.
 fn seen(model: &mut Model, look: impl FnOnce(&mut Eye)) {
     model.session.framing.renew(model.document.specimen());
     let active = model.active();

@@ -1,4 +1,4 @@
-//! Changes of where stones stand beside others, and of which of them is edited.
+//! Moves stones of a scene, and changes which of them is edited.
 
 use crate::app::model::Model;
 use crate::app::model::document::Document;
@@ -6,7 +6,7 @@ use crate::app::model::work::Work;
 use crate::scene::{Companion, Companions, Copies, Instance, Pose, overlapping};
 use std::sync::Arc;
 
-/// A stone that is moved, by its number among those of its kind.
+/// A stone to be moved, by its number among copies or companions.
 #[derive(Clone, Copy)]
 pub enum MovedStone {
     /// A copy of the design.
@@ -16,7 +16,7 @@ pub enum MovedStone {
 }
 
 impl MovedStone {
-    /// Returns where the stone lies; `None` where there is no such stone.
+    /// Returns the pose of the stone; `None` where there is no such stone.
     fn pose(self, work: &mut Work) -> Option<&mut Pose> {
         match self {
             Self::Copy(number) => work.copies.poses.get_mut(number),
@@ -25,8 +25,8 @@ impl MovedStone {
     }
 }
 
-/// Moves a stone to a pose, unless it would run into another stone there. Copies of a design that stands alone are moved in any
-/// case, because they are put behind one another where they would meet.
+/// Moves a stone to a pose, unless it would overlap another stone there. Copies without companions always move,
+/// because copies that would meet are put into layers behind one another.
 pub fn move_to(document: &mut Document, stone: MovedStone, pose: Pose) {
     let has_companions = !document.work.companions.is_empty();
     let was_apart = has_companions && are_apart(document);
@@ -40,7 +40,7 @@ pub fn move_to(document: &mut Document, stone: MovedStone, pose: Pose) {
     }
 }
 
-/// Whether no two stones of the scene overlap.
+/// Returns whether no two stones of the scene overlap.
 pub fn are_apart(document: &Document) -> bool {
     let Work { copies, companions, .. } = &document.work;
     let specimen = document.specimen();
@@ -50,7 +50,7 @@ pub fn are_apart(document: &Document) -> bool {
     overlapping(&stones).is_none()
 }
 
-/// Keeps the copies where they stand among others, in mm, where the edit of their design has changed its diameter.
+/// Keeps the copies at their places among companions, in mm, after an edit of the design has changed its diameter.
 pub fn stay_in_place(work: &mut Work, before_mm: f64) {
     if work.companions.is_empty() || work.design.diameter_mm == before_mm {
         return;
@@ -58,14 +58,14 @@ pub fn stay_in_place(work: &mut Work, before_mm: f64) {
     in_unit(&mut work.copies, before_mm / work.design.diameter_mm);
 }
 
-/// Changes the unit in which the places of copies are written: `factor` of it are one of the unit before.
+/// Converts the places of copies to another unit, of which `factor` make one of the unit before.
 fn in_unit(copies: &mut Copies, factor: f64) {
     copies.poses.iter_mut().for_each(|pose| pose.at *= factor);
     copies.room = copies.room.map(|room| room * factor);
 }
 
-/// Edits the design of a stone that stands beside the copies: all stones of its kind become the copies, and what were the
-/// copies stand beside them. Nothing moves in the scene.
+/// Edits the design of a companion: all stones of its kind become the copies, and the former copies become
+/// companions. No stone of the scene moves.
 pub fn take_up(model: &mut Model, number: usize) {
     let Model { document, session, .. } = model;
     let Work { design, copies, companions, .. } = &document.work;
@@ -77,7 +77,7 @@ pub fn take_up(model: &mut Model, number: usize) {
     }
     let own = document.specimen();
     let (own_mm, unit_mm) = (own.unit_mm(), taken.unit_mm());
-    // The stone may have been built under an older name.
+    // The stone may have been built under the design's former name.
     let own = own.remade(design.clone()).map_or_else(|_| Arc::clone(own), Arc::new);
     let in_mm = Pose { scale: own_mm, ..Pose::STILL };
     let left =
@@ -92,7 +92,7 @@ pub fn take_up(model: &mut Model, number: usize) {
     let metals = companions.metals.clone();
     let companions = Companions { stones: left.chain(others).collect(), metals };
     document.take_up(taken.design.clone(), copies, companions);
-    // Each of these is about the stone before.
+    // Each of these refers to the stone before.
     (session.held, session.tier, session.picking) = (None, None, None);
     session.meet_faults.clear();
     session.framing.renew(document.specimen());

@@ -61,7 +61,7 @@ pub fn answer(model: &mut Model, tasks: &mut Vec<Task>, answer: DialogAction) {
     }
 }
 
-/// Stores what is typed or chosen in the open dialog.
+/// Stores the input of the user in the form of the open dialog.
 fn fill_in(model: &mut Model, typed: DialogAction) {
     let session = &mut model.session;
     match (&mut session.dialog, typed) {
@@ -84,7 +84,8 @@ fn fill_in(model: &mut Model, typed: DialogAction) {
     }
 }
 
-/// Leaves the dialog. A design whose path was asked for is not saved, and what waited for that is not done.
+/// Closes the dialog without an answer. If the dialog asked for a path, the design is not saved and the action that
+/// waited for that is dropped.
 fn leave(model: &mut Model, tasks: &mut Vec<Task>) {
     match model.session.dialog.take() {
         Some(Dialog::Path(_)) => model.session.after_save = None,
@@ -108,7 +109,7 @@ fn recover(model: &mut Model, tasks: &mut Vec<Task>, found: &RecoveredWork) {
     let KeptScene { copies, companions, behind, behind_mm, strength } = found.around.clone();
     let companions = model.session.notes.ok_or_report(companions.built());
     (document.work.copies, document.work.companions) = (copies, companions.unwrap_or_default());
-    // The work is kept anew before the file that the crash left is removed.
+    // The work is kept anew before the autosave file of the crash is removed.
     model.session.safe.replaces = Some(found.file.clone());
     begin(model, tasks, document);
     let workspace = &mut model.workspace;

@@ -1,4 +1,4 @@
-//! Changes of the work.
+//! Edits: changes of the work.
 
 use super::companions::{self, MovedStone};
 use crate::app::model::Model;
@@ -10,9 +10,9 @@ use crate::scene::{Copies, Pose};
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Changes the work, and builds the stone that comes of it.
+/// Changes the work and builds the resulting stone.
 pub fn edit(model: &mut Model, edit: Edit) {
-    // A pick ends with its edit, and after any other the tiers may stand in other places.
+    // A pick ends with its edit, and any other edit may have reordered the tiers.
     model.session.picking = None;
     let before_mm = model.document.work.design.diameter_mm;
     let work = &mut model.document.work;
@@ -60,7 +60,7 @@ pub fn edit(model: &mut Model, edit: Edit) {
     model.document.update();
 }
 
-/// Changes the cut. A stone that becomes wider gets a greater diameter, so that all other tiers stay where they are.
+/// Changes the cut. A wider stone gets a greater diameter, so that all other tiers keep their distances in mm.
 fn keep_tiers_in_place(model: &mut Model, change: impl FnOnce(&mut Cut)) {
     let unit = model.document.specimen().frame.scale;
     let design = &mut model.document.work.design;
@@ -70,7 +70,7 @@ fn keep_tiers_in_place(model: &mut Model, change: impl FnOnce(&mut Cut)) {
     }
 }
 
-/// Changes the list of tiers and follows all meets; notes which of them could not be followed.
+/// Changes the list of tiers and follows all meets; records which of them could not be followed.
 fn change_tiers(model: &mut Model, change: TierChange) {
     let Cut::Tiers(tiers) = &model.document.work.design.cut else { return };
     let SolvedTiers { tiers, outcomes, .. } = tiers.changed(change);
@@ -78,7 +78,7 @@ fn change_tiers(model: &mut Model, change: TierChange) {
     keep_tiers_in_place(model, |cut| *cut = Cut::Tiers(tiers));
 }
 
-/// Cuts a tier to the next corner that it reaches, deeper or farther out; says so where no meet leads to one.
+/// Cuts a tier to the next corner that it reaches, deeper or farther out, or reports that no meet leads to one.
 fn next_meet(model: &mut Model, place: usize, is_deeper: bool) {
     let Cut::Tiers(tiers) = &model.document.work.design.cut else { return };
     match tiers.next_meet(place, is_deeper) {
@@ -90,7 +90,7 @@ fn next_meet(model: &mut Model, place: usize, is_deeper: bool) {
     }
 }
 
-/// Moves the design to a place of the map, or says why it stays.
+/// Moves the design to a place of the map, or reports why it stays.
 fn move_along(model: &mut Model, to: [f64; 2]) {
     let Model { document, session, .. } = model;
     match session.map.moved(&document.work.design, to) {
@@ -102,7 +102,7 @@ fn move_along(model: &mut Model, to: [f64; 2]) {
     }
 }
 
-/// Scales a side of a cut, or says why the design stays. Meets stay as they are, because a stretch keeps them.
+/// Scales a side of a cut, or reports why the design stays. Meets stay as they are, because a stretch keeps them.
 fn scale(model: &mut Model, side: ScaledSide, factor: f64, of: Cut) {
     let design = &mut model.document.work.design;
     match scaled(&Design { cut: of, ..design.clone() }, side, factor) {
@@ -120,7 +120,8 @@ fn faults(outcomes: Vec<TierOutcome>) -> Vec<Option<String>> {
     outcomes.into_iter().map(fault).collect()
 }
 
-/// Notes which meets of the present design cannot be followed, after it was changed by something else than its list of tiers.
+/// Records which meets of the present design cannot be followed, after a change by something else than its list of
+/// tiers.
 pub fn note_meet_faults(model: &mut Model) {
     model.session.meet_faults = match &model.document.work.design.cut {
         Cut::Tiers(tiers) => faults(tiers.solved().outcomes),
@@ -128,8 +129,8 @@ pub fn note_meet_faults(model: &mut Model) {
     };
 }
 
-/// Adds a tier after the one at a place, or after the last, and selects it. It has the indices of that tier and just touches the
-/// stone, so that nothing is cut until it is moved.
+/// Adds a tier after the one at a place, or after the last, and selects it. The new tier has the indices of the other
+/// and just touches the stone, so that it cuts nothing until it is moved.
 fn add_tier(model: &mut Model, after: Option<usize>) {
     let Cut::Tiers(tiers) = &model.document.work.design.cut else { return };
     let place = after.map_or(tiers.tiers.len(), |place| (place + 1).min(tiers.tiers.len()));
@@ -138,7 +139,7 @@ fn add_tier(model: &mut Model, after: Option<usize>) {
     model.session.tier = Some(place);
 }
 
-/// Lays `count` copies out anew, each turned as it was.
+/// Lays out `count` copies anew, each with its former turn.
 fn lay_out(model: &mut Model, count: usize) {
     model.session.layings += 1;
     let specimen = Arc::clone(model.document.specimen());

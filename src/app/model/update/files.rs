@@ -1,4 +1,4 @@
-//! Files that are opened, saved and watched.
+//! Opens, saves and watches files.
 
 use super::begin::{begin, begin_again, begin_library, begin_preset, begin_scene};
 use super::{safe, searching};
@@ -17,11 +17,11 @@ use crate::io::design_file::DesignFormat;
 use crate::io::mesh_options::MeshOptions;
 use std::path::{Path, PathBuf};
 
-/// The note about a mesh whose table may face another way.
+/// The warning about a mesh whose table may face another way.
 const DOUBTFUL: &str = "The shape of this mesh does not show clearly which way its table faces. If it faces the \
     wrong way, choose another direction at Table faces in the design panel.";
 
-/// Performs a file action.
+/// Carries out a file action.
 pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: FileAction) {
     match change {
         FileAction::Ask(then) => ask_before(model, tasks, then),
@@ -56,7 +56,7 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: FileAction) {
         }
         FileAction::Close => close(model, tasks),
         FileAction::Ended => {
-            // Where the system took the window away without asking the user, the work is kept for the next start.
+            // Where the system closed the window without asking the user, the autosave stays for the next start.
             let is_safe = !model.document.is_changed() && !model.document.has_moved_copies();
             if model.session.may_close || is_safe {
                 safe::empty(model, tasks);
@@ -66,8 +66,8 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: FileAction) {
     }
 }
 
-/// Opens a file that has been read, and adds the tasks that the present state needs: to load another light, to watch another file, or to read the open file
-/// again because another program has changed it.
+/// Opens a file that has been read, and adds the tasks that the present state needs: to load another light, to watch
+/// another file, or to read the open file again because another program has changed it.
 pub fn wanted(model: &mut Model, tasks: &mut Vec<Task>) {
     open_read(model, tasks);
     let light = &mut model.session.light;
@@ -98,12 +98,12 @@ fn changed_outside(model: &mut Model, tasks: &mut Vec<Task>) {
     } else if model.document.is_changed() {
         model.session.dialog = Some(Dialog::ChangedOutside);
     } else if let Some(path) = model.document.path().map(Path::to_owned) {
-        // No change of the user's is lost, so the new file is read without a question.
+        // The user has no unsaved changes, so the new file is read without a question.
         open(model, tasks, path, OpeningPurpose::Again);
     }
 }
 
-/// Performs a step that would lose unsaved work; asks first where there is any.
+/// Carries out an action that would lose unsaved work; asks first where there is any.
 fn ask_before(model: &mut Model, tasks: &mut Vec<Task>, next: Then) {
     if model.session.dialog.as_ref().is_some_and(Dialog::insists) {
         model.session.notes.say("Answer the open dialog first.");
@@ -116,7 +116,7 @@ fn ask_before(model: &mut Model, tasks: &mut Vec<Task>, next: Then) {
     }
 }
 
-/// Carries out what waited for the answer to a question.
+/// Carries out the action that waited for the answer to a question.
 pub fn then(model: &mut Model, tasks: &mut Vec<Task>, then: Then) {
     match then {
         Then::Open(path, mesh) => {
@@ -149,7 +149,7 @@ fn close(model: &mut Model, tasks: &mut Vec<Task>) {
     tasks.push(Task::Window(WindowTask::StayOpen));
 }
 
-/// Whether a design can be saved under this name.
+/// Returns whether the format of a file name can hold designs.
 fn holds_designs(path: &Path) -> bool {
     DesignFormat::of_name(path).is_some_and(DesignFormat::holds_designs)
 }
@@ -218,7 +218,8 @@ pub fn chosen(model: &mut Model, tasks: &mut Vec<Task>, purpose: Purpose, docume
 }
 
 impl Model {
-    /// Returns how the open mesh was read, or how it is being read anew; `None` where the stone was read from no mesh.
+    /// Returns the options by which the open mesh was read or is being read anew; `None` where the stone was read
+    /// from no mesh.
     pub fn mesh_options(&self) -> Option<MeshOptions> {
         let mesh = self.document.work.mesh.as_ref()?;
         let pending = self.session.awaited.opening.iter().map(|opening| &opening.request);
@@ -228,13 +229,14 @@ impl Model {
 }
 
 fn open(model: &mut Model, tasks: &mut Vec<Task>, path: PathBuf, purpose: OpeningPurpose) {
-    // A mesh that has changed is read as before; a design that was made of it and saved elsewhere is not a mesh.
+    // A changed mesh is read with its former options; a design that was made from a mesh and saved to another file is
+    // no mesh.
     let is_mesh = model.document.work.mesh.as_ref().is_some_and(|mesh| mesh.path == path);
     let again = model.mesh_options().filter(|_| purpose == OpeningPurpose::Again && is_mesh);
     open_with(model, tasks, FileRequest { purpose, path, mesh: again.unwrap_or_default() })
 }
 
-/// Opens a file; another that is still being read for the same purpose is dropped.
+/// Opens a file; an older request for the same purpose that is still being read is dropped.
 fn open_with(model: &mut Model, tasks: &mut Vec<Task>, request: FileRequest) {
     let opening = &mut model.session.awaited.opening;
     opening.retain(|other| other.request.is_beside() != request.is_beside());
@@ -242,7 +244,7 @@ fn open_with(model: &mut Model, tasks: &mut Vec<Task>, request: FileRequest) {
     tasks.push(Task::Read(request));
 }
 
-/// Takes the content of a file that was to be opened, or reports why there is none.
+/// Takes the content of a requested file, or reports why it could not be read.
 fn is_read(model: &mut Model, request: &FileRequest, read: Result<OpenedFile, Failure>) {
     let Session { awaited, notes, .. } = &mut model.session;
     let Some(place) = awaited.opening.iter().position(|opening| opening.request == *request) else { return };
@@ -252,8 +254,8 @@ fn is_read(model: &mut Model, request: &FileRequest, read: Result<OpenedFile, Fa
     }
 }
 
-/// Opens a file that has been read, unless it is to replace a document that a dialog is about, or that is being saved before
-/// something else is done.
+/// Opens a file that has been read. It waits where it would replace a document that a dialog is about, or that is
+/// being saved before another action.
 fn open_read(model: &mut Model, tasks: &mut Vec<Task>) {
     let session = &mut model.session;
     let must_stay =
@@ -262,7 +264,7 @@ fn open_read(model: &mut Model, tasks: &mut Vec<Task>) {
     let may_open = |opening: &Opening| opening.read.is_some() && (opening.request.is_beside() || !must_stay);
     let Some(place) = all.iter().position(may_open) else { return };
     let Opening { request, work, read: Some(file) } = all.remove(place) else { return };
-    // The user has not given up what was changed while the file was being read.
+    // The user has edited the document since the file was requested, and has not agreed to lose that.
     let is_later = model.document.work != work;
     match (request.purpose, file) {
         (OpeningPurpose::Anew, _) if is_later => {
@@ -273,7 +275,7 @@ fn open_read(model: &mut Model, tasks: &mut Vec<Task>) {
             model.session.compared = Some(Compared::of(&document));
         }
         (OpeningPurpose::Otherwise, OpenedFile::Design(document)) => {
-            // Another design may have been opened meanwhile.
+            // The user may have opened another design meanwhile.
             let path = |work: &Work| work.mesh.as_ref().map(|mesh| mesh.path.clone());
             if path(&model.document.work) == path(&document.work) {
                 model.document.take_shape(*document);
@@ -296,16 +298,16 @@ fn open_read(model: &mut Model, tasks: &mut Vec<Task>) {
     }
 }
 
-/// Saves the document; asks for a file where it has none that holds designs.
+/// Saves the document; asks for a file where the document has none in a format that holds designs.
 pub fn save(model: &mut Model, tasks: &mut Vec<Task>) {
     match model.document.path().map(Path::to_owned) {
         Some(path) if holds_designs(&path) => save_as(model, tasks, path),
-        // A scan stays as it was: the design that was made of it is saved as another file.
+        // A mesh stays as it is: the design that was made from it is saved to another file.
         _ => choose(model, tasks, Purpose::SaveAs),
     }
 }
 
-/// Saves the document, and then does what waited for that.
+/// Saves the document, and then carries out the action that waited for that.
 pub fn save_then(model: &mut Model, tasks: &mut Vec<Task>, then: Then) {
     save(model, tasks);
     if model.session.awaited.saving.is_some() || model.session.awaited.choosing == Some(Purpose::SaveAs) {
@@ -333,7 +335,7 @@ fn save_as(model: &mut Model, tasks: &mut Vec<Task>, path: PathBuf) {
     tasks.push(Task::Save(Box::new(request)));
 }
 
-/// Reports that a document was saved, and where it is still open, takes note of its file.
+/// Reports that a document was saved; where it is still open, records its file.
 fn is_saved(model: &mut Model, tasks: &mut Vec<Task>, document: u64, saved: Result<SavedDesign, Failure>) {
     let session = &mut model.session;
     let is_awaited = session.awaited.saving.take_if(|awaited| *awaited == document).is_some();
@@ -356,7 +358,7 @@ fn is_saved(model: &mut Model, tasks: &mut Vec<Task>, document: u64, saved: Resu
     }
 }
 
-/// Takes note that the present document is saved in a file.
+/// Records the file in which the present document has been saved.
 fn take_saved(model: &mut Model, tasks: &mut Vec<Task>, saved: SavedDesign) {
     let Model { document, workspace, session } = model;
     workspace.remember(&saved.path);

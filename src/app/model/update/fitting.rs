@@ -1,4 +1,4 @@
-//! The dialogs that fit the design to another material, and to a piece of rough or a weight.
+//! Answers the dialogs that fit the design to another material, and to a piece of rough or a weight.
 
 use super::edits::edit;
 use crate::app::model::Model;
@@ -24,7 +24,7 @@ pub fn open_yield(model: &mut Model) {
     model.session.dialog = Some(Dialog::Yield(form));
 }
 
-/// Takes what is chosen or typed in one of the dialogs, or applies it; other actions change nothing.
+/// Takes the choices or numbers of one of the dialogs, or applies them; other actions change nothing.
 pub fn answer(model: &mut Model, tasks: &mut Vec<Task>, answer: DialogAction) {
     let specimen = Arc::clone(model.document.specimen());
     match (&mut model.session.dialog, answer) {
@@ -42,14 +42,14 @@ pub fn answer(model: &mut Model, tasks: &mut Vec<Task>, answer: DialogAction) {
     }
 }
 
-/// Takes the light that was measured into the dialog that asked for it.
+/// Hands the measured light to the dialog that requested it.
 pub fn take_light(model: &mut Model, number: u64, light: Result<Vec<StoneLight>, Failure>) {
     if let Some(Dialog::Retarget(form)) = &mut model.session.dialog {
         form.take_light(number, light);
     }
 }
 
-/// Asks for the light of the stones that are compared; without any, it stops what is being measured.
+/// Requests the light of the compared stones; where there are none, stops the measurement.
 fn ask_light(form: &RetargetForm, tasks: &mut Vec<Task>) {
     tasks.push(form.light_request().map_or(Task::StopLight, |request| Task::MeasureLight(Box::new(request))));
 }

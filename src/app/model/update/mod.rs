@@ -20,7 +20,7 @@ use super::task::Task;
 use crate::app::studio::Which;
 use std::sync::Arc;
 
-/// Changes a model by an action; returns what is to be done outside because of it.
+/// Changes a model by an action; returns the tasks that follow from it.
 pub fn update(model: &mut Model, action: Action) -> Vec<Task> {
     let mut tasks = vec![];
     perform(model, &mut tasks, action);
@@ -45,7 +45,7 @@ fn perform(model: &mut Model, tasks: &mut Vec<Task>, action: Action) {
     }
 }
 
-/// Asks for the audit of the present stone where its list is open.
+/// Requests the audit of the present stone where the list of the audit is open.
 fn want_audit(model: &mut Model, tasks: &mut Vec<Task>) {
     let specimen = model.document.specimen();
     if model.shows_audit() && specimen.stone().is_ok() && model.session.audit.want(specimen) {
@@ -87,11 +87,11 @@ fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
                 Err(why) => session.notes.trouble(format!("{why}; the light stays as it was")),
             }
             (session.light.tried, session.light.loading) = (name, None);
-            // The next start begins with a light that could be loaded.
+            // The next start begins with the last light that could be loaded.
             workspace.light.clone_from(&session.light.name);
         }
         Computed::Figures(which, order, grade, figures) => {
-            // The document or the comparison may have ended since the figures were ordered.
+            // The document or the comparison may have ended after the figures were ordered.
             let is_shown = match which {
                 Which::Present => order.document == session.begun,
                 Which::Other => session.compared.is_some(),
@@ -131,7 +131,7 @@ fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
     }
 }
 
-/// Builds the stone of a design that was changed; between two gestures, what was changed becomes a step.
+/// Builds the stone of a changed design; where no gesture is going on, the changes become a step of undo.
 fn end_frame(model: &mut Model, tasks: &mut Vec<Task>, end: FrameEnd) {
     model.document.update();
     if end.is_gesture {
@@ -142,7 +142,7 @@ fn end_frame(model: &mut Model, tasks: &mut Vec<Task>, end: FrameEnd) {
     model.workspace.panes.iter_mut().filter_map(|p| p.own.as_mut()).for_each(super::eye::Eye::settle);
     model.session.views.note(&model.workspace, end.now);
     match model.session.search.running() {
-        // All that a search finds becomes one step once it ends.
+        // All changes by a search become one step when it ends.
         Some(running) => model.document.settle_with(running.before()),
         None => model.document.settle(),
     };

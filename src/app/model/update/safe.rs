@@ -6,7 +6,7 @@ use crate::app::model::task::Task;
 
 /// Writes the present work to the autosave, and stores its exposure and head in the workspace.
 ///
-/// A design that makes no stone does not replace the last one that does.
+/// A design that makes no stone does not replace the last design that made one.
 pub fn note(model: &mut Model, tasks: &mut Vec<Task>) {
     let Model { document, workspace, session } = model;
     session.safe.noted = document.work.clone();
@@ -30,12 +30,14 @@ pub fn note(model: &mut Model, tasks: &mut Vec<Task>) {
         work: document.work.clone(),
         around,
         path,
-        // Of several waiting autosaves only the newest is written, so each of them removes the file of the crash.
+        // Of several waiting autosaves only the newest is written, so each carries the order to remove the file of
+        // the crash.
         replaces: session.safe.replaces.clone(),
     })));
 }
 
-/// Removes the autosave, because the work is saved or discarded, and the one that the work went on from.
+/// Removes the autosave, because the work is saved or discarded, and the autosave of the crash that the work
+/// continued.
 pub fn empty(model: &mut Model, tasks: &mut Vec<Task>) {
     let safe = &mut model.session.safe;
     if std::mem::take(&mut safe.is_kept) {

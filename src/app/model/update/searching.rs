@@ -31,7 +31,7 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, action: SearchAction) {
     }
 }
 
-/// Opens or closes the window. One that is closed stops its search, which keeps the best.
+/// Opens or closes the window of the search. Closing it stops the search, which keeps the best design.
 pub fn toggle(model: &mut Model, tasks: &mut Vec<Task>) {
     let search = &mut model.session.search;
     search.is_open = !search.is_open;
@@ -40,7 +40,7 @@ pub fn toggle(model: &mut Model, tasks: &mut Vec<Task>) {
     }
 }
 
-/// Takes what the search with a number says; that of a search that is over is dropped.
+/// Takes a message of the search of this number; messages of a search that has ended are dropped.
 pub fn take(model: &mut Model, number: u64, event: SearchEvent) {
     if let Some(design) = model.session.search.take(number, event) {
         show(model, design);
@@ -56,7 +56,7 @@ pub fn take_goal(model: &mut Model, path: &Path, goal: Goal) {
     }
 }
 
-/// Writes the goal of the form to a file, or says what is missing.
+/// Writes the goal of the form to a file, or reports what the form lacks.
 pub fn save_goal(model: &mut Model, tasks: &mut Vec<Task>, path: PathBuf) {
     match model.session.search.form.wanted() {
         Ok(goal) => tasks.push(Task::WriteGoal(path, Box::new(goal))),
@@ -64,13 +64,13 @@ pub fn save_goal(model: &mut Model, tasks: &mut Vec<Task>, path: PathBuf) {
     }
 }
 
-/// Ends the search where something else has changed the design, and lets the form follow the design.
+/// Ends the search where another edit has changed the design, and lets the form follow the design.
 pub fn follow(model: &mut Model, tasks: &mut Vec<Task>) {
     let Model { document, session, .. } = model;
     if session.search.running().is_some_and(|running| *running.shown() != document.work.design)
         && let Some(shown) = session.search.interrupt()
     {
-        // What the search has found is a step of its own, before that of the change.
+        // The changes by the search are a step of their own, before that of the edit.
         document.settle_with(&shown);
         tasks.push(Task::StopSearch);
     }
@@ -79,7 +79,7 @@ pub fn follow(model: &mut Model, tasks: &mut Vec<Task>) {
     }
 }
 
-/// Ends the search before a step is undone: what it has found so far is the step.
+/// Ends the search before a step is undone: its changes so far are that step.
 pub fn interrupt(model: &mut Model, tasks: &mut Vec<Task>) {
     if model.session.search.interrupt().is_some() {
         tasks.push(Task::StopSearch);
@@ -102,7 +102,7 @@ fn start(model: &mut Model, tasks: &mut Vec<Task>) {
     {
         return;
     }
-    // What was changed before is a step of its own.
+    // Edits before the search are a step of their own.
     document.settle();
     if let Ok(request) = session.search.start(&document.work.design) {
         tasks.push(Task::Search(Box::new(request)));
@@ -114,7 +114,7 @@ fn stop(model: &mut Model, tasks: &mut Vec<Task>) {
     tasks.push(Task::StopSearch);
 }
 
-/// Takes back what the search has changed: the last step, or, where something else was changed since, by a step of its own.
+/// Takes back the changes by the search: undoes the last step, or, where the document was edited since, adds a step.
 fn undo(model: &mut Model) {
     let SearchState::Ended(ended) = &model.session.search.state else { return };
     let (before, after) = (ended.before.clone(), ended.after.clone());
@@ -133,7 +133,7 @@ fn undo(model: &mut Model) {
     edits::note_meet_faults(model);
 }
 
-/// Makes a design that of the document.
+/// Replaces the design of the document and updates the views.
 fn show(model: &mut Model, design: Design) {
     model.document.work.design = design;
     model.document.update();

@@ -1,4 +1,4 @@
-//! Tests of the editor without a window: what its state becomes by actions, and which tasks come of them.
+//! Tests of the editor without a window: the state that actions lead to, and the tasks that they start.
 
 mod late;
 mod maps;
@@ -54,20 +54,20 @@ impl Bench {
         self.act(Action::Frame(FrameEnd { now: 0.0, is_gesture }))
     }
 
-    /// Opens a file and carries out the tasks that come of it.
+    /// Opens a file and carries out the tasks that opening starts.
     fn open(&mut self, path: &Path) {
         let tasks = self.act(FileAction::Ask(Then::open(path.to_owned())));
         self.read(tasks);
     }
 
-    /// Reads the file that a task is to read.
+    /// Reads the file that a task names.
     fn read(&mut self, tasks: Vec<Task>) -> Vec<Task> {
         let request = request(tasks);
         let read = open::read(&request);
         self.act(FileAction::Opened(request, read))
     }
 
-    /// Saves the design that a task is to save.
+    /// Saves the design that a task holds.
     fn save(&mut self, tasks: Vec<Task>) -> Vec<Task> {
         let save = |task| if let Task::Save(request) = task { Some(request) } else { None };
         let request = tasks.into_iter().find_map(save).unwrap();
@@ -83,7 +83,7 @@ impl Bench {
     }
 }
 
-/// Returns the file that a task is to read.
+/// Returns the request of the task that reads a file.
 fn request(tasks: Vec<Task>) -> FileRequest {
     let read = |task| if let Task::Read(request) = task { Some(request) } else { None };
     tasks.into_iter().find_map(read).unwrap()
@@ -146,7 +146,7 @@ fn of_two_files_the_one_that_was_asked_for_last_is_opened() {
     std::fs::write(&other, cut_file::write(&design)).unwrap();
     let [first, second] =
         [&path, &other].map(|path| request(bench.act(FileAction::Open(path.clone(), OpeningPurpose::Anew))));
-    // The older answer comes last, and nobody wants it any more.
+    // The older answer comes last, and the editor ignores it.
     for request in [second, first] {
         let read = open::read(&request);
         bench.act(FileAction::Opened(request, read));
@@ -186,7 +186,7 @@ fn work_that_a_crash_left_is_offered_kept_anew_and_forgotten() {
     let file = found[0].file.clone();
     let mut next = Bench::new();
     next.act(FileAction::Found(found.clone()));
-    // The question is not passed over.
+    // The question stays open.
     next.act(FileAction::Ask(Then::Library("modern-ideal".to_owned())));
     assert!(matches!(next.dialog(), Some(Dialog::Recover(_))));
     let tasks = next.act(DialogAction::Recover);
@@ -246,7 +246,7 @@ fn an_export_writes_what_there_was_when_it_began_and_the_window_waits_for_it() {
     let run = export.run.as_ref().unwrap();
     assert!(run.standing().starts_with("Stopped at 0 %, 1 of") && !export.is_busy());
     assert!(bench.act(DialogAction::Stop).is_empty(), "there is nothing to stop any more");
-    // Without the export, what closing would lose is asked about.
+    // Without the export, the editor asks about the work that closing would lose.
     bench.act(DialogAction::Leave);
     assert!(has(&bench.act(FileAction::Close), stays));
     assert!(matches!(bench.dialog(), Some(Dialog::Unsaved(Then::Close))));
@@ -291,7 +291,7 @@ fn what_the_program_saves_itself_is_no_change_by_others() {
     let tasks = bench.act(Command::Save);
     let Some(Task::Save(request)) = tasks.into_iter().next() else { panic!() };
     let (document, saved) = (request.document, open::save(*request));
-    // The file is seen before the answer comes.
+    // The change of the file is noticed before the answer comes.
     bench.act(FileAction::OnDisk(path.clone(), Stamp::of(&path)));
     let tasks = bench.act(FileAction::Saved(document, saved));
     assert!(tasks.iter().all(|task| !matches!(task, Task::Read(_))));

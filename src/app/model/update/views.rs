@@ -1,4 +1,4 @@
-//! Changes of how the views look, and of what is beside them.
+//! Changes the views, and the panels beside them.
 
 use crate::app::model::Model;
 use crate::app::model::action::ViewAction;
@@ -7,7 +7,7 @@ use crate::app::shows::Shows;
 use crate::app::studio::{Paper, Shot, Which};
 use crate::scene::Film;
 
-/// Performs a change of the views.
+/// Carries out a change of the views.
 pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: ViewAction) {
     let Model { workspace, session, .. } = model;
     match change {
@@ -43,7 +43,7 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: ViewAction) {
     }
 }
 
-/// Changes what is not kept between starts: pointer, keys, motion and the followed ray.
+/// Changes state that is not kept between starts: pointer, keys, motion and the followed ray.
 fn pass(model: &mut Model, change: ViewAction) {
     let session = &mut model.session;
     match change {
@@ -70,7 +70,7 @@ fn pass(model: &mut Model, change: ViewAction) {
     }
 }
 
-/// Asks for the picture of a view with `side` pixels along its longer side.
+/// Orders the picture of a view with `side` pixels along its longer side.
 fn copy_at(model: &mut Model, tasks: &mut Vec<Task>, pane: usize, side: u32) {
     let shows = model.workspace.panes[pane].shows;
     let own = (pane, Which::Present);

@@ -57,7 +57,8 @@ struct Stretch {
     share: f64,
 }
 
-/// Draws the path as seen from `eye`, with the step `lit` highlighted and a frame where the drawing has the keyboard focus.
+/// Draws the path from the direction of `eye`, with the step `lit` highlighted, and a frame where the drawing has the
+/// keyboard focus.
 pub(super) fn paint(
     painter: &Painter,
     visuals: &Visuals,
@@ -93,14 +94,13 @@ fn stretches(path: &Path, reach: f64) -> Vec<Stretch> {
     path.steps.iter().map(to_step).collect()
 }
 
-/// Returns where the line for the light that leaves at a step ends; `None` where nothing leaves.
+/// Returns the end of the line for the light that leaves at a step; `None` where no light leaves.
 fn end_of(step: &Step, reach: f64) -> Option<DVec3> {
     step.leaving.map(|leaving| step.point + leaving.direction * leaving.again.unwrap_or(reach * OUTSIDE[1]))
 }
 
 impl<'a> Canvas<'a> {
-    /// Makes a canvas with room for the stone and all its light, from whatever azimuth the eye sees them at its present
-    /// elevation.
+    /// Makes a canvas with room for the stone and all its light, for any azimuth of the eye at its present elevation.
     fn new(painter: &'a Painter, visuals: &'a Visuals, eye: Basis, reading: &Reading) -> Self {
         let corners = reading.body.solid().vertices();
         let low = corners.iter().copied().fold(DVec3::INFINITY, DVec3::min);
@@ -110,7 +110,7 @@ impl<'a> Canvas<'a> {
         let entering = stretches(reading.path, reach).into_iter().take(1).map(|stretch| stretch.ends[0]);
         let leaving = reading.path.steps.iter().filter_map(|step| end_of(step, reach));
         let shown = corners.iter().copied().chain(entering).chain(leaving);
-        // How far anything reaches sideways and upward on the screen while it turns around the stone's axis.
+        // The greatest extent, sideways and upward on the screen, while everything turns around the stone's axis.
         let extent = shown.fold(DVec2::splat(f64::MIN_POSITIVE), |extent, v| {
             let (out, height) = ((v - centre).truncate().length(), (v - centre).z);
             extent.max(DVec2::new(out, out * eye.toward.z.abs() + (height * eye.up.z).abs()))
@@ -140,7 +140,7 @@ impl<'a> Canvas<'a> {
         met.dedup();
         for facet in met {
             let tint = self.visuals.hyperlink_color.gamma_multiply(TINTS[usize::from(lit == Some(facet))]);
-            // One mesh for each facet: separate triangles would show seams.
+            // Each facet is one mesh: separate triangles would show seams.
             let mut cover = Mesh::default();
             for corner in reading.body.solid().triangles_of(facet).into_iter().flatten() {
                 cover.indices.push(cover.vertices.len() as u32);
@@ -156,7 +156,7 @@ impl<'a> Canvas<'a> {
         let faces = |normal: &DVec3| normal.dot(self.eye.toward) > 0.0;
         let mut edges = solid.edges();
         if edges.len() > MOST_EDGES {
-            // Only sharp edges and those of the silhouette: all others would hide the path.
+            // Only sharp edges and those of the silhouette are drawn: all others would hide the path.
             let is_drawn = |e: &Edge| {
                 let [a, b] = e.normals;
                 a.dot(b) < TRUE_EDGE || faces(&a) != faces(&b)
@@ -274,7 +274,7 @@ fn head(width: f32) -> f32 {
 fn places(at: Pos2, away: Vec2, size: Vec2) -> impl Iterator<Item = Rect> {
     let outward = if away.length() > 1.0 { away.angle() } else { 0.0 };
     let turns = (0..PLACES).map(move |k| {
-        // Alternately to one side and to the other.
+        // The sides alternate.
         let step = f32::from(k.div_ceil(2)) * std::f32::consts::TAU / f32::from(PLACES);
         outward + if k % 2 == 0 { step } else { -step }
     });
@@ -289,7 +289,7 @@ fn free(places: impl Iterator<Item = Rect>, taken: &[Rect], lines: &[[Pos2; 2]])
     places.filter(is_free).min_by_key(hidden)
 }
 
-/// Whether a line segment passes through a rectangle or close by it.
+/// Returns whether a line segment passes through a rectangle or close by it.
 fn crosses(rect: Rect, [from, to]: [Pos2; 2]) -> bool {
     let (way, middle) = (to - from, rect.center());
     let part = ((middle - from).dot(way) / way.length_sq().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);

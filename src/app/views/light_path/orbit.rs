@@ -21,7 +21,7 @@ pub(super) struct Orbit {
 }
 
 impl Default for Orbit {
-    /// A three-quarter view.
+    /// Returns a three-quarter view.
     fn default() -> Self {
         Self { azimuth: -1.1, elevation: 0.35 }
     }
@@ -56,7 +56,7 @@ impl Orbit {
         }
     }
 
-    /// Turns the view so that whatever is near the eye follows a pointer that moves by `by` points.
+    /// Turns the view so that the near side of the stone follows a pointer that moves by `by` points.
     fn turn(&mut self, by: Vec2) {
         self.azimuth -= f64::from(by.x) * PER_PIXEL;
         self.elevation = (self.elevation + f64::from(by.y) * PER_PIXEL).clamp(-FRAC_PI_2, FRAC_PI_2);

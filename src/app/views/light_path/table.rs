@@ -144,7 +144,7 @@ impl Columns {
         let usual = TextStyle::Body.resolve(ui.style());
         let columns = Self::new(ui, table, usual.clone());
         let part = (width / columns.width()).min(1.0);
-        // Rounded down to half a point.
+        // The size is rounded down to half a point.
         let size = ((usual.size * part * 2.0).floor() / 2.0).max(LEAST_TYPE.min(usual.size));
         let mut columns = if part < 1.0 { Self::new(ui, table, FontId { size, ..usual }) } else { columns };
         let spare = (width - columns.width()) / (COLUMNS - 1) as f32;
@@ -273,7 +273,7 @@ fn where_to(reading: &Reading, Leaving { share, direction, again }: Leaving) -> 
 
 /// Writes an angle to a tenth of a degree, as cutters' gauges show it.
 fn degrees(angle: f64) -> String {
-    // Adding zero turns a negative zero into a positive one.
+    // The sum with zero turns a negative zero into a positive one.
     let rounded = (angle * 10.0).round() / 10.0 + 0.0;
     format!("{rounded:.1}°").replace('-', "−")
 }

@@ -1,4 +1,4 @@
-//! Materials of a cut file: by name, by index, or as a table, and what such a table may not say.
+//! Tests of materials in a cut file: by name, by index, or as a table, and the faults of such a table.
 
 use super::*;
 use crate::optics::{self, Absorption, Dispersion, Material};

@@ -13,7 +13,7 @@ fn with_meet(meet: &str) -> String {
 
 fn read(meet: &str) -> Result<Meet, String> {
     let design = parse(&with_meet(meet), "x.toml").map_err(|error| error.to_string())?;
-    // What is read is written and reads back.
+    // A design that was read is written and reads back.
     assert_eq!(parse(&write(&design), "again").unwrap(), design);
     let Cut::Tiers(mut tiers) = design.cut else { panic!("tiers are expected") };
     Ok(tiers.tiers.remove(0).meet.unwrap())

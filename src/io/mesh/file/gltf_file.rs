@@ -20,7 +20,7 @@ const GLB_HEADER: usize = 12;
 /// The beginning of the message about a file that is no glTF.
 const UNREADABLE: &str = "this glTF 2.0 cannot be read: ";
 
-/// Extensions without which shapes cannot be read as they are meant. A file can be read without any other.
+/// The extensions without which shapes would be read wrongly. A file can be read without any other.
 const NEEDED: [&str; 4] = [
     "KHR_draco_mesh_compression",
     "EXT_meshopt_compression",
@@ -101,8 +101,8 @@ fn message(error: gltf::Error) -> String {
     }
 }
 
-/// Ensures what the gltf crate takes for granted: that POSITION refers to an accessor that exists, and that its bounds are
-/// given. The bounds are not used, so missing ones are filled in, with a warning.
+/// Ensures two assumptions of the gltf crate: that POSITION refers to an accessor that exists, and that its bounds
+/// are given. The bounds are not used, so missing ones are filled in, with a warning.
 fn positions(root: &mut Root) -> Result<Option<String>, Fault> {
     let mut unbounded = 0;
     let primitives =

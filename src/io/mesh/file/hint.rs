@@ -1,13 +1,14 @@
-//! What a glTF file says of its material, and what that means for a stone.
+//! Reads the material that a glTF file states, and finds the material of the stone.
 //!
 //! KHR_materials_ior gives the index, KHR_materials_dispersion 20 over the Abbe number, KHR_materials_volume the
-//! colour that white light has after a distance. Three colours are not a spectrum: each is taken as what is seen at one
-//! wavelength, with straight lines between them.
+//! colour that white light has after a distance. Three colours are not a spectrum: each is taken for the
+//! transmittance at one wavelength, with straight lines between them.
 
 use crate::cut::{MaterialError, MaterialRef};
 use crate::optics::{Absorption, Dispersion, MOST_PER_MM, Material, line};
 
-/// The wavelengths in nm that red, green and blue are taken to have: about the middle of what each primary of sRGB excites.
+/// The wavelengths in nm that stand for red, green and blue: about the middle of the range that each primary of sRGB
+/// excites.
 const CHANNEL_NM: [f64; 3] = [610.0, 550.0, 465.0];
 
 /// The index of a file that has a volume but no index: KHR_materials_ior's own default.
@@ -33,13 +34,14 @@ pub struct MaterialHint {
     pub dispersion: Option<f64>,
     /// The share of red, green and blue, linear, that is left after a distance in the file's unit (metres by its standard).
     pub attenuation: Option<([f64; 3], f64)>,
-    /// Whether the file says that light passes through the material.
+    /// True where the file states that light passes through the material.
     pub transmits: bool,
 }
 
 impl MaterialHint {
-    /// Describes a material as glTF does, in a file of so many mm per unit. Its colour is that of light after the distance at
-    /// which the most absorbed channel has fallen to 1/e, so that eight bits and other programs show it.
+    /// Describes a material in the terms of glTF, for a file of so many mm per unit. Its colour is that of light
+    /// after the distance at which the most absorbed channel has fallen to 1/e, so that eight bits and other programs
+    /// show it.
     pub fn of(material: &Material, mm_per_unit: f64) -> Self {
         let [n_c, n_d, n_f] =
             [line::HYDROGEN_C, line::HELIUM_D, line::HYDROGEN_F].map(|nm| material.index(nm));
@@ -64,7 +66,8 @@ impl MaterialHint {
         }
     }
 
-    /// Returns whether this is the description that is written of a material, in a file of so many mm per unit.
+    /// Returns whether this is the description that the program writes of a material, in a file of so many mm per
+    /// unit.
     pub fn is_of(&self, material: &MaterialRef, mm_per_unit: f64) -> bool {
         let Ok(material) = material.material() else { return false };
         let written = Self::of(&material, mm_per_unit);
@@ -75,7 +78,7 @@ impl MaterialHint {
         let distances = (self.attenuation, written.attenuation);
         let attenuated = match distances {
             (Some((a, one)), Some((b, other))) => {
-                // The absorption per unit, whatever the distance that the colour is given for.
+                // The absorption per unit is compared, because both may give the colour for different distances.
                 let per_unit = |share: f64, distance: f64| -share.clamp(BLACK, 1.0).ln() / distance;
                 let [a, b] = [a.map(|share| per_unit(share, one)), b.map(|share| per_unit(share, other))];
                 let most = b.into_iter().fold(0.0, f64::max);
@@ -86,10 +89,11 @@ impl MaterialHint {
         near(self.ior, written.ior) && near(self.dispersion, written.dispersion) && attenuated
     }
 
-    /// Returns the material that is meant, in a stone of so many mm per unit of the file; `None` where nothing is said.
+    /// Returns the material that the description means, in a stone of so many mm per unit of the file; `None` where
+    /// it states nothing.
     ///
     /// # Errors
-    /// When the numbers are such as no material has.
+    /// Fails where the numbers are impossible for a material.
     pub fn material(&self, mm_per_unit: f64) -> Result<Option<MaterialRef>, MaterialError> {
         let volume = self.transmits || self.attenuation.is_some() || self.dispersion.is_some();
         let Some(ior) = self.ior.or(volume.then_some(DEFAULT_IOR)) else { return Ok(None) };

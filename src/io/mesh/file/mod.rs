@@ -1,8 +1,8 @@
 //! Reads mesh files: glTF, OBJ, STL and PLY, each by its crate into one [`Surface`] of triangles.
 //!
-//! The content of a file decides its format, not the ending of its name. What is merely unusual is a warning; what cannot be
-//! read is an error that names the file, the place and what was expected. Nothing is read but the file itself and buffers
-//! that lie beside it.
+//! The content of a file decides its format, not the ending of its name. Unusual content gives a warning; unreadable
+//! content gives an error that names the file, the place and what was expected. Only the file itself and buffers that
+//! lie beside it are read.
 
 mod gltf_file;
 mod hint;
@@ -36,16 +36,16 @@ pub use statement::{Stands, Statement, rounded};
 pub struct MeshFile {
     /// The format of the file.
     pub format: MeshFormat,
-    /// All triangles; the surface's groups are the file's meshes, objects or groups, with their names.
+    /// All triangles. The surface's groups are the file's meshes, objects or groups, with their names.
     pub surface: Surface,
-    /// The normals of the surface's corners, of any length, 0 where the file gives none; empty where it gives none at all.
-    /// Of OBJ they are read only for opaque bodies.
+    /// The normals of the surface's corners, of any length, 0 where the file gives none; empty where it gives none at
+    /// all. The normals of OBJ are read only for opaque bodies.
     pub normals: Vec<DVec3>,
-    /// What the file says of its material.
+    /// The material that the file states.
     pub hint: Option<MaterialHint>,
-    /// What the file states of its stone, where this program wrote it.
+    /// The statement about the stone, where this program wrote the file.
     pub statement: Option<Statement>,
-    /// What is unusual about the file, in words.
+    /// Warnings about unusual content of the file.
     pub warnings: Vec<String>,
     /// The name that the file gives itself, or else the file's own name without its ending.
     pub name: String,
@@ -55,7 +55,7 @@ pub struct MeshFile {
 /// have any.
 ///
 /// # Errors
-/// When the content is no mesh that can be read; the error has the place.
+/// Fails where the content is no mesh that can be read; the error has the place.
 pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshFile, FileError> {
     parse_by(bytes, label, folder, obj_file::read)
 }
@@ -64,7 +64,7 @@ pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshF
 /// normals are doubled.
 ///
 /// # Errors
-/// As for [`parse`]; normals that cannot be read are left out.
+/// Fails where [`parse`] does; normals that cannot be read are left out.
 pub fn parse_shaded(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshFile, FileError> {
     parse_by(bytes, label, folder, obj_file::read_shaded)
 }

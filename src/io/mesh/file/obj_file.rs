@@ -1,5 +1,6 @@
-//! Reads Wavefront OBJ, by tobj in f64. tobj gets corners, faces, objects and groups, but no lines and materials, and normals
-//! only for opaque bodies: nothing of those is used else, and faults in them are no reason to refuse a mesh.
+//! Reads Wavefront OBJ, by tobj in f64. tobj gets corners, faces, objects and groups, and normals only for opaque
+//! bodies; lines and materials are kept from it, because they are not used and a fault in them is no reason to refuse
+//! a mesh.
 
 use super::limits;
 use super::lines::Lines;
@@ -10,7 +11,7 @@ use crate::math::Surface;
 use glam::DVec3;
 use tobj::{LoadError, LoadOptions, Model};
 
-/// The names that tobj gives to what has none.
+/// The names that tobj gives to objects without a name.
 const NAMELESS: [&str; 2] = ["unnamed_object", "default"];
 
 pub(super) fn read(bytes: &[u8]) -> Result<ParsedMesh, Fault> {
@@ -50,7 +51,7 @@ fn part(model: Model) -> Surface {
     Surface { names: vec![name], ..Surface::new(vertices, triangles) }
 }
 
-/// A filter of lines for tobj, and what is unusual about those that it keeps back.
+/// A filter of lines for tobj, which counts the unusual lines that it keeps back.
 #[derive(Default)]
 struct Odd {
     keeps_normals: bool,
@@ -75,7 +76,7 @@ impl Odd {
         match key {
             _ if continued => out.extend(self.corners(text).as_bytes()),
             "v" => {
-                // Only three numbers: a weight would be 1, and a colour is not used.
+                // Only three numbers are passed on: a weight would be 1, and a colour is not used.
                 out.extend(b"v ");
                 out.extend(rest.split_whitespace().take(3).collect::<Vec<_>>().join(" ").as_bytes());
             }
@@ -136,8 +137,8 @@ fn fault(error: &LoadError, line: usize, bytes: &[u8]) -> Fault {
     }
 }
 
-/// Returns the line of the first face that refers to a corner that is not there, that corner, and how many corners there
-/// are. tobj finds such a face only when an object ends.
+/// Returns the first face that refers to a missing corner: its line, that corner, and the number of corners. tobj
+/// finds such a face only when an object ends.
 fn first_out_of_bounds(bytes: &[u8]) -> Option<(usize, i64, i64)> {
     let text = String::from_utf8_lossy(bytes);
     let total = text.lines().filter(|line| line.trim_start().starts_with("v ")).count() as i64;

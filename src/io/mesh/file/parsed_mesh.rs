@@ -1,10 +1,10 @@
-//! A mesh as the reader of its format returns it.
+//! A mesh in the form that the readers of all formats return.
 
 use super::hint::MaterialHint;
 use crate::math::Surface;
 use glam::DVec3;
 
-/// What the reader of a format returns, which does not yet have its file's name.
+/// The result of a format's reader, which does not yet have its file's name.
 #[derive(Default)]
 pub(super) struct ParsedMesh {
     pub surface: Surface,

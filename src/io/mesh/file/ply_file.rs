@@ -13,7 +13,7 @@ use std::io::Read as _;
 /// The size of the longest header that is read, in bytes: hundreds of comments.
 const MAX_HEADER: usize = 1 << 20;
 
-/// What is used of a row of a file: the position of a corner, or the corners of a face.
+/// The used values of a row of a file: the position of a corner, or the corners of a face.
 #[derive(Default)]
 struct Row {
     at: DVec3,

@@ -1,4 +1,4 @@
-//! Recognises the mesh format of a file by how it begins.
+//! Recognises the mesh format of a file by its first bytes.
 
 /// The mesh formats that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,7 +26,7 @@ pub(super) const STL_START: usize = STL_HEADER + 4;
 /// The size of a triangle in a binary STL, in bytes.
 pub(super) const STL_TRIANGLE: u64 = 50;
 
-/// How much of a text is looked at, in bytes: OBJ files may begin with long comments.
+/// The number of bytes of a text that are examined: OBJ files may begin with long comments.
 const LOOKED_AT: usize = 64 << 10;
 
 /// Returns the format that bytes look like, if it is one of those that are read. The more of the file they hold, the surer
@@ -58,12 +58,12 @@ pub fn looks_like(bytes: &[u8]) -> Option<MeshFormat> {
     if is_obj(&text) {
         return Some(MeshFormat::Obj);
     }
-    // If it is binary at all, this is an STL whose length does not agree with its count, which its reader reports.
+    // A binary file that begins so is an STL whose length does not agree with its count, which its reader reports.
     let is_binary = bytes.len() > STL_START && bytes[..bytes.len().min(LOOKED_AT)].contains(&0);
     (is_binary && bytes.starts_with(b"solid")).then_some(MeshFormat::StlBinary)
 }
 
-/// Returns how many triangles a binary STL says it has.
+/// Returns the number of triangles that a binary STL states.
 pub(super) fn stl_triangles(bytes: &[u8]) -> Option<u64> {
     let count = bytes.get(STL_HEADER..STL_START)?;
     Some(u64::from(u32::from_le_bytes(count.try_into().ok()?)))

@@ -1,5 +1,5 @@
-//! What a mesh that this program writes states of its stone: which way is up, how large it is, of what material, and some
-//! measures by which a reader sees whether that still holds.
+//! The statement that this program writes into a mesh about its stone: the direction up, the size, the material, and
+//! some measures by which a reader checks that these still hold.
 //!
 //! A statement is a line of the word `brillianteer` and pairs of a key and its value: `up`, an axis of the file; `d`, the
 //! diameter in mm (2 in the stone's frame); `u`, mm per unit of the file, 1 if left out; `v`, the volume; `s`, the lowest
@@ -21,10 +21,10 @@ const DECIMALS: std::ops::RangeInclusive<usize> = 3..=6;
 /// The most characters of a statement that are read.
 const LONGEST: usize = 1_000;
 
-/// How far measures may be off, in girdle radii: more than the fewest decimals leave.
+/// The greatest error of measures, in girdle radii: more than the rounding to the fewest decimals.
 const NEAR: f64 = 1.5e-3;
 
-/// What a mesh file states of its stone.
+/// The statement of a mesh file about its stone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Statement {
     /// The axis of the file, y or z, that the table faces.
@@ -73,7 +73,7 @@ pub fn span(surface: &Surface, up: DVec3) -> [f64; 2] {
     math::span(heights).into()
 }
 
-/// How a solid lies in its file, compared with what the file states.
+/// The place of a solid in its file, compared with the statement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stands {
     /// The solid lies just as stated.
@@ -85,7 +85,7 @@ pub enum Stands {
         /// Girdle radii per unit of the file.
         scale: f64,
     },
-    /// The solid has another shape than the one that is stated.
+    /// The solid has another shape than the statement's measures describe.
     Otherwise,
 }
 
@@ -100,7 +100,7 @@ impl Statement {
     ) -> Self {
         let material = material.filter(|material| !matches!(material, MaterialRef::Custom(_))).cloned();
         let measures = Measures::of(stone, DVec3::Z);
-        // Rounded, so that the rounding of the unit does not become digits of the size.
+        // The size is rounded, so that the rounding of the unit adds no digits to it.
         let diameter_mm = (2e12 * radius_mm).round() / 1e12;
         Self { up, mm_per_unit, diameter_mm, material, measures }
     }
@@ -158,7 +158,7 @@ impl Statement {
         text
     }
 
-    /// Returns whether a text is meant as a statement.
+    /// Returns whether a text begins like a statement.
     pub fn is_meant(text: &str) -> bool {
         text.trim_start().strip_prefix(WORD).is_some_and(|rest| rest.starts_with(" up="))
     }
@@ -166,7 +166,7 @@ impl Statement {
     /// Reads a statement.
     ///
     /// # Errors
-    /// What is wrong with the text, in words.
+    /// Fails where the text has an unknown form; the fault says what is wrong.
     pub fn parse(text: &str) -> Result<Self, Fault> {
         let end = text.char_indices().nth(LONGEST).map_or(text.len(), |(end, _)| end);
         let text = text[..end].trim();
@@ -239,7 +239,7 @@ impl Found {
             });
             return Ok(());
         }
-        // A key that a later version may add changes nothing of what is known.
+        // A key that a later version may add does not change the meaning of the known ones.
         let Some(place) = NUMBERS.iter().position(|(known, _)| *known == key) else { return Ok(()) };
         let numbers: Vec<f64> = value.split(',').filter_map(|number| number.parse().ok()).collect();
         if numbers.len() != NUMBERS[place].1 || !numbers.iter().all(|x| x.is_finite()) {

@@ -23,7 +23,7 @@ pub(super) fn read_binary(mut bytes: Vec<u8>) -> Result<ParsedMesh, Fault> {
     }
     limits::count(0, usize::try_from(count).unwrap_or(usize::MAX))?;
     let name = String::from_utf8_lossy(&bytes[..STL_HEADER]).trim_matches(['\0', ' ']).to_owned();
-    // The header is of no more use, and with the word `solid` in it the file would be taken for text.
+    // The header is not used any more, and with the word `solid` in it stl_io would take the file for text.
     bytes[..STL_HEADER].fill(0);
     let surface = triangles(&mut Cursor::new(bytes))
         .map_err(|(number, message)| Fault::part(format!("triangle {number}"), message))?;

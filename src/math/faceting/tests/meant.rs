@@ -1,4 +1,4 @@
-//! Surfaces that are not convex but stand for a convex solid, and surfaces that are meant as they are.
+//! Tests of surfaces that are not convex but represent a convex solid, and of surfaces that represent themselves.
 
 use super::*;
 use crate::math::convex_hull;

@@ -1,4 +1,4 @@
-//! The cost of a pane that only looks like glass: figures of how it differs from the traced one.
+//! The cost of the approximation: figures of the difference between the drawn pane and the traced one.
 
 /// Statistics of lengths over the pane, in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -17,9 +17,9 @@ pub struct Cost {
     pub mean_difference: f64,
     /// Peak signal-to-noise ratio of that difference, in dB; infinite where the pictures are equal.
     pub psnr_db: f64,
-    /// How far the drawn pane moves what is seen, in green light.
+    /// The distance by which the drawn pane moves the background, in green light.
     pub pane: Shifts,
-    /// How far the traced pane moves what is seen.
+    /// The distance by which the traced pane moves the background.
     pub traced: Shifts,
     /// Distance between the two places that the drawn and the traced pane show: the approximation's error.
     pub apart: Shifts,

@@ -1,4 +1,4 @@
-//! Tests of the traced pane, and of how it differs from the drawn one.
+//! Tests of the traced pane, and of its differences from the drawn pane.
 
 use super::*;
 use crate::optics::line;

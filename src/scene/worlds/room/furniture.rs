@@ -1,4 +1,4 @@
-//! What stands in the room: lamps, boxes of wood and cloth, shelves.
+//! The furniture of the room: lamps, boxes of wood and cloth, shelves.
 
 use super::super::noise::{band, fractal, noise, ramp, random};
 use super::surfaces::RoomSurface;
@@ -29,7 +29,7 @@ pub(super) const SHADES: [Shade; 4] = [
 ];
 
 impl Shade {
-    /// Returns how far along a ray the shade is met.
+    /// Returns the distance along a ray at which it meets the shade.
     pub(super) fn meets(&self, from: DVec3, d: DVec3) -> Option<f64> {
         let o = from - self.middle;
         let along = -o.truncate().dot(d.truncate()) / d.truncate().length_squared().max(1e-12);
@@ -47,7 +47,7 @@ impl Shade {
     }
 }
 
-/// What a box is made of.
+/// The material of a box.
 #[derive(Clone, Copy, PartialEq)]
 enum Stuff {
     Walnut,
@@ -60,7 +60,7 @@ enum Stuff {
     Shelf,
 }
 
-/// A box: its corners, with z from the floor, and its stuff.
+/// A box: its corners, with z from the floor, and its material.
 struct Block(DVec3, DVec3, Stuff);
 
 const fn block(x: [f64; 2], y: [f64; 2], z: [f64; 2], stuff: Stuff) -> Block {
@@ -68,7 +68,7 @@ const fn block(x: [f64; 2], y: [f64; 2], z: [f64; 2], stuff: Stuff) -> Block {
 }
 
 static BLOCKS: [Block; 24] = [
-    // The sideboard, what stands on it.
+    // The sideboard, and the things on it.
     block([4.52, 4.98], [-2.05, -0.35], [0.16, 0.74], Stuff::Walnut),
     block([4.58, 4.62], [-1.98, -1.94], [0.0, 0.16], Stuff::Brass),
     block([4.58, 4.62], [-0.46, -0.42], [0.0, 0.16], Stuff::Brass),
@@ -108,7 +108,7 @@ static GROUPS: LazyLock<Vec<(usize, usize, DVec3, DVec3)>> = LazyLock::new(|| {
     [(0, 8), (8, 9), (17, 6), (23, 1)].into_iter().map(around).collect()
 });
 
-/// Returns the nearest box before `reach` that a ray meets, and how far away.
+/// Returns the nearest box before `reach` that a ray meets, and its distance.
 pub(super) fn first_box(from: DVec3, d: DVec3, reach: f64) -> Option<(usize, f64)> {
     let inverse = d.recip();
     let met = |low: DVec3, high: DVec3| {
@@ -132,7 +132,7 @@ pub(super) fn first_box(from: DVec3, d: DVec3, reach: f64) -> Option<(usize, f64
     first
 }
 
-/// Returns the look of a thing at a point.
+/// Returns the surface of a thing at a point.
 pub(super) fn furniture(thing: Thing, p: DVec3, d: DVec3, width: f64) -> RoomSurface {
     match thing {
         Thing::Globe(place) => {
@@ -162,7 +162,7 @@ fn block_surface(Block(low, high, stuff): &Block, p: DVec3, width: f64) -> RoomS
     let gap = half - q.abs();
     let face = gap.min_element();
     let sharp = DVec3::select(gap.cmple(DVec3::splat(face + 1e-9)), q.signum(), DVec3::ZERO);
-    // Edges are rounded for the light, not in outline.
+    // Edges are rounded in their shading, not in their outline.
     let round = if matches!(stuff, Stuff::Cloth | Stuff::Linen) { 0.07 } else { 0.006 };
     let bent = q.signum() * (DVec3::ONE - (gap / round).min(DVec3::ONE)).powf(1.6) * 0.7 + sharp;
     let normal = bent / bent.length();
@@ -229,7 +229,7 @@ fn cover(k: u32) -> DVec3 {
     COVERS[(k % 8) as usize]
 }
 
-/// The front of the shelves: boards, and rows of books that a strip of light under each board shows.
+/// Draws the front of the shelves: boards, and rows of books in the light of a strip under each board.
 fn shelf(surface: &mut RoomSurface, p: DVec3, sharp: DVec3, width: f64) {
     let wood = DVec3::new(0.12, 0.066, 0.036);
     surface.albedo = wood;

@@ -1,17 +1,17 @@
-//! What a ray meets in the room: how it looks there.
+//! The surface at the point where a ray meets the room.
 
 use glam::{DVec2, DVec3};
 
-/// What a ray has met: how it looks there.
+/// The surface at the point where a ray meets the room.
 pub(super) struct RoomSurface {
     pub(super) normal: DVec3,
-    /// The share of light that is sent back; zero where only its own light counts.
+    /// The share of light that is sent back; zero where the surface only emits light.
     pub(super) albedo: DVec3,
     /// The radiance that the surface emits itself, white being 1.
     pub(super) own: DVec3,
-    /// How much of the room's light reaches it, 0 to 1.
+    /// The part of the room's light that reaches it, 0 to 1.
     pub(super) shelter: f64,
-    /// The strength of its mirror image, 0 to 1, its blur in radians, and how the mirror leans.
+    /// The strength of its mirror image, 0 to 1, the blur of the image in radians, and the lean of the mirror.
     pub(super) gloss: f64,
     pub(super) blur: f64,
     pub(super) tilt: DVec2,

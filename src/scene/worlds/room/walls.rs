@@ -5,7 +5,7 @@ use super::surfaces::RoomSurface;
 use super::{HIGH, LOW, SPOTS, WARM};
 use glam::{DVec2, DVec3};
 
-/// Returns the look of the room's walls, floor and ceiling.
+/// Returns the surface of the room's walls, floor and ceiling.
 pub(super) fn shell(p: DVec3, d: DVec3, width: f64) -> RoomSurface {
     let gaps = [HIGH.z - p.z, p.z - LOW.z, HIGH.x - p.x, p.x - LOW.x, HIGH.y - p.y, p.y - LOW.y];
     let least = gaps.iter().copied().fold(f64::MAX, f64::min);
@@ -75,7 +75,7 @@ fn rug(surface: &mut RoomSurface, p: DVec3, width: f64) {
     surface.gloss *= 1.0 - inside;
 }
 
-/// Returns how much light reaches the floor beside and below furniture.
+/// Returns the part of the light that reaches the floor beside and below furniture.
 fn contact(p: DVec3) -> f64 {
     let under = |x: [f64; 2], y: [f64; 2], reach: f64, depth: f64| {
         let off = DVec2::new((x[0] - p.x).max(p.x - x[1]), (y[0] - p.y).max(p.y - y[1])).max(DVec2::ZERO);
@@ -107,7 +107,7 @@ fn wall(at: DVec2, normal: DVec3, width: f64) -> RoomSurface {
     surface
 }
 
-/// The wall to the right, with two pictures.
+/// Returns the wall to the right, with two pictures.
 fn side(p: DVec3, width: f64) -> RoomSurface {
     let at = DVec2::new(p.x, p.z - LOW.z);
     let mut surface = wall(at, DVec3::Y, width);
@@ -148,7 +148,7 @@ fn painting(surface: &mut RoomSurface, q: DVec2, half: DVec2, width: f64, seed: 
     surface.albedo = surface.albedo.lerp(colour, ramp(-0.5, 0.5, (gap - 0.10) / width.max(1e-6)));
 }
 
-/// The wall with the window, its curtains and a picture.
+/// Returns the wall with the window, its curtains and a picture.
 fn front(p: DVec3, d: DVec3, width: f64) -> RoomSurface {
     let at = DVec2::new(p.y, p.z - LOW.z);
     let mut surface = wall(at, -DVec3::X, width);

@@ -1,8 +1,8 @@
-//! The bodies of glass shapes in f32, before any shear: the twin of `math/implicit/body.rs` and `profile.rs`.
+//! The bodies of glass shapes in f32, before any shear. It is the twin of `math/implicit/body.rs` and `profile.rs`.
 //!
-//! Points are in the axes of the body: the first two span its outline, and the third is the axis along which the outline is
-//! drawn out. Bodies are symmetric: functions are computed for points that are folded, that is, mirrored to the positive
-//! side of each axis of symmetry.
+//! Points are in the axes of the body: the first two span its outline, and the third is the axis along which the
+//! outline is extruded. Bodies are symmetric, so functions are computed for folded points, which are mirrored to the
+//! positive side of each axis of symmetry.
 
 use super::super::lanes::{Lanes, Mask, Vectors};
 use crate::math::{ImplicitSurface, SurfaceParts};
@@ -14,7 +14,7 @@ pub(super) struct PacketBody {
     pub outline: PacketOutline,
     /// Half the length of the core along the axis.
     pub half: f32,
-    /// The radius of the ball.
+    /// The radius of the ball that rounds the edges.
     pub edge: f32,
 }
 
@@ -40,7 +40,7 @@ pub(super) enum PacketOutline {
 pub(super) struct PacketJet<S: Simd> {
     pub value: Lanes<S>,
     pub gradient: Vectors<S>,
-    /// The change of the gradient over the displacement that was given.
+    /// The change of the gradient over the given displacement.
     pub change: Vectors<S>,
     /// The radius of the ball, cylinder or torus that this piece of the surface belongs to.
     pub radius: Lanes<S>,
@@ -53,11 +53,11 @@ struct FlatJet<S: Simd> {
     change: [Lanes<S>; 2],
 }
 
-/// A least divisor, so that no direction is quite parallel to a plane.
+/// The least divisor, so that no direction is exactly parallel to a plane.
 const LEAST: f32 = 1e-20;
 
 impl PacketBody {
-    /// Takes over the body of a shape.
+    /// Converts the body of a shape to single precision.
     pub fn new(surface: &ImplicitSurface) -> Self {
         let SurfaceParts { corner, round, flank, half, edge, .. } = surface.parts();
         let length = |x: f64| (x * surface.reach()) as f32;
@@ -80,7 +80,7 @@ impl PacketBody {
         Vectors(if self.is_triangular() { [y, z, x] } else { [x, y, z] })
     }
 
-    /// Undoes [`own_axes`](Self::own_axes).
+    /// Returns a vector in the axes of the body in the shape's frame: the inverse of [`own_axes`](Self::own_axes).
     #[inline(always)]
     pub fn shape_axes<S: Simd>(&self, Vectors([a, b, c]): Vectors<S>) -> Vectors<S> {
         Vectors(if self.is_triangular() { [c, a, b] } else { [a, b, c] })
@@ -91,7 +91,7 @@ impl PacketBody {
         matches!(self.outline, PacketOutline::Triangle { .. })
     }
 
-    /// Returns a vector mirrored as a point is when it is folded; a second time undoes it.
+    /// Returns a vector, mirrored as its point is when that is folded; a second call undoes it.
     #[inline(always)]
     fn folded<S: Simd>(&self, v: Vectors<S>, point: Vectors<S>) -> Vectors<S> {
         let second = if self.is_triangular() { v[1] } else { v[1].turned_as(point[1]) };
@@ -100,7 +100,7 @@ impl PacketBody {
 
     /// Returns the distances at which a line enters and leaves the solid between the planes of the flat faces.
     ///
-    /// `lift` is how far the faces along the axis are moved outward.
+    /// `lift` is the distance by which the faces along the axis are moved outward.
     #[inline(always)]
     pub fn between<S: Simd>(&self, o: Vectors<S>, v: Vectors<S>, lift: f32) -> [Lanes<S>; 2] {
         let ends = slab(o[2], v[2], self.half + self.edge + lift);
@@ -121,7 +121,8 @@ impl PacketBody {
         }
     }
 
-    /// Returns the function at a point of the surface or outside, with the change of its gradient over a displacement.
+    /// Returns the function at a point on the surface or outside, with the change of its gradient over a
+    /// displacement.
     #[inline(always)]
     pub fn jet<S: Simd>(&self, p: Vectors<S>, by: Vectors<S>) -> PacketJet<S> {
         let jet = self.folded_jet(self.folded(p, p), self.folded(by, p));
@@ -137,7 +138,7 @@ impl PacketBody {
         };
         let FlatJet { value: level, gradient: [ga, gb], change: [ca, cb] } = outline;
         let end = p[2] - self.half;
-        // On a sharp edge only faces count.
+        // Where the edges are sharp, only the faces count.
         let is_edge = if self.edge > 0.0 { level.min(end).is_positive() } else { level.less(level) };
         let is_side = end.less(level);
 
@@ -196,7 +197,7 @@ impl PacketBody {
         };
         let from_corner = [p[0] - corner[0], p[1] - corner[1]];
         let up = from_corner[1] * normal[0] - from_corner[0] * normal[1];
-        // Beyond a flank's end the nearest point is a corner; elsewhere it lies on a side.
+        // Beyond an end of a flank the nearest point is a corner; elsewhere it lies on a side.
         let is_above = zero.all(flank).less(up);
         let is_beyond = is_above | (up.is_negative() & from_corner[0].is_positive());
         let is_corner: Mask<S> = if self.edge > 0.0 { is_beyond } else { zero.less(zero) };
@@ -216,7 +217,7 @@ impl PacketBody {
     }
 }
 
-/// Returns the distance from a point, for a point displaced from it by `away`.
+/// Returns the distance from a point, for a place displaced from that point by `away`.
 #[inline(always)]
 fn radial<S: Simd>(away: [Lanes<S>; 2], by: [Lanes<S>; 2]) -> FlatJet<S> {
     let value = (away[0] * away[0] + away[1] * away[1]).sqrt();
@@ -230,7 +231,7 @@ fn radial<S: Simd>(away: [Lanes<S>; 2], by: [Lanes<S>; 2]) -> FlatJet<S> {
     }
 }
 
-/// Returns where a line is within ±`half` of one coordinate.
+/// Returns the stretch of a line where one coordinate is within ±`half`.
 #[inline(always)]
 fn slab<S: Simd>(o: Lanes<S>, v: Lanes<S>, half: f32) -> [Lanes<S>; 2] {
     let per = o.all(1.0) / v.abs().max(o.all(LEAST)).turned_as(v);
@@ -238,7 +239,8 @@ fn slab<S: Simd>(o: Lanes<S>, v: Lanes<S>, half: f32) -> [Lanes<S>; 2] {
     [middle - room, middle + room]
 }
 
-/// Returns where a line is no farther along a normal than `offset`; `o` and `v` are its coordinates along the normal.
+/// Returns the stretch of a line that is no farther along a normal than `offset`; `o` and `v` are the line's
+/// coordinates along the normal.
 #[inline(always)]
 fn half_space<S: Simd>(o: Lanes<S>, v: Lanes<S>, offset: f32) -> [Lanes<S>; 2] {
     let at = (o.all(offset) - o) / v.abs().max(o.all(LEAST)).turned_as(v);

@@ -81,12 +81,12 @@ impl Ray {
     }
 }
 
-/// What packets are asked.
+/// The function of the surface that packets compute.
 #[derive(Clone, Copy, PartialEq)]
 enum Question {
     Entry,
     Exit,
-    /// The direction is the displacement.
+    /// The change of the normal; the direction is the displacement.
     Turned,
 }
 
@@ -195,7 +195,8 @@ fn inside(surface: &ImplicitSurface, count: usize, chance: &mut Chance) -> Vec<R
     found
 }
 
-/// How far packets are from f64: over all rays that meet the surface, the rest apart.
+/// The differences between packets and f64, over all rays that meet the surface; rays that differ in whether they
+/// meet it are counted separately.
 #[derive(Debug, Default)]
 struct Agreement {
     met: usize,
@@ -251,7 +252,7 @@ fn agreement(surface: &ImplicitSurface, question: Question, rays: &[Ray]) -> Agr
     sum
 }
 
-/// Whether a point is so near to a sharp edge that rounding may decide to which face it belongs.
+/// Returns whether a point is so near to a sharp edge that rounding may decide to which face it belongs.
 fn is_near_edge(surface: &ImplicitSurface, point: DVec3) -> bool {
     if surface.parts().edge > 0.0 {
         return false;

@@ -1,33 +1,33 @@
-//! The wave that a plate is sheared by, in f32: the twin of `math/implicit/wave.rs`.
+//! The wave by which a plate is sheared, in f32. It is the twin of `math/implicit/wave.rs`.
 
 use super::super::lanes::{Lanes, Vectors};
 use crate::math::ImplicitSurface;
 use pulp::Simd;
 use std::f32::consts::TAU;
 
-/// The height z = a sin(k x + phase) sin(k y + phase).
+/// A wave with the height z = a sin(k x + phase) sin(k y + phase).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PacketWave {
     pub amplitude: f32,
     /// The wave number k.
     number: f32,
-    /// Waves per unit of length.
+    /// The number of waves per unit of length.
     waves: f32,
-    /// The phase in turns.
+    /// The phase, in turns.
     phase: f32,
 }
 
 /// A wave at a point.
 pub(super) struct WavePoint<S: Simd> {
     pub height: Lanes<S>,
-    /// The slopes along x and along y.
+    /// The slopes of the wave along x and along y.
     pub rise: [Lanes<S>; 2],
-    /// The second derivatives: the one along x, which is that along y, and the mixed one.
+    /// The second derivatives: the pure one, which is the same along x and along y, and the mixed one.
     pub bend: [Lanes<S>; 2],
 }
 
 impl PacketWave {
-    /// Takes over the wave of a shape.
+    /// Converts the wave of a shape to single precision; `None` where the shape has none.
     pub fn new(surface: &ImplicitSurface) -> Option<Self> {
         let reach = surface.reach();
         let [amplitude, waves, phase] = surface.parts().wave?;
@@ -48,18 +48,18 @@ impl PacketWave {
         }
     }
 
-    /// Returns an upper bound for how fast the slope changes along any line of this direction.
+    /// Returns an upper bound for the rate of change of the slope along any line of this direction.
     #[inline(always)]
     pub fn most_bend<S: Simd>(&self, v: Vectors<S>) -> Lanes<S> {
         (v[0] * v[0] + v[1] * v[1]) * (self.amplitude * self.number * self.number)
     }
 }
 
-/// A sum with this number, from -2²² to 2²² beside it, has no digits after the point.
+/// The sum of this number and a number from -2²² to 2²² has no fractional digits.
 const WHOLE: f32 = 12_582_912.0;
 
-/// Returns the sine and the cosine of an angle in turns, each with an error below 3e-7 beside what the rounding of the angle
-/// brings.
+/// Returns the sine and the cosine of an angle in turns, each with an error below 3e-7, in addition to the rounding
+/// of the angle.
 #[inline(always)]
 pub(super) fn sin_cos<S: Simd>(turns: Lanes<S>) -> [Lanes<S>; 2] {
     let part = turns - ((turns + WHOLE) - WHOLE);
@@ -68,9 +68,9 @@ pub(super) fn sin_cos<S: Simd>(turns: Lanes<S>) -> [Lanes<S>; 2] {
     [quarter_sine(near).turned_as(part), quarter_sine(far.all(0.25) - far)]
 }
 
-/// Returns the sine of an angle in turns, from a quarter turn back to a quarter turn forth.
+/// Returns the sine of an angle in turns, from minus a quarter turn to a quarter turn.
 ///
-/// With the factor 2π in front, the polynomial's greatest error is the least for its degree: 7.6e-9.
+/// With the factor 2π in front, the greatest error of the polynomial is the least for its degree: 7.6e-9.
 #[inline(always)]
 fn quarter_sine<S: Simd>(turns: Lanes<S>) -> Lanes<S> {
     let z = turns * turns;

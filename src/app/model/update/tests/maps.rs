@@ -1,4 +1,5 @@
-//! Tests of the map of a measure and of the plot against tilt: what is ordered, and how the map moves the design.
+//! Tests of the map of a measure and of the plot against tilt: the sweeps that they request, and the moves of the
+//! design on the map.
 
 use super::*;
 use crate::app::model::measure_map::MapOptions;
@@ -10,7 +11,7 @@ use crate::measure::MeasureName;
 use crate::trace::{Stopped, unwatched};
 use std::sync::Arc;
 
-/// Returns the sweeps that are ordered now, by their numbers.
+/// Returns the numbers of the sweeps that are requested now.
 fn ordered(bench: &Bench) -> Vec<u64> {
     let mut waves = WaveCache::default();
     let mut orders = Orders { model: &bench.model, waves: &mut waves, paper: Paper::default() };
@@ -112,7 +113,7 @@ fn another_document_has_a_map_of_its_own_of_the_same_measure() {
     let cut = &bench.model.document.work.design.cut;
     assert!(options.axes.iter().all(|axis| axis.value(cut).is_some()), "{options:?}");
     assert_ne!(ordered(&bench), before);
-    // What is no convex stone is not mapped.
+    // A stone that is not convex has no map.
     bench.act(FileAction::Ask(Then::Library("pill".to_owned())));
     assert!(ordered(&bench).is_empty());
 }

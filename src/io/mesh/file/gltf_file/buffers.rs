@@ -69,7 +69,7 @@ pub(super) fn from_uri(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, Faul
         return STANDARD.decode(text).map_err(|error| Fault::whole(format!("this is not base64: {error}")));
     }
     let name = percent_encoding::percent_decode_str(uri).decode_utf8_lossy();
-    // Beside the file and nowhere else: a mesh from somewhere must not make the program read what it likes.
+    // Only files beside this one are read: an untrusted mesh must not make the program read others.
     let outside = name.contains(['/', '\\', ':', '\0']) || name == ".." || name == "." || name.is_empty();
     let Some(folder) = folder.filter(|_| !outside) else {
         return Err(format!("`{name}` is not a file beside this one; put it there, or embed it").into());

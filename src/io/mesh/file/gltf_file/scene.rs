@@ -14,7 +14,7 @@ use gltf::scene::Transform;
 use gltf::{Document, Material, Node, Primitive, Semantic};
 use std::collections::BTreeMap;
 
-/// How deep nodes may lie within one another; nodes that lie deeper are taken to contain themselves.
+/// The greatest depth of nodes within one another; deeper nodes are taken for a cycle.
 const MOST_NESTED: usize = 100;
 
 /// The most nodes that are visited; a node that is used twice counts twice.
@@ -184,12 +184,13 @@ fn text_of(extras: &gltf::json::Extras, key: &str) -> Option<String> {
     Some(extras.get(key)?.as_str()?.to_owned())
 }
 
-/// Returns the number that someone wrote: the shortest one that f32 rounds to this, without the digits that f32 adds.
+/// Returns the shortest number that f32 rounds to this one, without the digits that f32 adds: the one that someone
+/// wrote.
 fn as_written(number: f32) -> f64 {
     number.to_string().parse().unwrap_or_else(|_| number.into())
 }
 
-/// Returns what a material says of how light passes through it, if it says anything.
+/// Returns the statements of a material about the passage of light, if it has any.
 fn hint(material: &Material<'_>) -> Option<MaterialHint> {
     let dispersion = material.extension_value("KHR_materials_dispersion");
     let dispersion = dispersion.and_then(|value| value.get("dispersion")?.as_f64());

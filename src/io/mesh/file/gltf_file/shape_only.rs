@@ -1,9 +1,9 @@
-//! Reduces a glTF file to its shape, for files in which something else is broken.
+//! Reduces a glTF file to its shape, for files in which some other part is broken.
 
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
 
-/// The extensions of materials that say how light passes through them, with the keys of each that are read.
+/// The extensions of materials about the passage of light, with the keys of each that are read.
 const OF_MATERIALS: [(&str, &[&str]); 4] = [
     ("KHR_materials_ior", &["ior"]),
     ("KHR_materials_dispersion", &["dispersion"]),
@@ -11,8 +11,8 @@ const OF_MATERIALS: [(&str, &[&str]); 4] = [
     ("KHR_materials_volume", &["thicknessFactor", "attenuationDistance", "attenuationColor"]),
 ];
 
-/// Returns the JSON of a glTF file with nothing but its scenes, the positions of corners and the triangles, and what
-/// materials say of light if `keeps_materials` is set. `None` where the file is no JSON object.
+/// Returns the JSON of a glTF file with nothing but its scenes, the positions of corners and the triangles, and, if
+/// `keeps_materials` is set, the materials' statements about light. `None` where the file is no JSON object.
 pub(super) fn shape_alone(json: &[u8], keeps_materials: bool) -> Option<Vec<u8>> {
     let mut root: Value = serde_json::from_slice(json).ok()?;
     let root = root.as_object_mut()?;
@@ -61,7 +61,7 @@ fn keep(object: &mut Map<String, Value>, keys: &[&str]) {
     object.retain(|key, _| keys.contains(&key.as_str()));
 }
 
-/// Returns a material with only its name and what it says of light.
+/// Returns a material with only its name and its statements about light.
 fn of_light(material: &Value) -> Value {
     let mut extensions = Map::new();
     for (name, keys) in OF_MATERIALS {
@@ -88,7 +88,8 @@ fn view_of_accessor(accessor: &Value) -> Vec<u64> {
     index(accessor, "bufferView").into_iter().chain(sparse).collect()
 }
 
-/// Replaces all entries but the needed ones by `unused`, and returns what the needed ones need in turn.
+/// Replaces all entries except the needed ones by `unused`, and returns the entries that the needed ones need in
+/// turn.
 fn only(
     entries: &mut [Value],
     needed: &BTreeSet<u64>,

@@ -40,7 +40,7 @@ fn broken_textures_and_materials_are_a_warning_and_the_shape_is_read() {
     assert_eq!((whole.warnings.as_slice(), whole.surface.triangles.len()), ([].as_slice(), 4));
     let json = |text: &str| serde_json::from_str::<serde_json::Value>(text).unwrap();
     let faults = [
-        // Of each case: what is broken, its place, what stands there instead, and whether what is said of light survives.
+        // For each case: the broken part, its place, the replacement, and whether the statements about light survive.
         (
             "a texture that is not there",
             "/materials/0/pbrMetallicRoughness/baseColorTexture/index",

@@ -1,4 +1,4 @@
-//! Real meshes, where they are there, and large ones that the tests make.
+//! Tests of real meshes, where they are on the machine, and of large meshes that the tests make.
 
 use super::*;
 use crate::math::mending::tests::divided;
