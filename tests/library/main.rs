@@ -36,6 +36,7 @@ mod polytope;
 mod reference;
 mod refraction;
 mod searching;
+mod sharing;
 mod sheet;
 mod stones;
 mod tracers;
