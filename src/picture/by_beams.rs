@@ -1,21 +1,21 @@
 //! Pictures under light by exact beams. Every virtual facet is painted in the colour of the light that comes through it,
 //! so that edges are as smooth as a pixel's area and only the choice of wavelengths is sampled.
 
+mod patches;
+mod shared_picture;
+
+use self::patches::Patches;
+use self::shared_picture::SharedPicture;
 use super::raster::Rows;
-use super::strips::strips;
-use crate::math::{Basis, Polytope, centroid, span};
+use crate::math::{Basis, Polytope, Symmetry, centroid, span};
 use crate::optics::Stratum;
 use crate::scene::{Instance, Medium, View};
 use crate::trace::beam::{self, Beam, Beams};
 use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass, colour};
 use crate::trace::{Stopped, Watch};
-use glam::{DAffine2, DMat2, DVec2, DVec3, DVec4};
+use glam::{DAffine2, DMat2, DVec3, DVec4};
 use rayon::prelude::*;
 use std::ops::Range;
-
-/// Where absorption changes a beam's light by more than this part across its outline, the beam is painted in strips.
-/// This may be coarse: one beam is a part of a part of what a pixel shows, and a strip's mean is exact.
-const UNEVEN: f64 = 1.0 / 16.0;
 
 /// The number of rows painted as one piece of work.
 const PIECE: u32 = 16;
@@ -26,8 +26,8 @@ const MOST_BYTES: usize = 192 << 20;
 /// The number of beams whose colours are found as one piece of work.
 const AT_ONCE: usize = 512;
 
-/// A picture of one stone, or some rows of it, by exact beams.
-pub struct ByBeams<'a> {
+/// What is painted: one stone in its light.
+struct Subject<'a> {
     lit_scene: LitScene<'a>,
     instance: &'a Instance,
     stone: &'a Polytope,
@@ -36,6 +36,13 @@ pub struct ByBeams<'a> {
     /// The image's axes in the world.
     eye: Basis,
     options: beam::BeamOptions,
+}
+
+/// A picture of one stone, or some rows of it, by exact beams.
+pub struct ByBeams<'a> {
+    subject: Subject<'a>,
+    /// Whether each wavelength is traced on its own.
+    is_apart: bool,
     looks: u32,
     rows: Range<u32>,
     /// Colour and cover, piece by piece, not yet summed along the rows (see [`Rows::summed`]).
@@ -47,12 +54,63 @@ pub struct ByBeams<'a> {
     beside: DVec3,
 }
 
-/// Polygons in pixel coordinates, each of one colour.
-#[derive(Default)]
-struct Patches {
-    corners: Vec<DVec2>,
-    /// For each polygon its first corner, the one after its last, and its colour and cover.
-    patches: Vec<(u32, u32, DVec4)>,
+impl Subject<'_> {
+    /// Returns the polygons of one band's beams in their colours, in all copies of the symmetry.
+    fn patches(&self, beams: &Beams, look: &SamplePass, band: usize) -> Vec<Patches> {
+        let response = &look.responses[band];
+        self.patches_of(beams, band == 0, |beam, fan, copy| {
+            colour(response, self.arriving(beams, beam, (beam.exit, fan), copy))
+        })
+    }
+
+    /// Returns the polygons of all beams, in all copies of the symmetry, in the colour that `coloured` gives each. With
+    /// `is_first` they also carry the silhouette's cover.
+    fn patches_of(
+        &self,
+        beams: &Beams,
+        is_first: bool,
+        coloured: impl Fn(&Beam, DVec3, DMat2) -> DVec3 + Sync,
+    ) -> Vec<Patches> {
+        let fans = beams.exit_changes(self.stone);
+        let copies = self.copies(&beams.symmetry);
+        let ids: Vec<u32> = (0..beams.len() as u32).collect();
+        let some = |ids: &[u32]| {
+            let mut out = Patches::default();
+            for beam in
+                ids.iter().map(|&id| beams.get(id)).filter(|b| b.weight > 0.0 || (is_first && b.is_surface()))
+            {
+                let cover = f64::from(u8::from(is_first && beam.is_surface()));
+                for (copy, pixels) in &copies {
+                    let colour = coloured(&beam, fans[beam.id as usize], *copy);
+                    out.add(&beam, &beams.medium, pixels, colour.extend(cover));
+                }
+            }
+            out
+        };
+        ids.par_chunks(AT_ONCE).map(some).collect()
+    }
+
+    /// Returns the light that comes through a copy of a beam, by channel, as if nothing were absorbed.
+    fn arriving(&self, beams: &Beams, beam: &Beam, (exit, fan): (DVec3, DVec3), copy: DMat2) -> DVec4 {
+        let turned = |v: DVec3| self.in_world(&beams.view, copy, v);
+        let weight = beam.weight / beam.transmittance;
+        self.lit_scene.environment.radiance(DVec3::ZERO, turned(exit), turned(fan)) * weight
+    }
+
+    /// Returns a vector in the world that lies in a copy of the body's frame; `own` are the image's axes in that frame.
+    fn in_world(&self, own: &Basis, copy: DMat2, v: DVec3) -> DVec3 {
+        // From the frame of the body into the image, and from there into the world.
+        self.eye.lift(copy * own.project(v)) + self.eye.toward * own.toward.dot(v)
+    }
+
+    /// Returns the copies of a symmetry, each with the map from the body's image to pixels.
+    fn copies(&self, symmetry: &Symmetry) -> Vec<(DMat2, DAffine2)> {
+        let pose = &self.instance.pose;
+        let pixels = self.lit_scene.film.pixels_from_image(DMat2::IDENTITY);
+        let middle = pixels.transform_point2(self.eye.project(pose.at));
+        let copy = |c: DMat2| (c, DAffine2::from_mat2_translation(pixels.matrix2 * c * pose.scale, middle));
+        symmetry.copies().into_iter().map(copy).collect()
+    }
 }
 
 impl<'a> ByBeams<'a> {
@@ -85,13 +143,11 @@ impl<'a> ByBeams<'a> {
         let piece = |first: u32| Rows::new(first, PIECE.min(rows.end - first), across, 1);
         let pieces = rows.clone().step_by(PIECE as usize).map(piece).collect();
         let stone = &instance.body.stone().ok()?.polytope;
+        let view = lit_scene.view.of_turned(instance.pose.turn);
+        let subject = Subject { lit_scene, instance, stone, view, eye: lit_scene.view.basis(), options };
         Some(Self {
-            lit_scene,
-            instance,
-            stone,
-            view: lit_scene.view.of_turned(instance.pose.turn),
-            eye: lit_scene.view.basis(),
-            options,
+            subject,
+            is_apart: false,
             looks: 0,
             rows,
             pieces,
@@ -99,6 +155,12 @@ impl<'a> ByBeams<'a> {
             absorbed: 0.0,
             beside: DVec3::ZERO,
         })
+    }
+
+    /// Returns a picture in which no wavelengths share beams. It is exact in what shared beams approximate, and takes many times
+    /// as long.
+    pub fn apart(self) -> Self {
+        Self { is_apart: true, ..self }
     }
 
     /// Adds a sample pass over all wavelengths from the beams of the middle one alone. It is quick, for a picture that
@@ -112,28 +174,29 @@ impl<'a> ByBeams<'a> {
     pub fn glance(&mut self, strata: &[Stratum], watch: Watch) -> Result<(), Stopped> {
         let (Some(first), Some(last)) = (strata.first(), strata.last()) else { return Ok(()) };
         let middle = strata[strata.len() / 2].at(0.5);
-        let medium = |nm| self.lit_scene.scene.medium(self.instance, nm);
+        let subject = &self.subject;
+        let medium = |nm| subject.lit_scene.scene.medium(subject.instance, nm);
         let whole = medium((first.from_nm, middle, last.to_nm));
         let clear = Medium { absorption: [0.0; 2], ..whole };
-        let beams = beam::trace(self.stone, clear, &self.view, &self.options, watch)?;
+        let beams = beam::trace(subject.stone, clear, &subject.view, &subject.options, watch)?;
         let band = |s: &Stratum| {
             let own = medium((s.from_nm, s.at(0.5), s.to_nm));
-            Band::new(s, own, self.instance.material.index(middle), whole.spread)
+            Band::new(s, own, subject.instance.material.index(middle), whole.spread)
         };
         let bands: Vec<Band> = strata.iter().map(band).collect();
         let whole = [0, 1, 2, 3].map(|channel| strata.iter().map(|s| s.response[channel]).sum());
-        self.see_beside(&whole);
-        let found = self.patches_of(&beams, true, |beam, fan, copy| {
+        let found = subject.patches_of(&beams, true, |beam, fan, copy| {
             let path = beam.path.at(centroid(beam.outline));
             bands
                 .iter()
                 .map(|band| {
                     let toward = (beam.exit + fan * band.off, fan * band.part);
-                    let light = self.arriving(&beams, beam, toward, copy) * band.left(path);
+                    let light = subject.arriving(&beams, beam, toward, copy) * band.left(path);
                     colour(&band.response, light)
                 })
                 .sum()
         });
+        self.see_beside(&whole);
         self.paint(&found);
         let absorbed = |beam: &Beam| {
             let path = beam.path.at(centroid(beam.outline));
@@ -149,86 +212,42 @@ impl<'a> ByBeams<'a> {
     /// Adds the light that parallel rays see beside the stone, where the environment is the backdrop; `whole` is the response
     /// of all strata.
     fn see_beside(&mut self, whole: &[DVec3; 4]) {
-        if self.lit_scene.environment.backdrop {
-            let light = self.lit_scene.environment.radiance(DVec3::ZERO, -self.eye.toward, DVec3::ZERO);
+        let Subject { lit_scene, eye, .. } = &self.subject;
+        if lit_scene.environment.backdrop {
+            let light = lit_scene.environment.radiance(DVec3::ZERO, -eye.toward, DVec3::ZERO);
             self.beside += colour(whole, light);
         }
     }
 
-    /// Returns the polygons of one band's beams in their colours, in all copies of the symmetry.
-    fn patches(&self, beams: &Beams, look: &SamplePass, band: usize) -> Vec<Patches> {
-        let response = &look.responses[band];
-        self.patches_of(beams, band == 0, |beam, fan, copy| {
-            colour(response, self.arriving(beams, beam, (beam.exit, fan), copy))
-        })
-    }
-
-    /// Returns the polygons of all beams, in all copies of the symmetry, in the colour that `coloured` gives each. With
-    /// `is_first` they also carry the silhouette's cover.
-    fn patches_of(
-        &self,
-        beams: &Beams,
-        is_first: bool,
-        coloured: impl Fn(&Beam, DVec3, DMat2) -> DVec3 + Sync,
-    ) -> Vec<Patches> {
-        let fans = beams.exit_changes(self.stone);
-        let pose = &self.instance.pose;
-        let pixels = self.lit_scene.film.pixels_from_image(DMat2::IDENTITY);
-        let middle = pixels.transform_point2(self.eye.project(pose.at));
-        let copy = |c: DMat2| (c, DAffine2::from_mat2_translation(pixels.matrix2 * c * pose.scale, middle));
-        let copies: Vec<(DMat2, DAffine2)> = beams.symmetry.copies().into_iter().map(copy).collect();
-        let ids: Vec<u32> = (0..beams.len() as u32).collect();
-        let some = |ids: &[u32]| {
-            let mut out = Patches::default();
-            for beam in
-                ids.iter().map(|&id| beams.get(id)).filter(|b| b.weight > 0.0 || (is_first && b.is_surface()))
-            {
-                let cover = f64::from(u8::from(is_first && beam.is_surface()));
-                for (copy, pixels) in &copies {
-                    let colour = coloured(&beam, fans[beam.id as usize], *copy);
-                    out.add(&beam, &beams.medium, pixels, colour.extend(cover));
-                }
-            }
-            out
-        };
-        ids.par_chunks(AT_ONCE).map(some).collect()
-    }
-
-    /// Returns the light that comes through a copy of a beam, by channel, as if nothing were absorbed.
-    fn arriving(&self, beams: &Beams, beam: &Beam, (exit, fan): (DVec3, DVec3), copy: DMat2) -> DVec4 {
-        // From the frame of the body into the image, and from there into the world.
-        let (own, eye) = (&beams.view, &self.eye);
-        let turned = |v: DVec3| eye.lift(copy * own.project(v)) + eye.toward * own.toward.dot(v);
-        let weight = beam.weight / beam.transmittance;
-        self.lit_scene.environment.radiance(DVec3::ZERO, turned(exit), turned(fan)) * weight
-    }
-
     fn paint(&mut self, found: &[Patches]) {
-        let count = self.pieces.len();
-        let (top, bottom) = (f64::from(self.rows.start), f64::from(self.rows.end));
-        // For each piece of rows, the patches that touch it, by (list, place).
-        let mut touching: Vec<Vec<(u32, u32)>> = vec![vec![]; count];
-        for (list, patches) in found.iter().enumerate() {
-            for (place, &(start, end, _)) in patches.patches.iter().enumerate() {
-                let heights = patches.corners[start as usize..end as usize].iter().map(|c| c.y);
-                let (low, high) = span(heights);
-                if high <= top || low >= bottom {
-                    continue;
-                }
-                let piece = |y: f64| (((y - top) / f64::from(PIECE)) as usize).min(count - 1);
-                touching[piece(low)..=piece(high)]
-                    .iter_mut()
-                    .for_each(|t| t.push((list as u32, place as u32)));
-            }
-        }
-        self.pieces.par_iter_mut().zip(&touching).for_each(|(rows, touching)| {
-            for &(list, place) in touching {
-                let Patches { corners, patches } = &found[list as usize];
-                let (start, end, colour) = patches[place as usize];
-                rows.add(&corners[start as usize..end as usize], 0, colour);
-            }
-        });
+        paint(&mut self.pieces, &self.rows, found);
     }
+}
+
+/// Paints lists of patches, one after the other, onto the pieces of some rows.
+fn paint(pieces: &mut [Rows<DVec4>], rows: &Range<u32>, found: &[Patches]) {
+    let count = pieces.len();
+    let (top, bottom) = (f64::from(rows.start), f64::from(rows.end));
+    // For each piece of rows, the patches that touch it, by (list, place).
+    let mut touching: Vec<Vec<(u32, u32)>> = vec![vec![]; count];
+    for (list, patches) in found.iter().enumerate() {
+        for (place, &(start, end, _)) in patches.patches.iter().enumerate() {
+            let heights = patches.corners[start as usize..end as usize].iter().map(|c| c.y);
+            let (low, high) = span(heights);
+            if high <= top || low >= bottom {
+                continue;
+            }
+            let piece = |y: f64| (((y - top) / f64::from(PIECE)) as usize).min(count - 1);
+            touching[piece(low)..=piece(high)].iter_mut().for_each(|t| t.push((list as u32, place as u32)));
+        }
+    }
+    pieces.par_iter_mut().zip(&touching).for_each(|(rows, touching)| {
+        for &(list, place) in touching {
+            let Patches { corners, patches } = &found[list as usize];
+            let (start, end, colour) = patches[place as usize];
+            rows.add(&corners[start as usize..end as usize], 0, colour);
+        }
+    });
 }
 
 /// Returns the share of the silhouette's light that a unit of area stands for, in all copies of the symmetry.
@@ -263,38 +282,51 @@ impl Band {
     }
 }
 
-impl Patches {
-    fn add(&mut self, beam: &Beam, medium: &Medium, pixels: &DAffine2, colour: DVec4) {
-        if colour == DVec4::ZERO {
-            return;
-        }
-        let mut put = |part: &[DVec2], left: f64| {
-            let start = self.corners.len() as u32;
-            self.corners.extend(part.iter().map(|&p| pixels.transform_point2(p)));
-            let left = DVec4::new(left, left, left, 1.0);
-            self.patches.push((start, self.corners.len() as u32, colour * left));
-        };
-        if beam.is_surface() {
-            return put(beam.outline, 1.0);
-        }
-        strips(beam.outline, beam.path, medium, UNEVEN, put);
+impl ByBeams<'_> {
+    /// Adds sample passes whose wavelengths share beams.
+    fn add_shared(&mut self, passes: &[SamplePass], watch: Watch) -> Result<(), Stopped> {
+        passes.iter().for_each(|pass| self.see_beside(&pass.whole));
+        let Self { subject, rows, pieces, .. } = self;
+        let picture = SharedPicture::new(subject, passes);
+        let lost = picture.trace(|patches| paint(pieces, rows, patches), watch)?;
+        self.unresolved += lost.unresolved;
+        self.absorbed += lost.absorbed;
+        self.looks += passes.len() as u32;
+        Ok(())
     }
-}
 
-impl<E: From<Stopped>> ProgressiveImage<E> for ByBeams<'_> {
-    fn add_pass(&mut self, look: &SamplePass, watch: Watch) -> Result<(), E> {
+    /// Adds a sample pass, wavelength by wavelength.
+    fn add_apart(&mut self, look: &SamplePass, watch: Watch) -> Result<(), Stopped> {
         let bands = look.responses.len();
         self.see_beside(&look.whole);
         for (band, &medium) in look.media[0].iter().enumerate() {
             let done = |part: f64| watch((band as f64 + part) / bands as f64);
-            let beams = beam::trace(self.stone, medium, &self.view, &self.options, &done)?;
-            let found = self.patches(&beams, look, band);
+            let subject = &self.subject;
+            let beams = beam::trace(subject.stone, medium, &subject.view, &subject.options, &done)?;
+            let found = subject.patches(&beams, look, band);
             self.paint(&found);
             self.unresolved += beams.unresolved() / bands as f64;
             let whole = share_of_area(&beams) / bands as f64;
             self.absorbed += beams.iter().map(|b| b.absorbed).sum::<f64>() * whole;
         }
         self.looks += 1;
+        Ok(())
+    }
+}
+
+impl<E: From<Stopped>> ProgressiveImage<E> for ByBeams<'_> {
+    fn add_pass(&mut self, pass: &SamplePass, watch: Watch) -> Result<(), E> {
+        self.add_passes(std::slice::from_ref(pass), watch)
+    }
+
+    fn add_passes(&mut self, passes: &[SamplePass], watch: Watch) -> Result<(), E> {
+        if !self.is_apart {
+            return Ok(self.add_shared(passes, watch)?);
+        }
+        let all = passes.len() as f64;
+        for (number, pass) in passes.iter().enumerate() {
+            self.add_apart(pass, &|part| watch((number as f64 + part) / all))?;
+        }
         Ok(())
     }
 
@@ -305,7 +337,7 @@ impl<E: From<Stopped>> ProgressiveImage<E> for ByBeams<'_> {
             let rows = piece.clone().summed();
             for v in (rows.first..rows.first + rows.count).flat_map(|y| rows.row(y, 0)) {
                 let cover = v.w * share;
-                let is_whole = self.lit_scene.environment.backdrop;
+                let is_whole = self.subject.lit_scene.environment.backdrop;
                 each(&RadiancePixel {
                     colour: (v.truncate() + self.beside * (1.0 - cover)) * share,
                     cover: if is_whole { 1.0 } else { cover },

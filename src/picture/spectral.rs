@@ -2,7 +2,7 @@
 
 use super::Linear;
 use crate::optics::Strata;
-use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, Sampling};
+use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass, Sampling};
 use crate::trace::{Stopped, Watch};
 use std::ops::Range;
 
@@ -48,14 +48,12 @@ pub fn expose_rows<E: From<Stopped>, X: ProgressiveImage<E>>(
     for first in (0..height).step_by(most_rows as usize) {
         let rows = first..(first + most_rows).min(height);
         let mut exposure = prepare(rows.clone())?;
-        for number in 0..sampling.count {
-            let done = |part: f64| {
-                let rows_done = f64::from(rows.start)
-                    + rows.len() as f64 * (f64::from(number) + part) / f64::from(sampling.count);
-                watch(rows_done / f64::from(height))
-            };
-            exposure.add_pass(&sampling.pass(lit_scene.scene, strata, number), &done)?;
-        }
+        let passes: Vec<SamplePass> =
+            (0..sampling.count).map(|number| sampling.pass(lit_scene.scene, strata, number)).collect();
+        let done = |part: f64| {
+            watch((f64::from(rows.start) + rows.len() as f64 * part) / f64::from(height))
+        };
+        exposure.add_passes(&passes, &done)?;
         sum.add(&exposure)?;
     }
     Ok(sum.remainder())

@@ -11,9 +11,9 @@ use crate::trace::Watch;
 #[cfg(feature = "gpu")]
 use crate::trace::gpu::{ByCard, Gpu, GpuEnvironment, GpuError};
 use crate::trace::ray::ByRays;
-use crate::trace::sampling::{LitScene, ProgressiveImage, Sampling};
 #[cfg(feature = "gpu")]
-use crate::trace::sampling::{RadiancePixel, SamplePass};
+use crate::trace::sampling::RadiancePixel;
+use crate::trace::sampling::{LitScene, ProgressiveImage, SamplePass, Sampling};
 use std::ops::Range;
 
 /// The share of a ray's light below which Russian roulette decides whether the ray goes on, in a picture of one pass:
@@ -129,13 +129,20 @@ impl Exposure<'_> {
     ) -> Result<(Linear, Remainder), Halt<E>> {
         let count = self.sampling.count;
         let mut last = (Linear { width: 0, height: 0, pixels: vec![] }, Remainder::default());
-        for number in 0..count {
-            let done = |part: f64| (self.watch)((f64::from(number) + part) / f64::from(count));
-            let pass = self.sampling.pass(self.lit_scene.scene, &self.strata, first.wrapping_add(number));
-            image.add_pass(&pass, &done)?;
-            let taken = number + 1;
+        let mut taken = 0;
+        while taken < count {
+            // The picture is shown after 1, 2, 4, 8 and so on passes; those between are taken together.
+            let next = (2 * taken).clamp(1, count);
+            let done =
+                |part: f64| (self.watch)((f64::from(taken) + f64::from(next - taken) * part) / f64::from(count));
+            let pass = |number: u32| {
+                self.sampling.pass(self.lit_scene.scene, &self.strata, first.wrapping_add(number))
+            };
+            let passes: Vec<SamplePass> = (taken..next).map(pass).collect();
+            image.add_passes(&passes, &done)?;
+            taken = next;
             let is_white = self.strata.is_white_after(taken);
-            if taken == count || taken > hidden && taken.is_power_of_two() && is_white {
+            if taken == count || taken > hidden && is_white {
                 last = seen(&self.lit_scene, &image)?;
                 let (picture, rest) = (&last.0, last.1);
                 each(Partial::Picture { picture, rest, backend }).map_err(Halt::Each)?;

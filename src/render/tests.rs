@@ -317,14 +317,22 @@ fn a_picture_in_strips_is_the_last_of_those_that_grow_clearer() {
         assert_eq!(count, shown);
         let grown = grown.unwrap().light().unwrap().0;
         assert_eq!(last.as_ref(), Some(&grown));
-        assert_eq!(grown, lit(&taken(Steps::Strips)));
+        assert_alike(&grown, &lit(&taken(Steps::Strips)));
     }
+}
+
+/// Passes that share beams are taken together in other groups where a picture grows.
+fn assert_alike(a: &Linear, b: &Linear) {
+    assert_eq!((a.width, a.height), (b.width, b.height));
+    let apart = |(a, b): (&[f32; 4], &[f32; 4])| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+    let most = a.pixels.iter().zip(&b.pixels).map(apart).fold(0.0, f32::max);
+    assert!(most < 2e-3, "pixels differ by {most}");
 }
 
 #[test]
 fn the_last_pass_is_shown_even_where_all_are_hidden() {
     let hidden = job(alone(), light(Steps::Passes { first: 0, hidden: 9 }));
-    assert_eq!(lit(&hidden), lit(&job(alone(), light(Steps::Strips))));
+    assert_alike(&lit(&hidden), &lit(&job(alone(), light(Steps::Strips))));
 }
 
 #[test]

@@ -263,6 +263,20 @@ impl Environment<'_> {
         self.radiance_around(&DispersedRay { origin: from, direction, fan, shift: DVec3::ZERO }, 0.0)
     }
 
+    /// Returns whether light along a fan of directions may come from a lamp, if the fan is bent by this part of its length.
+    pub fn may_see_lamp(&self, direction: DVec3, fan: DVec3, bend: f64) -> bool {
+        let own =
+            |v: DVec3| DVec3::new(self.basis.right.dot(v), self.basis.up.dot(v), self.basis.toward.dot(v));
+        let (d, s, margin) = (own(direction), own(fan), bend * fan.length());
+        let near = |l: &Disc| {
+            let wider = (l.chord_squared.sqrt() + margin).powi(2);
+            let from = d - l.toward;
+            let along = if s == DVec3::ZERO { 0.0 } else { from.dot(s) / s.length_squared() };
+            (from - s * along.clamp(-0.5, 0.5)).length_squared() < wider
+        };
+        self.map.lamps.iter().any(near)
+    }
+
     /// Returns the radiance as [`radiance`](Self::radiance) does, for a ray that may also represent a square of
     /// directions, with the side `spread` in radians. The light is averaged over the fan or the square, whichever is
     /// wider; a photograph is averaged only along the fan and the shift.

@@ -13,6 +13,7 @@ pub mod places;
 pub mod ray;
 pub mod sampling;
 mod scope_shot;
+pub mod shared_tail;
 pub mod tail;
 
 pub use dispersed_ray::DispersedRay;

@@ -99,6 +99,18 @@ pub trait ProgressiveImage<E: From<Stopped>> {
     /// Fails with [`Stopped`] when `watch` stops the work, or with the error of a graphics card.
     fn add_pass(&mut self, pass: &SamplePass, watch: Watch) -> Result<(), E>;
 
+    /// Adds several sample passes. Some tracers do what they have in common once.
+    ///
+    /// # Errors
+    /// Those of [`add_pass`](Self::add_pass).
+    fn add_passes(&mut self, passes: &[SamplePass], watch: Watch) -> Result<(), E> {
+        let all = passes.len() as f64;
+        for (number, pass) in passes.iter().enumerate() {
+            self.add_pass(pass, &|part| watch((number as f64 + part) / all))?;
+        }
+        Ok(())
+    }
+
     /// Calls `each` with the means of all sample passes so far, pixel by pixel.
     ///
     /// # Errors

@@ -12,7 +12,7 @@ use crate::scene::Scope;
 use glam::{DVec2, DVec3};
 
 /// The share of a ray's light below which the ray goes on by chance alone, by Russian roulette.
-const ROULETTE: f64 = 0.15;
+pub(super) const ROULETTE: f64 = 0.15;
 
 /// The share of the rays that are spread over the light. The others are spread over the area whose strongest exit is
 /// undecided, of which little light may be left.

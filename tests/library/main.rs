@@ -37,6 +37,7 @@ mod polytope;
 mod reference;
 mod refraction;
 mod searching;
+mod sharing;
 mod sheet;
 mod stones;
 mod tracers;

@@ -17,6 +17,9 @@ pub(in crate::trace) struct Coherency {
 }
 
 impl Coherency {
+    /// No light.
+    pub const NONE: Self = Self { ss: 0.0, pp: 0.0, re: 0.0, im: 0.0 };
+
     /// Returns unpolarised light of weight 1 after it has entered through a surface, and the weight that the surface
     /// reflects (its glare).
     pub fn entered(fresnel: &Fresnel) -> (Self, f64) {

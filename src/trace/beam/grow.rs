@@ -40,7 +40,7 @@ impl Default for BeamOptions {
 }
 
 /// The most reflections of a beam: after these it is given up, as total reflection can catch light for ever.
-const MOST_BOUNCES: u32 = 1000;
+pub(super) const MOST_BOUNCES: u32 = 1000;
 
 /// Beams followed as one piece of work. It does not depend on the number of cores, as the result must not.
 const PIECE: usize = 128;
@@ -87,6 +87,24 @@ pub fn trace(
         tracer.beams.nodes[front.node].open = true;
     }
     Ok(tracer.beams)
+}
+
+/// Returns the energy down to which beams have to be followed for what `options` ask for: the last level above which no more
+/// than `most_beams` are followed.
+///
+/// # Errors
+/// [`Stopped`] when `watch` asks to stop.
+pub(super) fn level_for(
+    polytope: &Polytope,
+    medium: Medium,
+    view: &View,
+    options: &BeamOptions,
+    watch: Watch,
+) -> Result<f64, Stopped> {
+    let facets = Facets::new(polytope);
+    let mut tracer = Tracer::new(polytope, &facets, medium, view, options);
+    tracer.run(options, None, watch)?;
+    Ok(tracer.level)
 }
 
 /// Follows all light for this many reflections, however weak it is, so that stones that differ a little have the same beams.
@@ -165,6 +183,8 @@ struct Tracer<'a> {
     fronts: Vec<Front>,
     /// The number of beams that were made, whether they are still kept or not.
     made: usize,
+    /// The energy above which all beams have been followed.
+    level: f64,
     /// Adds the beams up, where they need not be kept.
     adder: Option<&'a mut BeamAdder>,
     /// Each follows one piece of work at a time.
@@ -196,7 +216,16 @@ impl<'a> Tracer<'a> {
             losses: Blocks::default(),
         };
         let mut tracer =
-            Self { polytope, facets, beams, fronts: vec![], made: 0, adder: None, followers: vec![] };
+            Self {
+                polytope,
+                facets,
+                beams,
+                fronts: vec![],
+                made: 0,
+                level: f64::INFINITY,
+                adder: None,
+                followers: vec![],
+            };
         tracer.enter();
         tracer
     }
@@ -286,6 +315,9 @@ impl<'a> Tracer<'a> {
                 false => next_level(level, left, &mut before, goal),
             };
             self.follow_above(level, options.most_beams, &|| watch(done))?;
+            if self.made <= options.most_beams {
+                self.level = level;
+            }
         }
         Ok(())
     }

@@ -15,6 +15,7 @@ mod exit_change;
 mod fan;
 mod follow;
 mod grow;
+mod shared;
 mod split;
 mod sums;
 mod tree;
@@ -26,5 +27,8 @@ pub(in crate::trace) use follow::{Flight, Front};
 #[cfg(test)]
 pub(crate) use grow::trace_bounces;
 pub use grow::{BeamOptions, SumOptions, SummedBeams, sum_up, trace};
+pub use shared::{
+    BeamEnd, Entry, Inside, MovingCorner, SharedBeam, SharedBeams, SharedExit, SharedView, SharingOptions, Slant, trace_shared,
+};
 pub use sums::BeamSums;
 pub use tree::{Beam, Beams};

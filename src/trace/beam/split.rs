@@ -12,10 +12,10 @@ pub(super) const GRAZING: f64 = 1e-12;
 pub(super) const SAME: f64 = 2e-14;
 
 /// The share of a beam's outline that may land nowhere: slivers are less. Where more is missing, all facets are tried.
-const MISSED: f64 = 1e-10;
+pub(super) const MISSED: f64 = 1e-10;
 
 /// The number that stands for no facet.
-const NONE: u32 = u32::MAX;
+pub(super) const NO_FACET: u32 = u32::MAX;
 
 /// A beam on its way from a facet: where the ray of each image point starts, and the one direction of all its rays.
 #[derive(Debug, Clone, Copy)]
@@ -73,11 +73,11 @@ pub(super) struct Landing<'a> {
 
 /// The facets of one polytope, ready to be looked up.
 pub(super) struct Facets<'a> {
-    polytope: &'a Polytope,
-    guess: FacetGuess,
-    around: FacetNeighbours,
+    pub polytope: &'a Polytope,
+    pub guess: FacetGuess,
+    pub around: FacetNeighbours,
     /// Half the extent of the largest image of the stone.
-    extent: f64,
+    pub extent: f64,
 }
 
 impl<'a> Facets<'a> {
@@ -186,7 +186,7 @@ impl<'a> Splitter<'a> {
                 continue;
             }
             for &beyond in &self.outline.beyond {
-                if beyond != NONE && self.visited[beyond as usize] != self.beam {
+                if beyond != NO_FACET && self.visited[beyond as usize] != self.beam {
                     self.visited[beyond as usize] = self.beam;
                     self.queue.push(beyond);
                 }
@@ -203,7 +203,7 @@ impl<'a> Splitter<'a> {
     fn cell(&mut self, ray: &Ray, outline: &[DVec2], facet: u32) -> bool {
         self.outline.clear();
         self.outline.at.extend_from_slice(outline);
-        self.outline.beyond.resize(outline.len(), NONE);
+        self.outline.beyond.resize(outline.len(), NO_FACET);
         let polytope = self.facets.polytope;
         let here = self.distance[facet as usize];
         for &neighbour in &polytope.facets()[facet as usize].neighbours {

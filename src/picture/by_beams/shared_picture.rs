@@ -1,0 +1,410 @@
+//! Paints beams that several wavelengths share.
+//!
+//! A beam is painted as seldom as its drift over the group and the strength of its light allow, each time where a part of the
+//! group sees it, in the colour of all light of that part. Light is looked up as seldom as its weight allows, along the fan of
+//! all wavelengths that share the look-up; where a lamp may come into that fan, each wavelength looks for itself.
+
+use super::Subject;
+use super::patches::{Patches, UNEVEN};
+use crate::math::random_bits::{GAMMA, mixed, unit};
+use crate::math::{Affine, area};
+use crate::picture::strips::strips;
+use crate::scene::Medium;
+use crate::trace::beam::{
+    self, BeamEnd, Inside, SharedBeam, SharedBeams, SharedExit, SharedView, SharingOptions,
+};
+use crate::trace::sampling::{SamplePass, colour};
+use crate::trace::shared_tail::SharedTail;
+use crate::trace::{DispersedRay, Stopped, Watch};
+use glam::{DAffine2, DMat2, DVec2, DVec3, DVec4};
+use std::ops::Range;
+
+/// The most by which sharing one beam may change a pixel, as a part of what light of radiance 1 gives.
+const MOST_CHANGE: f64 = 1e-3;
+
+/// The most by which painting a beam for several wavelengths at once may change a pixel at its edge.
+const MOST_AT_EDGE: f64 = 5e-4;
+
+/// The greatest weight, times the part of all wavelengths, of light that is looked up at once where no lamp is near.
+const MOST_AT_ONCE: f64 = 2e-3;
+
+/// The part of all wavelengths whose beams are followed as far as those of a single one would be.
+const USUAL_PART: f64 = 1.0 / 32.0;
+
+/// The light for which one ray estimates where it goes, as a part of what light of radiance 1 gives in a pixel.
+const LEFT_AT_ONCE: f64 = 0.05;
+
+/// The most ends of beams that are estimated together.
+const MOST_ENDS: usize = 64;
+
+/// The side, in radians, of the square of directions over which the light of such a ray is averaged. Light that has gone so far
+/// comes from all sides.
+const SPREAD_OF_TAIL: f64 = 0.3;
+
+/// By how much of its length a fan of several wavelengths may miss a lamp that they see.
+const BEND: f64 = 0.1;
+
+/// A picture of wavelengths that share beams.
+pub(super) struct SharedPicture<'a> {
+    subject: &'a Subject<'a>,
+    /// The media, in the order of their indices.
+    media: Vec<Medium>,
+    /// The response of all media before each, and of all.
+    responses: Vec<[DVec3; 4]>,
+    /// The number of sample passes.
+    passes: f64,
+    is_clear: bool,
+    tail: SharedTail,
+    /// The area of a pixel in the body's frame.
+    pixel: f64,
+    /// The energy of all wavelengths for which one ray estimates where it goes.
+    left_at_once: f64,
+}
+
+/// The light that a picture does not show, as parts of the silhouette's light, summed over passes.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Lost {
+    pub unresolved: f64,
+    pub absorbed: f64,
+}
+
+/// What one piece of work has painted.
+struct PaintedPiece<'a> {
+    picture: &'a SharedPicture<'a>,
+    view: SharedView,
+    copies: Vec<(DMat2, DAffine2)>,
+    patches: Patches,
+    /// As energies of one domain of the symmetry, summed over wavelengths.
+    lost: Lost,
+    seen: Vec<SeenLight>,
+    polygon: Vec<DVec2>,
+    /// Ends of beams that are neighbours in the tree, and the energy of all their wavelengths.
+    ends: Vec<BeamEnd>,
+    left: f64,
+}
+
+/// Light that was looked up at once for some wavelengths of a beam, by channel.
+struct SeenLight {
+    waves: Range<usize>,
+    light: DVec4,
+}
+
+impl<'a> SharedPicture<'a> {
+    pub fn new(subject: &'a Subject<'a>, passes: &[SamplePass]) -> Self {
+        let bands = passes.iter().flat_map(|pass| pass.media[0].iter().zip(&pass.responses));
+        let mut waves: Vec<(Medium, [DVec3; 4])> =
+            bands.map(|(m, r)| (*m, *r)).collect();
+        // From short wavelengths to long, so that fans that follow one another lie one behind the other.
+        waves.sort_by(|a, b| b.0.index.total_cmp(&a.0.index));
+        waves.dedup_by(|next, kept| {
+            let is_same = next.0 == kept.0;
+            if is_same {
+                kept.1 = std::array::from_fn(|k| kept.1[k] + next.1[k]);
+            }
+            is_same
+        });
+        let mut responses = vec![[DVec3::ZERO; 4]];
+        for (_, response) in &waves {
+            let before = responses[responses.len() - 1];
+            responses.push(std::array::from_fn(|k| before[k] + response[k]));
+        }
+        let media: Vec<Medium> = waves.iter().map(|wave| wave.0).collect();
+        let is_clear = media.iter().all(Medium::is_clear);
+        let pixel = (subject.lit_scene.film.pixel / subject.instance.pose.scale).powi(2);
+        let left_at_once = LEFT_AT_ONCE * pixel * media.len() as f64;
+        let tail = SharedTail::new(subject.stone, subject.options.polarised);
+        Self { subject, media, responses, passes: passes.len() as f64, is_clear, tail, pixel, left_at_once }
+    }
+
+    /// Traces the beams and hands on their patches, in order. Returns the light that is not shown.
+    pub fn trace(&self, mut hand_on: impl FnMut(&[Patches]), watch: Watch) -> Result<Lost, Stopped> {
+        let subject = self.subject;
+        let options = SharingOptions {
+            beams: subject.options,
+            most_change: MOST_CHANGE,
+            pixel: self.pixel,
+            usual_part: USUAL_PART,
+        };
+        let prepare = |view: &SharedView| PaintedPiece {
+            picture: self,
+            view: view.clone(),
+            copies: subject.copies(&view.symmetry),
+            patches: Patches::default(),
+            lost: Lost::default(),
+            seen: vec![],
+            polygon: vec![],
+            ends: vec![],
+            left: 0.0,
+        };
+        let mut lost = Lost::default();
+        let take = |view: &SharedView, pieces: Vec<PaintedPiece>| {
+            let share = f64::from(view.symmetry.order()) / view.silhouette_area;
+            let per = share * self.passes / self.media.len() as f64;
+            for piece in &pieces {
+                lost.unresolved += piece.lost.unresolved * per;
+                lost.absorbed += piece.lost.absorbed * per;
+            }
+            let patches: Vec<Patches> = pieces.into_iter().map(|piece| piece.patches).collect();
+            hand_on(&patches);
+        };
+        beam::trace_shared(subject.stone, &self.media, &subject.view, &options, prepare, take, watch)?;
+        Ok(lost)
+    }
+
+    /// Returns the response of some wavelengths together.
+    fn response(&self, waves: &Range<usize>) -> [DVec3; 4] {
+        let (before, all) = (&self.responses[waves.start], &self.responses[waves.end]);
+        std::array::from_fn(|k| all[k] - before[k])
+    }
+}
+
+impl SharedBeams for PaintedPiece<'_> {
+    fn take(&mut self, beam: &SharedBeam) {
+        match &beam.inside {
+            None => self.paint_glare(beam),
+            Some(inside) => {
+                self.absorb(beam, inside);
+                for copy in 0..self.copies.len() {
+                    self.look(beam, inside, copy);
+                    self.paint(beam, inside, copy);
+                }
+            }
+        }
+    }
+
+    fn leave(&mut self, end: BeamEnd) {
+        self.left += end.energy * end.group.len() as f64;
+        self.ends.push(end);
+        if self.left >= self.picture.left_at_once || self.ends.len() >= MOST_ENDS {
+            self.estimate();
+        }
+    }
+
+    fn finish(&mut self) {
+        self.estimate();
+    }
+}
+
+impl PaintedPiece<'_> {
+    /// Paints the light that the outer surface reflects, and the silhouette's cover.
+    fn paint_glare(&mut self, beam: &SharedBeam) {
+        let picture = self.picture;
+        self.polygon.clear();
+        self.polygon.extend(beam.outline.iter().map(|corner| corner.at));
+        for (copy, pixels) in &self.copies {
+            let direction = picture.subject.in_world(&self.view.basis, *copy, beam.entry.glare);
+            let environment = &picture.subject.lit_scene.environment;
+            let light = environment.radiance(DVec3::ZERO, direction, DVec3::ZERO);
+            let of_wave = |k: usize| {
+                colour(&picture.response(&(k..k + 1)), light * beam.glare(&picture.media[k]))
+            };
+            let seen: DVec3 = beam.group.clone().map(of_wave).sum();
+            self.patches.put(&self.polygon, pixels, seen.extend(picture.passes));
+        }
+    }
+
+    /// Estimates by rays where the light of the ends goes, and paints all of them in its mean colour.
+    fn estimate(&mut self) {
+        let (picture, ends) = (self.picture, std::mem::take(&mut self.ends));
+        let left = std::mem::take(&mut self.left);
+        let Some(first) = ends.first() else { return };
+        let rays = (left / picture.left_at_once).ceil().max(1.0) as u32;
+        let mut state = first.energy.to_bits();
+        let mut draw = || {
+            state = state.wrapping_add(GAMMA);
+            unit(mixed(state))
+        };
+        let mut mean = vec![DVec4::ZERO; self.copies.len()];
+        let (mut absorbed, mut unresolved) = (0.0, 0.0);
+        for number in 0..rays {
+            let mut place = (f64::from(number) + draw()) / f64::from(rays) * left;
+            let passed = |end: &&BeamEnd| {
+                place -= end.energy * end.group.len() as f64;
+                place > 0.0
+            };
+            let end = ends.iter().skip_while(passed).next().unwrap_or(first);
+            let wave = end.group.start + (draw() * end.group.len() as f64) as usize;
+            let luck = (DVec2::new(draw(), draw()), draw());
+            let loss = picture.tail.follow(end, &picture.media[wave], luck, |direction, share| {
+                for (mean, (copy, _)) in mean.iter_mut().zip(&self.copies) {
+                    let direction = picture.subject.in_world(&self.view.basis, *copy, direction);
+                    let ray = DispersedRay::new(DVec3::ZERO, direction);
+                    let environment = &picture.subject.lit_scene.environment;
+                    *mean += environment.radiance_around(&ray, SPREAD_OF_TAIL) * (share / f64::from(rays));
+                }
+            });
+            absorbed += loss.absorbed / f64::from(rays);
+            unresolved += loss.unresolved / f64::from(rays);
+        }
+        for end in &ends {
+            let energy = end.weight * end.area * end.group.len() as f64;
+            self.lost.absorbed += absorbed * energy;
+            self.lost.unresolved += unresolved * energy;
+            let response = picture.response(&end.group);
+            for (mean, (_, pixels)) in mean.iter().zip(&self.copies) {
+                let seen = colour(&response, *mean * end.weight);
+                self.patches.put(&end.outline, pixels, seen.extend(0.0));
+            }
+        }
+    }
+
+    /// Sums up what absorption takes on the way to a beam's facet.
+    fn absorb(&mut self, beam: &SharedBeam, inside: &Inside) {
+        let picture = self.picture;
+        if picture.is_clear {
+            return;
+        }
+        let centre = beam.outline.iter().map(|c| c.at).sum::<DVec2>() / beam.outline.len() as f64;
+        let [before, now] = inside.paths(&beam.slant, &beam.slant).map(|path| path.at(centre).max(0.0));
+        let lost = |m: &Medium| m.transmittance(before) - m.transmittance(now);
+        let all: f64 = picture.media[beam.group.clone()].iter().map(lost).sum();
+        self.lost.absorbed += beam.weight * beam.area * all;
+    }
+
+    /// Looks up the light that comes through a copy of a beam, as if nothing were absorbed, into `seen`.
+    fn look(&mut self, beam: &SharedBeam, inside: &Inside, copy: usize) {
+        self.seen.clear();
+        let all = self.picture.media.len() as f64;
+        let at_once = ((MOST_AT_ONCE * all / beam.weight) as usize).clamp(1, beam.group.len());
+        let mut start = beam.group.start;
+        while start < beam.group.end {
+            let waves = start..(start + at_once).min(beam.group.end);
+            start = waves.end;
+            if waves.len() < 2 || !self.look_at_once(beam, inside, copy, &waves) {
+                for wave in waves {
+                    self.look_once(beam, inside, copy, wave);
+                }
+            }
+        }
+    }
+
+    fn look_once(&mut self, beam: &SharedBeam, inside: &Inside, copy: usize, wave: usize) {
+        let Some(exit) = inside.exit(beam.entry, &self.picture.media[wave]) else { return };
+        let light = self.radiance(copy, exit.direction, exit.change) * exit.weight;
+        if light != DVec4::ZERO {
+            self.seen.push(SeenLight { waves: wave..wave + 1, light });
+        }
+    }
+
+    /// Looks up the light of several wavelengths along the fan of all. Returns false where they have to be looked up one by
+    /// one, because a lamp is near or some are totally reflected.
+    fn look_at_once(&mut self, beam: &SharedBeam, inside: &Inside, copy: usize, waves: &Range<usize>) -> bool {
+        let places = [waves.start, waves.start + waves.len() / 2, waves.end - 1];
+        let exits = places.map(|k| inside.exit(beam.entry, &self.picture.media[k]));
+        let [Some(first), Some(middle), Some(last)] = exits else {
+            return exits.iter().all(Option::is_none);
+        };
+        let fan = last.direction + 0.5 * last.change - (first.direction - 0.5 * first.change);
+        let subject = self.picture.subject;
+        let turned = |v| subject.in_world(&self.view.basis, self.copies[copy].0, v);
+        let (direction, fan) = (turned(middle.direction), turned(fan));
+        let environment = &subject.lit_scene.environment;
+        if environment.may_see_lamp(direction, fan, BEND) {
+            return false;
+        }
+        let weight = |exit: SharedExit| exit.weight;
+        let weight = (weight(first) + 4.0 * weight(middle) + weight(last)) / 6.0;
+        let light = environment.radiance(DVec3::ZERO, direction, fan) * weight;
+        if light != DVec4::ZERO {
+            self.seen.push(SeenLight { waves: waves.clone(), light });
+        }
+        true
+    }
+
+    /// Returns the light from a direction in a copy of the body's frame.
+    fn radiance(&self, copy: usize, direction: DVec3, fan: DVec3) -> DVec4 {
+        let subject = self.picture.subject;
+        let turned = |v| subject.in_world(&self.view.basis, self.copies[copy].0, v);
+        subject.lit_scene.environment.radiance(DVec3::ZERO, turned(direction), turned(fan))
+    }
+
+    /// Paints the light in `seen`, as often as the drift of the beam demands.
+    fn paint(&mut self, beam: &SharedBeam, inside: &Inside, copy: usize) {
+        let (picture, group) = (self.picture, &beam.group);
+        let of = |seen: &SeenLight| colour(&picture.response(&seen.waves), seen.light);
+        let whole: DVec3 = self.seen.iter().map(of).sum();
+        if whole == DVec3::ZERO {
+            return;
+        }
+        let slant = |k: usize| beam.entry.slant(picture.media[k].index);
+        let reach = (slant(group.start).slant - slant(group.end - 1).slant).abs();
+        let drift = beam.outline.iter().map(|c| c.drift.length_squared()).fold(0.0, f64::max).sqrt();
+        let pixels = self.copies[copy].1.matrix2.x_axis.length();
+        let change = whole.abs().max_element() / picture.passes * drift * reach * pixels;
+        let times = ((change / (8.0 * MOST_AT_EDGE)).sqrt().ceil() as usize).clamp(1, group.len());
+        let mut first = 0;
+        for time in 0..times {
+            let border = |time: usize| group.start + group.len() * time / times;
+            let waves = border(time)..border(time + 1);
+            while first < self.seen.len() && self.seen[first].waves.end <= waves.start {
+                first += 1;
+            }
+            self.paint_some(beam, inside, copy, (first, &waves));
+        }
+    }
+
+    /// Paints the light of some wavelengths, which `seen` holds from a place on.
+    fn paint_some(
+        &mut self,
+        beam: &SharedBeam,
+        inside: &Inside,
+        copy: usize,
+        (first, waves): (usize, &Range<usize>),
+    ) {
+        let picture = self.picture;
+        let (mut whole, mut moment, mut sum) = (DVec3::ZERO, 0.0, 0.0);
+        for seen in self.seen[first..].iter().take_while(|seen| seen.waves.start < waves.end) {
+            let common = seen.waves.start.max(waves.start)..seen.waves.end.min(waves.end);
+            let seen = colour(&picture.response(&common), seen.light);
+            let (from, to) = (picture.media[common.start].index, picture.media[common.end - 1].index);
+            let strength = seen.abs().element_sum();
+            (whole, sum, moment) = (whole + seen, sum + strength, moment + strength * 0.5 * (from + to));
+        }
+        if sum <= 0.0 {
+            return;
+        }
+        let slant = beam.entry.slant(moment / sum);
+        let change = slant.slant - beam.slant.slant;
+        self.polygon.clear();
+        self.polygon.extend(beam.outline.iter().map(|corner| corner.after(change)));
+        // Where corners have passed by one another, other beams are too large by what this one is too small.
+        let sign = if area(&self.polygon) < 0.0 { -1.0 } else { 1.0 };
+        if picture.is_clear {
+            self.patches.put(&self.polygon, &self.copies[copy].1, (whole * sign).extend(0.0));
+            return;
+        }
+        let path = inside.paths(&beam.slant, &slant)[1];
+        self.paint_absorbed(copy, path, sign, (first, waves));
+    }
+
+    /// Paints the polygon in the colour of light that is absorbed along its paths.
+    fn paint_absorbed(
+        &mut self,
+        copy: usize,
+        path: Affine,
+        sign: f64,
+        (first, waves): (usize, &Range<usize>),
+    ) {
+        let Self { picture, seen, polygon, patches, copies, .. } = self;
+        let media = &picture.media;
+        let middle = media[waves.start + waves.len() / 2];
+        let is_even = media[waves.clone()].iter().all(|m| m.absorption[0] == m.absorption[1]);
+        let polarisations: &[usize] = if is_even { &[0] } else { &[0, 1] };
+        for &which in polarisations {
+            let half = sign / polarisations.len() as f64;
+            let own = Medium { absorption: [middle.absorption[which]; 2], ..middle };
+            strips(polygon, path, &own, UNEVEN, |part, left| {
+                let centre = part.iter().sum::<DVec2>() / part.len().max(1) as f64;
+                let length = path.at(centre).max(0.0);
+                let mut whole = DVec3::ZERO;
+                for seen in seen[first..].iter().take_while(|seen| seen.waves.start < waves.end) {
+                    for k in seen.waves.start.max(waves.start)..seen.waves.end.min(waves.end) {
+                        let more = media[k].absorption[which] - own.absorption[0];
+                        whole += colour(&picture.response(&(k..k + 1)), seen.light) * (-more * length).exp();
+                    }
+                }
+                patches.put(part, &copies[copy].1, (whole * left * half).extend(0.0));
+            });
+        }
+    }
+}

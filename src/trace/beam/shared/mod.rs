@@ -1,0 +1,587 @@
+//! Beams that several wavelengths share.
+//!
+//! Light of all wavelengths is reflected by the same facets at the same angles; it differs in how it was refracted where it
+//! entered. So the directions inside differ by one number, the [`Slant`], and along one sequence of facets everything else
+//! follows exactly: where light lands, how it leaves and with which weight. Only the outline of a beam is carried by first
+//! order, corner by corner. Wavelengths share a beam as long as little would change; else their group is halved, and each
+//! half goes on from its own middle.
+
+mod moving;
+mod slanted_light;
+
+pub use self::moving::MovingCorner;
+use self::moving::{Cell, MovingBeam, MovingSplitter};
+pub use self::slanted_light::{Entry, Slant};
+use self::slanted_light::SlantedLight;
+use super::coherency::Coherency;
+use super::follow::{SLIVER, s_axis};
+use super::grow::{BeamOptions, MOST_BOUNCES, level_for};
+use super::split::Facets;
+use crate::math::{Affine, Basis, Polytope, Symmetry, area, clip};
+use crate::optics::{fresnel, reflect, refract};
+use crate::scene::{Medium, View};
+use crate::trace::{Stopped, Watch};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// The number of beams from which work goes on on all cores. It does not depend on their number, as the result must not.
+const SEEDS: usize = 512;
+
+/// The most rounds of splitting until there are so many beams.
+const MOST_ROUNDS: u32 = 12;
+
+/// The number of seeds whose beams are found before they are handed on.
+const SEEDS_AT_ONCE: usize = 64;
+
+/// The square of the cosine of refraction above which the share that is reflected changes little with the wavelength.
+const STEADY: f64 = 0.25;
+
+/// How beams are shared.
+#[derive(Debug, Clone, Copy)]
+pub struct SharingOptions {
+    /// How far beams are followed.
+    pub beams: BeamOptions,
+    /// The most by which sharing one beam may change a pixel, as a part of what light of radiance 1 at all wavelengths gives; 0
+    /// where each wavelength is traced on its own.
+    pub most_change: f64,
+    /// The area of a pixel in the stone's units.
+    pub pixel: f64,
+    /// The part of all wavelengths that share a beam which is followed as far as `beams` says. Those that more share are
+    /// followed farther, and those that fewer share less far: each to the same energy of all its wavelengths.
+    pub usual_part: f64,
+}
+
+/// What all shared beams of a picture have in common.
+#[derive(Debug, Clone)]
+pub struct SharedView {
+    /// The image's axes in the stone's frame.
+    pub basis: Basis,
+    /// The symmetry that stone, view and light share; only one domain of it is traced.
+    pub symmetry: Symmetry,
+    /// Area of the whole silhouette.
+    pub silhouette_area: f64,
+}
+
+/// A part of a beam that lands on one facet, for a group of wavelengths.
+pub struct SharedBeam<'a> {
+    /// The wavelengths, by their number among the media.
+    pub group: Range<usize>,
+    /// The facet by which the light entered.
+    pub entry: &'a Entry,
+    /// The outline at `slant`, convex and counter-clockwise, with the drift of its corners.
+    pub outline: &'a [MovingCorner],
+    /// The slant in the middle of the group.
+    pub slant: Slant,
+    /// The outline's area at `slant`.
+    pub area: f64,
+    /// The share of the light that arrives, without absorption, at `slant`; 1 for a beam that enters here.
+    pub weight: f64,
+    /// What has become of the light inside; `None` for a beam that enters here, of which the surface reflects a part.
+    pub inside: Option<Inside>,
+}
+
+/// Light inside a stone that arrives at a facet.
+pub struct Inside {
+    /// Outward unit normal of the facet.
+    normal: DVec3,
+    light: SlantedLight,
+    /// Its polarisation in the axes of the facet.
+    arriving: Coherency,
+    /// The depth of the facet before, and of this one, behind the facet by which the light entered.
+    depths: [Affine; 2],
+    /// The speeds toward both facets.
+    speeds: [DVec2; 2],
+}
+
+/// Light of one wavelength that leaves a shared beam.
+#[derive(Debug, Clone, Copy)]
+pub struct SharedExit {
+    /// Unit direction, followed from the eye.
+    pub direction: DVec3,
+    /// The change of the direction over the medium's spread of indices.
+    pub change: DVec3,
+    /// The share of the light from that direction that reaches the eye, if nothing is absorbed.
+    pub weight: f64,
+}
+
+/// What takes in shared beams, in the order of the tree.
+pub trait SharedBeams: Send {
+    /// Takes in a beam.
+    fn take(&mut self, beam: &SharedBeam);
+
+    /// Takes in a beam that is not followed any further.
+    fn leave(&mut self, end: BeamEnd);
+
+    /// Takes note that no more beams come.
+    fn finish(&mut self);
+}
+
+/// The end of a beam that is too weak to be followed.
+pub struct BeamEnd {
+    /// The wavelengths, by their number among the media.
+    pub group: Range<usize>,
+    /// The outline at `slant`.
+    pub outline: Vec<DVec2>,
+    /// Its area.
+    pub area: f64,
+    /// The slant in the middle of the group.
+    pub slant: Slant,
+    /// The share of the light that goes on, without absorption.
+    pub weight: f64,
+    /// The most light of a wavelength that goes on, as share times area, with absorption.
+    pub energy: f64,
+    pub(in crate::trace) coherency: Coherency,
+    /// The axis s of `coherency`.
+    pub(in crate::trace) s: DVec3,
+    light: SlantedLight,
+    depth: Affine,
+}
+
+impl BeamEnd {
+    /// Returns how the ray of an image point goes on: its start, its unit direction, and the length of its path so far.
+    pub(in crate::trace) fn ray(&self, p: DVec2) -> (DVec3, DVec3, f64) {
+        let (depth, way) = (self.depth.at(p), self.light.way(self.slant.slant));
+        (self.light.start(p) + way * depth, self.light.direction(&self.slant), depth / self.slant.cos_t)
+    }
+}
+
+/// A beam that is still to be followed from its last facet on.
+#[derive(Clone)]
+struct SharedFront {
+    group: (u16, u16),
+    /// The place of its facet in the chain.
+    link: u32,
+    bounces: u32,
+    entry: Entry,
+    light: SlantedLight,
+    slant: Slant,
+    /// How far the slants of the group reach to both sides.
+    reach: f64,
+    /// Weight and polarisation at `slant`, without absorption, and the axis s.
+    coherency: Coherency,
+    s: DVec3,
+    /// The depth of the facet behind that by which the light entered, at `slant`.
+    depth: Affine,
+    /// The parts of the speed toward the facet: of light that is not slanted, and per slant.
+    speed: DVec2,
+    /// The first of its corners and the one after the last.
+    corners: (u32, u32),
+}
+
+/// A front with its corners and the facets that it has met, from which a piece of work begins.
+struct Seed {
+    front: SharedFront,
+    corners: Vec<MovingCorner>,
+    facets: Vec<u32>,
+}
+
+/// What does not change while beams are followed.
+struct Common<'a> {
+    facets: &'a Facets<'a>,
+    polytope: &'a Polytope,
+    media: &'a [Medium],
+    options: SharingOptions,
+    basis: Basis,
+    /// The least energy of a beam that is followed, summed over the wavelengths of its group.
+    level: f64,
+    /// Outlines of less area come from rounding.
+    sliver: f64,
+}
+
+/// Follows shared beams.
+struct Sharer<'a> {
+    common: &'a Common<'a>,
+    splitter: MovingSplitter<'a>,
+    stack: Vec<SharedFront>,
+    corners: Vec<MovingCorner>,
+    /// The facets that beams have met: for each the place of the one before, and the facet.
+    chain: Vec<(u32, u32)>,
+}
+
+/// The place of a facet in the chain that has none before it.
+const FIRST_LINK: u32 = u32::MAX;
+
+/// Follows light of several wavelengths from the eye into a stone, down to the energy at which beams of the middle one satisfy
+/// `options`. `prepare` makes a container for each piece of work, and `hand_on` takes in some that are full, in order.
+///
+/// `media` are those of the wavelengths, ordered by index. At most 65535 are taken.
+///
+/// # Errors
+/// [`Stopped`] when `watch` asks to stop.
+pub fn trace_shared<B: SharedBeams>(
+    polytope: &Polytope,
+    media: &[Medium],
+    view: &View,
+    options: &SharingOptions,
+    prepare: impl Fn(&SharedView) -> B + Sync,
+    mut hand_on: impl FnMut(&SharedView, Vec<B>),
+    watch: Watch,
+) -> Result<(), Stopped> {
+    let Some(middle) = media.get(media.len() / 2) else { return Ok(()) };
+    let facets = Facets::new(polytope);
+    let level = level_for(polytope, *middle, view, &options.beams, watch)?;
+    let level = level * (media.len() as f64 * options.usual_part).max(1.0);
+    let basis = view.basis();
+    let symmetry = match options.beams.symmetry {
+        true => Symmetry::of(polytope.planes(), &basis, view.zenith()),
+        false => Symmetry::NONE,
+    };
+    let silhouette_area = polytope.silhouette_area(basis.toward);
+    let sliver = SLIVER * silhouette_area;
+    let shared_view = SharedView { basis, symmetry, silhouette_area };
+    let common = Common { facets: &facets, polytope, media, options: *options, basis, level, sliver };
+    let mut sharer = Sharer::new(&common);
+    let mut first = prepare(&shared_view);
+    sharer.enter(&shared_view, &mut first);
+    for _ in 0..MOST_ROUNDS {
+        if sharer.stack.len() >= SEEDS {
+            break;
+        }
+        for front in std::mem::take(&mut sharer.stack) {
+            sharer.step(&front, &mut first);
+        }
+    }
+    first.finish();
+    hand_on(&shared_view, vec![first]);
+    let seeds = sharer.seeds();
+    for (number, some) in seeds.chunks(SEEDS_AT_ONCE).enumerate() {
+        if watch((number * SEEDS_AT_ONCE) as f64 / seeds.len() as f64).is_break() {
+            return Err(Stopped);
+        }
+        let follow = |sharer: &mut Sharer, seed: &Seed| {
+            let mut beams = prepare(&shared_view);
+            sharer.follow(seed, &mut beams);
+            beams.finish();
+            beams
+        };
+        let found = some.par_iter().map_init(|| Sharer::new(&common), follow).collect();
+        hand_on(&shared_view, found);
+    }
+    Ok(())
+}
+
+impl<'a> Sharer<'a> {
+    fn new(common: &'a Common<'a>) -> Self {
+        let splitter = MovingSplitter::new(common.facets);
+        Self { common, splitter, stack: vec![], corners: vec![], chain: vec![] }
+    }
+
+    /// Starts a beam on every facet that the eye sees in one domain of the symmetry.
+    fn enter(&mut self, view: &SharedView, beams: &mut impl SharedBeams) {
+        let (common, domain) = (self.common, view.symmetry.domain());
+        let mut spare = vec![];
+        for (i, facet) in common.polytope.facets().iter().enumerate() {
+            let cos_i = facet.plane.normal.dot(view.basis.toward);
+            if cos_i <= 0.0 {
+                continue;
+            }
+            let mut outline: Vec<DVec2> =
+                common.polytope.corners(facet).map(|c| view.basis.project(c)).collect();
+            for &half in &domain {
+                clip(&outline, half, &mut spare);
+                std::mem::swap(&mut outline, &mut spare);
+            }
+            let area = area(&outline);
+            if area <= common.sliver {
+                continue;
+            }
+            let (entry, light) = Entry::new(i as u32, &facet.plane, &view.basis, cos_i);
+            let corners: Vec<_> =
+                outline.iter().map(|&at| MovingCorner { at, drift: DVec2::ZERO }).collect();
+            let group = 0..common.media.len();
+            let slant = entry.slant(common.middle_index(&group));
+            beams.take(&SharedBeam {
+                group: group.clone(),
+                entry: &entry,
+                outline: &corners,
+                slant,
+                area,
+                weight: 1.0,
+                inside: None,
+            });
+            let start = self.corners.len() as u32;
+            self.corners.extend_from_slice(&corners);
+            let link = self.chain.len() as u32;
+            self.chain.push((FIRST_LINK, i as u32));
+            let front = SharedFront {
+                group: (0, 0),
+                link,
+                bounces: 0,
+                entry,
+                light,
+                slant,
+                reach: 0.0,
+                coherency: Coherency::NONE,
+                s: view.basis.right,
+                depth: Affine::default(),
+                speed: DVec2::ZERO,
+                corners: (start, self.corners.len() as u32),
+            };
+            self.regroup(&front, group);
+        }
+    }
+
+    /// Returns the fronts that wait, with all that is needed to go on from them.
+    fn seeds(&mut self) -> Vec<Seed> {
+        let fronts = std::mem::take(&mut self.stack);
+        let seed = |front: SharedFront| Seed {
+            corners: self.outline(&front).to_vec(),
+            facets: self.facets_to(front.link),
+            front,
+        };
+        fronts.into_iter().map(seed).collect()
+    }
+
+    fn outline(&self, front: &SharedFront) -> &[MovingCorner] {
+        &self.corners[front.corners.0 as usize..front.corners.1 as usize]
+    }
+
+    /// Returns the facets of the chain down to one of its places, from the facet of entry on.
+    fn facets_to(&self, link: u32) -> Vec<u32> {
+        let up = |&link: &u32| Some(self.chain[link as usize].0).filter(|&l| l != FIRST_LINK);
+        let mut met: Vec<u32> =
+            std::iter::successors(Some(link), up).map(|l| self.chain[l as usize].1).collect();
+        met.reverse();
+        met
+    }
+
+    /// Follows a seed, and every beam that it splits into, while they are strong.
+    fn follow(&mut self, seed: &Seed, beams: &mut impl SharedBeams) {
+        self.corners.clear();
+        self.corners.extend_from_slice(&seed.corners);
+        self.chain.clear();
+        let links = (0..).zip(&seed.facets).map(|(k, &facet)| (if k == 0 { FIRST_LINK } else { k - 1 }, facet));
+        self.chain.extend(links);
+        let (link, corners) = (self.chain.len() as u32 - 1, (0, self.corners.len() as u32));
+        self.stack.push(SharedFront { link, corners, ..seed.front.clone() });
+        while let Some(front) = self.stack.pop() {
+            self.step(&front, beams);
+        }
+    }
+
+    /// Splits one beam among the facets that it lands on, or its group into two.
+    fn step(&mut self, front: &SharedFront, beams: &mut impl SharedBeams) {
+        let group = usize::from(front.group.0)..usize::from(front.group.1);
+        let outline = &self.corners[front.corners.0 as usize..front.corners.1 as usize];
+        let astray = self.splitter.split(&MovingBeam {
+            light: &front.light,
+            slant: front.slant.slant,
+            reach: front.reach,
+            depth: front.depth,
+            outline,
+        });
+        if group.len() > 1 && self.common.is_changed(front, &group, astray, &self.splitter.cells) {
+            let middle = group.start + group.len() / 2;
+            self.regroup(front, middle..group.end);
+            self.regroup(front, group.start..middle);
+            return;
+        }
+        let direction = front.light.direction(&front.slant);
+        let cells = std::mem::take(&mut self.splitter.cells);
+        for cell in &cells {
+            if cell.twice_area > 2.0 * self.common.sliver {
+                self.land(front, direction, cell, beams);
+            }
+        }
+        self.splitter.cells = cells;
+    }
+
+    /// Lets a part of a beam land on its facet.
+    fn land(
+        &mut self,
+        front: &SharedFront,
+        direction: DVec3,
+        cell: &Cell,
+        beams: &mut impl SharedBeams,
+    ) {
+        let (common, normal) = (self.common, cell.normal);
+        let cos_i = direction.dot(normal);
+        let surface = fresnel(cos_i, front.slant.index);
+        let s = s_axis(direction, normal, front.s);
+        let arriving = front.coherency.turned(front.s.dot(s), direction.cross(front.s).dot(s));
+        let (reflected, _) = arriving.split(&surface);
+        let coherency = if common.options.beams.polarised { reflected } else { reflected.unpolarised() };
+        let (area, speed) =
+            (cell.twice_area / 2.0, DVec2::new(front.light.down.dot(normal), front.light.along.dot(normal)));
+        let outline = &self.splitter.corners[cell.corners.0..cell.corners.1];
+        let group = usize::from(front.group.0)..usize::from(front.group.1);
+        beams.take(&SharedBeam {
+            group: group.clone(),
+            entry: &front.entry,
+            outline,
+            slant: front.slant,
+            area,
+            weight: front.coherency.weight(),
+            inside: Some(Inside {
+                normal,
+                light: front.light,
+                arriving,
+                depths: [front.depth, cell.depth],
+                speeds: [front.speed, speed],
+            }),
+        });
+        let energy = coherency.weight() * area * common.most_left(&group, front.slant, cell, outline);
+        if energy <= 0.0 {
+            return;
+        }
+        let light = front.light.mirrored(&common.polytope.facets()[cell.facet as usize].plane);
+        let of_group = energy * group.len() as f64;
+        if of_group >= common.level && front.bounces + 1 < MOST_BOUNCES {
+            let corners = if cell.is_whole {
+                front.corners
+            } else {
+                let start = self.corners.len() as u32;
+                self.corners.extend_from_slice(outline);
+                (start, self.corners.len() as u32)
+            };
+            let link = self.chain.len() as u32;
+            self.chain.push((front.link, cell.facet));
+            let (bounces, depth) = (front.bounces + 1, cell.depth);
+            self.stack.push(SharedFront {
+                link,
+                bounces,
+                light,
+                coherency,
+                s,
+                depth,
+                speed,
+                corners,
+                ..front.clone()
+            });
+        } else {
+            let outline = outline.iter().map(|corner| corner.at).collect();
+            let (slant, weight, depth) = (front.slant, coherency.weight(), cell.depth);
+            beams.leave(BeamEnd { group, outline, area, slant, weight, energy, coherency, s, light, depth });
+        }
+    }
+
+    /// Puts a beam that a group of wavelengths shares on the stack, at the middle of that group.
+    fn regroup(&mut self, front: &SharedFront, group: Range<usize>) {
+        let common = self.common;
+        let slant = front.entry.slant(common.middle_index(&group));
+        let end = |k: usize| (front.entry.slant(common.media[k].index).slant - slant.slant).abs();
+        let reach = if group.len() > 1 { end(group.start).max(end(group.end - 1)) } else { 0.0 };
+        let change = slant.slant - front.slant.slant;
+        let start = self.corners.len() as u32;
+        for k in front.corners.0..front.corners.1 {
+            let corner = self.corners[k as usize];
+            self.corners.push(MovingCorner { at: corner.after(change), ..corner });
+        }
+        let speed = |slant: f64| front.speed.x + front.speed.y * slant;
+        let depth = match front.bounces {
+            0 => front.depth,
+            _ => front.depth * (speed(front.slant.slant) / speed(slant.slant)),
+        };
+        let (coherency, s) = self.light_at(front, &slant);
+        let group = (group.start as u16, group.end as u16);
+        let corners = (start, self.corners.len() as u32);
+        self.stack.push(SharedFront { group, slant, reach, coherency, s, depth, corners, ..front.clone() });
+    }
+
+    /// Returns the light that goes on from a front at a slant, and its axis s.
+    fn light_at(&self, front: &SharedFront, slant: &Slant) -> (Coherency, DVec3) {
+        let (common, entry) = (self.common, &front.entry);
+        let polarised = |light: Coherency| match common.options.beams.polarised {
+            true => light,
+            false => light.unpolarised(),
+        };
+        let eta = 1.0 / slant.index;
+        let (entered, _) = Coherency::entered(&fresnel(entry.cos_i, eta));
+        let mut light = polarised(entered);
+        let mut direction =
+            refract(-common.basis.toward, entry.normal, eta, (entry.cos_i, slant.cos_t));
+        let mut s = s_axis(direction, entry.normal, common.basis.right);
+        for facet in self.facets_to(front.link).into_iter().skip(1) {
+            let normal = common.polytope.facets()[facet as usize].plane.normal;
+            let cos_i = direction.dot(normal);
+            let own = s_axis(direction, normal, s);
+            let arriving = light.turned(s.dot(own), direction.cross(s).dot(own));
+            light = polarised(arriving.split(&fresnel(cos_i, slant.index)).0);
+            (direction, s) = (reflect(direction, -normal, cos_i), own);
+        }
+        (light, s)
+    }
+}
+
+impl Common<'_> {
+    /// Returns the refractive index in the middle of a group.
+    fn middle_index(&self, group: &Range<usize>) -> f64 {
+        0.5 * (self.media[group.start].index + self.media[group.end - 1].index)
+    }
+
+    /// Returns the largest share that absorption leaves of light of a group.
+    fn most_left(&self, group: &Range<usize>, slant: Slant, cell: &Cell, outline: &[MovingCorner]) -> f64 {
+        let media = &self.media[group.clone()];
+        if media.iter().all(Medium::is_clear) {
+            return 1.0;
+        }
+        let centre = outline.iter().map(|c| c.at).sum::<DVec2>() / outline.len() as f64;
+        let path = (cell.depth.at(centre) / slant.cos_t).max(0.0);
+        media.iter().map(|m| m.transmittance(path)).fold(0.0, f64::max)
+    }
+
+    /// Whether a beam would change too much if its group shared it: by the area that goes astray, or by what the facets that it
+    /// lands on reflect.
+    fn is_changed(&self, front: &SharedFront, group: &Range<usize>, astray: f64, cells: &[Cell]) -> bool {
+        let SharingOptions { most_change, pixel, .. } = self.options;
+        let light = front.coherency.weight() * group.len() as f64 / self.media.len() as f64;
+        let most = most_change / light;
+        if most >= 1.0 {
+            return false;
+        }
+        if astray / pixel > most || most <= 0.0 {
+            return true;
+        }
+        cells.iter().any(|cell| {
+            let part = (0.5 * cell.twice_area / pixel).min(1.0);
+            0.25 * part * self.reflectance_change(front, group, cell.normal) > most
+        })
+    }
+
+    /// Returns by how much the share that a facet reflects differs between the ends of a group, where it may differ much: near the
+    /// angle of total reflection.
+    fn reflectance_change(&self, front: &SharedFront, group: &Range<usize>, normal: DVec3) -> f64 {
+        let (down, along) = (front.light.down.dot(normal), front.light.along.dot(normal));
+        let ends = [group.start, group.end - 1].map(|k| {
+            let slant = front.entry.slant(self.media[k].index);
+            let cos_i = (down + along * slant.slant) * slant.cos_t;
+            (cos_i, slant.index, 1.0 - slant.index * slant.index * (1.0 - cos_i * cos_i))
+        });
+        let [low, high] = ends.map(|end| end.2);
+        if low > STEADY && high > STEADY || low < 0.0 && high < 0.0 {
+            return 0.0;
+        }
+        let [a, b] = ends.map(|(cos_i, index, _)| fresnel(cos_i, index).reflectance());
+        (a - b).abs()
+    }
+}
+
+impl SharedBeam<'_> {
+    /// Returns the share of light from the direction of the [glare](Entry::glare) that the surface reflects, where light of a
+    /// medium enters.
+    pub fn glare(&self, medium: &Medium) -> f64 {
+        fresnel(self.entry.cos_i, 1.0 / medium.index).reflectance()
+    }
+}
+
+impl Inside {
+    /// Returns the light of a medium that leaves; `None` where reflection is total.
+    pub fn exit(&self, entry: &Entry, medium: &Medium) -> Option<SharedExit> {
+        let (direction, change) = self.light.leaving(entry, medium, self.normal)?;
+        let cos_i = self.light.direction(&entry.slant(medium.index)).dot(self.normal);
+        let (_, weight) = self.arriving.split(&fresnel(cos_i, medium.index));
+        Some(SharedExit { direction, change, weight })
+    }
+
+    /// Returns the length of the path inside the stone to the facet before and to this one, over the image, at a slant;
+    /// `middle` is that of the beam.
+    pub fn paths(&self, middle: &Slant, slant: &Slant) -> [Affine; 2] {
+        [0, 1].map(|k| {
+            let speed = |slant: &Slant| self.speeds[k].x + self.speeds[k].y * slant.slant;
+            let (own, other) = (speed(middle), speed(slant));
+            let change = if own == 0.0 || other == 0.0 { 1.0 } else { own / other };
+            self.depths[k] * (change / slant.cos_t)
+        })
+    }
+}

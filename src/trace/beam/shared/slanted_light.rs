@@ -1,0 +1,115 @@
+//! Light of several wavelengths behind one facet: how its directions inside a stone differ.
+
+use crate::math::{Basis, Plane};
+use crate::optics::{cos_transmitted, reflect, refract, refracted_change};
+use crate::scene::Medium;
+use glam::{DVec2, DVec3};
+
+use super::super::grow::entry_points;
+
+/// The least square of the cosine of refraction by which slants are divided.
+const LEAST_COS_SQUARED: f64 = 1e-18;
+
+/// A facet by which parallel light enters a stone, and the light that comes through it, at all wavelengths.
+#[derive(Debug, Clone, Copy)]
+pub struct Entry {
+    /// The facet.
+    pub facet: u32,
+    /// Unit direction of the light that the facet's outer side reflects, followed from the eye.
+    pub glare: DVec3,
+    /// Outward unit normal.
+    pub(super) normal: DVec3,
+    /// The cosine of the angle of incidence.
+    pub(super) cos_i: f64,
+    /// The square of its sine.
+    sin_squared: f64,
+}
+
+/// How light of one index runs behind a facet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slant {
+    /// The refractive index.
+    pub index: f64,
+    /// The tangent of the angle of refraction per sine of the angle of incidence. Where light of different wavelengths
+    /// lands on a facet is affine in it, whatever facets have reflected the light before.
+    pub slant: f64,
+    /// The cosine of the angle of refraction.
+    pub cos_t: f64,
+}
+
+/// The rays behind one facet, as facets have mirrored them: for each image point a start, and for each slant a direction.
+///
+/// Nothing in it depends on the wavelength. Mirror images of rays stand for mirrored rays, so the start stays that of the
+/// facet by which the light entered, seen in as many mirrors as there were facets since.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SlantedLight {
+    /// The start of the ray at the image's origin, and its changes along the image's axes.
+    pub origin: [DVec3; 3],
+    /// The way of light that is not slanted, to the unit of depth behind the facet.
+    pub down: DVec3,
+    /// The change of that way per slant.
+    pub along: DVec3,
+}
+
+impl Entry {
+    /// Returns the light that the eye's rays become behind a facet which they meet at an angle of cosine `cos_i`.
+    pub(super) fn new(facet: u32, plane: &Plane, view: &Basis, cos_i: f64) -> (Self, SlantedLight) {
+        let ray = -view.toward;
+        let along = ray + plane.normal * cos_i;
+        let (glare, sin_squared) = (reflect(ray, plane.normal, cos_i), along.length_squared());
+        let light = SlantedLight { origin: entry_points(view, plane), down: -plane.normal, along };
+        (Self { facet, glare, normal: plane.normal, cos_i, sin_squared }, light)
+    }
+
+    /// Returns how light of an index runs behind the facet.
+    pub fn slant(&self, index: f64) -> Slant {
+        let eta = 1.0 / index;
+        let cos_t = (1.0 - eta * eta * self.sin_squared).max(LEAST_COS_SQUARED).sqrt();
+        Slant { index, slant: eta / cos_t, cos_t }
+    }
+}
+
+impl SlantedLight {
+    /// Returns the way of the light, to the unit of depth behind the facet by which it entered.
+    pub fn way(&self, slant: f64) -> DVec3 {
+        self.down + self.along * slant
+    }
+
+    /// Returns the unit direction of the light.
+    pub fn direction(&self, slant: &Slant) -> DVec3 {
+        self.way(slant.slant) * slant.cos_t
+    }
+
+    /// Returns where the ray of image point `p` starts.
+    pub fn start(&self, p: DVec2) -> DVec3 {
+        let [o, u, v] = self.origin;
+        o + u * p.x + v * p.y
+    }
+
+    /// Returns the mirror image of the light in a plane.
+    pub fn mirrored(&self, plane: &Plane) -> Self {
+        let n = plane.normal;
+        let way = |v: DVec3| v - n * (2.0 * n.dot(v));
+        let [o, u, v] = self.origin;
+        Self {
+            origin: [o - n * (2.0 * (n.dot(o) - plane.offset)), way(u), way(v)],
+            down: way(self.down),
+            along: way(self.along),
+        }
+    }
+
+    /// Returns the direction in which light of a medium leaves through a facet of this normal, and the change of that direction
+    /// over the medium's spread of indices; `None` where reflection is total.
+    pub fn leaving(&self, entry: &Entry, medium: &Medium, normal: DVec3) -> Option<(DVec3, DVec3)> {
+        let slant = entry.slant(medium.index);
+        let (ray, eta) = (self.direction(&slant), 1.0 / medium.index);
+        let cos_i = ray.dot(normal);
+        let cos_t = cos_transmitted(cos_i, medium.index)?;
+        let of_eta = -medium.spread * eta * eta;
+        let of_cos = -eta * entry.sin_squared * of_eta / slant.cos_t;
+        let change = (self.down * of_cos + self.along * of_eta, DVec3::ZERO, medium.spread);
+        let cosines = (cos_i, cos_t);
+        let leaving = refract(ray, -normal, medium.index, cosines);
+        Some((leaving, refracted_change(ray, -normal, medium.index, cosines, change)))
+    }
+}

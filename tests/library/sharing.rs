@@ -1,0 +1,97 @@
+//! Checks pictures whose wavelengths share beams against pictures of each wavelength alone.
+
+use crate::common::shoot::*;
+use crate::common::*;
+use brillianteer::cut::{Cut, Family};
+use brillianteer::math::Polytope;
+use brillianteer::optics::encoded_from_linear;
+use brillianteer::picture::Linear;
+use brillianteer::scene::{Light, Stone, View, light};
+use brillianteer::trace::beam::BeamOptions;
+use glam::DVec3;
+
+fn modern() -> Polytope {
+    built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16)).polytope
+}
+
+fn family(key: &str) -> Polytope {
+    let Cut::Family(cut) = Family::of_key(key).unwrap().first.clone() else { panic!("{key} is no family") };
+    Stone::new(&cut.facets().unwrap()).unwrap().polytope
+}
+
+/// How two pictures differ, in steps of 8 bits: the parts of the pixels that differ by no more than half a step and than two
+/// steps, and the root of the mean square.
+fn steps(a: &Linear, b: &Linear) -> (f64, f64, f64) {
+    let code = |x: f32| 255.0 * encoded_from_linear(f64::from(x).clamp(0.0, 1.0));
+    let pairs = a.pixels.iter().zip(&b.pixels).filter(|(a, b)| a[3] > 0.0 || b[3] > 0.0);
+    let apart: Vec<f64> =
+        pairs.map(|(a, b)| (0..3).map(|k| (code(a[k]) - code(b[k])).abs()).fold(0.0, f64::max)).collect();
+    let count = apart.len() as f64;
+    let within = |limit: f64| apart.iter().filter(|&&x| x <= limit).count() as f64 / count;
+    (within(0.5), within(2.0), (apart.iter().map(|x| x * x).sum::<f64>() / count).sqrt())
+}
+
+fn shoot(stone: Polytope, material: &str, name: &str) -> Shoot {
+    let mut shoot = Shoot::of(stone, material, light(name).unwrap());
+    shoot.view = View { tilt: 0.26, azimuth: 0.35, ..View::default() };
+    (shoot.wavelengths, shoot.samples, shoot.shares, shoot.backdrop) = (8, 2, 2, false);
+    shoot
+}
+
+#[test]
+fn wavelengths_that_share_beams_show_what_each_shows_alone() {
+    // So little light is left that it hardly matters how it is estimated.
+    for (stone, material, name, unresolved) in [
+        (modern(), "diamond", "lamps", 3e-3),
+        (family("emerald"), "diamond", "lamps", 3e-3),
+        (family("oval"), "moissanite", "studio", 3e-3),
+        (modern(), "ruby", "lamps", 1e-3),
+        (modern(), "strontium titanate", "lamps", 3e-3),
+    ] {
+        let shoot = shoot(stone, material, name);
+        let options = BeamOptions { unresolved, ..BeamOptions::default() };
+        let [(shared, rest), (apart, rest_apart)] = shoot.shared_and_apart(options);
+        let found = steps(&shared, &apart);
+        println!("{material}: {found:?}, {rest:?}, {rest_apart:?}");
+        let (half, two, rms) = found;
+        assert!(half > 0.8 && two > 0.97 && rms < 1.0, "{material}: {found:?}");
+        assert!(rest.unresolved < 1e-3, "{material}: {} is lost", rest.unresolved);
+        let of_apart = rest_apart.absorbed;
+        assert!((rest.absorbed - of_apart).abs() < 2e-3 + rest_apart.unresolved, "{material}: {of_apart}");
+        // The comparison notices an index that is off by a thousandth.
+        let mut mutant = self::shoot(shoot.setting.instances[0].body.stone().unwrap().polytope.clone(), material, name);
+        mutant.setting.unit_mm *= 1.0;
+        mutant.view.tilt += 2e-3;
+        let (half_mutant, ..) = steps(&mutant.shared_and_apart(options)[0].0, &apart);
+        assert!(half_mutant < half - 0.2, "{material}: {half_mutant} of the pixels agree with a mutant");
+    }
+}
+
+#[test]
+fn no_light_is_lost_where_beams_are_shared_or_left() {
+    for (material, tilt) in [("diamond", 0.26), ("strontium titanate", 0.4), ("quartz", 0.0)] {
+        let mut shoot = shoot(modern(), material, "studio");
+        shoot.light = Light { head: 0.0, ..Light::white() };
+        (shoot.view.tilt, shoot.backdrop) = (tilt, true);
+        let options = BeamOptions { most_beams: 4000, ..BeamOptions::default() };
+        let [(shared, rest), (_, rest_apart)] = shoot.shared_and_apart(options);
+        assert!(rest.unresolved < 1e-4, "{material}: {}", rest.unresolved);
+        let mean = shared.pixels.iter().map(colour).sum::<DVec3>() / shared.pixels.len() as f64;
+        assert!((mean - 1.0).abs().max_element() < 5e-4, "{material}: {mean}");
+        let far = |pixel: &[f32; 4]| (colour(pixel) - 1.0).abs().max_element();
+        let most = shared.pixels.iter().map(far).fold(0.0, f64::max);
+        assert!(most < 0.02, "{material}: a pixel is off by {most}");
+        // Without the estimate, light would be missing.
+        assert!(material == "quartz" || rest_apart.unresolved > 5e-3, "{material}: {}", rest_apart.unresolved);
+    }
+}
+
+#[test]
+fn pictures_of_shared_beams_do_not_depend_on_the_number_of_cores() {
+    let taken = |threads: usize| {
+        let pool = rayon_pool(threads);
+        let options = BeamOptions { most_beams: 2000, ..BeamOptions::default() };
+        pool.install(|| shoot(modern(), "ruby", "lamps").shared_and_apart(options)[0].0.clone())
+    };
+    assert!(taken(1) == taken(3));
+}
