@@ -16,6 +16,10 @@ pub const MOST_NUMBERS: usize = 16;
 /// What the numbers leave no room for.
 pub type MakeNet = fn(&FamilyCut) -> Result<FacetNet, NoRoom>;
 
+/// The function that returns the height of a whole stone of a family, in girdle radii. It is defined for impossible numbers as
+/// well, so that a message can say how far they are off.
+pub type TotalDepth = fn(&FamilyCut) -> f64;
+
 /// A cut of a family, as the numbers of its table in their units. Numbers are taken by their place among the rows of the
 /// table, which the file of the family names by constants.
 #[derive(Clone, Copy)]

@@ -12,6 +12,7 @@ use super::fitting::{FitOptions, StoneLight, YieldOptions};
 use super::goal_form::GoalForm;
 use super::measure_map::MapOptions;
 use super::measure_tilt::TiltOptions;
+use super::meet_pick::MeetPick;
 use super::opening::{FileRequest, OpenedFile, OpeningPurpose};
 use super::recovery::RecoveredWork;
 use super::saving::{SavedDesign, Stamp};
@@ -137,8 +138,8 @@ pub enum ViewAction {
     Cutting(CuttingProgress),
     /// Selects the tier at a place of the design's list, or none.
     Tier(Option<usize>),
-    /// Lets a click on a corner choose where the tier at a place goes; `None` ends that.
-    PickMeet(Option<usize>),
+    /// Lets clicks on corners choose where a tier goes, of which some may be made; `None` ends that.
+    PickMeet(Option<MeetPick>),
     /// Selects the finding at a place of the audit's list, or none.
     Finding(Option<usize>),
     /// Chooses what the map of a measure shows.

@@ -54,7 +54,7 @@ pub struct MapAxis {
 impl MapAxis {
     /// Returns the axes that a cut offers, in the order of its table or its tiers.
     pub fn all(cut: &Cut) -> Vec<Self> {
-        let rows = cut.proportions().iter().filter(|row| row.give.is_some() && row.unit != Unit::Count);
+        let rows = cut.proportions().iter().filter(|row| row.can_be_set() && row.unit != Unit::Count);
         let row = |row: &Proportion| Self {
             key: SweepKey::Proportion(row.key.to_owned()),
             name: row.name.to_owned(),
@@ -106,13 +106,16 @@ impl MapAxis {
 
     /// Whether both axes are two numbers of which one follows from the other, so that they make no map.
     pub fn is_paired(&self, other: &Self, cut: &Cut) -> bool {
-        let pair = |axis: &Self| match &axis.key {
-            SweepKey::Proportion(key) => cut.proportion(key).and_then(|row| row.pair),
+        let row = |axis: &Self| match &axis.key {
+            SweepKey::Proportion(key) => cut.proportion(key),
             _ => None,
         };
+        let is_one = row(self).zip(row(other)).is_some_and(|(one, other)| {
+            one.pair == Some(other.key) || one.does_move(other) || other.does_move(one)
+        });
         let is_scaled = |side: ScaledSide, tier: &String| cut.tier_of_side(side).as_ref() == Some(tier);
         self.key == other.key
-            || pair(self).is_some_and(|key| SweepKey::of(key) == other.key)
+            || is_one
             || match (&self.key, &other.key) {
                 // The scale of a side is told by the angle of this tier.
                 (SweepKey::Scale(side), SweepKey::Tier(tier)) => is_scaled(*side, tier),

@@ -124,13 +124,15 @@ fn proportion_rows(design: &Design, said: Option<&RowMessage>, ui: &mut Ui) -> O
     design.cut.family()?;
     let is_graded = is_graded(design);
     let (mut cut, mut edited) = (design.cut.clone(), None);
-    let (given, follow): (Vec<_>, Vec<_>) = cut.proportions().iter().partition(|row| row.give.is_some());
+    let (given, follow): (Vec<_>, Vec<_>) = cut.proportions().iter().partition(|row| row.can_be_set());
     for proportion in given {
         if row(ui, proportion, &mut cut, is_graded) {
             edited = Some(proportion.key);
         }
         if let Some(said) = said.filter(|said| said.row == proportion) {
             wrong(ui, &said.text);
+        } else if let Some(moved) = moved(proportion, &cut) {
+            ui.add(egui::Label::new(RichText::new(moved).weak().small()).wrap());
         }
     }
     if !follow.is_empty() && cut.check().is_ok() {
@@ -140,6 +142,16 @@ fn proportion_rows(design: &Design, said: Option<&RowMessage>, ui: &mut Ui) -> O
         Some(key) => Some(Edit::Proportion(key, cut)),
         None => (cut != design.cut).then_some(Edit::Cut(cut)),
     }
+}
+
+/// Says which numbers a proportion moves, with their values; `None` for one that moves no others.
+fn moved(row: &Proportion, cut: &Cut) -> Option<String> {
+    let named = |key: &&str| {
+        let row = cut.proportion(key)?;
+        Some(format!("{} {}", row.name.to_lowercase(), row.written((row.get)(cut))))
+    };
+    let moved: Vec<String> = row.moves.iter().filter_map(named).collect();
+    (!moved.is_empty()).then(|| format!("{} by {}", row.name, moved.join(", ")))
 }
 
 /// Explains what is wrong with the proportions, and at which row to say so.

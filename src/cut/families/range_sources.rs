@@ -52,6 +52,16 @@ fn step_cut(family: &str, key: &str) -> Option<&'static str> {
 /// Returns the source of a range of one family.
 fn own(family: &str, key: &str) -> Option<&'static str> {
     Some(match (family, key) {
+        ("rose" | "briolette", "total_depth") => "ours: what the usual heights and lengths make",
+        ("oval", "total_depth") => "published: 56 to 70 (gemmology.dev)",
+        ("marquise" | "pear", "total_depth") => "wider than published (diamondcuttersintl.com: 56 to 61)",
+        ("heart", "total_depth") => {
+            "wider than published for pear and marquise (diamondcuttersintl.com: 56 to 61)"
+        }
+        ("cushion" | "modified_cushion", "total_depth") => "published: 58 to 72 (gemmology.dev)",
+        ("emerald", "total_depth") => "published: 58 to 72 (gemmology.dev)",
+        ("princess", "total_depth") => "published: 65 to 80 (brilliancelab)",
+        (_, "total_depth") => "ours: around that of the first cut",
         ("single_cut", "table" | "crown_angle" | "pavilion_angle") => {
             "ours: round brilliants, with the larger tables and flatter crowns of small stones; no source gives numbers"
         }
@@ -150,12 +160,18 @@ fn own(family: &str, key: &str) -> Option<&'static str> {
         ("barion" | "cushion_barion", "length_to_width") => {
             "ours: from the square to where the cone is still nearly round"
         }
-        ("barion" | "cushion_barion", "table") => "ours: those of emerald cuts and cutters' barions (.55)",
-        ("barion" | "cushion_barion", "crown_angle") => "ours: those of emerald cuts",
+        ("oval_barion", "length_to_width") => {
+            "ours: around PC 02.094 (1.40); shorter ones leave the moons no room"
+        }
+        ("oval_barion", "half_moon_angle") => "around PC 02.094 (58 to 71)",
+        ("barion" | "cushion_barion" | "oval_barion", "table") => {
+            "ours: those of emerald cuts and cutters' barions (.55)"
+        }
+        ("barion" | "cushion_barion" | "oval_barion", "crown_angle") => "ours: those of emerald cuts",
         ("barion" | "cushion_barion", "half_moon_angle") => {
             "ours: from flat half-moons to nearly upright ones"
         }
-        ("barion" | "cushion_barion", "pavilion_angle" | "lower_half_length") => {
+        ("barion" | "cushion_barion" | "oval_barion", "pavilion_angle" | "lower_half_length") => {
             "ours: those of round brilliants"
         }
         _ => return None,
