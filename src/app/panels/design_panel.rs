@@ -106,20 +106,26 @@ fn identity(document: &Document, actions: &mut Actions, ui: &mut Ui) {
 fn proportions(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let document = &model.document;
     let said = impossible(model);
-    let changed = proportion_rows(&document.work.design, said.as_ref(), ui);
+    let is_name = matches!(document.fault(), Some(SpecimenError::Design(DesignError::Name)));
+    let is_possible = is_name || document.fault().is_none();
+    let changed = proportion_rows((&document.work.design, is_possible), said.as_ref(), ui);
     changed.into_iter().for_each(|edit| actions.push(edit));
     if matches!(document.work.design.cut, Cut::Tiers(_) | Cut::Planes(_)) {
         tier_rows::show(document, actions, ui);
     }
     warnings(document, ui);
-    let is_name = matches!(document.fault(), Some(SpecimenError::Design(DesignError::Name)));
     if let Some(fault) = document.fault().filter(|_| !is_name && said.is_none()) {
         wrong(ui, &impossible::by_name(fault));
     }
 }
 
-/// Draws the rows for the proportions of the family of a cut, if it has one; returns what the user has changed.
-fn proportion_rows(design: &Design, said: Option<&RowMessage>, ui: &mut Ui) -> Option<Edit> {
+/// Draws the rows for the proportions of the family of a cut, if it has one; returns what the user has changed. What follows from
+/// impossible proportions is not shown.
+fn proportion_rows(
+    (design, is_possible): (&Design, bool),
+    said: Option<&RowMessage>,
+    ui: &mut Ui,
+) -> Option<Edit> {
     // A cut without a family may hold a mesh, which is not copied for nothing.
     design.cut.family()?;
     let is_graded = is_graded(design);
@@ -135,7 +141,7 @@ fn proportion_rows(design: &Design, said: Option<&RowMessage>, ui: &mut Ui) -> O
             ui.add(egui::Label::new(RichText::new(moved).weak().small()).wrap());
         }
     }
-    if !follow.is_empty() && cut.check().is_ok() {
+    if !follow.is_empty() && is_possible {
         derived(ui, &follow, &cut, is_graded);
     }
     match edited {

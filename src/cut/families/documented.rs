@@ -123,6 +123,7 @@ fn row(family: &Family, row: &Proportion) -> String {
     let moved: Vec<String> = row.moves.iter().map(|key| format!("`{key}`")).collect();
     let moved = match moved.as_slice() {
         [] => String::new(),
+        [moved] => format!(" Moves {moved}, and may stand in a file in its place."),
         moved => format!(" Moves {}, and may stand in a file in their place.", moved.join(" and ")),
     };
     let default = row.default.map_or(String::new(), |value| format!(" Default {value}."));
