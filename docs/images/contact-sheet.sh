@@ -8,7 +8,7 @@ trap 'rm -r "$work"' EXIT
 side=140
 tiles=
 for cut in single-cut portuguese rose briolette oval marquise pear heart cushion trillion emerald asscher baguette \
-    tapered-baguette kite hexagon princess radiant modified-cushion barion cushion-barion; do
+    tapered-baguette kite hexagon princess radiant modified-cushion barion cushion-barion oval-barion; do
     made="$work/$cut"
     "$program" render cuts/$cut.toml --light studio --overlay wireframe --samples 1 --size $side --out "$made-facets.png"
     "$program" render cuts/$cut.toml --light studio --size $side --out "$made-studio.png"

@@ -5,7 +5,7 @@
 //! [`FAMILIES`](super::FAMILIES).
 
 use super::Cut;
-use super::family_cut::MakeNet;
+use super::family_cut::{MakeNet, TotalDepth};
 use std::fmt;
 
 /// A family of cuts, shaped by proportions.
@@ -20,12 +20,19 @@ pub struct Family {
     pub first: Cut,
     /// The function that makes the facets of a [`FamilyCut`](super::FamilyCut); `None` for families with a type of their own.
     pub net: Option<MakeNet>,
+    /// The function that says how deep a [`FamilyCut`](super::FamilyCut) is; `None` for families with a type of their own.
+    pub depth: Option<TotalDepth>,
 }
 
 impl Family {
     /// Returns the proportions that shape the cut, without those that only follow from them.
     pub fn editable(&'static self) -> impl Iterator<Item = &'static Proportion> {
         self.proportions.iter().filter(|row| row.give.is_some())
+    }
+
+    /// Returns the proportions that can be set: those that shape the cut, and those that move some of them.
+    pub fn settable(&'static self) -> impl Iterator<Item = &'static Proportion> {
+        self.proportions.iter().filter(|row| row.can_be_set())
     }
 
     /// Returns the proportion that has this key.
@@ -73,6 +80,9 @@ pub struct Proportion {
     pub is_given: fn(&Cut) -> bool,
     /// The key of the other proportion of a pair: one of both is given, and the other follows.
     pub pair: Option<&'static str>,
+    /// The keys of the given numbers that change when this one, which follows from them, is set: all by the same factor, angles
+    /// by that of their tangents. Empty where the number cannot be set, or is given itself.
+    pub moves: &'static [&'static str],
 }
 
 /// An end of the possible range.
@@ -210,7 +220,18 @@ impl Proportion {
         give: None,
         is_given: |_| true,
         pair: None,
+        moves: &[],
     };
+
+    /// Returns whether the number can be set: by itself, or by moving others.
+    pub fn can_be_set(&self) -> bool {
+        self.give.is_some() || !self.moves.is_empty()
+    }
+
+    /// Returns whether this number changes a given one when it is set: that one, or the other of its pair.
+    pub fn does_move(&self, given: &Self) -> bool {
+        self.moves.iter().any(|key| *key == given.key || given.pair == Some(key))
+    }
 
     /// Sets the value. Of a pair, the one that is given stays so; a count becomes a possible whole number.
     pub fn set(&self, cut: &mut Cut, value: f64) {
@@ -229,9 +250,12 @@ impl Proportion {
         self.give(cut, value);
     }
 
-    fn give(&self, cut: &mut Cut, value: f64) {
-        if let Some(give) = self.give {
-            give(cut, value);
+    /// Gives the value: of a pair, this proportion is the given one afterwards. A number that only follows from others is
+    /// reached by those that it [moves](Self::moves), or else stays as it is.
+    pub fn give(&self, cut: &mut Cut, value: f64) {
+        match self.give {
+            Some(give) => give(cut, value),
+            None => self.give_by_moving(cut, value),
         }
     }
 

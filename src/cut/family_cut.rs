@@ -16,6 +16,10 @@ pub const MOST_NUMBERS: usize = 16;
 /// The error names the tier for which the numbers leave no room.
 pub type MakeNet = fn(&FamilyCut) -> Result<FacetNet, NoRoom>;
 
+/// The function that returns the height of a whole stone of a family, in girdle radii. It is defined for impossible numbers as
+/// well, so that a message can say how far they are off.
+pub type TotalDepth = fn(&FamilyCut) -> f64;
+
 /// A cut of a family, as the numbers of its table in their units. A number is accessed by its place among the rows of
 /// the table, for which the file of the family has constants.
 #[derive(Clone, Copy)]

@@ -121,6 +121,7 @@ pub static PLATE: Family = Family {
     name: "Wavy plate",
     proportions: &[LENGTH, WIDTH, DEPTH, EDGE, AMPLITUDE, WAVELENGTH, PHASE],
     net: None,
+    depth: None,
     first: Cut::Glass(Glass::Plate(Plate {
         sides: Sides { length: 100.0, width: 100.0, depth: 17.4, edge: 3.0 },
         amplitude: 4.9,
@@ -130,7 +131,7 @@ pub static PLATE: Family = Family {
 };
 
 const fn of_sides(key: &'static str, name: &'static str, first: Glass) -> Family {
-    Family { key, name, proportions: SIDES, first: Cut::Glass(first), net: None }
+    Family { key, name, proportions: SIDES, first: Cut::Glass(first), net: None, depth: None }
 }
 
 fn glass(cut: &Cut) -> Option<&Glass> {

@@ -102,6 +102,36 @@ impl Cut {
     }
 }
 
+impl Proportion {
+    /// Returns a cut with this number set, after a check that the stone can have it.
+    ///
+    /// # Errors
+    /// The limit of this number, with the others as they are, and by how much it is crossed. A cut that is impossible for another
+    /// reason as well is returned as it is.
+    pub fn reached(&'static self, cut: &Cut, value: f64) -> Result<Cut, ProportionError> {
+        let with = |value: f64| {
+            let mut cut = cut.clone();
+            self.set(&mut cut, value);
+            cut
+        };
+        let (wanted, usual) = (with(value), (self.get)(cut));
+        if !value.is_finite() {
+            return Err(ProportionError::NotFinite { row: self, value });
+        }
+        if wanted.check().is_ok() || cut.check().is_err() {
+            return Ok(wanted);
+        }
+        let limit = farthest(usual, value, |value| with(value).check().is_ok());
+        let reason = "beyond which no stone has it with the other numbers as they are";
+        let limit = Limit { row: self, value, limit, inclusive: true, reason, tier: "" };
+        Err(if value > limit.limit {
+            ProportionError::TooLarge(limit)
+        } else {
+            ProportionError::TooSmall(limit)
+        })
+    }
+}
+
 /// Returns the last possible value on the way from a possible to an impossible one, with two decimals if those are
 /// enough to leave the possible value.
 fn farthest(possible: f64, impossible: f64, is_possible: impl Fn(f64) -> bool) -> f64 {

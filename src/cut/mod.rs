@@ -27,6 +27,7 @@ mod limits;
 mod material;
 pub mod meets;
 mod mesh_shape;
+mod moved_numbers;
 mod names;
 mod outline;
 mod proportion_error;

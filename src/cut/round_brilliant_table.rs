@@ -24,6 +24,7 @@ pub static ROUND_BRILLIANT: Family = Family {
     name: "Round brilliant",
     first: Cut::RoundBrilliant(TOLKOWSKY),
     net: None,
+    depth: None,
     proportions: &[
         Proportion {
             key: "table",
@@ -205,7 +206,9 @@ pub static ROUND_BRILLIANT: Family = Family {
         Proportion {
             key: "total_depth",
             name: "Total depth",
-            meaning: "From table to culet.",
+            meaning: "From table to culet. Setting it changes the depth of the pavilion; crown and girdle stay.",
+            usual: [52.0, 70.0],
+            moves: &["pavilion_depth"],
             // Up to this value, rounding errors stay below every tolerance.
             most: Bound::at(
                 Fixed(300.0),

@@ -1,7 +1,7 @@
 //! The cuts and scenes that come with the program, as the texts of their files.
 
 /// The cuts that come with the program: the name of each, and the text of its file in `cuts/`.
-pub const CUTS: [(&str, &str); 34] = [
+pub const CUTS: [(&str, &str); 35] = [
     ("tolkowsky", include_str!("../../cuts/tolkowsky.toml")),
     ("modern-ideal", include_str!("../../cuts/modern-ideal.toml")),
     ("steep-deep", include_str!("../../cuts/steep-deep.toml")),
@@ -26,6 +26,7 @@ pub const CUTS: [(&str, &str); 34] = [
     ("hexagon", include_str!("../../cuts/hexagon.toml")),
     ("barion", include_str!("../../cuts/barion.toml")),
     ("cushion-barion", include_str!("../../cuts/cushion-barion.toml")),
+    ("oval-barion", include_str!("../../cuts/oval-barion.toml")),
     ("marquise", include_str!("../../cuts/marquise.toml")),
     ("pear", include_str!("../../cuts/pear.toml")),
     ("heart", include_str!("../../cuts/heart.toml")),

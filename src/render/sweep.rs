@@ -4,7 +4,10 @@ use super::job::{Job, MeasuresProduct, Product, Quality};
 use super::renderer::{RenderError, Renderer, TakenMeasures};
 use super::sweep_key::{PERCENT_OF_SIDE, SweepKey};
 use super::{Card, Wanted};
-use crate::cut::{Cut, Design, MachineSetting, MaterialError, MaterialRef, MeetError, ScaleError, scaled};
+use crate::cut::{
+    Cut, Design, DesignError, MachineSetting, MaterialError, MaterialRef, MeetError, Proportion, ScaleError,
+    scaled,
+};
 use crate::measure::{Bounds, LightMeasures, MeasureName, MeasureSettings};
 use crate::optics::{DispersionError, Material, line};
 use crate::scene::{Film, Medium, Scene, Specimen, SpecimenError, Viewpoint};
@@ -117,6 +120,14 @@ pub enum SweepError {
         /// The key.
         key: String,
     },
+    /// Two proportions, one of which moves the other.
+    #[error("{key} is reached by changing {moved}, so that they cannot both vary; give one of them")]
+    Moved {
+        /// The key of the one.
+        key: String,
+        /// The key of the one that it moves.
+        moved: String,
+    },
     /// The cut has no proportion of this key, or one that only follows from others.
     #[error("{key}: the design has no such proportion to set; {known}")]
     NoProportion {
@@ -212,6 +223,7 @@ impl Sweep {
             }
         }
         let mut varied = self.start();
+        varied.check_moved(&self.axes.iter().map(|axis| &axis.key).collect::<Vec<_>>())?;
         let each = self.axes.iter().flat_map(|axis| axis.values.iter().map(|value| (&axis.key, value)));
         for (key, value) in each {
             match key {
@@ -347,14 +359,47 @@ impl VariedDesign {
     }
 
     /// Sets all numbers, and follows the meets. Sides are scaled first, so that angles and distances end at the given
-    /// values.
+    /// values. Numbers that move other proportions come last, for the same reason.
     fn set_all(mut self, numbers: &[(&SweepKey, &SweepValue)]) -> Result<Self, SweepError> {
-        let (scales, others): (Vec<_>, Vec<_>) =
-            numbers.iter().partition(|(key, _)| matches!(key, SweepKey::Scale(_)));
-        for (key, value) in scales.into_iter().chain(others) {
+        let mut numbers = numbers.to_vec();
+        self.check_moved(&numbers.iter().map(|(key, _)| *key).collect::<Vec<_>>())?;
+        numbers.sort_by_key(|(key, _)| match key {
+            SweepKey::Scale(_) => 0,
+            _ if self.mover(key).is_some() => 2,
+            _ => 1,
+        });
+        for (key, value) in numbers {
+            let before = self.mover(key).map(|row| (row, self.design.cut.clone()));
             self.set(key, value)?;
+            if let (Some((row, before)), SweepValue::Number(value)) = (before, value) {
+                row.reached(&before, *value)
+                    .map_err(|fault| SpecimenError::from(DesignError::from(fault)))?;
+            }
         }
         self.followed()
+    }
+
+    /// Checks that no two of some keys are those of a proportion and of another that it moves.
+    fn check_moved(&self, keys: &[&SweepKey]) -> Result<(), SweepError> {
+        for key in keys {
+            if let Some(moved) = keys.iter().find(|other| self.does_move(key, other)) {
+                return Err(SweepError::Moved { key: key.to_string(), moved: moved.to_string() });
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the proportion of a key that moves others.
+    fn mover(&self, key: &SweepKey) -> Option<&'static Proportion> {
+        let SweepKey::Proportion(key) = key else { return None };
+        self.design.cut.proportion(key).filter(|row| !row.moves.is_empty())
+    }
+
+    /// Whether a proportion moves another one.
+    fn does_move(&self, key: &SweepKey, other: &SweepKey) -> bool {
+        let SweepKey::Proportion(other) = other else { return false };
+        let other = self.design.cut.proportion(other);
+        self.mover(key).zip(other).is_some_and(|(mover, other)| mover.does_move(other))
     }
 
     /// Returns the factor by which a side is to be scaled.
@@ -422,17 +467,16 @@ impl VariedDesign {
 
 /// Sets a proportion; of a pair, it becomes the one that the cut fixes.
 fn set_proportion(cut: &mut Cut, key: &str, value: f64) -> Result<(), SweepError> {
-    let row = cut.proportion(key).and_then(|row| Some((row, row.give?)));
-    let Some((_, give)) = row else {
+    let Some(row) = cut.proportion(key).filter(|row| row.can_be_set()) else {
         let keys: Vec<&str> =
-            cut.family().into_iter().flat_map(|f| f.editable()).map(|row| row.key).collect();
+            cut.family().into_iter().flat_map(|f| f.settable()).map(|row| row.key).collect();
         let known = match keys.is_empty() {
             true => "it is not shaped by proportions: vary its tiers, as in tier:P1".to_owned(),
             false => format!("it has {}", keys.join(", ")),
         };
         return Err(SweepError::NoProportion { key: key.to_owned(), known });
     };
-    give(cut, value);
+    row.give(cut, value);
     Ok(())
 }
 

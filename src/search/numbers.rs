@@ -156,10 +156,13 @@ fn of_tier(cut: &Cut, name: &str, number: impl Fn(&MachineSetting) -> f64) -> f6
 fn changes_girdle(cut: &Cut, number: &VariedNumber) -> bool {
     let SweepKey::Proportion(key) = &number.key else { return false };
     let Some(row) = cut.proportion(key) else { return false };
-    let (Some(give), Some(before)) = (row.give, girdle(cut)) else { return false };
+    let Some(before) = girdle(cut) else { return false };
     let mut moved = cut.clone();
     let by = 1e-3 * (number.most - number.least);
-    give(&mut moved, if number.start + by <= number.most { number.start + by } else { number.start - by });
+    row.give(
+        &mut moved,
+        if number.start + by <= number.most { number.start + by } else { number.start - by },
+    );
     let is_same = |(before, after): (&(String, Plane), &(String, Plane))| {
         before.1.normal.distance(after.1.normal) < 1e-9 && (before.1.offset - after.1.offset).abs() < 1e-9
     };

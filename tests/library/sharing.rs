@@ -59,7 +59,8 @@ fn wavelengths_that_share_beams_show_what_each_shows_alone() {
         let of_apart = rest_apart.absorbed;
         assert!((rest.absorbed - of_apart).abs() < 2e-3 + rest_apart.unresolved, "{material}: {of_apart}");
         // The comparison notices an index that is off by a thousandth.
-        let mut mutant = self::shoot(shoot.setting.instances[0].body.stone().unwrap().polytope.clone(), material, name);
+        let mut mutant =
+            self::shoot(shoot.setting.instances[0].body.stone().unwrap().polytope.clone(), material, name);
         mutant.setting.unit_mm *= 1.0;
         mutant.view.tilt += 2e-3;
         let (half_mutant, ..) = steps(&mutant.shared_and_apart(options)[0].0, &apart);
@@ -82,7 +83,11 @@ fn no_light_is_lost_where_beams_are_shared_or_left() {
         let most = shared.pixels.iter().map(far).fold(0.0, f64::max);
         assert!(most < 0.02, "{material}: a pixel is off by {most}");
         // Without the estimate, light would be missing.
-        assert!(material == "quartz" || rest_apart.unresolved > 5e-3, "{material}: {}", rest_apart.unresolved);
+        assert!(
+            material == "quartz" || rest_apart.unresolved > 5e-3,
+            "{material}: {}",
+            rest_apart.unresolved
+        );
     }
 }
 

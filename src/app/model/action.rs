@@ -12,6 +12,7 @@ use super::fitting::{FitOptions, StoneLight, YieldOptions};
 use super::goal_form::GoalForm;
 use super::measure_map::MapOptions;
 use super::measure_tilt::TiltOptions;
+use super::meet_pick::MeetPick;
 use super::opening::{FileRequest, OpenedFile, OpeningPurpose};
 use super::recovery::RecoveredWork;
 use super::saving::{SavedDesign, Stamp};
@@ -139,8 +140,8 @@ pub enum ViewAction {
     Cutting(CuttingProgress),
     /// Selects the tier at a place of the design's list, or none.
     Tier(Option<usize>),
-    /// Begins to choose the corner that the tier at a place is cut to, by a click; `None` ends the choice.
-    PickMeet(Option<usize>),
+    /// Begins a pick of corners that a tier is cut to, of which some may be picked already; `None` ends the pick.
+    PickMeet(Option<MeetPick>),
     /// Selects the finding at a place of the audit's list, or none.
     Finding(Option<usize>),
     /// Sets the choices of the map of a measure.

@@ -2,7 +2,7 @@
 //! change.
 
 use super::measure_map::MapAxis;
-use crate::cut::Cut;
+use crate::cut::{Cut, Proportion};
 use crate::measure::measure_words;
 use crate::render::SweepKey;
 use crate::search::{Goal, GoalMeasure, SearchOptions, VariedNumber};
@@ -222,7 +222,7 @@ impl GoalForm {
 /// Returns whether a cut has a number that a search can change.
 fn has(cut: &Cut, key: &str) -> bool {
     match SweepKey::of(key) {
-        SweepKey::Proportion(key) => cut.proportion(&key).is_some_and(|row| row.give.is_some()),
+        SweepKey::Proportion(key) => cut.proportion(&key).is_some_and(Proportion::can_be_set),
         SweepKey::Tier(name) | SweepKey::Distance(name) => {
             cut.settings().iter().any(|setting| setting.name == name)
         }

@@ -24,7 +24,7 @@ pub fn by_name(fault: &SpecimenError) -> String {
 /// `last` is the last possible cut of the same family, `edited` is the key of the row that was edited last.
 pub fn explain(given: &Cut, last: &Cut, edited: Option<&str>, fault: &ProportionError) -> RowMessage {
     let heals = |row: &&'static Proportion| {
-        row.give.is_some() && (row.get)(given) != (row.get)(last) && makes_stone(given, row, (row.get)(last))
+        row.can_be_set() && (row.get)(given) != (row.get)(last) && makes_stone(given, row, (row.get)(last))
     };
     let edited = edited.and_then(|key| given.proportion(key));
     let at = edited.filter(heals).or_else(|| Some(fault.row()).filter(heals));
@@ -125,7 +125,7 @@ mod tests {
     fn what_is_told_as_the_limit_makes_a_stone_and_the_next_step_does_not() {
         let mut checked = 0;
         for family in FAMILIES {
-            for row in family.editable().filter(|row| row.unit != Unit::Count) {
+            for row in family.settable().filter(|row| row.unit != Unit::Count) {
                 for value in [-40.0, 0.0, 96.0, 150.0, 1e7] {
                     let given = with(family, row.key, value);
                     if given.check().is_ok() {
@@ -146,7 +146,7 @@ mod tests {
     #[test]
     fn messages_call_a_proportion_as_the_panel_does() {
         for family in FAMILIES {
-            for row in family.editable() {
+            for row in family.settable() {
                 let given = with(family, row.key, f64::NAN);
                 let Err(fault) = given.check() else { continue };
                 let (on_panel, in_files) = (fault.by_name(), fault.to_string());

@@ -55,7 +55,7 @@ pub struct MapAxis {
 impl MapAxis {
     /// Returns the axes that a cut offers, in the order of its table or its tiers.
     pub fn all(cut: &Cut) -> Vec<Self> {
-        let rows = cut.proportions().iter().filter(|row| row.give.is_some() && row.unit != Unit::Count);
+        let rows = cut.proportions().iter().filter(|row| row.can_be_set() && row.unit != Unit::Count);
         let row = |row: &Proportion| Self {
             key: SweepKey::Proportion(row.key.to_owned()),
             name: row.name.to_owned(),
@@ -107,13 +107,16 @@ impl MapAxis {
 
     /// Returns whether one of the two numbers follows from the other, so that they make no map.
     pub fn is_paired(&self, other: &Self, cut: &Cut) -> bool {
-        let pair = |axis: &Self| match &axis.key {
-            SweepKey::Proportion(key) => cut.proportion(key).and_then(|row| row.pair),
+        let row = |axis: &Self| match &axis.key {
+            SweepKey::Proportion(key) => cut.proportion(key),
             _ => None,
         };
+        let is_one = row(self).zip(row(other)).is_some_and(|(one, other)| {
+            one.pair == Some(other.key) || one.does_move(other) || other.does_move(one)
+        });
         let is_scaled = |side: ScaledSide, tier: &String| cut.tier_of_side(side).as_ref() == Some(tier);
         self.key == other.key
-            || pair(self).is_some_and(|key| SweepKey::of(key) == other.key)
+            || is_one
             || match (&self.key, &other.key) {
                 // The angle of this tier follows from the scale of its side.
                 (SweepKey::Scale(side), SweepKey::Tier(tier)) => is_scaled(*side, tier),

@@ -27,6 +27,7 @@ pub mod history;
 pub mod impossible;
 pub mod measure_map;
 pub mod measure_tilt;
+pub mod meet_pick;
 pub mod motion;
 pub mod notes;
 pub mod opening;

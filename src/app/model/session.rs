@@ -11,6 +11,7 @@ use super::figures::SessionFigures;
 use super::framing::Framing;
 use super::measure_map::MeasureMap;
 use super::measure_tilt::MeasureTilt;
+use super::meet_pick::MeetPick;
 use super::motion::Motion;
 use super::notes::Notes;
 use super::opening::Opening;
@@ -119,8 +120,8 @@ pub struct Session {
     pub edited: Option<&'static str>,
     /// The place of the tier that is selected in the design's list.
     pub tier: Option<usize>,
-    /// The place of the tier whose meet is being picked in a view.
-    pub picking: Option<usize>,
+    /// The tier whose meet is being picked in a view, and the corners that have been picked.
+    pub picking: Option<MeetPick>,
     /// The reason why the meet of each tier could not be followed after the last change; `None` where it was.
     pub meet_faults: Vec<Option<String>>,
     /// The audit of the stone, while its list is open.

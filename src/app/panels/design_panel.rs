@@ -106,40 +106,58 @@ fn identity(document: &Document, actions: &mut Actions, ui: &mut Ui) {
 fn proportions(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let document = &model.document;
     let said = impossible(model);
-    let changed = proportion_rows(&document.work.design, said.as_ref(), ui);
+    let is_name = matches!(document.fault(), Some(SpecimenError::Design(DesignError::Name)));
+    let is_possible = is_name || document.fault().is_none();
+    let changed = proportion_rows((&document.work.design, is_possible), said.as_ref(), ui);
     changed.into_iter().for_each(|edit| actions.push(edit));
     if matches!(document.work.design.cut, Cut::Tiers(_) | Cut::Planes(_)) {
         tier_rows::show(document, actions, ui);
     }
     warnings(document, ui);
-    let is_name = matches!(document.fault(), Some(SpecimenError::Design(DesignError::Name)));
     if let Some(fault) = document.fault().filter(|_| !is_name && said.is_none()) {
         wrong(ui, &impossible::by_name(fault));
     }
 }
 
-/// Draws the rows for the proportions of the family of a cut, if it has one; returns the user's edit.
-fn proportion_rows(design: &Design, said: Option<&RowMessage>, ui: &mut Ui) -> Option<Edit> {
+/// Draws the rows for the proportions of the family of a cut, if it has one; returns the user's edit. Numbers that follow
+/// from impossible proportions are not shown.
+fn proportion_rows(
+    (design, is_possible): (&Design, bool),
+    said: Option<&RowMessage>,
+    ui: &mut Ui,
+) -> Option<Edit> {
     // A cut without a family may hold a mesh, which is not copied for nothing.
     design.cut.family()?;
     let is_graded = is_graded(design);
     let (mut cut, mut edited) = (design.cut.clone(), None);
-    let (given, follow): (Vec<_>, Vec<_>) = cut.proportions().iter().partition(|row| row.give.is_some());
+    let (given, follow): (Vec<_>, Vec<_>) = cut.proportions().iter().partition(|row| row.can_be_set());
     for proportion in given {
         if row(ui, proportion, &mut cut, is_graded) {
             edited = Some(proportion.key);
         }
         if let Some(said) = said.filter(|said| said.row == proportion) {
             wrong(ui, &said.text);
+        } else if let Some(moved) = moved(proportion, &cut) {
+            ui.add(egui::Label::new(RichText::new(moved).weak().small()).wrap());
         }
     }
-    if !follow.is_empty() && cut.check().is_ok() {
+    if !follow.is_empty() && is_possible {
         derived(ui, &follow, &cut, is_graded);
     }
     match edited {
         Some(key) => Some(Edit::Proportion(key, cut)),
         None => (cut != design.cut).then_some(Edit::Cut(cut)),
     }
+}
+
+/// Returns the names of the numbers that a proportion moves, with their values; `None` for one that moves no others.
+fn moved(row: &Proportion, cut: &Cut) -> Option<String> {
+    let named = |key: &&str| {
+        let row = cut.proportion(key)?;
+        Some(format!("{} {}", row.name.to_lowercase(), row.written((row.get)(cut))))
+    };
+    let moved: Vec<String> = row.moves.iter().filter_map(named).collect();
+    (!moved.is_empty()).then(|| format!("{} by {}", row.name, moved.join(", ")))
 }
 
 /// Returns the message about impossible proportions and the row that shows it.

@@ -5,6 +5,7 @@
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit, ViewAction};
+use crate::app::model::meet_pick::MeetPick;
 use crate::app::panels::rows::{ANY, Number, explain, spoken};
 use crate::app::panels::{gear_fields, scale_fields};
 use crate::cut::{Cut, FROSTINGS, Tier, TierChange, TierZone, Tiers, read_indices};
@@ -13,9 +14,7 @@ use egui::{Color32, ComboBox, Id, Panel, Response, RichText, ScrollArea, Sense, 
 /// The least, the first and the greatest height of the table, points.
 const HEIGHTS: [f32; 3] = [110.0, 270.0, 560.0];
 /// The widths of the columns, points: grip, cut, name, zone, angle, distance, meet, indices, frosting, instructions.
-const WIDTHS: [f32; 10] = [34.0, 34.0, 84.0, 88.0, 84.0, 92.0, 226.0, 240.0, 64.0, 200.0];
-/// The width of the button beside a meet, points.
-const PICK: f32 = 36.0;
+const WIDTHS: [f32; 10] = [34.0, 34.0, 84.0, 88.0, 84.0, 92.0, 278.0, 240.0, 64.0, 200.0];
 /// The heads of the columns and their meanings.
 const HEADS: [(&str, &str); 10] = [
     ("", "The number of the tier. Drag it to cut the tier earlier or later."),
@@ -297,7 +296,8 @@ fn meet(
     let own = tiers.tiers[place].meet.as_ref().map(ToString::to_string).unwrap_or_default();
     let fault = model.session.meet_faults.get(place).and_then(Option::as_ref);
     let left = ui.cursor().left();
-    let width = WIDTHS[6] - PICK - ui.spacing().item_spacing.x;
+    let picks: f32 = PICKS.iter().map(|pick| pick.width + ui.spacing().item_spacing.x).sum();
+    let width = WIDTHS[6] - picks;
     let changed = text(ui, width, (place, "Meet", called), &own, |text| match text.trim() {
         "" => Some(TierChange::Meet(place, None)),
         text => tiers.meet_in_words(place, text).map(|meet| TierChange::Meet(place, Some(meet))),
@@ -311,16 +311,49 @@ fn meet(
         spoken(&under, &said);
         under.on_hover_text(said);
     }
-    let is_picked = model.picked_tier() == Some(place);
-    let is_cut = tiers.tiers[place].is_cut;
-    let pick =
-        cell(ui, PICK, |ui| ui.add_enabled_ui(is_cut, |ui| ui.selectable_label(is_picked, "Pick")).inner);
-    spoken(&pick, &format!("Pick meet of {called}"));
-    let pick =
-        explain(ui, pick, "Shows the corners that the tier can be cut to. Click one in a view to meet it.");
-    actions.push_if(pick.clicked(), ViewAction::PickMeet((!is_picked).then_some(place)));
+    for (kind, wanted) in PICKS.iter().zip(1..) {
+        let is_picked = model.meet_pick().is_some_and(|pick| pick.place == place && pick.wanted == wanted);
+        let is_cut = tiers.tiers[place].is_cut;
+        let label = |ui: &mut Ui| ui.selectable_label(is_picked, kind.label);
+        let pick = cell(ui, kind.width, |ui| ui.add_enabled_ui(is_cut, label).inner);
+        spoken(&pick, &format!("{} of {called}", kind.name));
+        let pick = explain(ui, pick, kind.meaning);
+        let next = (!is_picked).then(|| MeetPick::new(place, wanted));
+        actions.push_if(pick.clicked(), ViewAction::PickMeet(next));
+    }
     changed
 }
+
+/// A button that begins a pick of corners.
+struct PickButton {
+    label: &'static str,
+    name: &'static str,
+    meaning: &'static str,
+    /// The width, points.
+    width: f32,
+}
+
+/// The buttons beside a meet: for one, two and three corners.
+const PICKS: [PickButton; 3] = [
+    PickButton {
+        label: "Pick",
+        name: "Pick meet",
+        meaning: "Shows the corners that the tier can be cut to. Click one in a view to meet it.",
+        width: 36.0,
+    },
+    PickButton {
+        label: "2",
+        name: "Pick two points",
+        meaning: "Shows the corners of the stone. Click two in a view: the tier passes through both, and its angle follows.",
+        width: 18.0,
+    },
+    PickButton {
+        label: "3",
+        name: "Pick three points",
+        meaning: "Shows the corners of the stone. Click three in a view: the tier passes through all, and its angle and index follow.",
+        width: 18.0,
+    },
+];
 
 /// Draws a field for a text of a tier; returns the change that the text describes once the user leaves the field or
 /// presses Return.

@@ -4,7 +4,7 @@
 use super::*;
 use crate::app::model::action::Edit;
 use crate::app::model::{Action, update};
-use crate::cut::{Crown, TierChange};
+use crate::cut::{Crown, Tier, TierChange};
 use crate::scene::Side;
 use glam::DVec2;
 
@@ -12,11 +12,17 @@ use glam::DVec2;
 const CHANGES: u32 = 120;
 const FRAME: Duration = Duration::from_micros(16_667);
 
-/// Makes changes at 60 Hz, as a hand does, and prints the number of pictures that each pane shows in a second, and
+/// Changes the first cut at 60 Hz, as a hand does, and prints the number of pictures that each pane shows in a second, and
 /// the time of a frame of the window in milliseconds.
-fn drag(name: &str, shows_map: bool, mut change: impl FnMut(&mut Editor, u32)) {
-    let setup =
-        Setup { workspace: Workspace { head: 1e-9, shows_map, ..Workspace::default() }, ..Setup::default() };
+fn drag(name: &str, shows_map: bool, change: impl FnMut(&mut Editor, u32)) {
+    drag_of(None, name, shows_map, change);
+}
+
+/// Does the same with the cut of a file in `cuts/`.
+fn drag_of(cut: Option<&str>, name: &str, shows_map: bool, mut change: impl FnMut(&mut Editor, u32)) {
+    let file = cut.map(|cut| format!("{}/cuts/{cut}", env!("CARGO_MANIFEST_DIR")).into());
+    let workspace = Workspace { head: 1e-9, shows_map, ..Workspace::default() };
+    let setup = Setup { workspace, file, ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(1440.0, 900.0));
     bench.settle();
     let begun = Instant::now();
@@ -63,23 +69,39 @@ fn the_views_follow_the_hand() {
     });
 }
 
-#[test]
-#[ignore = "measures times, which takes a minute of two idle cores"]
-fn the_views_follow_a_tier_as_they_follow_the_brilliant() {
-    let mut tiers = None;
-    drag("a tier of the brilliant", false, |editor, k| {
-        let first = || {
+/// Drags the angle of a tier of a cut that is turned into tiers: the first that `is_meant`.
+fn drag_tier(cut: Option<&str>, name: &str, is_meant: fn(&Tier) -> bool) {
+    let mut held: Option<(usize, Tier)> = None;
+    drag_of(cut, name, false, |editor, k| {
+        let (place, tier) = held.get_or_insert_with(|| {
             update(&mut editor.model, Action::Edit(Edit::IntoTiers));
             let Cut::Tiers(tiers) = &editor.model.document.work.design.cut else { panic!() };
-            let place = tiers.tiers.iter().position(|tier| tier.name() == "C1").unwrap();
+            let place = tiers.tiers.iter().position(is_meant).unwrap();
             (place, tiers.tiers[place].clone())
-        };
-        let (place, tier) = tiers.get_or_insert_with(first);
-        let angle = tier.angle + 0.02 * f64::from(k);
+        });
+        let angle = tier.angle + 0.005 * f64::from(k);
         update(
             &mut editor.model,
             Action::Edit(Edit::Tiers(TierChange::Setting(*place, angle, tier.distance))),
         );
+    });
+}
+
+#[test]
+#[ignore = "measures times, which takes a minute of two idle cores"]
+fn the_views_follow_a_tier_as_they_follow_the_brilliant() {
+    drag("crown angle", false, |editor, k| {
+        if let Cut::RoundBrilliant(brilliant) = &mut editor.model.document.work.design.cut {
+            brilliant.crown = Crown::Angle(33.0 + 0.005 * f64::from(k));
+        }
+    });
+    drag_tier(None, "a tier of the brilliant", |tier| tier.name() == "C1");
+    let portuguese = Some("portuguese.toml");
+    drag_tier(portuguese, "a pavilion tier of 193 facets", |tier| (-80.0..0.0).contains(&tier.angle));
+    drag_tier(portuguese, "a crown tier of 193 facets", |tier| (1.0..80.0).contains(&tier.angle));
+    drag_of(portuguese, "the crown angle of 193 facets", false, |editor, k| {
+        let cut = &mut editor.model.document.work.design.cut;
+        cut.proportion("crown_angle").unwrap().set(cut, 52.0 + 0.005 * f64::from(k));
     });
 }
 

@@ -384,3 +384,33 @@ fn a_view_of_its_own_turn_comes_to_rest() {
     bench.settle();
     assert_ne!(bench.picture(0), picture);
 }
+
+#[test]
+fn the_total_depth_of_an_oval_is_set_and_says_what_it_moves() {
+    let mut bench = Bench::sized(Setup::default(), egui::vec2(1400.0, 900.0));
+    bench.choose("File", "New from a cut");
+    bench.click("Oval 1.40");
+    bench.settle();
+    let value = |bench: &Bench, key: &str| {
+        let cut = &bench.editor().model.document.work.design.cut;
+        (cut.proportion(key).unwrap().get)(cut)
+    };
+    let [depth, angle, crown] =
+        ["total_depth", "pavilion_angle", "crown_angle"].map(|key| value(&bench, key));
+    bench.type_number("Total depth", "62.5");
+    bench.settle();
+    assert!((value(&bench, "total_depth") - 62.5).abs() < 1e-9);
+    assert!(value(&bench, "pavilion_angle") > angle && value(&bench, "crown_angle") == crown);
+    let said = format!("Total depth by pavilion angle {:.2}°", value(&bench, "pavilion_angle"));
+    assert!(bench.harness.query_by_label_contains(&said).is_some(), "{said}");
+    // A depth that no stone has is explained at its row, and the last stone stays in sight.
+    bench.type_number("Total depth", "12");
+    let message =
+        "Total depth: 12 % is impossible. With the other proportions as they are, it can be at least ";
+    assert!(bench.harness.query_by_label_contains(message).is_some());
+    assert!(bench.editor().model.document.shows_last_possible());
+    bench.choose("Edit", "Undo");
+    bench.choose("Edit", "Undo");
+    bench.settle();
+    assert_eq!([value(&bench, "total_depth"), value(&bench, "pavilion_angle")], [depth, angle]);
+}

@@ -2,7 +2,8 @@
 
 use super::tiers::{reach, tiers};
 use super::*;
-use crate::cut::{Tier, TierCorner, Tiers};
+use crate::app::model::meet_pick::MeetPick;
+use crate::cut::{Meet, Tier, TierChange, TierCorner, Tiers};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use glam::{DMat2, DVec2};
 
@@ -148,7 +149,7 @@ fn a_corner_that_is_picked_becomes_the_meet_of_the_tier() {
     let corner = another_corner(&bench);
     reach(&mut bench, "Pick meet of T");
     bench.click("Pick meet of T");
-    assert_eq!(bench.editor().model.session.picking, Some(table_place(&before)));
+    assert_eq!(bench.editor().model.session.picking, Some(MeetPick::new(table_place(&before), 1)));
     // A click beside all corners picks nothing, and Escape ends it.
     bench.click_at(at(&bench, DVec2::ZERO));
     assert_eq!(tiers(&bench), before);
@@ -171,6 +172,117 @@ fn a_corner_that_is_picked_becomes_the_meet_of_the_tier() {
     bench.click("Pick meet of T");
     bench.click("Earlier");
     assert_eq!(bench.editor().model.session.picking, None);
+}
+
+/// Returns the place in the window of a corner of the design.
+fn at_corner(bench: &Bench, corner: &TierCorner) -> Pos2 {
+    let frame = bench.editor().model.document.specimen().frame;
+    at(bench, frame.place(corner.at).truncate())
+}
+
+/// Returns the place of a tier and corners in sight from above, as many as a meet through them is to have, to which such a meet leads
+/// the tier and changes its angle.
+fn some_corners(bench: &Bench, count: usize) -> (usize, Vec<TierCorner>) {
+    let tiers = tiers(bench);
+    let places = (0..tiers.tiers.len()).filter(|&place| (5.0..85.0).contains(&tiers.tiers[place].angle));
+    let found = places.into_iter().find_map(|place| {
+        let all = tiers.corners_beside(place);
+        let is_seen = |corner: &TierCorner| corner.normals.iter().any(|normal| normal.z > 1e-3);
+        let place_of = |corner: &TierCorner| at_corner(bench, corner);
+        // Of corners behind one another a click means the nearest to it.
+        let is_alone = |corner: &&TierCorner| {
+            let near = |other: &&TierCorner| place_of(other).distance(place_of(corner)) < 4.0;
+            all.iter().filter(|other| is_seen(other)).filter(near).count() == 1
+        };
+        let beside: Vec<&TierCorner> =
+            all.iter().filter(|corner| corner.facet == 0 && is_seen(corner)).filter(is_alone).collect();
+        let changes = |set: &Vec<usize>| {
+            let picked: Vec<&TierCorner> = set.iter().map(|&k| beside[k]).collect();
+            let meet = tiers.meet_through(place, &picked)?;
+            let solved = tiers.changed(TierChange::Meet(place, Some(meet))).tiers;
+            let turned = (solved.tiers[place].angle - tiers.tiers[place].angle).abs();
+            (turned > 0.05).then(|| (place, picked.into_iter().cloned().collect::<Vec<_>>()))
+        };
+        sets(beside.len(), count).iter().find_map(changes)
+    });
+    found.unwrap_or_else(|| panic!("no {count} corners"))
+}
+
+/// Returns all sets of so many numbers below `of`.
+fn sets(of: usize, count: usize) -> Vec<Vec<usize>> {
+    let longer = |set: Vec<usize>| {
+        let from = set.last().map_or(0, |last| last + 1);
+        (from..of).map(move |next| set.iter().copied().chain([next]).collect())
+    };
+    (0..count).fold(vec![vec![]], |sets, _| sets.into_iter().flat_map(longer).collect())
+}
+
+#[test]
+fn two_and_three_corners_that_are_picked_become_one_meet_as_one_step() {
+    for (count, button, ready) in
+        [(2, "Pick two points", "Click two corners"), (3, "Pick three points", "Click three corners")]
+    {
+        let mut bench = bench();
+        let before = tiers(&bench);
+        let (place, corners) = some_corners(&bench, count);
+        let button = format!("{button} of {}", before.tiers[place].name());
+        reach(&mut bench, &button);
+        bench.click(&button);
+        assert_eq!(bench.editor().model.meet_pick(), Some(&MeetPick::new(place, count)));
+        let message = |bench: &Bench| bench.editor().model.session.message.clone();
+        let body = bench.harness.get_by_label("ASET picture").rect();
+        bench.harness.hover_at(body.left_top() + vec2(4.0, 4.0));
+        bench.harness.run_steps(3);
+        assert!(message(&bench).starts_with(ready), "{}", message(&bench));
+        // Escape ends a pick that has begun, and nothing has changed.
+        bench.click_at(at_corner(&bench, &corners[0]));
+        assert_eq!(bench.editor().model.meet_pick().map(|pick| pick.corners.len()), Some(1));
+        bench.harness.key_press(Key::Escape);
+        bench.harness.run_steps(2);
+        assert_eq!((bench.editor().model.meet_pick(), tiers(&bench)), (None, before.clone()));
+        bench.click(&button);
+        for (picked, corner) in corners.iter().enumerate() {
+            assert_eq!(tiers(&bench), before, "nothing changes before the last click");
+            bench.click_at(at_corner(&bench, corner));
+            bench.harness.run_steps(2);
+            let left = ["", "one to go", "two to go"][count - picked - 1];
+            assert!(message(&bench).contains(left), "{left}: {}", message(&bench));
+        }
+        assert_eq!(bench.editor().model.meet_pick(), None);
+        let now = tiers(&bench);
+        let tier = &now.tiers[place];
+        let Some(Meet::Points(points)) = &tier.meet else { panic!("{:?}", tier.meet) };
+        assert_eq!(points.len(), count);
+        let passes = |facet: &crate::cut::Indexed| {
+            let plane = now.plane(tier, facet.index);
+            corners.iter().all(|corner| plane.distance(corner.at).abs() < THERE)
+        };
+        assert!(tier.facets.iter().any(passes));
+        assert!((tier.angle - before.tiers[place].angle).abs() > 0.05);
+        bench.choose("Edit", "Undo");
+        assert_eq!(tiers(&bench), before, "one step");
+    }
+}
+
+#[test]
+fn a_corner_that_is_clicked_again_is_taken_back() {
+    let mut bench = bench();
+    let before = tiers(&bench);
+    let (place, corners) = some_corners(&bench, 2);
+    let (corner, name) = (&corners[0], before.tiers[place].name().to_owned());
+    let button = format!("Pick two points of {name}");
+    reach(&mut bench, &button);
+    bench.click(&button);
+    let count = |bench: &Bench| bench.editor().model.meet_pick().map(|pick| pick.corners.len());
+    for expected in [1, 0, 1] {
+        bench.click_at(at_corner(&bench, corner));
+        bench.harness.run_steps(2);
+        assert_eq!(count(&bench), Some(expected));
+    }
+    // Another kind of pick begins anew.
+    bench.click(&format!("Pick meet of {name}"));
+    assert_eq!(bench.editor().model.meet_pick(), Some(&MeetPick::new(place, 1)));
+    assert_eq!(tiers(&bench), before);
 }
 
 #[test]

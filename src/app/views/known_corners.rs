@@ -1,6 +1,7 @@
 //! The corners of the stone to which a tier can be cut, for the views that mark them.
 
 use super::pane_view::PaneView;
+use crate::app::model::meet_pick::MeetPick;
 use crate::cut::{Cut, Meet, TierCorner};
 use crate::scene::Specimen;
 use crate::trace::ray::Camera;
@@ -14,36 +15,50 @@ pub const MEETING: Color32 = Color32::from_rgb(90, 220, 255);
 /// A plane is invisible where its normal leans to the eye by less than this (cosine).
 const IN_SIGHT: f64 = 1e-6;
 
-/// The corners of the tier that was queried last.
+/// The corners of the pick that was queried last.
 #[derive(Default)]
 pub struct KnownCorners(Option<CornersOfTier>);
 
 /// The corners of a tier of a stone.
 pub struct CornersOfTier {
     specimen: Arc<Specimen>,
-    place: usize,
+    pick: MeetPick,
     /// The corners, each with the meet that leads there: the outer `None` means that no meet was sought yet, the
     /// inner that none leads there.
     pub corners: Vec<(TierCorner, Option<Option<Meet>>)>,
 }
 
 impl KnownCorners {
-    /// Returns the corners of a tier; `None` where the stone is not cut by tiers.
-    pub fn of(&mut self, specimen: &Arc<Specimen>, place: usize) -> Option<&mut CornersOfTier> {
-        let is_known = |known: &CornersOfTier| Arc::ptr_eq(&known.specimen, specimen) && known.place == place;
+    /// Returns the corners that a pick can take next; `None` where the stone is not cut by tiers.
+    pub fn of(&mut self, specimen: &Arc<Specimen>, pick: &MeetPick) -> Option<&mut CornersOfTier> {
+        let is_known = |known: &CornersOfTier| Arc::ptr_eq(&known.specimen, specimen) && known.pick == *pick;
         if !self.0.as_ref().is_some_and(is_known) {
-            self.0 = Some(CornersOfTier::of(specimen, place)?);
+            self.0 = Some(CornersOfTier::of_pick(specimen, pick)?);
         }
         self.0.as_mut()
     }
 }
 
 impl CornersOfTier {
-    /// Finds the corners of a tier; `None` where the stone is not cut by tiers.
+    /// Finds the corners that a tier can be cut to; `None` where the stone is not cut by tiers.
     pub fn of(specimen: &Arc<Specimen>, place: usize) -> Option<Self> {
+        Self::of_pick(specimen, &MeetPick::new(place, 1))
+    }
+
+    fn of_pick(specimen: &Arc<Specimen>, pick: &MeetPick) -> Option<Self> {
         let Cut::Tiers(tiers) = &specimen.design.cut else { return None };
-        let corners = tiers.tier_corners(place).into_iter().map(|corner| (corner, None)).collect();
-        Some(Self { specimen: Arc::clone(specimen), place, corners })
+        let corners = match pick.wanted {
+            ..=1 => tiers.tier_corners(pick.place),
+            _ => tiers.corners_beside(pick.place),
+        };
+        let corners = corners.into_iter().map(|corner| (corner, None)).collect();
+        Some(Self { specimen: Arc::clone(specimen), pick: pick.clone(), corners })
+    }
+
+    /// Returns the corners that have been picked, each with its number here.
+    pub fn picked(&self) -> Vec<usize> {
+        let number = |at: &DVec3| self.corners.iter().position(|(corner, _)| corner.at == *at);
+        self.pick.corners.iter().filter_map(number).collect()
     }
 
     /// Returns the place of a corner in the frame of the stone.
@@ -63,11 +78,21 @@ impl CornersOfTier {
         self.corners.iter().enumerate().filter_map(seen).collect()
     }
 
-    /// Returns the meet that leads to a corner; `None` where none does.
+    /// Returns the meet that leads to a corner, and to those that have been picked; `None` where none does.
     pub fn meet(&mut self, number: usize) -> Option<Meet> {
         let Cut::Tiers(tiers) = &self.specimen.design.cut else { return None };
-        let (corner, meet) = self.corners.get_mut(number)?;
-        meet.get_or_insert_with(|| tiers.meet_at(self.place, corner)).clone()
+        let numbers: Vec<usize> = self.picked().into_iter().chain([number]).collect();
+        let (corner, known) = self.corners.get(number)?;
+        if let Some(known) = known {
+            return known.clone();
+        }
+        let through: Vec<&TierCorner> = numbers.iter().map(|&number| &self.corners[number].0).collect();
+        let found = match self.pick.wanted {
+            ..=1 => tiers.meet_at(self.pick.place, corner),
+            _ => tiers.meet_through(self.pick.place, &through),
+        };
+        self.corners[number].1 = Some(found.clone());
+        found
     }
 }
 

@@ -12,7 +12,7 @@ const SIZE: Vec2 = vec2(560.0, 620.0);
 /// Returns whether Escape ends something else before it closes the window: a dialog, a drag, typing, or an open menu.
 fn comes_first(model: &Model, tools: &ViewTools, ctx: &Context) -> bool {
     model.session.dialog.is_some()
-        || model.picked_tier().is_some()
+        || model.meet_pick().is_some()
         || tools.is_handle_dragged()
         || ctx.text_edit_focused()
         || Popup::is_any_open(ctx)

@@ -22,7 +22,7 @@ pub fn show(model: &Model, tools: &mut ViewTools, actions: &mut Actions, ui: &mu
         tools.tiers.drag = None;
     }
     let is_for_views = model.session.dialog.is_none() && !ui.ctx().text_edit_focused();
-    if model.picked_tier().is_some() && is_for_views && ui.input(|i| i.key_pressed(Key::Escape)) {
+    if model.meet_pick().is_some() && is_for_views && ui.input(|i| i.key_pressed(Key::Escape)) {
         actions.push(ViewAction::PickMeet(None));
     }
     let frame = egui::Frame::NONE.fill(ui.visuals().panel_fill);

@@ -46,7 +46,7 @@ fn selected_at(cx: &mut PaneContext, sight: &PaneView, at: Pos2) -> Option<((usi
     let Cut::Tiers(tiers) = &model.document.work.design.cut else { return None };
     let can_hold = model.shows_tiers()
         && cx.shows != Shows::Refraction
-        && model.picked_tier().is_none()
+        && model.meet_pick().is_none()
         && !model.document.shows_last_possible();
     let selected = model.session.tier.filter(|_| can_hold)?;
     let specimen = model.document.specimen();

@@ -7,7 +7,7 @@
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::Family;
 use super::super::family_cut::FamilyCut;
-use super::steps::{self, Rectangle, StepRows};
+use super::steps::{self, Rectangle, StepProfile, StepRows};
 use super::{rows, step_rows};
 
 const LENGTH: usize = 0;
@@ -28,6 +28,7 @@ pub static ASSCHER: Family = Family {
     name: "Asscher cut",
     first: FamilyCut::first(&ASSCHER, &[1.0, 22.0, 55.0, 3.0, 38.0, 9.0, 3.0, 46.0, 8.0, 100.0, 3.0]),
     net: Some(net),
+    depth: Some(|cut| profile(cut).depth()),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.0, 1.08]),
         step_rows::corner::<CORNER>([16.0, 28.0]),
@@ -40,13 +41,18 @@ pub static ASSCHER: Family = Family {
         step_rows::pavilion_step::<PAVILION_STEP>(),
         step_rows::keel::<KEEL>(),
         rows::girdle_thickness::<GIRDLE>(),
-        rows::total_depth(),
+        rows::step_depth([62.0, 82.0]),
     ],
 };
 
+/// Returns the rows of crown and pavilion, and the girdle between them.
+fn profile(cut: &FamilyCut) -> StepProfile {
+    let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - cut[TABLE] / 100.0);
+    let pavilion = StepRows::of(cut, [PAVILION_ROWS, PAVILION, PAVILION_STEP], cut[LENGTH].min(1.0));
+    StepProfile { crown, thickness: cut[GIRDLE] / 50.0, pavilion, below: 0.0 }
+}
+
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let outline = Rectangle { length: cut[LENGTH], corner: cut[CORNER] / 50.0, keel: cut[KEEL] / 100.0 };
-    let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - cut[TABLE] / 100.0);
-    let pavilion = StepRows::of(cut, [PAVILION_ROWS, PAVILION, PAVILION_STEP], outline.reach());
-    steps::net(&outline.sides(), crown, cut[GIRDLE] / 50.0, pavilion)
+    steps::net(&outline.sides(), profile(cut))
 }

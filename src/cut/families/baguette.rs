@@ -6,7 +6,7 @@
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::Family;
 use super::super::family_cut::FamilyCut;
-use super::steps::{self, Rectangle, StepRows};
+use super::steps::{self, Rectangle, StepProfile, StepRows};
 use super::{rows, step_rows};
 
 const LENGTH: usize = 0;
@@ -26,6 +26,7 @@ pub static BAGUETTE: Family = Family {
     name: "Baguette",
     first: FamilyCut::first(&BAGUETTE, &[2.0, 65.0, 1.0, 35.0, 8.0, 2.0, 46.0, 10.0, 100.0, 3.0]),
     net: Some(net),
+    depth: Some(|cut| profile(cut).depth()),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.5, 3.0]),
         rows::table::<TABLE>([50.0, 75.0]),
@@ -37,13 +38,18 @@ pub static BAGUETTE: Family = Family {
         step_rows::pavilion_step::<PAVILION_STEP>(),
         step_rows::keel::<KEEL>(),
         rows::girdle_thickness::<GIRDLE>(),
-        rows::total_depth(),
+        rows::step_depth([58.0, 76.0]),
     ],
 };
 
+/// Returns the rows of crown and pavilion, and the girdle between them.
+fn profile(cut: &FamilyCut) -> StepProfile {
+    let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - cut[TABLE] / 100.0);
+    let pavilion = StepRows::of(cut, [PAVILION_ROWS, PAVILION, PAVILION_STEP], cut[LENGTH].min(1.0));
+    StepProfile { crown, thickness: cut[GIRDLE] / 50.0, pavilion, below: 0.0 }
+}
+
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let outline = Rectangle { length: cut[LENGTH], corner: 0.0, keel: cut[KEEL] / 100.0 };
-    let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - cut[TABLE] / 100.0);
-    let pavilion = StepRows::of(cut, [PAVILION_ROWS, PAVILION, PAVILION_STEP], outline.reach());
-    steps::net(&outline.sides(), crown, cut[GIRDLE] / 50.0, pavilion)
+    steps::net(&outline.sides(), profile(cut))
 }

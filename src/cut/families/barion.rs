@@ -33,6 +33,7 @@ pub static BARION: Family = Family {
     name: "Barion cut",
     first: FamilyCut::first(&BARION, &[1.0, 15.0, 60.0, 3.0, 34.0, 9.0, 72.0, 41.0, 75.0, 3.0, 0.0]),
     net: Some(net),
+    depth: Some(depth),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.0, 1.3]),
         step_rows::corner::<CORNER>([8.0, 20.0]),
@@ -45,7 +46,7 @@ pub static BARION: Family = Family {
         lower_halves::<LOWER_HALF>(),
         rows::girdle_thickness::<GIRDLE>(),
         rows::culet::<CULET>(),
-        rows::total_depth(),
+        rows::total_depth([60.0, 80.0], &["pavilion_angle", "half_moon_angle"]),
     ],
 };
 
@@ -74,18 +75,28 @@ pub(super) const fn lower_halves<const PLACE: usize>() -> Proportion {
     }
 }
 
+fn depth(cut: &FamilyCut) -> f64 {
+    crown(cut).height() + brilliant(cut).depth(cut[CULET])
+}
+
+fn crown(cut: &FamilyCut) -> StepRows {
+    StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - cut[TABLE] / 100.0)
+}
+
+fn brilliant(cut: &FamilyCut) -> BarionPavilion {
+    let (sizes, corner) = (DVec2::new(1.0, cut[LENGTH]), cut[CORNER] / 50.0);
+    let ends = [DVec2::X, DVec2::Y].map(|way| sizes - way * corner);
+    BarionPavilion::of(cut, [PAVILION, HALF_MOON, LOWER_HALF, GIRDLE], ends)
+}
+
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let outline = Rectangle { length: cut[LENGTH], corner: cut[CORNER] / 50.0, keel: 1.0 };
-    let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - cut[TABLE] / 100.0);
-    let thickness = cut[GIRDLE] / 50.0;
+    let (thickness, sizes, pavilion) = (cut[GIRDLE] / 50.0, DVec2::new(1.0, cut[LENGTH]), brilliant(cut));
     let mut net = FacetNet::default();
-    crown.add_crown(&mut net, &outline.sides())?;
+    crown(cut).add_crown(&mut net, &outline.sides())?;
     steps::add_girdle(&mut net, &outline.sides(), thickness);
-    let sizes = DVec2::new(1.0, cut[LENGTH]);
-    let corner = [DVec2::X, DVec2::Y].map(|way| sizes - way * outline.corner);
-    let pavilion = BarionPavilion::of(cut, [PAVILION, HALF_MOON, LOWER_HALF, GIRDLE], corner);
     let mut quarters = Quarters { net: &mut net, inside: -0.5 * thickness };
-    for (way, end) in [DVec2::X, DVec2::Y].into_iter().zip([corner[1], corner[0]]) {
+    for (way, end) in [DVec2::X, DVec2::Y].into_iter().zip(pavilion.corner.into_iter().rev()) {
         pavilion.add_half_moon(&mut quarters, way, sizes);
         let between = pavilion.down(0.5 * (way * way.dot(sizes) + end), -way * pavilion.cotangent);
         pavilion.add_brilliant_side(&mut quarters, way, sizes, (between, end))?;
@@ -141,13 +152,28 @@ impl BarionPavilion {
         }
     }
 
+    /// Takes the same numbers for a round cone through a point of the girdle in the first quarter and its mirror image across x =
+    /// 0.
+    pub fn round(cut: &FamilyCut, [slope, half_moon, half, girdle]: [usize; 4], end: DVec2) -> Self {
+        let ends = [end * DVec2::new(-1.0, 1.0), end];
+        let (inverse, tangent) = (DVec2::splat(1.0 / end.length_squared()), cut[slope].to_radians().tan());
+        let cone = Cone { inverse, depth: tangent * end.length() };
+        // A cone through one point is none through two.
+        Self { cone, ..Self::of(cut, [slope, half_moon, half, girdle], ends) }
+    }
+
+    /// Returns the height of pavilion and girdle, with a culet of this size, a part of the pavilion's depth in percent.
+    pub fn depth(&self, culet: f64) -> f64 {
+        self.thickness + self.cone.depth * (1.0 - culet / 100.0)
+    }
+
     /// Returns the culet's point.
-    fn point(&self) -> DVec3 {
+    pub fn point(&self) -> DVec3 {
         DVec3::NEG_Z * (self.thickness + self.cone.depth)
     }
 
     /// Returns a point of the girdle's lower edge.
-    fn on_girdle(&self, at: DVec2) -> DVec3 {
+    pub fn on_girdle(&self, at: DVec2) -> DVec3 {
         at.extend(-self.thickness)
     }
 
@@ -184,19 +210,40 @@ impl BarionPavilion {
         let unfit = NoRoom { tier: "half_moon" };
         let middle = self.down(way * way.dot(size), -way * self.cotangent).ok_or(unfit)?;
         let (between, end, point) = (between.ok_or(unfit)?, self.on_girdle(end), self.point());
-        let rise = middle - point;
-        let main = (way * rise.z).extend(-way.dot(rise.truncate()));
+        let main = self.main_at(middle);
         net.pair("main", main, point);
         let [a, b] = self.corner.map(|at| self.on_girdle(at) - point);
-        // The line in which side main and corner main meet, upward from the culet.
-        let line = main.cross(a.cross(b));
+        self.add_halves(net, [main, a.cross(b)], [middle, between, end])
+    }
+
+    /// Returns the normal of the main that touches the cone in a point of it.
+    pub fn main_at(&self, at: DVec3) -> DVec3 {
+        let Cone { inverse, depth } = self.cone;
+        let left = 1.0 + (at.z + self.thickness) / depth;
+        (inverse * at.truncate()).extend(-left / depth)
+    }
+
+    /// Adds the two halves between a main and the next, which are given by their normals. The halves share a tip on the line in
+    /// which both mains meet, and meet the cone in three points: at the one main, between them, at the other.
+    ///
+    /// # Errors
+    /// The tier that has no room.
+    pub fn add_halves(
+        &self,
+        net: &mut Quarters<'_>,
+        mains: [DVec3; 2],
+        [from, between, to]: [DVec3; 3],
+    ) -> Result<(), NoRoom> {
+        // Upward from the culet.
+        let line = mains[0].cross(mains[1]);
         let line = line * line.z.signum();
-        let tip = point + line * (self.reach * between.truncate().length() / line.truncate().length());
+        let way = self.reach * between.truncate().length() / line.truncate().length();
+        let tip = self.point() + line * way;
         if !tip.is_finite() {
             return Err(NoRoom { tier: "lower_half" });
         }
-        net.through("lower_half", [tip, middle, between])?;
-        net.through("lower_half", [tip, between, end])
+        net.through("lower_half", [tip, from, between])?;
+        net.through("lower_half", [tip, between, to])
     }
 
     /// Adds the mains of the corners: each runs from the culet to the girdle's edge at a corner.
@@ -211,7 +258,7 @@ impl BarionPavilion {
     /// Adds the culet, if it has a size: a part of the pavilion's depth, in percent.
     pub fn add_culet(&self, net: &mut FacetNet, percent: f64) {
         if percent > 0.0 {
-            net.plane("culet", DVec3::NEG_Z, self.point() + DVec3::Z * self.cone.depth * percent / 100.0);
+            net.plane("culet", DVec3::NEG_Z, DVec3::NEG_Z * self.depth(percent));
         }
     }
 }

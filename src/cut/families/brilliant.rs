@@ -56,6 +56,16 @@ impl<'a> Brilliant<'a> {
         }
     }
 
+    /// Returns the height of the whole stone, in girdle radii, of a cut whose seven rows from `place` on are those of
+    /// [`brilliant_rows`](super::brilliant_rows).
+    pub fn total_depth(cut: &FamilyCut, place: usize, reach: f64) -> f64 {
+        let [table, crown, pavilion, .., thickness, culet] =
+            std::array::from_fn::<f64, 7, _>(|row| cut[place + row]);
+        let crown_height = (1.0 - table / 100.0) * reach * crown.to_radians().tan();
+        let pavilion_depth = reach * pavilion.to_radians().tan() * (1.0 - culet / 100.0);
+        crown_height + thickness / 50.0 + pavilion_depth
+    }
+
     /// Makes all facets.
     ///
     /// # Errors

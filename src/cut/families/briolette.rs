@@ -24,6 +24,7 @@ pub static BRIOLETTE: Family = Family {
     name: "Briolette",
     first: FamilyCut::first(&BRIOLETTE, &[16.0, 7.0, 6.0, 1.8, 62.0, 25.0, 60.0]),
     net: Some(net),
+    depth: Some(|cut| 2.0 * cut[LENGTH]),
     proportions: &[
         rows::facets_per_row::<FACETS>([12.0, 24.0]),
         rows::row_count::<UPPER_ROWS>("upper_rows", "Upper rows", [2.0, 7.0]),
@@ -39,7 +40,10 @@ pub static BRIOLETTE: Family = Family {
         },
         rows::rosette::<UPPER_ROSETTE>("upper_rosette", "Upper rosette", [15.0, 40.0]),
         rows::rosette::<LOWER_ROSETTE>("lower_rosette", "Lower rosette", [25.0, 65.0]),
-        rows::total_depth(),
+        Proportion {
+            meaning: "The height of the whole stone. Setting it scales the drop along its axis.",
+            ..rows::total_depth([120.0, 300.0], &["length_to_width"])
+        },
     ],
 };
 

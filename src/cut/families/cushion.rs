@@ -26,6 +26,7 @@ pub static CUSHION: Family = Family {
     name: "Cushion brilliant",
     first: FamilyCut::first(&CUSHION, &[1.1, 6.0, 22.0, 60.0, 35.0, 41.0, 50.0, 75.0, 4.0, 0.0, 2.0]),
     net: Some(net),
+    depth: Some(|cut| Brilliant::total_depth(cut, TABLE, 1.0)),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.0, 1.4]),
         bulge::<BULGE>(),
@@ -38,7 +39,7 @@ pub static CUSHION: Family = Family {
         rows::girdle_thickness::<8>(),
         rows::culet::<9>(),
         brilliant_rows::mains_per_quarter::<MAINS>(),
-        rows::total_depth(),
+        rows::total_depth([58.0, 72.0], &["pavilion_angle"]),
     ],
 };
 
@@ -66,17 +67,16 @@ pub(super) const fn corner<const PLACE: usize>() -> Proportion {
     }
 }
 
-/// Returns the outline of a cushion.
+/// Returns the curve of a cushion's outline, as a function of the part of the way from +x to +y.
 ///
 /// # Errors
 /// The sides and corners do not follow one another.
-pub(super) fn girdle(length: f64, bulge: f64, corner: f64, mains: usize) -> Result<Girdle, NoRoom> {
-    let quarter = RoundedQuarter::new(length, bulge / 50.0, corner / 50.0);
-    let quarter = quarter.ok_or(NoRoom { tier: "girdle" })?;
-    Ok(Girdle::new(mains, |way| around(way, |part| quarter.at(part))))
+pub(super) fn quarter(length: f64, bulge: f64, corner: f64) -> Result<RoundedQuarter, NoRoom> {
+    RoundedQuarter::new(length, bulge / 50.0, corner / 50.0).ok_or(NoRoom { tier: "girdle" })
 }
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
-    let girdle = girdle(cut[LENGTH], cut[BULGE], cut[CORNER], 4 * cut[MAINS] as usize)?;
+    let quarter = quarter(cut[LENGTH], cut[BULGE], cut[CORNER])?;
+    let girdle = Girdle::new(4 * cut[MAINS] as usize, |way| around(way, |part| quarter.at(part)));
     Brilliant::of(cut, TABLE, &girdle, DVec2::ZERO, 1.0).net()
 }

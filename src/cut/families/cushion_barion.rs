@@ -46,6 +46,7 @@ pub static CUSHION_BARION: Family = Family {
         &[1.1, 6.0, 22.0, 60.0, 3.0, 34.0, 9.0, 72.0, 41.0, 75.0, 3.0, 0.0],
     ),
     net: Some(net),
+    depth: Some(depth),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.0, 1.3]),
         cushion::bulge::<BULGE>(),
@@ -59,7 +60,7 @@ pub static CUSHION_BARION: Family = Family {
         barion::lower_halves::<LOWER_HALF>(),
         rows::girdle_thickness::<GIRDLE>(),
         rows::culet::<CULET>(),
-        rows::total_depth(),
+        rows::total_depth([58.0, 78.0], &["pavilion_angle", "half_moon_angle"]),
     ],
 };
 
@@ -82,32 +83,30 @@ impl Outline {
         Some(Self { sides, corner: [a, b], size })
     }
 
-    /// Returns the sides as those of a step cut whose level lines shrink evenly.
-    fn steps(&self) -> Vec<StepSide> {
-        let even = self.size - self.size.min_element();
-        let mut all: Vec<StepSide> = vec![];
-        for (normal, at) in self.sides {
-            for sign in [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(DVec2::from) {
-                let side = StepSide::toward(normal * sign, at * sign, even, even);
-                if all.iter().all(|other| other.normal != side.normal) {
-                    all.push(side);
-                }
-            }
-        }
-        all
+    /// Returns the pavilion on the outline.
+    fn brilliant(&self, cut: &FamilyCut) -> BarionPavilion {
+        let [a, b] = self.corner;
+        BarionPavilion::of(cut, [PAVILION, HALF_MOON, LOWER_HALF, GIRDLE], [b, a])
     }
+}
+
+fn depth(cut: &FamilyCut) -> f64 {
+    Outline::of(cut)
+        .map_or(f64::NAN, |outline| crown(cut).height() + outline.brilliant(cut).depth(cut[CULET]))
+}
+
+fn crown(cut: &FamilyCut) -> StepRows {
+    StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - cut[TABLE] / 100.0)
 }
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let outline = Outline::of(cut).ok_or(NoRoom { tier: "girdle" })?;
-    let Outline { sides, corner, size } = outline;
-    let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - cut[TABLE] / 100.0);
-    let (thickness, steps) = (cut[GIRDLE] / 50.0, outline.steps());
+    let (thickness, steps, pavilion) =
+        (cut[GIRDLE] / 50.0, StepSide::around(&outline.sides, outline.size), outline.brilliant(cut));
+    let Outline { sides, corner: [a, b], size } = outline;
     let mut net = FacetNet::default();
-    crown.add_crown(&mut net, &steps)?;
+    crown(cut).add_crown(&mut net, &steps)?;
     steps::add_girdle(&mut net, &steps, thickness);
-    let [a, b] = corner;
-    let pavilion = BarionPavilion::of(cut, [PAVILION, HALF_MOON, LOWER_HALF, GIRDLE], [b, a]);
     let mut quarters = Quarters { net: &mut net, inside: -0.5 * thickness };
     for (way, beside, end) in [(DVec2::X, sides[1], a), (DVec2::Y, sides[3], b)] {
         pavilion.add_half_moon(&mut quarters, way, size);

@@ -3,8 +3,9 @@
 //! `BRILLIANTEER_RECORD=1 cargo test --lib documented` writes the file.
 
 use super::range_sources::range_source;
-use super::tests::{Solid, made};
+use super::tests::{Solid, made, on_random_cuts};
 use crate::cut::{Bound, BoundAt, Family, Proportion, Unit};
+use proptest::prelude::*;
 use std::fmt::Write;
 
 const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/families.md");
@@ -20,7 +21,9 @@ W is the [diameter](formats.md#diameter-length-and-width): of a round outline th
 the shorter extent of the outline along x and y. Lengths are percent of W where nothing else is said, and angles are degrees
 from the girdle plane. The length is measured along y, which is up in pictures. \"Usual\" is the
 range of the editor's slider, with its source: \"published\" is a page or a cutter's design that was read, \"ours\" what no source\ngives; \"possible\" is what the program takes if the facets still have room. All keys are required but those
-that have a default.
+that have a default, and `total_depth`. That follows from the others and can be set all the same: the numbers that it moves change by
+one factor, angles by that of their tangents (the tangent ratio), until the stone is as deep. A file gives either `total_depth` or the numbers that it
+moves, which then keep the ratios of the first cut. Where no such stone is possible, the message says how deep it can be.
 
 ![All families of this page: facets, ASET, and a render under the studio light](images/contact-sheet.png)
 
@@ -113,13 +116,23 @@ fn row(family: &Family, row: &Proportion) -> String {
         _ => row.hint(),
     };
     let bounds = [bound(["from", "above"], row.least), bound(["to", "below"], row.most)];
-    let bounds = bounds.into_iter().flatten().collect::<Vec<_>>().join(", ");
+    let bounds = match row.moves.is_empty() {
+        true => bounds.into_iter().flatten().collect::<Vec<_>>().join(", "),
+        false => "what the numbers that it moves can be".to_owned(),
+    };
+    let moved: Vec<String> = row.moves.iter().map(|key| format!("`{key}`")).collect();
+    let moved = match moved.as_slice() {
+        [] => String::new(),
+        [moved] => format!(" Moves {moved}, and may stand in a file in its place."),
+        moved => format!(" Moves {}, and may stand in a file in their place.", moved.join(" and ")),
+    };
     let default = row.default.map_or(String::new(), |value| format!(" Default {value}."));
     let [least, most] = row.usual;
-    let value = (row.get)(&family.first);
+    // Derived numbers have more digits than the reader wants.
+    let value = (1e4 * (row.get)(&family.first)).round() / 1e4;
     let source = range_source(family, row).unwrap_or_default();
     format!(
-        "| `{}` | {unit} | {least} to {most} | {source} | {bounds} | {value} | {}{default} |\n",
+        "| `{}` | {unit} | {least} to {most} | {source} | {bounds} | {value} | {}{moved}{default} |\n",
         row.key, row.meaning
     )
 }
@@ -128,8 +141,8 @@ fn section(family: &'static Family) -> String {
     let mut text = format!("\n## {}\n\n", family.key);
     let _ = write!(text, "{}. The table is `[{}]`.\n\n", family.name, family.key);
     text.push_str("| key | unit | usual | where that comes from | possible | first | meaning |\n|---|---|---|---|---|---|---|\n");
-    family.editable().for_each(|given| text.push_str(&row(family, given)));
-    let derived = family.proportions.iter().filter(|row| row.give.is_none());
+    family.settable().for_each(|given| text.push_str(&row(family, given)));
+    let derived = family.proportions.iter().filter(|row| !row.can_be_set());
     let derived: Vec<String> =
         derived.map(|row| format!("`{}` ({}): {}", row.key, row.hint(), row.meaning)).collect();
     if !derived.is_empty() {
@@ -162,7 +175,7 @@ fn the_page_of_families_is_current() {
 #[test]
 fn every_usual_range_has_a_source() {
     let missing = made().flat_map(|(family, _)| {
-        let rows = family.editable().filter(|row| range_source(family, row).is_none_or(str::is_empty));
+        let rows = family.settable().filter(|row| range_source(family, row).is_none_or(str::is_empty));
         rows.map(|row| (family.key, row.key))
     });
     assert_eq!(missing.collect::<Vec<_>>(), []);
@@ -174,12 +187,30 @@ fn every_usual_range_has_a_source() {
 }
 
 #[test]
-fn the_total_depth_is_that_of_the_stone() {
-    for (family, _) in made() {
-        let solid = Solid::of(&family.first).unwrap();
-        let depth = family.proportion("total_depth").map_or(f64::NAN, |row| (row.get)(&family.first));
-        assert!((depth - 50.0 * solid.size.z).abs() < 1e-9, "{}: {depth}", family.key);
-    }
+fn the_total_depth_is_that_of_the_stone_and_can_be_set() {
+    on_random_cuts(|family, cut| {
+        let Some(solid) = Solid::of(cut) else { return Ok(false) };
+        let row = family.proportion("total_depth").expect("every family has it");
+        let depth = (row.get)(cut);
+        // In girdle radii.
+        let miss = |wanted: f64, solid: &Solid| (wanted / 50.0 - solid.size.z).abs();
+        prop_assert!(miss(depth, &solid) < 1e-9, "{}: {depth}, off by {}", family.key, miss(depth, &solid));
+        // Flatter and back it is the same stone.
+        let mut set = cut.clone();
+        row.set(&mut set, 0.98 * depth);
+        if let Some(flat) = Solid::of(&set) {
+            let off = miss(0.98 * depth, &flat);
+            prop_assert!(off < 1e-9, "{}: {depth} made flatter, off by {off}", family.key);
+        }
+        row.set(&mut set, depth);
+        let again = Solid::of(&set).expect("it was a stone");
+        prop_assert_eq!(again.facets.len(), solid.facets.len());
+        for ((name, plane), (_, before)) in again.facets.iter().zip(&solid.facets) {
+            let off = plane.normal.distance(before.normal).max((plane.offset - before.offset).abs());
+            prop_assert!(off < 1e-9, "{name} is off by {off}");
+        }
+        Ok(true)
+    });
 }
 
 #[test]

@@ -112,7 +112,9 @@ fn split_meets(cut: &Cut) -> Option<usize> {
     let subject =
         AuditSubject { stone: &stone, names: &names, planes: &names, tiers: None, critical_deg: None };
     // The edges of a table of sixteen sides are short as well.
-    let is_short = |name: &String| name == "culet" || (name == "table" && key == "cushion_barion");
+    let is_short = |name: &String| {
+        name == "culet" || (name == "table" && ["cushion_barion", "oval_barion"].contains(&key))
+    };
     let is_meet = |finding: &&Finding| !finding.facets.iter().any(is_short);
     Some(Audit::of(&subject).of_kind(FindingKind::SplitMeet).filter(is_meet).count())
 }
@@ -121,8 +123,7 @@ fn split_meets(cut: &Cut) -> Option<usize> {
 fn facets_meet_in_points() {
     let first = made().filter_map(|(family, _)| Some((family.key, split_meets(&family.first)?)));
     let first: Vec<_> = first.filter(|(_, count)| *count > 0).collect();
-    // Where a pair of chevrons parts in the middle of a side, the outline has no corner, so that its width is exact.
-    assert_eq!(first, [("modified_cushion", 8)]);
+    assert_eq!(first, []);
     // These have short edges at some numbers: where chevrons part, or where rows or a corner's facet nearly end in a point.
     let others = ["modified_cushion", "asscher", "radiant"];
     let found: RefCell<BTreeMap<_, u32>> = RefCell::default();

@@ -43,6 +43,7 @@ pub static HEART: Family = Family {
         &[1.0, 14.0, 30.0, 100.0, 8.0, 56.0, 34.5, 40.75, 35.0, 75.0, 4.0, 0.0, 4.0],
     ),
     net: Some(net),
+    depth: Some(|cut| Brilliant::total_depth(cut, TABLE, scale(cut))),
     proportions: &[
         rows::length_to_width::<LENGTH>([0.9, 1.1]),
         Proportion {
@@ -98,7 +99,7 @@ pub static HEART: Family = Family {
             default: Some(4.0),
             ..number::<MAINS>()
         },
-        rows::total_depth(),
+        rows::total_depth([54.0, 70.0], &["pavilion_angle"]),
     ],
 };
 
@@ -110,9 +111,14 @@ fn lobe(cut: &Cut) -> f64 {
     }
 }
 
+/// Returns half of the width in halves of the shorter extent, the girdle radius.
+fn scale(cut: &FamilyCut) -> f64 {
+    1.0 / cut[LENGTH].min(1.0)
+}
+
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     // Numbers are percent of the shorter extent, half of which is 1 in the end; the curve is made with half the width as 1.
-    let (length, scale) = (cut[LENGTH], 1.0 / cut[LENGTH].min(1.0));
+    let (length, scale) = (cut[LENGTH], scale(cut));
     let lobe = cut[LOBE] / 50.0 / scale;
     let point = 2.0 * length - lobe;
     let wing = Wing::new(point, cut[FULLNESS] / 100.0).ok_or(NoRoom { tier: "girdle" })?;

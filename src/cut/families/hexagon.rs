@@ -7,7 +7,7 @@ use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
 use super::super::family::{Bound, Family, Proportion, Unit};
 use super::super::family_cut::{FamilyCut, number};
-use super::steps::{self, StepRows, StepSide};
+use super::steps::{self, StepProfile, StepRows, StepSide};
 use super::{rows, step_rows};
 use glam::DVec2;
 
@@ -29,6 +29,7 @@ pub static HEXAGON: Family = Family {
     name: "Hexagon step cut",
     first: FamilyCut::first(&HEXAGON, &[1.4, 120.0, 60.0, 2.0, 34.0, 10.0, 3.0, 45.0, 8.0, 100.0, 3.0]),
     net: Some(net),
+    depth: Some(|cut| profile(cut).depth()),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.15, 2.0]),
         Proportion {
@@ -51,9 +52,16 @@ pub static HEXAGON: Family = Family {
         step_rows::pavilion_step::<PAVILION_STEP>(),
         step_rows::keel::<KEEL>(),
         rows::girdle_thickness::<GIRDLE>(),
-        rows::total_depth(),
+        rows::step_depth([58.0, 76.0]),
     ],
 };
+
+/// Returns the rows of crown and pavilion, and the girdle between them.
+fn profile(cut: &FamilyCut) -> StepProfile {
+    let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - cut[TABLE] / 100.0);
+    let pavilion = StepRows::of(cut, [PAVILION_ROWS, PAVILION, PAVILION_STEP], 1.0);
+    StepProfile { crown, thickness: cut[GIRDLE] / 50.0, pavilion, below: 0.0 }
+}
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let (length, keel) = (cut[LENGTH], cut[KEEL] / 100.0);
@@ -74,7 +82,5 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
         to(-point, -1.0, -tip),
         to(point, -1.0, -tip),
     ];
-    let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], 1.0 - cut[TABLE] / 100.0);
-    let pavilion = StepRows::of(cut, [PAVILION_ROWS, PAVILION, PAVILION_STEP], 1.0);
-    steps::net(&sides, crown, cut[GIRDLE] / 50.0, pavilion)
+    steps::net(&sides, profile(cut))
 }

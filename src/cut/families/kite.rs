@@ -6,7 +6,7 @@
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::{Family, Proportion};
 use super::super::family_cut::FamilyCut;
-use super::steps::{self, StepRows, StepSide};
+use super::steps::{self, StepProfile, StepRows, StepSide};
 use super::{rows, step_rows};
 use glam::DVec2;
 
@@ -27,6 +27,7 @@ pub static KITE: Family = Family {
     name: "Kite step cut",
     first: FamilyCut::first(&KITE, &[1.5, 66.0, 60.0, 2.0, 34.0, 10.0, 3.0, 45.0, 8.0, 3.0]),
     net: Some(net),
+    depth: Some(|cut| profile(cut).depth()),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.3, 2.0]),
         Proportion {
@@ -46,17 +47,34 @@ pub static KITE: Family = Family {
         step_rows::pavilion::<PAVILION>([40.0, 52.0]),
         step_rows::pavilion_step::<PAVILION_STEP>(),
         rows::girdle_thickness::<GIRDLE>(),
-        rows::total_depth(),
+        rows::step_depth([46.0, 66.0]),
     ],
 };
 
-fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
-    let length = cut[LENGTH];
-    let widest = length * (2.0 * cut[SHOULDER] / 100.0 - 1.0);
-    // The circle that touches all four sides has its middle on the axis, at the same distance from long and short sides.
+/// Returns the middle of the circle that touches all four sides, as its height above the middle of the length, and its radius. It
+/// lies on the axis, at the same distance from long and short sides.
+fn circle(cut: &FamilyCut) -> (f64, f64) {
+    let (length, widest) = (cut[LENGTH], widest(cut));
     let [short, long] = [length - widest, length + widest].map(|reach| reach.hypot(1.0));
-    let middle = DVec2::new(0.0, (length * (long - short) / (long + short)).clamp(-length, length));
-    let radius = (length - middle.y) / short;
+    let middle = (length * (long - short) / (long + short)).clamp(-length, length);
+    (middle, (length - middle) / short)
+}
+
+/// Returns how far the widest place lies above the middle of the length.
+fn widest(cut: &FamilyCut) -> f64 {
+    cut[LENGTH] * (2.0 * cut[SHOULDER] / 100.0 - 1.0)
+}
+
+/// Returns the rows of crown and pavilion, and the girdle between them.
+fn profile(cut: &FamilyCut) -> StepProfile {
+    let (_, radius) = circle(cut);
+    let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], radius * (1.0 - cut[TABLE] / 100.0));
+    let pavilion = StepRows::of(cut, [PAVILION_ROWS, PAVILION, PAVILION_STEP], radius);
+    StepProfile { crown, thickness: cut[GIRDLE] / 50.0, pavilion, below: 0.0 }
+}
+
+fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
+    let (length, widest) = (cut[LENGTH], widest(cut));
     let to = |x: f64, y: f64, tip: f64| {
         let normal = DVec2::new(x, y).normalize_or(DVec2::X);
         StepSide { normal, distance: normal.dot(DVec2::new(0.0, tip)), crown_rate: 1.0, pavilion_rate: 1.0 }
@@ -64,7 +82,5 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let (up, down) = (length - widest, length + widest);
     let sides =
         [to(up, 1.0, length), to(-up, 1.0, length), to(-down, -1.0, -length), to(down, -1.0, -length)];
-    let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], radius * (1.0 - cut[TABLE] / 100.0));
-    let pavilion = StepRows::of(cut, [PAVILION_ROWS, PAVILION, PAVILION_STEP], radius);
-    steps::net(&sides, crown, cut[GIRDLE] / 50.0, pavilion)
+    steps::net(&sides, profile(cut))
 }

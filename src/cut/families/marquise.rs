@@ -23,6 +23,7 @@ pub static MARQUISE: Family = Family {
     name: "Marquise",
     first: FamilyCut::first(&MARQUISE, &[2.0, 100.0, 57.0, 34.5, 40.75, 50.0, 75.0, 3.0, 0.0, 2.0]),
     net: Some(net),
+    depth: Some(|cut| Brilliant::total_depth(cut, TABLE, 1.0)),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.6, 2.5]),
         brilliant_rows::fullness::<FULLNESS>(),
@@ -34,7 +35,7 @@ pub static MARQUISE: Family = Family {
         rows::girdle_thickness::<7>(),
         rows::culet::<8>(),
         brilliant_rows::mains_per_quarter::<MAINS>(),
-        rows::total_depth(),
+        rows::total_depth([54.0, 68.0], &["pavilion_angle"]),
     ],
 };
 

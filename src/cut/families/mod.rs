@@ -24,6 +24,7 @@ mod kite;
 mod marquise;
 mod modified_cushion;
 mod oval;
+mod oval_barion;
 mod pear;
 mod portuguese;
 mod princess;
@@ -61,6 +62,7 @@ use kite::KITE;
 use marquise::MARQUISE;
 use modified_cushion::MODIFIED_CUSHION;
 use oval::OVAL;
+use oval_barion::OVAL_BARION;
 use pear::PEAR;
 use portuguese::PORTUGUESE;
 use princess::PRINCESS;
@@ -71,7 +73,7 @@ use tapered_baguette::TAPERED_BAGUETTE;
 use trillion::TRILLION;
 
 /// All families that are described by proportions, in the order in which messages list them.
-pub static FAMILIES: [&Family; 26] = [
+pub static FAMILIES: [&Family; 27] = [
     &ROUND_BRILLIANT,
     &SINGLE_CUT,
     &PORTUGUESE,
@@ -94,6 +96,7 @@ pub static FAMILIES: [&Family; 26] = [
     &MODIFIED_CUSHION,
     &BARION,
     &CUSHION_BARION,
+    &OVAL_BARION,
     &PILL,
     &CUBE,
     &PRISM,
@@ -108,7 +111,7 @@ pub const GROUPS: [(&str, &[&str]); 6] = [
     ("Rounds", &["round_brilliant", "single_cut", "portuguese", "rose", "briolette"]),
     ("Fancy brilliant cuts", &["oval", "pear", "marquise", "heart", "cushion", "trillion"]),
     ("Step cuts", &["emerald", "asscher", "baguette", "tapered_baguette", "kite", "hexagon"]),
-    ("Mixed cuts", &["princess", "radiant", "modified_cushion", "barion", "cushion_barion"]),
+    ("Mixed cuts", &["princess", "radiant", "modified_cushion", "barion", "cushion_barion", "oval_barion"]),
     ("By tiers", &[BY_TIERS]),
     ("Glass", &["pill", "cube", "prism", "plate"]),
 ];

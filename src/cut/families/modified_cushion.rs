@@ -9,7 +9,9 @@ use super::super::family::{Bound, Family, Proportion, Unit};
 use super::super::family_cut::{FamilyCut, number};
 use super::super::shape::Cut;
 use super::brilliant::Brilliant;
+use super::curves::around;
 use super::cushion_chevrons::CushionChevrons;
+use super::girdle::{Girdle, GirdlePlace};
 use super::{brilliant_rows, cushion, rows};
 use glam::DVec2;
 
@@ -35,6 +37,7 @@ pub static MODIFIED_CUSHION: Family = Family {
         &[1.05, 6.0, 20.0, 62.0, 34.0, 50.0, 37.0, 50.0, 25.0, 4.0, 0.0, 3.0],
     ),
     net: Some(net),
+    depth: Some(depth),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.0, 1.4]),
         cushion::bulge::<BULGE>(),
@@ -70,7 +73,7 @@ pub static MODIFIED_CUSHION: Family = Family {
             most: Bound::at(Fixed(4.0), "the most rows allowed"),
             ..number::<ROWS>()
         },
-        rows::total_depth(),
+        rows::total_depth([58.0, 72.0], &["upper_angle", "lower_angle"]),
     ],
 };
 
@@ -82,12 +85,27 @@ fn lower(cut: &Cut) -> f64 {
     }
 }
 
+/// Returns the tangents of the rows' angles, from the girdle to the culet, in even steps.
+fn slopes(cut: &FamilyCut) -> Vec<f64> {
+    let ([upper, lower], rows) = ([UPPER, LOWER].map(|end| cut[end].to_radians().tan()), cut[ROWS] as usize);
+    (0..rows).map(|row| upper + (lower - upper) * row as f64 / (rows - 1).max(1) as f64).collect()
+}
+
+fn depth(cut: &FamilyCut) -> f64 {
+    let crown = (1.0 - cut[TABLE] / 100.0) * cut[CROWN].to_radians().tan();
+    let slopes = slopes(cut);
+    let pavilion = slopes.iter().sum::<f64>() / slopes.len().max(1) as f64;
+    crown + cut[GIRDLE] / 50.0 + pavilion * (1.0 - cut[CULET] / 100.0)
+}
+
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
-    let girdle = cushion::girdle(cut[LENGTH], cut[BULGE], cut[CORNER], 8)?;
-    let (table, thickness, rows) = (cut[TABLE] / 100.0, cut[GIRDLE] / 50.0, cut[ROWS] as usize);
-    let angle = |row: usize| cut[UPPER] + (cut[LOWER] - cut[UPPER]) * row as f64 / (rows - 1).max(1) as f64;
-    let slopes = (0..rows).map(|row| angle(row).to_radians().tan()).collect();
-    let chevrons = CushionChevrons { girdle: &girdle, thickness, slopes, tip: cut[TIP] / 100.0 };
+    let quarter = cushion::quarter(cut[LENGTH], cut[BULGE], cut[CORNER])?;
+    // A pair of chevrons parts in the middle of a side: there two facets of the girdle meet as well.
+    let is_middle = |part: f64| part == 0.0 || part == 1.0;
+    let place = |part: f64| GirdlePlace { is_corner: is_middle(part), ..quarter.at(part) };
+    let girdle = Girdle::new(8, |way| around(way, place));
+    let (table, thickness) = (cut[TABLE] / 100.0, cut[GIRDLE] / 50.0);
+    let chevrons = CushionChevrons { girdle: &girdle, thickness, slopes: slopes(cut), tip: cut[TIP] / 100.0 };
     let brilliant = Brilliant {
         girdle: &girdle,
         middle: DVec2::ZERO,

@@ -24,6 +24,7 @@ pub static OVAL: Family = Family {
     name: "Oval brilliant",
     first: FamilyCut::first(&OVAL, &[1.4, 2.0, 57.0, 34.5, 40.75, 50.0, 75.0, 3.0, 0.0, 2.0]),
     net: Some(net),
+    depth: Some(|cut| Brilliant::total_depth(cut, TABLE, 1.0)),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.2, 1.8]),
         Proportion {
@@ -47,13 +48,13 @@ pub static OVAL: Family = Family {
         rows::girdle_thickness::<7>(),
         rows::culet::<8>(),
         brilliant_rows::mains_per_quarter::<9>(),
-        rows::total_depth(),
+        rows::total_depth([56.0, 70.0], &["pavilion_angle"]),
     ],
 };
 
 /// Returns the place on a superellipse of half-axes 1 and `length` at a part of the way around, from +x. Equal parts of
 /// the way are equal angles of the circle from which it is stretched.
-fn superellipse(length: f64, exponent: f64, way: f64) -> GirdlePlace {
+pub(super) fn superellipse(length: f64, exponent: f64, way: f64) -> GirdlePlace {
     // Quarters are exact, so that stones are symmetric to the last bit of their extents.
     let (sin, cos) = match (way * 4.0).fract() {
         0.0 => [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)][(way * 4.0) as usize % 4],

@@ -27,6 +27,7 @@ pub static PEAR: Family = Family {
     name: "Pear",
     first: FamilyCut::first(&PEAR, &[1.6, 100.0, 100.0, 0.0, 57.0, 34.5, 40.75, 50.0, 75.0, 3.0, 0.0, 2.0]),
     net: Some(net),
+    depth: Some(|cut| Brilliant::total_depth(cut, TABLE, 1.0)),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.4, 1.9]),
         Proportion { name: "Shoulder fullness", ..brilliant_rows::fullness::<FULLNESS>() },
@@ -56,7 +57,7 @@ pub static PEAR: Family = Family {
         rows::girdle_thickness::<9>(),
         rows::culet::<10>(),
         brilliant_rows::mains_per_quarter::<MAINS>(),
-        rows::total_depth(),
+        rows::total_depth([54.0, 68.0], &["pavilion_angle"]),
     ],
 };
 

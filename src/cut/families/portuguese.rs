@@ -27,6 +27,7 @@ pub static PORTUGUESE: Family = Family {
     name: "Portuguese cut",
     first: FamilyCut::first(&PORTUGUESE, &[16.0, 5.0, 6.0, 46.0, 52.0, 40.0, 26.5, 3.0]),
     net: Some(net),
+    depth: Some(depth),
     proportions: &[
         rows::facets_per_row::<FACETS>([12.0, 24.0]),
         rows::row_count::<CROWN_ROWS>("crown_rows", "Crown rows", [2.0, 5.0]),
@@ -62,7 +63,7 @@ pub static PORTUGUESE: Family = Family {
             get: |cut| angle(cut, |cut| tangent(cut, PAVILION) / pavilion(cut).last_flattening()),
             ..ANGLE
         },
-        rows::total_depth(),
+        rows::total_depth([75.0, 100.0], &["pavilion_angle"]),
     ],
 };
 
@@ -95,6 +96,12 @@ fn pavilion(cut: &FamilyCut) -> AlternatingRows {
         count: cut[PAVILION_ROWS] as usize,
         inner: cut[ROSETTE] / 100.0,
     }
+}
+
+fn depth(cut: &FamilyCut) -> f64 {
+    let (crown, pavilion) = (crown(cut), pavilion(cut));
+    let below = tangent(cut, PAVILION) / pavilion.last_flattening() * pavilion.point();
+    tangent(cut, CROWN) * crown.last_ring() + cut[GIRDLE] / 50.0 + below
 }
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {

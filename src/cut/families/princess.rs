@@ -32,6 +32,7 @@ pub static PRINCESS: Family = Family {
     name: "Princess cut",
     first: FamilyCut::first(&PRINCESS, &[1.0, 2.0, 70.0, 38.0, 26.0, 6.0, 3.0, 57.0, 7.0, 30.0, 3.0, 0.0]),
     net: Some(net),
+    depth: Some(depth),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.0, 1.3]),
         step_rows::corner::<CORNER>([1.0, 5.0]),
@@ -51,7 +52,7 @@ pub static PRINCESS: Family = Family {
         shoulder::<SHOULDER>(),
         rows::girdle_thickness::<GIRDLE>(),
         rows::culet::<CULET>(),
-        rows::total_depth(),
+        rows::chevron_depth([65.0, 80.0]),
     ],
 };
 
@@ -112,6 +113,12 @@ pub(super) const fn shoulder<const PLACE: usize>() -> Proportion {
             [18.0, 40.0],
         )
     }
+}
+
+fn depth(cut: &FamilyCut) -> f64 {
+    let mains: f64 = [MAIN_1, MAIN_2].map(|main| cut[main].to_radians().tan()).iter().sum();
+    let crown = 0.5 * (1.0 - cut[TABLE] / 100.0) * mains;
+    crown + (cut[GIRDLE] + cut[DEPTH] * (1.0 - cut[CULET] / 100.0)) / 50.0
 }
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {

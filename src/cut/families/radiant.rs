@@ -36,6 +36,7 @@ pub static RADIANT: Family = Family {
         &[1.2, 17.0, 65.0, 0.0, 34.0, 12.0, 12.0, 3.0, 50.0, 6.0, 30.0, 9.95, 3.0, 1.0],
     ),
     net: Some(net),
+    depth: Some(depth),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.0, 1.5]),
         step_rows::corner::<CORNER>([12.0, 24.0]),
@@ -63,9 +64,14 @@ pub static RADIANT: Family = Family {
         },
         rows::girdle_thickness::<GIRDLE>(),
         rows::culet::<CULET>(),
-        rows::total_depth(),
+        rows::chevron_depth([56.0, 72.0]),
     ],
 };
+
+fn depth(cut: &FamilyCut) -> f64 {
+    let crown = (1.0 - cut[TABLE] / 100.0) * cut[CROWN].to_radians().tan();
+    crown + (cut[GIRDLE] + cut[DEPTH] * (1.0 - cut[CULET] / 100.0)) / 50.0
+}
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let outline = Rectangle { length: cut[LENGTH], corner: cut[CORNER] / 50.0, keel: 1.0 };

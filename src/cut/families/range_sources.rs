@@ -49,8 +49,21 @@ fn step_cut(family: &str, key: &str) -> Option<&'static str> {
     is_step.then_some(source)
 }
 
-/// Sources of ranges of single families: the families, the keys of the numbers (none for all that no row above names), and the source.
+/// Sources of ranges: the families (none for all), the keys of the numbers (none for all), and the source. The first row that fits
+/// counts.
 const OWN: &[(&[&str], &[&str], &str)] = &[
+    (&["rose", "briolette"], &["total_depth"], "ours: what the usual heights and lengths make"),
+    (&["oval"], &["total_depth"], "published: 56 to 70 (gemmology.dev)"),
+    (&["marquise", "pear"], &["total_depth"], "wider than published (diamondcuttersintl.com: 56 to 61)"),
+    (
+        &["heart"],
+        &["total_depth"],
+        "wider than published for pear and marquise (diamondcuttersintl.com: 56 to 61)",
+    ),
+    (&["cushion", "modified_cushion"], &["total_depth"], "published: 58 to 72 (gemmology.dev)"),
+    (&["emerald"], &["total_depth"], "published: 58 to 72 (gemmology.dev)"),
+    (&["princess"], &["total_depth"], "published: 65 to 80 (brilliancelab)"),
+    (&[], &["total_depth"], "ours: around that of the first cut"),
     (
         &["single_cut"],
         &["table", "crown_angle", "pavilion_angle"],
@@ -185,15 +198,25 @@ const OWN: &[(&[&str], &[&str], &str)] = &[
         &["length_to_width"],
         "ours: from the square to where the cone is still nearly round",
     ),
-    (&["barion", "cushion_barion"], &["table"], "ours: those of emerald cuts and cutters' barions (.55)"),
-    (&["barion", "cushion_barion"], &["crown_angle"], "ours: those of emerald cuts"),
+    (
+        &["oval_barion"],
+        &["length_to_width"],
+        "ours: around PC 02.094 (1.40); shorter ones leave the moons no room",
+    ),
+    (&["oval_barion"], &["half_moon_angle"], "around PC 02.094 (58 to 71)"),
+    (
+        &["barion", "cushion_barion", "oval_barion"],
+        &["table"],
+        "ours: those of emerald cuts and cutters' barions (.55)",
+    ),
+    (&["barion", "cushion_barion", "oval_barion"], &["crown_angle"], "ours: those of emerald cuts"),
     (
         &["barion", "cushion_barion"],
         &["half_moon_angle"],
         "ours: from flat half-moons to nearly upright ones",
     ),
     (
-        &["barion", "cushion_barion"],
+        &["barion", "cushion_barion", "oval_barion"],
         &["pavilion_angle", "lower_half_length"],
         "ours: those of round brilliants",
     ),
@@ -201,8 +224,7 @@ const OWN: &[(&[&str], &[&str], &str)] = &[
 
 /// Returns the source of a range of one family.
 fn own(family: &str, key: &str) -> Option<&'static str> {
-    let is_meant = |(families, keys, _): &&(&[&str], &[&str], &str)| {
-        families.contains(&family) && (keys.is_empty() || keys.contains(&key))
-    };
-    OWN.iter().find(is_meant).map(|(_, _, source)| *source)
+    let fits = |named: &[&str], name| named.is_empty() || named.contains(&name);
+    let row = OWN.iter().find(|(families, keys, _)| fits(families, family) && fits(keys, key));
+    row.map(|(_, _, source)| *source)
 }

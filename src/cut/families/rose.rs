@@ -28,6 +28,7 @@ pub static ROSE: Family = Family {
     name: "Rose cut",
     first: FamilyCut::first(&ROSE, &[6.0, 2.0, 32.43, 30.82, 30.0, 1.0]),
     net: Some(net),
+    depth: Some(depth),
     proportions: &[
         Proportion {
             meaning: "How many triangles meet in the point: 3 and 6 are usual.",
@@ -65,7 +66,11 @@ pub static ROSE: Family = Family {
             ..rows::slope::<STAR_ANGLE>("star_angle", "Star angle", [10.0, 30.0])
         },
         rows::girdle_thickness::<GIRDLE>(),
-        rows::total_depth(),
+        Proportion {
+            meaning: "The height of the whole stone. Setting it scales the dome: its height and the tangent of the star's angle change by \
+                      one factor; the girdle stays.",
+            ..rows::total_depth([26.0, 61.0], &["height", "star_angle"])
+        },
     ],
 };
 
@@ -112,6 +117,10 @@ impl RoseCorners {
     fn shoulder(&self, half_sides: usize) -> DVec3 {
         (direction(2 * self.sides, half_sides as f64) * self.star).extend(self.shoulder)
     }
+}
+
+fn depth(cut: &FamilyCut) -> f64 {
+    (cut[HEIGHT] + cut[GIRDLE]) / 50.0
 }
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {

@@ -55,22 +55,40 @@ pub const fn table<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     }
 }
 
-/// The depth of the whole stone, which follows from the other numbers.
-pub const fn total_depth() -> Proportion {
+/// The depth of the whole stone. It follows from the other numbers, and moves those of the pavilion when it is set.
+pub const fn total_depth(usual: [f64; 2], moves: &'static [&'static str]) -> Proportion {
     Proportion {
         key: "total_depth",
         name: "Total depth",
         of: "of the width",
-        meaning: "The height of the whole stone, in percent of its width.",
+        meaning: "The height of the whole stone. Setting it scales the pavilion: the tangents of its angles change by one \
+                  factor; crown and girdle stay.",
+        usual,
+        moves,
         get: |cut| match cut {
             // Half the diameter is 1.
-            Cut::Family(cut) => cut.settled().map_or(f64::NAN, |(_, solid)| {
-                let (low, high) = solid.bounds();
-                50.0 * (high.z - low.z)
-            }),
+            Cut::Family(cut) => cut.family.depth.map_or(f64::NAN, |depth| 50.0 * depth(cut)),
             _ => f64::NAN,
         },
         ..Proportion::BLANK
+    }
+}
+
+/// The depth of a step cut.
+pub const fn step_depth(usual: [f64; 2]) -> Proportion {
+    Proportion {
+        meaning: "The height of the whole stone. Setting it changes the slope of the pavilion as a whole; the steps between \
+                  its rows, crown and girdle stay.",
+        ..total_depth(usual, &["pavilion_angle"])
+    }
+}
+
+/// The depth of a cut whose pavilion is given by its depth.
+pub const fn chevron_depth(usual: [f64; 2]) -> Proportion {
+    Proportion {
+        meaning: "The height of the whole stone. Setting it changes the depth of the pavilion; the steps between its rows, \
+                  crown and girdle stay.",
+        ..total_depth(usual, &["pavilion_depth"])
     }
 }
 

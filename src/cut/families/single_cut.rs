@@ -28,6 +28,7 @@ pub static SINGLE_CUT: Family = Family {
     name: "Single cut",
     first: FamilyCut::first(&SINGLE_CUT, &[60.0, 33.0, 40.5, 2.0, 0.0]),
     net: Some(net),
+    depth: Some(depth),
     proportions: &[
         Proportion {
             meaning: "The flat facet on top, corner to opposite corner.",
@@ -46,20 +47,28 @@ pub static SINGLE_CUT: Family = Family {
             ..rows::girdle_thickness::<GIRDLE>()
         },
         rows::culet::<CULET>(),
-        rows::total_depth(),
+        rows::total_depth([50.0, 68.0], &["pavilion_angle"]),
     ],
 };
+
+fn depth(cut: &FamilyCut) -> f64 {
+    let [crown, pavilion] = [CROWN, PAVILION].map(|place| cut[place].to_radians().tan());
+    (1.0 - side(cut)) * crown + cut[GIRDLE] / 50.0 + pavilion * (1.0 - cut[CULET] / 100.0)
+}
+
+/// Returns the distance of the table's sides from the axis. Its corners lie between the mains.
+fn side(cut: &FamilyCut) -> f64 {
+    cut[TABLE] / 100.0 * FRAC_PI_8.cos()
+}
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let [crown, pavilion] = [CROWN, PAVILION].map(|place| cut[place].to_radians().tan());
     let thickness = cut[GIRDLE] / 50.0;
-    // The table's corners lie between the mains.
-    let side = cut[TABLE] / 100.0 * FRAC_PI_8.cos();
     let around = |count: u32, from: f64| {
         (0..count).map(move |number| DVec2::from_angle((f64::from(number) + from) * TAU / f64::from(count)))
     };
     let mut net = FacetNet::default();
-    net.plane("table", DVec3::Z, DVec3::Z * (1.0 - side) * crown);
+    net.plane("table", DVec3::Z, DVec3::Z * (1.0 - side(cut)) * crown);
     for out in around(MAINS, 0.0) {
         net.plane("bezel", (out * crown).extend(1.0), out.extend(0.0));
     }

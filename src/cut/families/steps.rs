@@ -37,6 +37,24 @@ impl StepSide {
     }
 }
 
+impl StepSide {
+    /// Returns all sides of an outline by those in its first quarter, each by its normal and a point: they and their mirror images,
+    /// whose level lines shrink evenly. `size` are half of width and length.
+    pub fn around(quarter: &[(DVec2, DVec2)], size: DVec2) -> Vec<Self> {
+        let even = size - size.min_element();
+        let mut all: Vec<Self> = vec![];
+        for (normal, at) in quarter {
+            for sign in [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(DVec2::from) {
+                let side = Self::toward(normal * sign, at * sign, even, even);
+                if all.iter().all(|other| other.normal != side.normal) {
+                    all.push(side);
+                }
+            }
+        }
+        all
+    }
+}
+
 /// The rows of a crown or of a pavilion, equally wide seen from above.
 #[derive(Debug, Clone, Copy)]
 pub struct StepRows {
@@ -87,6 +105,11 @@ impl StepRows {
     /// Returns how high the rows rise in all, in girdle radii.
     pub fn height(&self) -> f64 {
         self.reach * self.slope.to_radians().tan()
+    }
+
+    /// Returns the tangent of the last row's angle. Where the steps leave no room, that row would lie level, and it is 0.
+    fn last_tangent(&self) -> f64 {
+        self.tangents().and_then(|rows| rows.last().copied()).unwrap_or(0.0)
     }
 
     /// Adds a facet of each row on each side. The rows begin at the height `from`; `up` is 1 for a crown, -1 for a pavilion.
@@ -143,16 +166,32 @@ pub fn add_girdle(net: &mut FacetNet, sides: &[StepSide], thickness: f64) {
     }
 }
 
+/// What a step cut is like seen from the side. Lengths are in girdle radii.
+#[derive(Debug, Clone, Copy)]
+pub struct StepProfile {
+    pub crown: StepRows,
+    /// The girdle's thickness.
+    pub thickness: f64,
+    pub pavilion: StepRows,
+    /// How far a side of rate 1 still moves inward below the rows of the pavilion, where the last one goes on.
+    pub below: f64,
+}
+
+impl StepProfile {
+    /// Returns the height of the whole stone.
+    pub fn depth(&self) -> f64 {
+        let Self { crown, thickness, pavilion, below } = self;
+        let below = if *below > 0.0 { below * pavilion.last_tangent() } else { 0.0 };
+        crown.height() + thickness + pavilion.height() + below
+    }
+}
+
 /// Makes all facets of a step cut.
 ///
 /// # Errors
 /// The tier that has no room.
-pub fn net(
-    sides: &[StepSide],
-    crown: StepRows,
-    thickness: f64,
-    pavilion: StepRows,
-) -> Result<FacetNet, NoRoom> {
+pub fn net(sides: &[StepSide], profile: StepProfile) -> Result<FacetNet, NoRoom> {
+    let StepProfile { crown, thickness, pavilion, .. } = profile;
     let mut net = FacetNet::default();
     crown.add_crown(&mut net, sides)?;
     add_girdle(&mut net, sides, thickness);

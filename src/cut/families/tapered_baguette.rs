@@ -7,7 +7,7 @@ use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
 use super::super::family::{Bound, Family, Proportion};
 use super::super::family_cut::FamilyCut;
-use super::steps::{self, StepRows, StepSide};
+use super::steps::{self, StepProfile, StepRows, StepSide};
 use super::{rows, step_rows};
 use glam::DVec2;
 
@@ -28,6 +28,7 @@ pub static TAPERED_BAGUETTE: Family = Family {
     name: "Tapered baguette",
     first: FamilyCut::first(&TAPERED_BAGUETTE, &[2.0, 65.0, 60.0, 1.0, 35.0, 8.0, 2.0, 46.0, 10.0, 3.0]),
     net: Some(net),
+    depth: Some(|cut| profile(cut).depth()),
     proportions: &[
         rows::length_to_width::<LENGTH>([1.5, 3.0]),
         Proportion {
@@ -47,13 +48,29 @@ pub static TAPERED_BAGUETTE: Family = Family {
         step_rows::pavilion::<PAVILION>([40.0, 52.0]),
         step_rows::pavilion_step::<PAVILION_STEP>(),
         rows::girdle_thickness::<GIRDLE>(),
-        rows::total_depth(),
+        rows::step_depth([52.0, 70.0]),
     ],
 };
 
+/// Returns how much a long side leans toward the narrow end: the tangent of its angle with the length.
+fn lean(cut: &FamilyCut) -> f64 {
+    0.5 * (1.0 - cut[NARROW] / 100.0) / cut[LENGTH]
+}
+
+/// Returns the rows of crown and pavilion, and the girdle between them.
+fn profile(cut: &FamilyCut) -> StepProfile {
+    let (lean, narrow) = (lean(cut), cut[NARROW] / 100.0);
+    // Where both long sides and the narrow end meet: the first end of the keel. Below it, the last row goes on to where they meet
+    // the wide end.
+    let [reach, end] = [narrow / (lean.hypot(1.0) - lean), 1.0 / (lean.hypot(1.0) + lean)];
+    let inset = 0.5 * (1.0 + narrow) * (1.0 - cut[TABLE] / 100.0) / lean.hypot(1.0);
+    let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], inset);
+    let pavilion = StepRows::of(cut, [PAVILION_ROWS, PAVILION, PAVILION_STEP], reach);
+    StepProfile { crown, thickness: cut[GIRDLE] / 50.0, pavilion, below: end - reach }
+}
+
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
-    let (length, narrow) = (cut[LENGTH], cut[NARROW] / 100.0);
-    let lean = 0.5 * (1.0 - narrow) / length;
+    let (length, lean) = (cut[LENGTH], lean(cut));
     let to = |x: f64, y: f64, through: DVec2| StepSide {
         crown_rate: 1.0,
         pavilion_rate: 1.0,
@@ -66,10 +83,5 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
         to(-1.0, lean, DVec2::new(-1.0, -length)),
         to(0.0, -1.0, -tip),
     ];
-    // Where both long sides and the narrow end meet: the first end of the keel. Below it, the last row goes on.
-    let reach = narrow / (lean.hypot(1.0) - lean);
-    let inset = 0.5 * (1.0 + narrow) * (1.0 - cut[TABLE] / 100.0) / lean.hypot(1.0);
-    let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], inset);
-    let pavilion = StepRows::of(cut, [PAVILION_ROWS, PAVILION, PAVILION_STEP], reach);
-    steps::net(&sides, crown, cut[GIRDLE] / 50.0, pavilion)
+    steps::net(&sides, profile(cut))
 }

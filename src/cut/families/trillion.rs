@@ -27,6 +27,7 @@ pub static TRILLION: Family = Family {
     name: "Trillion",
     first: FamilyCut::first(&TRILLION, &[9.0, 55.0, 34.0, 41.0, 50.0, 70.0, 3.0, 0.0, 2.0]),
     net: Some(net),
+    depth: Some(|cut| Brilliant::total_depth(cut, TABLE, reach(cut))),
     proportions: &[
         Proportion {
             key: "bulge",
@@ -66,7 +67,7 @@ pub static TRILLION: Family = Family {
             },
             ..Proportion::BLANK
         },
-        rows::total_depth(),
+        rows::total_depth([42.0, 58.0], &["pavilion_angle"]),
     ],
 };
 
@@ -78,6 +79,11 @@ fn length(cut: &FamilyCut) -> f64 {
 /// Returns the bulge in halves of the distance between two corners.
 fn bulge(cut: &FamilyCut) -> f64 {
     cut[BULGE] / 50.0
+}
+
+/// Returns how far the middle of a side lies from the axis, in girdle radii.
+fn reach(cut: &FamilyCut) -> f64 {
+    (INNER + bulge(cut)) / length(cut)
 }
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
@@ -106,6 +112,5 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
         place(arc + DVec2::from_angle(side + turn) * radius, side + turn, false)
     };
     let girdle = Girdle::new(3 * cut[MAINS] as usize, curve);
-    let reach = (INNER + bulge) / length;
-    Brilliant::of(cut, TABLE, &girdle, centre, reach).net()
+    Brilliant::of(cut, TABLE, &girdle, centre, reach(cut)).net()
 }

@@ -25,7 +25,7 @@ pub struct TierCorner {
     /// The outward normals of the planes that meet at the corner.
     pub normals: Vec<DVec3>,
     /// The places of these planes on the bench without the tier.
-    planes: Vec<usize>,
+    pub(super) planes: Vec<usize>,
 }
 
 impl Tiers {
@@ -101,7 +101,7 @@ impl Tiers {
     }
 
     /// Returns a bench on which all tiers are cut but the one at a place and those that follow it.
-    fn bench_without(&self, place: usize) -> Bench<'_> {
+    pub(super) fn bench_without(&self, place: usize) -> Bench<'_> {
         let follows = self.followers(place);
         let mut bench = Bench::of(self);
         for other in cutting_order(self) {

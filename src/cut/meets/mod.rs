@@ -1,6 +1,7 @@
 //! Meets: where the facets of a tier go, as cutters say it. `meet` is what a tier keeps, `words` reads it from instructions,
 //! `stated` takes the reading that the design's numbers bear out, `found` finds it in the geometry, and `solve` follows it
-//! to the corners that a facet can `reach`. `corners` lists those that a tier of a finished stone can be moved to.
+//! to the corners that a facet can `reach`. `corners` lists those that a tier of a finished stone can be moved to,
+//! and `picked` finds the meet through two or three of them.
 //!
 //! A meet is a point on the stone as it is cut so far (`stone`): a corner where named tiers meet (`names`), a corner of the
 //! girdle, the girdle line, or the point where the axis leaves the stone. Names may be written as cutters write them: P1 is
@@ -13,6 +14,7 @@ mod fault;
 mod found;
 mod meet;
 mod names;
+mod picked;
 mod reach;
 mod solve;
 mod stated;

@@ -131,7 +131,7 @@ pub(super) struct Bench<'a> {
 
 /// A plane through the points of a meet, and how a tier is set for it.
 #[derive(Debug, Clone, Copy)]
-struct FacetSolution {
+pub(super) struct FacetSolution {
     angle: f64,
     index: f64,
     distance: f64,
@@ -240,6 +240,15 @@ impl<'a> Bench<'a> {
         tier.facets.iter().map(|facet| self.design.plane(&bare, facet.index)).collect()
     }
 
+    /// Returns the planes of a tier's facets at the angle of one of them, with that one at its index.
+    pub fn planes_of(&self, tier: &Tier, facet: usize, solution: &FacetSolution) -> Vec<Plane> {
+        let mut turned = self.planes(tier, solution.angle);
+        let bare =
+            Tier { angle: solution.angle, instructions: String::new(), facets: vec![], meet: None, ..*tier };
+        turned[facet] = self.design.plane(&bare, solution.index);
+        turned
+    }
+
     /// Returns how one facet of a tier is set to pass through points; `planes` are those of the tier.
     fn facet_through(
         &self,
@@ -257,15 +266,7 @@ impl<'a> Bench<'a> {
         let mut solution = self.through(tier, facet, planes[facet].normal, &through)?;
         // With the angle other corners may be reached first.
         for _ in 1..if points.len() > 1 { MOST_TRIES } else { 1 } {
-            let mut turned = self.planes(tier, solution.angle);
-            let bare = Tier {
-                angle: solution.angle,
-                instructions: String::new(),
-                facets: vec![],
-                meet: None,
-                ..*tier
-            };
-            turned[facet] = self.design.plane(&bare, solution.index);
+            let turned = self.planes_of(tier, facet, &solution);
             let again = places(&turned)?;
             if again == through {
                 break;
@@ -277,7 +278,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Returns the place of a point of a meet beside a facet; `planes` are those of its tier.
-    fn point(
+    pub fn point(
         &self,
         place: usize,
         planes: &[Plane],
@@ -328,7 +329,7 @@ impl<'a> Bench<'a> {
 
     /// Returns the setting of a facet whose plane passes through one to three places. One keeps its angle and index, two keep
     /// its index.
-    fn through(
+    pub fn through(
         &self,
         tier: &Tier,
         facet: usize,

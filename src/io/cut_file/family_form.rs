@@ -1,7 +1,7 @@
 //! The tables of families of cuts, such as `[round_brilliant]`, read and written by the rows of each family.
 
 use super::values::TomlTable;
-use crate::cut::{Cut, FAMILIES, Family, Proportion, Unit};
+use crate::cut::{Cut, FAMILIES, Family, Proportion, ProportionError, Unit};
 use crate::io::file_error::Fault;
 use crate::io::toml_text::meant;
 use serde::Deserialize;
@@ -34,12 +34,19 @@ impl FamilyForm {
         for row in self.family.editable() {
             let (key, table) = (row.key, self.family.key);
             let missing = |what: String| Err(Fault::key(table, format!("{table}: {what}")));
+            let twice = |other: &str| {
+                let message = format!("{other}: give {key} or {other}, not both");
+                Err(Fault::key(format!("{table}/{other}"), message))
+            };
             let other = row.pair.unwrap_or_default();
-            match (self.given.get(key), self.given.get(other), row.default) {
-                (Some(_), Some(_), _) => {
-                    let message = format!("{other}: give {key} or {other}, not both");
-                    return Err(Fault::key(format!("{table}/{other}"), message));
+            if let Some((mover, _)) = self.movers().find(|(mover, _)| mover.does_move(row)) {
+                if self.given.contains_key(key) {
+                    return twice(mover.key);
                 }
+                continue;
+            }
+            match (self.given.get(key), self.given.get(other), row.default) {
+                (Some(_), Some(_), _) => return twice(other),
                 (Some(value), ..) => self.give(&mut cut, row, *value)?,
                 (None, None, Some(value)) => self.give(&mut cut, row, value)?,
                 (None, Some(_), _) => {}
@@ -47,7 +54,19 @@ impl FamilyForm {
                 _ => return missing(format!("the key `{key}` is missing ({})", row.hint())),
             }
         }
+        for (mover, value) in self.movers() {
+            let fault = |error: ProportionError| {
+                Fault::key(format!("{}/{}", self.family.key, mover.key), error.to_string())
+            };
+            cut = mover.reached(&cut, value).map_err(fault)?;
+        }
         Ok(cut)
+    }
+
+    /// Returns the numbers that stand in the file in the place of those that they move.
+    fn movers(&self) -> impl Iterator<Item = (&'static Proportion, f64)> + '_ {
+        let movers = self.family.settable().filter(|row| !row.moves.is_empty());
+        movers.filter_map(|row| Some((row, *self.given.get(row.key)?)))
     }
 
     fn give(&self, cut: &mut Cut, row: &'static Proportion, value: f64) -> Result<(), Fault> {
@@ -62,12 +81,12 @@ impl FamilyForm {
             }
             row.check_fixed(value).map_err(|error| fault(error.to_string()))?;
         }
-        row.give.into_iter().for_each(|give| give(cut, value));
+        row.give(cut, value);
         Ok(())
     }
 
     fn check_keys(&self) -> Result<(), Fault> {
-        let known: Vec<&str> = self.family.editable().map(|row| row.key).collect();
+        let known: Vec<&str> = self.family.settable().map(|row| row.key).collect();
         let Some(key) = self.given.keys().find(|key| !known.contains(&key.as_str())) else { return Ok(()) };
         let (table, list) = (self.family.key, known.join("`, `"));
         let message = format!("{table}: unknown key `{key}`, known here are `{list}`{}", meant(key, &known));

@@ -193,6 +193,49 @@ fn glass_shapes_read_as_written_and_their_keys_mean_what_their_tables_say() {
     assert!(parse(&both, "x").unwrap_err().fault.problem.ends_with("give [cube] or [plate], not both"));
 }
 
+/// The table of an oval that gives its depth in the place of the pavilion's angle.
+const DEEP_OVAL: &str = "format = 1\nname = \"x\"\nmaterial = \"diamond\"\n[oval]\nlength_to_width = 1.4\nfullness = 2.0\n\
+    table = 57\ncrown_angle = 34.5\ntotal_depth = 62\nstar_length = 50\nlower_half_length = 75\n\
+    girdle_thickness = 3\nculet = 0\n";
+
+#[test]
+fn a_depth_stands_in_the_place_of_the_angle_that_it_moves() {
+    let of = |text: &str| parse(text, "x").map(|design| design.cut);
+    let cut = of(DEEP_OVAL).unwrap();
+    let row = |key: &str| cut.proportion(key).unwrap();
+    let value = |key: &str| (row(key).get)(&cut);
+    assert!((value("total_depth") - 62.0).abs() < 1e-9);
+    // Crown and girdle stay: (62 - 3) % of the width less the crown's height is the depth of the pavilion.
+    let crown = 50.0 * 0.43 * 34.5_f64.to_radians().tan();
+    let pavilion = ((62.0 - 3.0 - crown) / 50.0).atan().to_degrees();
+    assert!((value("pavilion_angle") - pavilion).abs() < 1e-9, "{}", value("pavilion_angle"));
+    assert_message(
+        &format!("{DEEP_OVAL}pavilion_angle = 41\n"),
+        "x.toml:9: total_depth: give pavilion_angle or total_depth, not both",
+    );
+    assert_message(
+        &DEEP_OVAL.replace("total_depth = 62\n", ""),
+        "x.toml:4: oval: the key `pavilion_angle` is missing (degrees from the girdle plane)",
+    );
+    let shallow = parse(&DEEP_OVAL.replace("= 62", "= 18"), "x").unwrap_err().to_string();
+    assert!(
+        shallow.contains("total_depth: 18 % must be at least 19.53 %, below which no stone has it"),
+        "{shallow}"
+    );
+    assert!(shallow.ends_with("raise it by at least 1.53"), "{shallow}");
+}
+
+#[test]
+fn a_brilliant_can_give_its_depth_as_well() {
+    let text = with("pavilion_angle", "total_depth = 61.5\n#");
+    let cut = parse(&text, "x").unwrap().cut;
+    assert!(((cut.proportion("total_depth").unwrap().get)(&cut) - 61.5).abs() < 1e-9);
+    assert_message(
+        &(TOLKOWSKY.to_owned() + "total_depth = 61.5"),
+        "x.toml:14: total_depth: give pavilion_angle or total_depth, not both",
+    );
+}
+
 #[test]
 fn of_each_pair_one_is_given() {
     for (given, other) in [

@@ -397,3 +397,40 @@ fn a_table_in_parquet_holds_the_rows_of_one_in_csv() {
     let stderr = desk.refused(&format!("{line} --out rows.parquet --resume"), 2);
     assert!(stderr.contains("only .csv and .jsonl can be resumed"), "{stderr}");
 }
+
+#[test]
+fn a_sweep_over_the_total_depth_moves_the_pavilion() {
+    let desk = Desk::new();
+    let (columns, rows) =
+        table(&desk.done("sweep oval --over total_depth=15,60,62 --of leakage --unresolved 0.1"));
+    assert_eq!(columns[1], "total_depth", "{columns:?}");
+    let text = rows[0].join(" ");
+    assert!(
+        text.contains("total_depth: 15 % must be at least 19.53 %, below which no stone has it"),
+        "{text}"
+    );
+    assert!(rows[1..].iter().all(|row| row[3].parse::<f64>().is_ok()), "{rows:?}");
+    let both = "sweep oval --over total_depth=60,62 --over pavilion_angle=40,41 --of leakage";
+    let stderr = desk.refused(both, 2);
+    assert!(stderr.contains("total_depth is reached by changing pavilion_angle"), "{stderr}");
+    // The depth is kept whichever number comes first.
+    for line in ["--over total_depth=62 --over crown_angle=33", "--over crown_angle=33 --over total_depth=62"]
+    {
+        let (columns, rows) = table(&desk.done(&format!("sweep oval {line} --of leakage --unresolved 0.1")));
+        let last = columns.iter().position(|name| name == "leakage").unwrap();
+        assert!((rows[0][last].parse::<f64>().unwrap() - leakage(&desk)).abs() < 1e-9, "{rows:?}");
+    }
+}
+
+/// Returns the leakage of an oval of these numbers by another way.
+fn leakage(desk: &Desk) -> f64 {
+    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/cuts/oval.toml")).unwrap();
+    let text = text.lines().map(|line| match line.split(" =").next() {
+        Some("pavilion_angle") => "total_depth = 62.0".to_owned(),
+        Some("crown_angle") => "crown_angle = 33.0".to_owned(),
+        _ => line.to_owned(),
+    });
+    desk.write("deep.toml", text.collect::<Vec<_>>().join("\n"));
+    let (columns, rows) = table(&desk.done("sweep deep.toml --of leakage --unresolved 0.1"));
+    rows[0][columns.iter().position(|name| name == "leakage").unwrap()].parse().unwrap()
+}

@@ -9,6 +9,7 @@ use crate::app::model::command::Command;
 use crate::app::model::compare::Compared;
 use crate::app::model::dialog::{AboutForm, Dialog, Then};
 use crate::app::model::eye::Eye;
+use crate::app::model::meet_pick::MeetPick;
 use crate::app::model::task::{Task, WindowTask};
 use crate::app::model::workspace::PaneLayout;
 use crate::cut::Cut;
@@ -51,10 +52,11 @@ impl Model {
         self.workspace.shows_tiers && self.has_tiers() && !self.is_at_bench()
     }
 
-    /// Returns the place of the tier whose meet is being picked in the views; `None` where none is. The stone in
-    /// sight must be the one that these tiers make, so that a corner on the screen belongs to them.
-    pub fn picked_tier(&self) -> Option<usize> {
-        self.session.picking.filter(|_| self.shows_tiers() && !self.document.shows_last_possible())
+    /// Returns the pick of a tier's meet in the views; `None` where there is none. The stone in sight must be the one that
+    /// these tiers make, so that a corner on the screen belongs to them.
+    pub fn meet_pick(&self) -> Option<&MeetPick> {
+        let is_seen = self.shows_tiers() && !self.document.shows_last_possible();
+        self.session.picking.as_ref().filter(|_| is_seen)
     }
 
     /// Returns the marks of the selected finding where the list of the audit is in sight, else no marks.

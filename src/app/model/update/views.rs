@@ -49,9 +49,9 @@ fn pass(model: &mut Model, change: ViewAction) {
     match change {
         ViewAction::Hover(pane) => session.hovered = pane,
         ViewAction::Tier(place) => session.tier = place,
-        ViewAction::PickMeet(place) => {
-            session.picking = place;
-            session.tier = place.or(session.tier);
+        ViewAction::PickMeet(pick) => {
+            session.tier = pick.as_ref().map(|pick| pick.place).or(session.tier);
+            session.picking = pick;
         }
         ViewAction::Finding(place) => session.audit.selected = place,
         ViewAction::Map(options) => session.map.choose(options),

@@ -1,0 +1,201 @@
+//! The meet that leads a tier through two or three corners which were picked: its angle follows from two, its index too from three.
+
+use super::super::tiers::{Tier, Tiers};
+use super::corners::TierCorner;
+use super::found::{NAMES, PASSES};
+use super::meet::{Meet, MeetPoint};
+use super::solve::{Bench, TierOutcome};
+use crate::math::Plane;
+use glam::DVec3;
+
+/// The most corners that are tried of those that fit the same names.
+const MOST_REACHED: usize = 8;
+
+/// The most ways to name a corner that are tried together with those of the others.
+const MOST_WAYS: usize = 4;
+
+/// The most facets of the tier that are tried: those whose side the corners lie on.
+const MOST_FACETS: usize = 4;
+
+/// A corner that names lead to is the one that was picked if it is this near, in lengths of the largest distance.
+const SAME_CORNER: f64 = 1e-9;
+
+impl Tiers {
+    /// Returns all corners through which the tier at a place can be laid at some angle and index: those of the stone of all tiers
+    /// that do not follow this one by a meet, on its side. Each has the facet of the tier whose direction it lies farthest out in.
+    /// None for a place past the last tier, and where the tier has no facets.
+    pub fn corners_beside(&self, place: usize) -> Vec<TierCorner> {
+        let Some(tier) = self.tiers.get(place) else { return vec![] };
+        let bench = self.bench_without(place);
+        let (planes, stone) = (bench.planes(tier, tier.angle), bench.stone());
+        let beside = stone.corners().iter().filter_map(|corner| {
+            let depth = |facet: &usize| planes[*facet].normal.dot(corner.at);
+            let facet = (0..planes.len()).max_by(|a, b| depth(a).total_cmp(&depth(b)))?;
+            let normals = corner.planes.iter().map(|&plane| stone.plane(plane).plane.normal).collect();
+            let (at, distance, planes) = (corner.at, depth(&facet), corner.planes.clone());
+            (distance > 0.0).then_some(TierCorner { at, distance, facet, normals, planes })
+        });
+        beside.collect()
+    }
+
+    /// Returns the meet that leads a facet of the tier at a place through two or three of the [corners beside
+    /// it](Self::corners_beside); `None` where no meet does once all are followed: where facets of the tier would differ, or
+    /// where names choose other corners at the angle that follows.
+    pub fn meet_through(&self, place: usize, corners: &[&TierCorner]) -> Option<Meet> {
+        let own = self.tiers.get(place)?;
+        let bench = self.bench_without(place);
+        let tier = Tier { meet: None, is_cut: true, ..own.clone() };
+        let planes = bench.planes(&tier, tier.angle);
+        let out =
+            |facet: &usize| corners.iter().map(|corner| planes[*facet].normal.dot(corner.at)).sum::<f64>();
+        let mut facets: Vec<usize> = (0..planes.len()).collect();
+        facets.sort_by(|a, b| out(b).total_cmp(&out(a)));
+        facets.into_iter().take(MOST_FACETS).find_map(|facet| {
+            let turned = bench.turned(&tier, &planes, facet, corners)?;
+            let ways = corners.iter().map(|corner| bench.ways(place, &turned, facet, corner));
+            let meets = combined(&ways.collect::<Vec<_>>()).into_iter().map(Meet::Points);
+            let mut given = meets.filter(|meet| bench.follow(place, &mut tier.clone(), meet).is_ok());
+            given.find(|meet| self.passes(place, &tier, meet, (facet, corners)))
+        })
+    }
+
+    /// Returns whether a facet of a tier passes through corners by a meet once all meets of the design are followed.
+    fn passes(
+        &self,
+        place: usize,
+        tier: &Tier,
+        meet: &Meet,
+        (facet, corners): (usize, &[&TierCorner]),
+    ) -> bool {
+        let mut design = self.clone();
+        design.tiers[place] = Tier { meet: Some(meet.clone()), ..tier.clone() };
+        let scale = Bench::of(self).stone().scale();
+        let solved = design.solved();
+        let tier = &solved.tiers.tiers[place];
+        let plane = solved.tiers.plane(tier, tier.facets[facet].index);
+        let miss = |corner: &&TierCorner| plane.distance(corner.at).abs();
+        solved.outcomes[place] == TierOutcome::Solved
+            && corners.iter().all(|corner| miss(corner) <= PASSES * scale)
+    }
+}
+
+impl Bench<'_> {
+    /// Returns the planes of a tier at the angle at which one of its facets passes through corners, with that facet at its index;
+    /// `None` where no facet can.
+    fn turned(
+        &self,
+        tier: &Tier,
+        planes: &[Plane],
+        facet: usize,
+        corners: &[&TierCorner],
+    ) -> Option<Vec<Plane>> {
+        let places: Vec<DVec3> = corners.iter().map(|corner| corner.at).collect();
+        let solution = self.through(tier, facet, planes[facet].normal, &places).ok()?;
+        Some(self.planes_of(tier, facet, &solution))
+    }
+
+    /// Returns the first points of meets that mean a corner beside a facet; `planes` are those of its tier.
+    fn ways(&self, place: usize, planes: &[Plane], facet: usize, corner: &TierCorner) -> Vec<MeetPoint> {
+        let lists: Vec<Vec<String>> =
+            NAMES.flat_map(|count| self.lists(place, &corner.planes, count)).collect();
+        let first = lists.iter().map(|names| MeetPoint::Corner(names.clone()));
+        let later = (2..=MOST_REACHED).flat_map(|reached| {
+            lists.iter().map(move |names| MeetPoint::LaterCorner { names: names.clone(), reached })
+        });
+        let simple = [MeetPoint::Centre { temporary: false }, MeetPoint::GirdlePoint];
+        let same = SAME_CORNER * self.stone().scale();
+        let is_meant = |point: &MeetPoint| {
+            self.point(place, planes, facet, point).is_ok_and(|at| at.distance(corner.at) <= same)
+        };
+        simple.into_iter().chain(first).chain(later).filter(is_meant).take(MOST_WAYS).collect()
+    }
+}
+
+/// Returns all ways to take one of each list.
+fn combined(lists: &[Vec<MeetPoint>]) -> Vec<Vec<MeetPoint>> {
+    lists.iter().fold(vec![vec![]], |before, list| {
+        let longer = |start: &Vec<MeetPoint>| {
+            let start = start.clone();
+            list.iter().map(move |point| start.iter().cloned().chain([point.clone()]).collect::<Vec<_>>())
+        };
+        before.iter().flat_map(longer).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::tier_change::TierChange;
+    use super::super::tests::brilliant;
+    use super::*;
+
+    /// How near a tier passes to a point that was picked, in lengths of the largest distance.
+    const NEAR: f64 = 2e-5;
+
+    /// Looks for sets of corners through which meets lead tiers of a design. Follows up to `most` of them, and returns by how much each
+    /// changed the angle and the index of its first facet.
+    fn followed(design: &Tiers, count: usize, most: usize) -> Vec<[f64; 2]> {
+        let mut changes = vec![];
+        for place in 0..design.tiers.len() {
+            let own = &design.tiers[place];
+            if own.facets.is_empty() || !(1.0..89.0).contains(&own.angle.abs()) {
+                continue;
+            }
+            let corners = design.corners_beside(place);
+            let beside: Vec<&TierCorner> = corners.iter().filter(|corner| corner.facet == 0).collect();
+            for set in combinations(beside.len(), count) {
+                let picked: Vec<&TierCorner> = set.iter().map(|&k| beside[k]).collect();
+                let Some(meet) = design.meet_through(place, &picked) else { continue };
+                assert!(matches!(&meet, Meet::Points(points) if points.len() == count), "{meet}");
+                let moved = design.changed(TierChange::Meet(place, Some(meet))).tiers;
+                let tier = &moved.tiers[place];
+                let passes = |facet: usize| {
+                    let plane = moved.plane(tier, tier.facets[facet].index);
+                    picked.iter().all(|corner| plane.distance(corner.at).abs() < NEAR)
+                };
+                assert!((0..tier.facets.len()).any(passes), "{}: {set:?}", own.name());
+                let index = tier.facets[0].index - own.facets[0].index;
+                changes.push([tier.angle - own.angle, index]);
+                if changes.len() >= most {
+                    return changes;
+                }
+            }
+        }
+        changes
+    }
+
+    /// Returns all sets of so many numbers below `of`.
+    fn combinations(of: usize, count: usize) -> Vec<Vec<usize>> {
+        let longer = |set: Vec<usize>| {
+            let from = set.last().map_or(0, |last| last + 1);
+            (from..of).map(move |next| set.iter().copied().chain([next]).collect())
+        };
+        (0..count).fold(vec![vec![]], |sets, _| sets.into_iter().flat_map(longer).collect())
+    }
+
+    #[test]
+    fn a_tier_passes_through_two_corners_that_are_picked_at_an_angle_that_follows() {
+        let changes = followed(&brilliant(), 2, 12);
+        assert!(changes.len() >= 4, "{changes:?}");
+        assert!(changes.iter().any(|[angle, _]| angle.abs() > 0.1), "{changes:?}");
+        assert!(changes.iter().all(|[_, index]| *index == 0.0), "two corners keep the index: {changes:?}");
+    }
+
+    #[test]
+    fn a_tier_passes_through_three_corners_at_an_angle_and_an_index_that_follow() {
+        let changes = followed(&brilliant(), 3, 4);
+        assert!(!changes.is_empty());
+        assert!(changes.iter().any(|[angle, _]| angle.abs() > 0.1), "{changes:?}");
+    }
+
+    #[test]
+    fn corners_in_one_line_and_tiers_that_are_not_there_have_no_meet() {
+        let design = brilliant();
+        let tier = design.tiers.iter().position(|tier| tier.name() == "A").unwrap();
+        let corners = design.corners_beside(tier);
+        assert!(!corners.is_empty() && corners.iter().all(|corner| corner.distance > 0.0));
+        let one = &corners[0];
+        assert_eq!(design.meet_through(tier, &[one, one, one]), None);
+        assert!(design.corners_beside(99).is_empty());
+        assert_eq!(design.meet_through(99, &[one, one]), None);
+    }
+}
