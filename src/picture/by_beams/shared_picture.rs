@@ -20,19 +20,19 @@ use glam::{DAffine2, DMat2, DVec2, DVec3, DVec4};
 use std::ops::Range;
 
 /// The most by which sharing one beam may change a pixel, as a part of what light of radiance 1 gives.
-const MOST_CHANGE: f64 = 1e-3;
+const MOST_CHANGE: f64 = 2e-3;
 
 /// The most by which painting a beam for several wavelengths at once may change a pixel at its edge.
-const MOST_AT_EDGE: f64 = 5e-4;
+const MOST_AT_EDGE: f64 = 1e-3;
 
 /// The greatest weight, times the part of all wavelengths, of light that is looked up at once where no lamp is near.
-const MOST_AT_ONCE: f64 = 2e-3;
+const MOST_AT_ONCE: f64 = 4e-3;
 
 /// The part of all wavelengths whose beams are followed as far as those of a single one would be.
 const USUAL_PART: f64 = 1.0 / 32.0;
 
 /// The light for which one ray estimates where it goes, as a part of what light of radiance 1 gives in a pixel.
-const LEFT_AT_ONCE: f64 = 0.05;
+const LEFT_AT_ONCE: f64 = 0.2;
 
 /// The most ends of beams that are estimated together.
 const MOST_ENDS: usize = 64;
@@ -163,7 +163,9 @@ impl SharedBeams for PaintedPiece<'_> {
         match &beam.inside {
             None => self.paint_glare(beam),
             Some(inside) => {
-                self.absorb(beam, inside);
+                if !self.picture.is_clear {
+                    self.lost.absorbed += beam.absorbed(&self.picture.media[beam.group.clone()]);
+                }
                 for copy in 0..self.copies.len() {
                     self.look(beam, inside, copy);
                     self.paint(beam, inside, copy);
@@ -246,19 +248,6 @@ impl PaintedPiece<'_> {
                 self.patches.put(&end.outline, pixels, seen.extend(0.0));
             }
         }
-    }
-
-    /// Sums up what absorption takes on the way to a beam's facet.
-    fn absorb(&mut self, beam: &SharedBeam, inside: &Inside) {
-        let picture = self.picture;
-        if picture.is_clear {
-            return;
-        }
-        let centre = beam.outline.iter().map(|c| c.at).sum::<DVec2>() / beam.outline.len() as f64;
-        let [before, now] = inside.paths(&beam.slant, &beam.slant).map(|path| path.at(centre).max(0.0));
-        let lost = |m: &Medium| m.transmittance(before) - m.transmittance(now);
-        let all: f64 = picture.media[beam.group.clone()].iter().map(lost).sum();
-        self.lost.absorbed += beam.weight * beam.area * all;
     }
 
     /// Looks up the light that comes through a copy of a beam, as if nothing were absorbed, into `seen`.
@@ -373,7 +362,7 @@ impl PaintedPiece<'_> {
             self.patches.put(&self.polygon, &self.copies[copy].1, (whole * sign).extend(0.0));
             return;
         }
-        let path = inside.paths(&beam.slant, &slant)[1];
+        let path = inside.path(&beam.slant, &slant);
         self.paint_absorbed(copy, path, sign, (first, waves));
     }
 

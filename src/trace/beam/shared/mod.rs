@@ -14,7 +14,7 @@ use self::moving::{Cell, MovingBeam, MovingSplitter};
 pub use self::slanted_light::{Entry, Slant};
 use self::slanted_light::SlantedLight;
 use super::coherency::Coherency;
-use super::follow::{SLIVER, s_axis};
+use super::follow::{SLIVER, attenuated, s_axis};
 use super::grow::{BeamOptions, MOST_BOUNCES, level_for};
 use super::split::Facets;
 use crate::math::{Affine, Basis, Polytope, Symmetry, area, clip};
@@ -90,8 +90,8 @@ pub struct Inside {
     arriving: Coherency,
     /// The depth of the facet before, and of this one, behind the facet by which the light entered.
     depths: [Affine; 2],
-    /// The speeds toward both facets.
-    speeds: [DVec2; 2],
+    /// The parts of the speed toward this facet: of light that is not slanted, and per slant.
+    speed: DVec2,
 }
 
 /// Light of one wavelength that leaves a shared beam.
@@ -418,7 +418,7 @@ impl<'a> Sharer<'a> {
                 light: front.light,
                 arriving,
                 depths: [front.depth, cell.depth],
-                speeds: [front.speed, speed],
+                speed,
             }),
         });
         let energy = coherency.weight() * area * common.most_left(&group, front.slant, cell, outline);
@@ -426,8 +426,7 @@ impl<'a> Sharer<'a> {
             return;
         }
         let light = front.light.mirrored(&common.polytope.facets()[cell.facet as usize].plane);
-        let of_group = energy * group.len() as f64;
-        if of_group >= common.level && front.bounces + 1 < MOST_BOUNCES {
+        if energy * group.len() as f64 >= common.level && front.bounces + 1 < MOST_BOUNCES {
             let corners = if cell.is_whole {
                 front.corners
             } else {
@@ -535,7 +534,7 @@ impl Common<'_> {
         }
         cells.iter().any(|cell| {
             let part = (0.5 * cell.twice_area / pixel).min(1.0);
-            0.25 * part * self.reflectance_change(front, group, cell.normal) > most
+            0.25 * part > most && 0.25 * part * self.reflectance_change(front, group, cell.normal) > most
         })
     }
 
@@ -563,25 +562,32 @@ impl SharedBeam<'_> {
     pub fn glare(&self, medium: &Medium) -> f64 {
         fresnel(self.entry.cos_i, 1.0 / medium.index).reflectance()
     }
+
+    /// Returns the energy, weight times area, that media absorb between the facet before and this one, at the beam's slant.
+    pub fn absorbed(&self, media: &[Medium]) -> f64 {
+        let Some(inside) = &self.inside else { return 0.0 };
+        let outline: Vec<DVec2> = self.outline.iter().map(|corner| corner.at).collect();
+        let [before, after] = inside.depths.map(|depth| depth * (1.0 / self.slant.cos_t));
+        let lost = |medium: &Medium| attenuated(&outline, before, medium) - attenuated(&outline, after, medium);
+        self.weight * media.iter().map(lost).sum::<f64>()
+    }
 }
 
 impl Inside {
     /// Returns the light of a medium that leaves; `None` where reflection is total.
     pub fn exit(&self, entry: &Entry, medium: &Medium) -> Option<SharedExit> {
-        let (direction, change) = self.light.leaving(entry, medium, self.normal)?;
-        let cos_i = self.light.direction(&entry.slant(medium.index)).dot(self.normal);
-        let (_, weight) = self.arriving.split(&fresnel(cos_i, medium.index));
+        let slant = entry.slant(medium.index);
+        let ray = self.light.direction(&slant);
+        let surface = fresnel(ray.dot(self.normal), medium.index);
+        let (direction, change) =
+            self.light.leaving(entry, (&slant, medium.spread), ray, self.normal, surface.cos_t?);
+        let (_, weight) = self.arriving.split(&surface);
         Some(SharedExit { direction, change, weight })
     }
 
-    /// Returns the length of the path inside the stone to the facet before and to this one, over the image, at a slant;
-    /// `middle` is that of the beam.
-    pub fn paths(&self, middle: &Slant, slant: &Slant) -> [Affine; 2] {
-        [0, 1].map(|k| {
-            let speed = |slant: &Slant| self.speeds[k].x + self.speeds[k].y * slant.slant;
-            let (own, other) = (speed(middle), speed(slant));
-            let change = if own == 0.0 || other == 0.0 { 1.0 } else { own / other };
-            self.depths[k] * (change / slant.cos_t)
-        })
+    /// Returns the length of the path inside the stone to the facet, over the image, at a slant; `middle` is that of the beam.
+    pub fn path(&self, middle: &Slant, slant: &Slant) -> Affine {
+        let speed = |slant: &Slant| self.speed.x + self.speed.y * slant.slant;
+        self.depths[1] * (speed(middle) / (speed(slant) * slant.cos_t))
     }
 }
