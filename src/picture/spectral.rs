@@ -50,9 +50,7 @@ pub fn expose_rows<E: From<Stopped>, X: ProgressiveImage<E>>(
         let mut exposure = prepare(rows.clone())?;
         let passes: Vec<SamplePass> =
             (0..sampling.count).map(|number| sampling.pass(lit_scene.scene, strata, number)).collect();
-        let done = |part: f64| {
-            watch((f64::from(rows.start) + rows.len() as f64 * part) / f64::from(height))
-        };
+        let done = |part: f64| watch((f64::from(rows.start) + rows.len() as f64 * part) / f64::from(height));
         exposure.add_passes(&passes, &done)?;
         sum.add(&exposure)?;
     }

@@ -133,8 +133,9 @@ impl Exposure<'_> {
         while taken < count {
             // The picture is shown after 1, 2, 4, 8 and so on passes; those between are taken together.
             let next = (2 * taken).clamp(1, count);
-            let done =
-                |part: f64| (self.watch)((f64::from(taken) + f64::from(next - taken) * part) / f64::from(count));
+            let done = |part: f64| {
+                (self.watch)((f64::from(taken) + f64::from(next - taken) * part) / f64::from(count))
+            };
             let pass = |number: u32| {
                 self.sampling.pass(self.lit_scene.scene, &self.strata, first.wrapping_add(number))
             };

@@ -324,7 +324,8 @@ fn a_picture_in_strips_is_the_last_of_those_that_grow_clearer() {
 /// Passes that share beams are taken together in other groups where a picture grows.
 fn assert_alike(a: &Linear, b: &Linear) {
     assert_eq!((a.width, a.height), (b.width, b.height));
-    let apart = |(a, b): (&[f32; 4], &[f32; 4])| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+    let apart =
+        |(a, b): (&[f32; 4], &[f32; 4])| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
     let most = a.pixels.iter().zip(&b.pixels).map(apart).fold(0.0, f32::max);
     assert!(most < 2e-3, "pixels differ by {most}");
 }

@@ -92,8 +92,7 @@ struct SeenLight {
 impl<'a> SharedPicture<'a> {
     pub fn new(subject: &'a Subject<'a>, passes: &[SamplePass]) -> Self {
         let bands = passes.iter().flat_map(|pass| pass.media[0].iter().zip(&pass.responses));
-        let mut waves: Vec<(Medium, [DVec3; 4])> =
-            bands.map(|(m, r)| (*m, *r)).collect();
+        let mut waves: Vec<(Medium, [DVec3; 4])> = bands.map(|(m, r)| (*m, *r)).collect();
         // From short wavelengths to long, so that fans that follow one another lie one behind the other.
         waves.sort_by(|a, b| b.0.index.total_cmp(&a.0.index));
         waves.dedup_by(|next, kept| {
@@ -197,9 +196,8 @@ impl PaintedPiece<'_> {
             let direction = picture.subject.in_world(&self.view.basis, *copy, beam.entry.glare);
             let environment = &picture.subject.lit_scene.environment;
             let light = environment.radiance(DVec3::ZERO, direction, DVec3::ZERO);
-            let of_wave = |k: usize| {
-                colour(&picture.response(&(k..k + 1)), light * beam.glare(&picture.media[k]))
-            };
+            let of_wave =
+                |k: usize| colour(&picture.response(&(k..k + 1)), light * beam.glare(&picture.media[k]));
             let seen: DVec3 = beam.group.clone().map(of_wave).sum();
             self.patches.put(&self.polygon, pixels, seen.extend(picture.passes));
         }
@@ -220,11 +218,11 @@ impl PaintedPiece<'_> {
         let (mut absorbed, mut unresolved) = (0.0, 0.0);
         for number in 0..rays {
             let mut place = (f64::from(number) + draw()) / f64::from(rays) * left;
-            let passed = |end: &&BeamEnd| {
+            let is_there = |end: &&BeamEnd| {
                 place -= end.energy * end.group.len() as f64;
-                place > 0.0
+                place <= 0.0
             };
-            let end = ends.iter().skip_while(passed).next().unwrap_or(first);
+            let end = ends.iter().find(is_there).unwrap_or(first);
             let wave = end.group.start + (draw() * end.group.len() as f64) as usize;
             let luck = (DVec2::new(draw(), draw()), draw());
             let loss = picture.tail.follow(end, &picture.media[wave], luck, |direction, share| {
@@ -277,7 +275,13 @@ impl PaintedPiece<'_> {
 
     /// Looks up the light of several wavelengths along the fan of all. Returns false where they have to be looked up one by
     /// one, because a lamp is near or some are totally reflected.
-    fn look_at_once(&mut self, beam: &SharedBeam, inside: &Inside, copy: usize, waves: &Range<usize>) -> bool {
+    fn look_at_once(
+        &mut self,
+        beam: &SharedBeam,
+        inside: &Inside,
+        copy: usize,
+        waves: &Range<usize>,
+    ) -> bool {
         let places = [waves.start, waves.start + waves.len() / 2, waves.end - 1];
         let exits = places.map(|k| inside.exit(beam.entry, &self.picture.media[k]));
         let [Some(first), Some(middle), Some(last)] = exits else {
@@ -387,8 +391,9 @@ impl PaintedPiece<'_> {
                 let length = path.at(centre).max(0.0);
                 let mut whole = DVec3::ZERO;
                 for seen in seen[first..].iter().take_while(|seen| seen.waves.start < waves.end) {
-                    for k in seen.waves.start.max(waves.start)..seen.waves.end.min(waves.end) {
-                        let more = media[k].absorption[which] - own.absorption[0];
+                    let common = seen.waves.start.max(waves.start)..seen.waves.end.min(waves.end);
+                    for (k, medium) in common.clone().zip(&media[common]) {
+                        let more = medium.absorption[which] - own.absorption[0];
                         whole += colour(&picture.response(&(k..k + 1)), seen.light) * (-more * length).exp();
                     }
                 }

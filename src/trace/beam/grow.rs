@@ -215,17 +215,16 @@ impl<'a> Tracer<'a> {
             exits: vec![],
             losses: Blocks::default(),
         };
-        let mut tracer =
-            Self {
-                polytope,
-                facets,
-                beams,
-                fronts: vec![],
-                made: 0,
-                level: f64::INFINITY,
-                adder: None,
-                followers: vec![],
-            };
+        let mut tracer = Self {
+            polytope,
+            facets,
+            beams,
+            fronts: vec![],
+            made: 0,
+            level: f64::INFINITY,
+            adder: None,
+            followers: vec![],
+        };
         tracer.enter();
         tracer
     }

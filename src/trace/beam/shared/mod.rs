@@ -11,8 +11,8 @@ mod slanted_light;
 
 pub use self::moving::MovingCorner;
 use self::moving::{Cell, MovingBeam, MovingSplitter};
-pub use self::slanted_light::{Entry, Slant};
 use self::slanted_light::SlantedLight;
+pub use self::slanted_light::{Entry, Slant};
 use super::coherency::Coherency;
 use super::follow::{SLIVER, attenuated, s_axis};
 use super::grow::{BeamOptions, MOST_BOUNCES, level_for};
@@ -287,8 +287,7 @@ impl<'a> Sharer<'a> {
                 continue;
             }
             let (entry, light) = Entry::new(i as u32, &facet.plane, &view.basis, cos_i);
-            let corners: Vec<_> =
-                outline.iter().map(|&at| MovingCorner { at, drift: DVec2::ZERO }).collect();
+            let corners: Vec<_> = outline.iter().map(|&at| MovingCorner { at, drift: DVec2::ZERO }).collect();
             let group = 0..common.media.len();
             let slant = entry.slant(common.middle_index(&group));
             beams.take(&SharedBeam {
@@ -351,7 +350,8 @@ impl<'a> Sharer<'a> {
         self.corners.clear();
         self.corners.extend_from_slice(&seed.corners);
         self.chain.clear();
-        let links = (0..).zip(&seed.facets).map(|(k, &facet)| (if k == 0 { FIRST_LINK } else { k - 1 }, facet));
+        let links =
+            (0..).zip(&seed.facets).map(|(k, &facet)| (if k == 0 { FIRST_LINK } else { k - 1 }, facet));
         self.chain.extend(links);
         let (link, corners) = (self.chain.len() as u32 - 1, (0, self.corners.len() as u32));
         self.stack.push(SharedFront { link, corners, ..seed.front.clone() });
@@ -388,13 +388,7 @@ impl<'a> Sharer<'a> {
     }
 
     /// Lets a part of a beam land on its facet.
-    fn land(
-        &mut self,
-        front: &SharedFront,
-        direction: DVec3,
-        cell: &Cell,
-        beams: &mut impl SharedBeams,
-    ) {
+    fn land(&mut self, front: &SharedFront, direction: DVec3, cell: &Cell, beams: &mut impl SharedBeams) {
         let (common, normal) = (self.common, cell.normal);
         let cos_i = direction.dot(normal);
         let surface = fresnel(cos_i, front.slant.index);
@@ -488,8 +482,7 @@ impl<'a> Sharer<'a> {
         let eta = 1.0 / slant.index;
         let (entered, _) = Coherency::entered(&fresnel(entry.cos_i, eta));
         let mut light = polarised(entered);
-        let mut direction =
-            refract(-common.basis.toward, entry.normal, eta, (entry.cos_i, slant.cos_t));
+        let mut direction = refract(-common.basis.toward, entry.normal, eta, (entry.cos_i, slant.cos_t));
         let mut s = s_axis(direction, entry.normal, common.basis.right);
         for facet in self.facets_to(front.link).into_iter().skip(1) {
             let normal = common.polytope.facets()[facet as usize].plane.normal;
@@ -568,7 +561,8 @@ impl SharedBeam<'_> {
         let Some(inside) = &self.inside else { return 0.0 };
         let outline: Vec<DVec2> = self.outline.iter().map(|corner| corner.at).collect();
         let [before, after] = inside.depths.map(|depth| depth * (1.0 / self.slant.cos_t));
-        let lost = |medium: &Medium| attenuated(&outline, before, medium) - attenuated(&outline, after, medium);
+        let lost =
+            |medium: &Medium| attenuated(&outline, before, medium) - attenuated(&outline, after, medium);
         self.weight * media.iter().map(lost).sum::<f64>()
     }
 }
