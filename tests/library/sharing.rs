@@ -54,7 +54,8 @@ fn wavelengths_that_share_beams_show_what_each_shows_alone() {
     ] {
         let shoot = shoot(stone, material, name);
         let options = BeamOptions { unresolved, ..BeamOptions::default() };
-        let [(shared, rest), (apart, rest_apart)] = shoot.shared_and_apart(options);
+        let (shared, rest) = shoot.by_beams_of(options, false);
+        let (apart, rest_apart) = shoot.by_beams_of(options, true);
         let found = steps(&shared, &apart);
         println!("{material}: {found:?}, {rest:?}, {rest_apart:?}");
         let (half, two, rms) = found;
@@ -65,8 +66,7 @@ fn wavelengths_that_share_beams_show_what_each_shows_alone() {
         // The comparison notices a view that is turned by a tenth of a degree.
         let mut mutant = shoot;
         mutant.view.tilt += 2e-3;
-        let [(turned, _), _] = mutant.shared_and_apart(BeamOptions { unresolved: 0.02, ..options });
-        let (half_mutant, ..) = steps(&turned, &apart);
+        let (half_mutant, ..) = steps(&mutant.by_beams_of(options, false).0, &apart);
         assert!(half_mutant < half - 0.2, "{material}: {half_mutant} of the pixels agree with a mutant");
     }
 }
@@ -78,7 +78,8 @@ fn no_light_is_lost_where_beams_are_shared_or_left() {
         shoot.light = Light { head: 0.0, ..Light::white() };
         (shoot.view.tilt, shoot.backdrop) = (tilt, true);
         let options = BeamOptions { most_beams: 4000, ..BeamOptions::default() };
-        let [(shared, rest), (_, rest_apart)] = shoot.shared_and_apart(options);
+        let (shared, rest) = shoot.by_beams_of(options, false);
+        let (_, rest_apart) = shoot.by_beams_of(options, true);
         assert!(rest.unresolved < 1e-4, "{material}: {}", rest.unresolved);
         let mean = shared.pixels.iter().map(colour).sum::<DVec3>() / shared.pixels.len() as f64;
         assert!((mean - 1.0).abs().max_element() < 2e-3, "{material}: {mean}");
@@ -99,7 +100,7 @@ fn pictures_of_shared_beams_do_not_depend_on_the_number_of_cores() {
     let taken = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let options = BeamOptions { most_beams: 2000, ..BeamOptions::default() };
-        pool.install(|| shoot(modern(), "ruby", "lamps").shared_and_apart(options)[0].0.clone())
+        pool.install(|| shoot(modern(), "ruby", "lamps").by_beams_of(options, false).0)
     };
     assert!(taken(1) == taken(3));
 }
