@@ -10,9 +10,9 @@ mod moving;
 mod slanted_light;
 
 pub use self::moving::MovingCorner;
-use self::moving::{Cell, MovingBeam, MovingSplitter};
+use self::moving::{MovingBeam, MovingCell, MovingSplitter};
 use self::slanted_light::SlantedLight;
-pub use self::slanted_light::{Entry, Slant};
+pub use self::slanted_light::{EntryFacet, Slant};
 use super::coherency::Coherency;
 use super::follow::{SLIVER, attenuated, s_axis};
 use super::grow::{BeamOptions, MOST_BOUNCES, level_for};
@@ -68,7 +68,7 @@ pub struct SharedBeam<'a> {
     /// The wavelengths, by their number among the media.
     pub group: Range<usize>,
     /// The facet by which the light entered.
-    pub entry: &'a Entry,
+    pub entry: &'a EntryFacet,
     /// The outline at `slant`, convex and counter-clockwise, with the drift of its corners.
     pub outline: &'a [MovingCorner],
     /// The slant in the middle of the group.
@@ -153,7 +153,7 @@ struct SharedFront {
     /// The place of its facet in the chain.
     link: u32,
     bounces: u32,
-    entry: Entry,
+    entry: EntryFacet,
     light: SlantedLight,
     slant: Slant,
     /// How far the slants of the group reach to both sides.
@@ -286,7 +286,7 @@ impl<'a> Sharer<'a> {
             if area <= common.sliver {
                 continue;
             }
-            let (entry, light) = Entry::new(i as u32, &facet.plane, &view.basis, cos_i);
+            let (entry, light) = EntryFacet::new(i as u32, &facet.plane, &view.basis, cos_i);
             let corners: Vec<_> = outline.iter().map(|&at| MovingCorner { at, drift: DVec2::ZERO }).collect();
             let group = 0..common.media.len();
             let slant = entry.slant(common.middle_index(&group));
@@ -388,7 +388,13 @@ impl<'a> Sharer<'a> {
     }
 
     /// Lets a part of a beam land on its facet.
-    fn land(&mut self, front: &SharedFront, direction: DVec3, cell: &Cell, beams: &mut impl SharedBeams) {
+    fn land(
+        &mut self,
+        front: &SharedFront,
+        direction: DVec3,
+        cell: &MovingCell,
+        beams: &mut impl SharedBeams,
+    ) {
         let (common, normal) = (self.common, cell.normal);
         let cos_i = direction.dot(normal);
         let surface = fresnel(cos_i, front.slant.index);
@@ -503,7 +509,13 @@ impl Common<'_> {
     }
 
     /// Returns the largest share that absorption leaves of light of a group.
-    fn most_left(&self, group: &Range<usize>, slant: Slant, cell: &Cell, outline: &[MovingCorner]) -> f64 {
+    fn most_left(
+        &self,
+        group: &Range<usize>,
+        slant: Slant,
+        cell: &MovingCell,
+        outline: &[MovingCorner],
+    ) -> f64 {
         let media = &self.media[group.clone()];
         if media.iter().all(Medium::is_clear) {
             return 1.0;
@@ -515,7 +527,13 @@ impl Common<'_> {
 
     /// Whether a beam would change too much if its group shared it: by the area that goes astray, or by what the facets that it
     /// lands on reflect.
-    fn is_changed(&self, front: &SharedFront, group: &Range<usize>, astray: f64, cells: &[Cell]) -> bool {
+    fn is_changed(
+        &self,
+        front: &SharedFront,
+        group: &Range<usize>,
+        astray: f64,
+        cells: &[MovingCell],
+    ) -> bool {
         let SharingOptions { most_change, pixel, .. } = self.options;
         let light = front.coherency.weight() * group.len() as f64 / self.media.len() as f64;
         let most = most_change / light;
@@ -550,7 +568,7 @@ impl Common<'_> {
 }
 
 impl SharedBeam<'_> {
-    /// Returns the share of light from the direction of the [glare](Entry::glare) that the surface reflects, where light of a
+    /// Returns the share of light from the direction of the [glare](EntryFacet::glare) that the surface reflects, where light of a
     /// medium enters.
     pub fn glare(&self, medium: &Medium) -> f64 {
         fresnel(self.entry.cos_i, 1.0 / medium.index).reflectance()
@@ -569,7 +587,7 @@ impl SharedBeam<'_> {
 
 impl Inside {
     /// Returns the light of a medium that leaves; `None` where reflection is total.
-    pub fn exit(&self, entry: &Entry, medium: &Medium) -> Option<SharedExit> {
+    pub fn exit(&self, entry: &EntryFacet, medium: &Medium) -> Option<SharedExit> {
         let slant = entry.slant(medium.index);
         let ray = self.light.direction(&slant);
         let surface = fresnel(ray.dot(self.normal), medium.index);

@@ -10,7 +10,7 @@ const LEAST_COS_SQUARED: f64 = 1e-18;
 
 /// A facet by which parallel light enters a stone, and the light that comes through it, at all wavelengths.
 #[derive(Debug, Clone, Copy)]
-pub struct Entry {
+pub struct EntryFacet {
     /// The facet.
     pub facet: u32,
     /// Unit direction of the light that the facet's outer side reflects, followed from the eye.
@@ -49,7 +49,7 @@ pub(super) struct SlantedLight {
     pub along: DVec3,
 }
 
-impl Entry {
+impl EntryFacet {
     /// Returns the light that the eye's rays become behind a facet which they meet at an angle of cosine `cos_i`.
     pub(super) fn new(facet: u32, plane: &Plane, view: &Basis, cos_i: f64) -> (Self, SlantedLight) {
         let ray = -view.toward;
@@ -100,7 +100,7 @@ impl SlantedLight {
     /// direction over a spread of indices around that of its slant.
     pub fn leaving(
         &self,
-        entry: &Entry,
+        entry: &EntryFacet,
         (slant, spread): (&Slant, f64),
         ray: DVec3,
         normal: DVec3,
