@@ -426,33 +426,26 @@ impl<'a> Sharer<'a> {
             return;
         }
         let light = front.light.mirrored(&common.polytope.facets()[cell.facet as usize].plane);
-        if energy * group.len() as f64 >= common.level && front.bounces + 1 < MOST_BOUNCES {
-            let corners = if cell.is_whole {
-                front.corners
-            } else {
-                let start = self.corners.len() as u32;
-                self.corners.extend_from_slice(outline);
-                (start, self.corners.len() as u32)
-            };
-            let link = self.chain.len() as u32;
-            self.chain.push((front.link, cell.facet));
-            let (bounces, depth) = (front.bounces + 1, cell.depth);
-            self.stack.push(SharedFront {
-                link,
-                bounces,
-                light,
-                coherency,
-                s,
-                depth,
-                speed,
-                corners,
-                ..front.clone()
-            });
+        let (bounces, depth, slant) = (front.bounces + 1, cell.depth, front.slant);
+        if energy * group.len() as f64 >= common.level && bounces < MOST_BOUNCES {
+            self.go_on(SharedFront { bounces, light, coherency, s, depth, speed, ..front.clone() }, cell);
         } else {
             let outline = outline.iter().map(|corner| corner.at).collect();
-            let (slant, weight, depth) = (front.slant, coherency.weight(), cell.depth);
+            let weight = coherency.weight();
             beams.leave(BeamEnd { group, outline, area, slant, weight, energy, coherency, s, light, depth });
         }
+    }
+
+    /// Puts a beam on the stack that goes on from a part of the last beam split, whose link and corners it still has.
+    fn go_on(&mut self, mut front: SharedFront, cell: &MovingCell) {
+        if !cell.is_whole {
+            let start = self.corners.len() as u32;
+            self.corners.extend_from_slice(&self.splitter.corners[cell.corners.0..cell.corners.1]);
+            front.corners = (start, self.corners.len() as u32);
+        }
+        self.chain.push((front.link, cell.facet));
+        front.link = self.chain.len() as u32 - 1;
+        self.stack.push(front);
     }
 
     /// Puts a beam that a group of wavelengths shares on the stack, at the middle of that group.
