@@ -4,11 +4,16 @@
 use brillianteer::cut::{Crown, Cut, LowerHalf, MaterialRef, Pavilion, RoundBrilliant, TierChange};
 use brillianteer::io::{WriteError, as_tiers, cut_file, library, write_png};
 use brillianteer::measure::{MeasureName, MeasureSettings, by_beams_and_rays};
-use brillianteer::optics::line;
-use brillianteer::picture::{Layer, Palette, paint};
+use brillianteer::optics::{Strata, line, material};
+use brillianteer::picture::spectral::expose;
+use brillianteer::picture::{ByBeams, Layer, Palette, paint};
 use brillianteer::render::{Sweep, SweepKey};
-use brillianteer::scene::{ASET_CONE, Backing, Film, Glare, Medium, Scope, Specimen, Stone, View, Viewpoint};
-use brillianteer::trace::{beam, ray, unwatched};
+use brillianteer::scene::{
+    ASET_CONE, Backing, Film, Glare, Instance, Light, Medium, Scene, Scope, Specimen, Stone, View, Viewpoint,
+};
+use brillianteer::trace::environment::{Environment, EnvironmentMap};
+use brillianteer::trace::sampling::{LitScene, Sampling};
+use brillianteer::trace::{Stopped, beam, ray, unwatched};
 use criterion::{Criterion, criterion_group, criterion_main};
 use glam::DVec2;
 use std::hint::black_box;
@@ -95,6 +100,33 @@ fn energy_picture(c: &mut Criterion) {
             })
         });
     });
+}
+
+/// Renders of a tilted brilliant at 64 wavelengths: beams of each wavelength alone, and beams that they share.
+fn renders(c: &mut Criterion) {
+    let view = View { tilt: 15_f64.to_radians(), azimuth: 20_f64.to_radians(), ..View::default() };
+    let light = Light::studio();
+    let map = EnvironmentMap::new(&light, None);
+    let (basis, eye, head) = (view.light_basis(), view.basis(), light.head.to_radians());
+    let environment = Environment { map: &map, basis, eye, head, backplate: None, backdrop: false };
+    let diamond = material("diamond").expect("a material of the program").clone();
+    let instances = vec![Instance::new(modern_ideal(3.0).polytope, diamond)];
+    let scene = Scene { instances, metals: vec![], unit_mm: 3.25 };
+    let (film, options) = (Film::square(600, 1.06), ray::RayOptions::default());
+    let lit_scene = LitScene { scene: &scene, environment, view: &view, film, options };
+    let strata = Strata::new(16, 4, &light.spectrum, true);
+    let beams = beam::BeamOptions { unresolved: 2e-3, most_beams: 100_000, ..beam::BeamOptions::default() };
+    for (name, is_apart) in [("wavelengths apart", true), ("shared beams (goal a tenth)", false)] {
+        c.bench_function(&format!("render: tilted 15 degrees, 600 squared, 64 wavelengths, {name}"), |b| {
+            b.iter(|| {
+                let prepare = |rows| {
+                    let image = ByBeams::of_rows(lit_scene, beams, rows).expect("beams apply");
+                    Ok::<_, Stopped>(if is_apart { image.apart() } else { image })
+                };
+                expose(&lit_scene, (&strata, Sampling::of(4)), 600, prepare, &unwatched)
+            });
+        });
+    }
 }
 
 fn rays(c: &mut Criterion) {
@@ -190,5 +222,5 @@ fn on_one_core() -> Criterion {
     Criterion::default().sample_size(20)
 }
 
-criterion_group! { name = light; config = on_one_core(); targets = beam_tracing, figures, energy_picture, rays, geometry, edits, gradients }
+criterion_group! { name = light; config = on_one_core(); targets = beam_tracing, figures, energy_picture, renders, rays, geometry, edits, gradients }
 criterion_main!(light);

@@ -136,19 +136,16 @@ impl Shoot {
         })
     }
 
-    /// Traces the picture by beams that wavelengths share, and by beams of each wavelength alone.
-    pub fn shared_and_apart(&self, options: beam::BeamOptions) -> [(Linear, Remainder); 2] {
+    /// Traces the picture by exact beams, which wavelengths share unless they are traced apart.
+    pub fn by_beams_of(&self, options: beam::BeamOptions, is_apart: bool) -> (Linear, Remainder) {
         let strata = self.strata();
-        let taken = |is_apart: bool| {
-            self.with(|lit_scene| {
-                let prepare = |rows| {
-                    let image = ByBeams::of_rows(*lit_scene, options, rows).unwrap();
-                    Ok::<_, Stopped>(if is_apart { image.apart() } else { image })
-                };
-                expose(lit_scene, (&strata, self.sampling()), self.size, prepare, &unwatched).unwrap()
-            })
-        };
-        [false, true].map(taken)
+        self.with(|lit_scene| {
+            let prepare = |rows| {
+                let image = ByBeams::of_rows(*lit_scene, options, rows).unwrap();
+                Ok::<_, Stopped>(if is_apart { image.apart() } else { image })
+            };
+            expose(lit_scene, (&strata, self.sampling()), self.size, prepare, &unwatched).unwrap()
+        })
     }
 
     /// Traces the picture by the exact beams of the middle wavelength alone.

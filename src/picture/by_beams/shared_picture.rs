@@ -20,19 +20,19 @@ use glam::{DAffine2, DMat2, DVec2, DVec3, DVec4};
 use std::ops::Range;
 
 /// The most by which sharing one beam may change a pixel, as a part of what light of radiance 1 gives.
-const MOST_CHANGE: f64 = 1e-3;
+const MOST_CHANGE: f64 = 2e-3;
 
 /// The most by which painting a beam for several wavelengths at once may change a pixel at its edge.
-const MOST_AT_EDGE: f64 = 5e-4;
+const MOST_AT_EDGE: f64 = 1e-3;
 
 /// The greatest weight, times the part of all wavelengths, of light that is looked up at once where no lamp is near.
-const MOST_AT_ONCE: f64 = 2e-3;
+const MOST_AT_ONCE: f64 = 4e-3;
 
 /// The part of all wavelengths whose beams are followed as far as those of a single one would be.
 const USUAL_PART: f64 = 1.0 / 32.0;
 
 /// The light for which one ray estimates where it goes, as a part of what light of radiance 1 gives in a pixel.
-const LEFT_AT_ONCE: f64 = 0.05;
+const LEFT_AT_ONCE: f64 = 0.2;
 
 /// The most ends of beams that are estimated together.
 const MOST_ENDS: usize = 64;
@@ -162,7 +162,9 @@ impl SharedBeams for PaintedPiece<'_> {
         match &beam.inside {
             None => self.paint_glare(beam),
             Some(inside) => {
-                self.absorb(beam, inside);
+                if !self.picture.is_clear {
+                    self.lost.absorbed += beam.absorbed(&self.picture.media[beam.group.clone()]);
+                }
                 for copy in 0..self.copies.len() {
                     self.look(beam, inside, copy);
                     self.paint(beam, inside, copy);
@@ -216,11 +218,11 @@ impl PaintedPiece<'_> {
         let (mut absorbed, mut unresolved) = (0.0, 0.0);
         for number in 0..rays {
             let mut place = (f64::from(number) + draw()) / f64::from(rays) * left;
-            let passed = |end: &&BeamEnd| {
+            let is_there = |end: &&BeamEnd| {
                 place -= end.energy * end.group.len() as f64;
-                place > 0.0
+                place <= 0.0
             };
-            let end = ends.iter().skip_while(passed).next().unwrap_or(first);
+            let end = ends.iter().find(is_there).unwrap_or(first);
             let wave = end.group.start + (draw() * end.group.len() as f64) as usize;
             let luck = (DVec2::new(draw(), draw()), draw());
             let loss = picture.tail.follow(end, &picture.media[wave], luck, |direction, share| {
@@ -244,19 +246,6 @@ impl PaintedPiece<'_> {
                 self.patches.put(&end.outline, pixels, seen.extend(0.0));
             }
         }
-    }
-
-    /// Sums up what absorption takes on the way to a beam's facet.
-    fn absorb(&mut self, beam: &SharedBeam, inside: &Inside) {
-        let picture = self.picture;
-        if picture.is_clear {
-            return;
-        }
-        let centre = beam.outline.iter().map(|c| c.at).sum::<DVec2>() / beam.outline.len() as f64;
-        let [before, now] = inside.paths(&beam.slant, &beam.slant).map(|path| path.at(centre).max(0.0));
-        let lost = |m: &Medium| m.transmittance(before) - m.transmittance(now);
-        let all: f64 = picture.media[beam.group.clone()].iter().map(lost).sum();
-        self.lost.absorbed += beam.weight * beam.area * all;
     }
 
     /// Looks up the light that comes through a copy of a beam, as if nothing were absorbed, into `seen`.
@@ -377,7 +366,7 @@ impl PaintedPiece<'_> {
             self.patches.put(&self.polygon, &self.copies[copy].1, (whole * sign).extend(0.0));
             return;
         }
-        let path = inside.paths(&beam.slant, &slant)[1];
+        let path = inside.path(&beam.slant, &slant);
         self.paint_absorbed(copy, path, sign, (first, waves));
     }
 
@@ -402,8 +391,9 @@ impl PaintedPiece<'_> {
                 let length = path.at(centre).max(0.0);
                 let mut whole = DVec3::ZERO;
                 for seen in seen[first..].iter().take_while(|seen| seen.waves.start < waves.end) {
-                    for k in seen.waves.start.max(waves.start)..seen.waves.end.min(waves.end) {
-                        let more = media[k].absorption[which] - own.absorption[0];
+                    let common = seen.waves.start.max(waves.start)..seen.waves.end.min(waves.end);
+                    for (k, medium) in common.clone().zip(&media[common]) {
+                        let more = medium.absorption[which] - own.absorption[0];
                         whole += colour(&picture.response(&(k..k + 1)), seen.light) * (-more * length).exp();
                     }
                 }

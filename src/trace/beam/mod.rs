@@ -28,8 +28,8 @@ pub(in crate::trace) use follow::{Flight, Front};
 pub(crate) use grow::trace_bounces;
 pub use grow::{BeamOptions, SumOptions, SummedBeams, sum_up, trace};
 pub use shared::{
-    BeamEnd, Entry, Inside, MovingCorner, SharedBeam, SharedBeams, SharedExit, SharedView, SharingOptions,
-    Slant, trace_shared,
+    BeamEnd, EntryFacet, Inside, MovingCorner, SharedBeam, SharedBeams, SharedExit, SharedView,
+    SharingOptions, Slant, trace_shared,
 };
 pub use sums::BeamSums;
 pub use tree::{Beam, Beams};

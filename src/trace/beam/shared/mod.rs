@@ -10,11 +10,11 @@ mod moving;
 mod slanted_light;
 
 pub use self::moving::MovingCorner;
-use self::moving::{Cell, MovingBeam, MovingSplitter};
+use self::moving::{MovingBeam, MovingCell, MovingSplitter};
 use self::slanted_light::SlantedLight;
-pub use self::slanted_light::{Entry, Slant};
+pub use self::slanted_light::{EntryFacet, Slant};
 use super::coherency::Coherency;
-use super::follow::{SLIVER, s_axis};
+use super::follow::{SLIVER, attenuated, s_axis};
 use super::grow::{BeamOptions, MOST_BOUNCES, level_for};
 use super::split::Facets;
 use crate::math::{Affine, Basis, Polytope, Symmetry, area, clip};
@@ -68,7 +68,7 @@ pub struct SharedBeam<'a> {
     /// The wavelengths, by their number among the media.
     pub group: Range<usize>,
     /// The facet by which the light entered.
-    pub entry: &'a Entry,
+    pub entry: &'a EntryFacet,
     /// The outline at `slant`, convex and counter-clockwise, with the drift of its corners.
     pub outline: &'a [MovingCorner],
     /// The slant in the middle of the group.
@@ -90,8 +90,8 @@ pub struct Inside {
     arriving: Coherency,
     /// The depth of the facet before, and of this one, behind the facet by which the light entered.
     depths: [Affine; 2],
-    /// The speeds toward both facets.
-    speeds: [DVec2; 2],
+    /// The parts of the speed toward this facet: of light that is not slanted, and per slant.
+    speed: DVec2,
 }
 
 /// Light of one wavelength that leaves a shared beam.
@@ -153,7 +153,7 @@ struct SharedFront {
     /// The place of its facet in the chain.
     link: u32,
     bounces: u32,
-    entry: Entry,
+    entry: EntryFacet,
     light: SlantedLight,
     slant: Slant,
     /// How far the slants of the group reach to both sides.
@@ -286,7 +286,7 @@ impl<'a> Sharer<'a> {
             if area <= common.sliver {
                 continue;
             }
-            let (entry, light) = Entry::new(i as u32, &facet.plane, &view.basis, cos_i);
+            let (entry, light) = EntryFacet::new(i as u32, &facet.plane, &view.basis, cos_i);
             let corners: Vec<_> = outline.iter().map(|&at| MovingCorner { at, drift: DVec2::ZERO }).collect();
             let group = 0..common.media.len();
             let slant = entry.slant(common.middle_index(&group));
@@ -388,7 +388,13 @@ impl<'a> Sharer<'a> {
     }
 
     /// Lets a part of a beam land on its facet.
-    fn land(&mut self, front: &SharedFront, direction: DVec3, cell: &Cell, beams: &mut impl SharedBeams) {
+    fn land(
+        &mut self,
+        front: &SharedFront,
+        direction: DVec3,
+        cell: &MovingCell,
+        beams: &mut impl SharedBeams,
+    ) {
         let (common, normal) = (self.common, cell.normal);
         let cos_i = direction.dot(normal);
         let surface = fresnel(cos_i, front.slant.index);
@@ -412,7 +418,7 @@ impl<'a> Sharer<'a> {
                 light: front.light,
                 arriving,
                 depths: [front.depth, cell.depth],
-                speeds: [front.speed, speed],
+                speed,
             }),
         });
         let energy = coherency.weight() * area * common.most_left(&group, front.slant, cell, outline);
@@ -420,34 +426,26 @@ impl<'a> Sharer<'a> {
             return;
         }
         let light = front.light.mirrored(&common.polytope.facets()[cell.facet as usize].plane);
-        let of_group = energy * group.len() as f64;
-        if of_group >= common.level && front.bounces + 1 < MOST_BOUNCES {
-            let corners = if cell.is_whole {
-                front.corners
-            } else {
-                let start = self.corners.len() as u32;
-                self.corners.extend_from_slice(outline);
-                (start, self.corners.len() as u32)
-            };
-            let link = self.chain.len() as u32;
-            self.chain.push((front.link, cell.facet));
-            let (bounces, depth) = (front.bounces + 1, cell.depth);
-            self.stack.push(SharedFront {
-                link,
-                bounces,
-                light,
-                coherency,
-                s,
-                depth,
-                speed,
-                corners,
-                ..front.clone()
-            });
+        let (bounces, depth, slant) = (front.bounces + 1, cell.depth, front.slant);
+        if energy * group.len() as f64 >= common.level && bounces < MOST_BOUNCES {
+            self.go_on(SharedFront { bounces, light, coherency, s, depth, speed, ..front.clone() }, cell);
         } else {
             let outline = outline.iter().map(|corner| corner.at).collect();
-            let (slant, weight, depth) = (front.slant, coherency.weight(), cell.depth);
+            let weight = coherency.weight();
             beams.leave(BeamEnd { group, outline, area, slant, weight, energy, coherency, s, light, depth });
         }
+    }
+
+    /// Puts a beam on the stack that goes on from a part of the last beam split, whose link and corners it still has.
+    fn go_on(&mut self, mut front: SharedFront, cell: &MovingCell) {
+        if !cell.is_whole {
+            let start = self.corners.len() as u32;
+            self.corners.extend_from_slice(&self.splitter.corners[cell.corners.0..cell.corners.1]);
+            front.corners = (start, self.corners.len() as u32);
+        }
+        self.chain.push((front.link, cell.facet));
+        front.link = self.chain.len() as u32 - 1;
+        self.stack.push(front);
     }
 
     /// Puts a beam that a group of wavelengths shares on the stack, at the middle of that group.
@@ -504,7 +502,13 @@ impl Common<'_> {
     }
 
     /// Returns the largest share that absorption leaves of light of a group.
-    fn most_left(&self, group: &Range<usize>, slant: Slant, cell: &Cell, outline: &[MovingCorner]) -> f64 {
+    fn most_left(
+        &self,
+        group: &Range<usize>,
+        slant: Slant,
+        cell: &MovingCell,
+        outline: &[MovingCorner],
+    ) -> f64 {
         let media = &self.media[group.clone()];
         if media.iter().all(Medium::is_clear) {
             return 1.0;
@@ -516,7 +520,13 @@ impl Common<'_> {
 
     /// Whether a beam would change too much if its group shared it: by the area that goes astray, or by what the facets that it
     /// lands on reflect.
-    fn is_changed(&self, front: &SharedFront, group: &Range<usize>, astray: f64, cells: &[Cell]) -> bool {
+    fn is_changed(
+        &self,
+        front: &SharedFront,
+        group: &Range<usize>,
+        astray: f64,
+        cells: &[MovingCell],
+    ) -> bool {
         let SharingOptions { most_change, pixel, .. } = self.options;
         let light = front.coherency.weight() * group.len() as f64 / self.media.len() as f64;
         let most = most_change / light;
@@ -528,7 +538,7 @@ impl Common<'_> {
         }
         cells.iter().any(|cell| {
             let part = (0.5 * cell.twice_area / pixel).min(1.0);
-            0.25 * part * self.reflectance_change(front, group, cell.normal) > most
+            0.25 * part > most && 0.25 * part * self.reflectance_change(front, group, cell.normal) > most
         })
     }
 
@@ -551,30 +561,38 @@ impl Common<'_> {
 }
 
 impl SharedBeam<'_> {
-    /// Returns the share of light from the direction of the [glare](Entry::glare) that the surface reflects, where light of a
+    /// Returns the share of light from the direction of the [glare](EntryFacet::glare) that the surface reflects, where light of a
     /// medium enters.
     pub fn glare(&self, medium: &Medium) -> f64 {
         fresnel(self.entry.cos_i, 1.0 / medium.index).reflectance()
+    }
+
+    /// Returns the energy, weight times area, that media absorb between the facet before and this one, at the beam's slant.
+    pub fn absorbed(&self, media: &[Medium]) -> f64 {
+        let Some(inside) = &self.inside else { return 0.0 };
+        let outline: Vec<DVec2> = self.outline.iter().map(|corner| corner.at).collect();
+        let [before, after] = inside.depths.map(|depth| depth * (1.0 / self.slant.cos_t));
+        let lost =
+            |medium: &Medium| attenuated(&outline, before, medium) - attenuated(&outline, after, medium);
+        self.weight * media.iter().map(lost).sum::<f64>()
     }
 }
 
 impl Inside {
     /// Returns the light of a medium that leaves; `None` where reflection is total.
-    pub fn exit(&self, entry: &Entry, medium: &Medium) -> Option<SharedExit> {
-        let (direction, change) = self.light.leaving(entry, medium, self.normal)?;
-        let cos_i = self.light.direction(&entry.slant(medium.index)).dot(self.normal);
-        let (_, weight) = self.arriving.split(&fresnel(cos_i, medium.index));
+    pub fn exit(&self, entry: &EntryFacet, medium: &Medium) -> Option<SharedExit> {
+        let slant = entry.slant(medium.index);
+        let ray = self.light.direction(&slant);
+        let surface = fresnel(ray.dot(self.normal), medium.index);
+        let (direction, change) =
+            self.light.leaving(entry, (&slant, medium.spread), ray, self.normal, surface.cos_t?);
+        let (_, weight) = self.arriving.split(&surface);
         Some(SharedExit { direction, change, weight })
     }
 
-    /// Returns the length of the path inside the stone to the facet before and to this one, over the image, at a slant;
-    /// `middle` is that of the beam.
-    pub fn paths(&self, middle: &Slant, slant: &Slant) -> [Affine; 2] {
-        [0, 1].map(|k| {
-            let speed = |slant: &Slant| self.speeds[k].x + self.speeds[k].y * slant.slant;
-            let (own, other) = (speed(middle), speed(slant));
-            let change = if own == 0.0 || other == 0.0 { 1.0 } else { own / other };
-            self.depths[k] * (change / slant.cos_t)
-        })
+    /// Returns the length of the path inside the stone to the facet, over the image, at a slant; `middle` is that of the beam.
+    pub fn path(&self, middle: &Slant, slant: &Slant) -> Affine {
+        let speed = |slant: &Slant| self.speed.x + self.speed.y * slant.slant;
+        self.depths[1] * (speed(middle) / (speed(slant) * slant.cos_t))
     }
 }

@@ -45,7 +45,7 @@ pub(super) struct MovingBeam<'a> {
 
 /// The part of a beam that lands on one facet.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Cell {
+pub(super) struct MovingCell {
     pub facet: u32,
     /// Outward unit normal.
     pub normal: DVec3,
@@ -99,7 +99,7 @@ pub(super) struct MovingSplitter<'a> {
     /// The outline at one slant.
     still: Vec<DVec2>,
     /// The parts of the last beam.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<MovingCell>,
     /// The corners of these parts.
     pub corners: Vec<MovingCorner>,
 }
@@ -181,7 +181,7 @@ impl<'a> MovingSplitter<'a> {
     fn keep(&mut self, facet: u32, start: usize, twice_area: f64, is_whole: bool) {
         let normal = self.facets.polytope.facets()[facet as usize].plane.normal;
         let (depth, corners) = (self.depth[facet as usize], (start, self.corners.len()));
-        self.cells.push(Cell { facet, normal, depth, corners, twice_area, is_whole });
+        self.cells.push(MovingCell { facet, normal, depth, corners, twice_area, is_whole });
     }
 
     /// Adds the parts that land on the facets in the queue and on their neighbours. Returns twice their area, and the area

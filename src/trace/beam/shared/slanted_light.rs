@@ -1,18 +1,16 @@
 //! Light of several wavelengths behind one facet: how its directions inside a stone differ.
 
-use crate::math::{Basis, Plane};
-use crate::optics::{cos_transmitted, reflect, refract, refracted_change};
-use crate::scene::Medium;
-use glam::{DVec2, DVec3};
-
 use super::super::grow::entry_points;
+use crate::math::{Basis, Plane};
+use crate::optics::{reflect, refract, refracted_change};
+use glam::{DVec2, DVec3};
 
 /// The least square of the cosine of refraction by which slants are divided.
 const LEAST_COS_SQUARED: f64 = 1e-18;
 
 /// A facet by which parallel light enters a stone, and the light that comes through it, at all wavelengths.
 #[derive(Debug, Clone, Copy)]
-pub struct Entry {
+pub struct EntryFacet {
     /// The facet.
     pub facet: u32,
     /// Unit direction of the light that the facet's outer side reflects, followed from the eye.
@@ -51,7 +49,7 @@ pub(super) struct SlantedLight {
     pub along: DVec3,
 }
 
-impl Entry {
+impl EntryFacet {
     /// Returns the light that the eye's rays become behind a facet which they meet at an angle of cosine `cos_i`.
     pub(super) fn new(facet: u32, plane: &Plane, view: &Basis, cos_i: f64) -> (Self, SlantedLight) {
         let ray = -view.toward;
@@ -98,18 +96,22 @@ impl SlantedLight {
         }
     }
 
-    /// Returns the direction in which light of a medium leaves through a facet of this normal, and the change of that direction
-    /// over the medium's spread of indices; `None` where reflection is total.
-    pub fn leaving(&self, entry: &Entry, medium: &Medium, normal: DVec3) -> Option<(DVec3, DVec3)> {
-        let slant = entry.slant(medium.index);
-        let (ray, eta) = (self.direction(&slant), 1.0 / medium.index);
-        let cos_i = ray.dot(normal);
-        let cos_t = cos_transmitted(cos_i, medium.index)?;
-        let of_eta = -medium.spread * eta * eta;
+    /// Returns the direction in which a ray of this light leaves through a facet of this normal, and the change of that
+    /// direction over a spread of indices around that of its slant.
+    pub fn leaving(
+        &self,
+        entry: &EntryFacet,
+        (slant, spread): (&Slant, f64),
+        ray: DVec3,
+        normal: DVec3,
+        cos_t: f64,
+    ) -> (DVec3, DVec3) {
+        let (index, eta) = (slant.index, 1.0 / slant.index);
+        let of_eta = -spread * eta * eta;
         let of_cos = -eta * entry.sin_squared * of_eta / slant.cos_t;
-        let change = (self.down * of_cos + self.along * of_eta, DVec3::ZERO, medium.spread);
-        let cosines = (cos_i, cos_t);
-        let leaving = refract(ray, -normal, medium.index, cosines);
-        Some((leaving, refracted_change(ray, -normal, medium.index, cosines, change)))
+        let change = (self.down * of_cos + self.along * of_eta, DVec3::ZERO, spread);
+        let cosines = (ray.dot(normal), cos_t);
+        let leaving = refract(ray, -normal, index, cosines);
+        (leaving, refracted_change(ray, -normal, index, cosines, change))
     }
 }
