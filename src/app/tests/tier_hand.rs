@@ -218,50 +218,46 @@ fn sets(of: usize, count: usize) -> Vec<Vec<usize>> {
 }
 
 #[test]
-fn two_and_three_corners_that_are_picked_become_one_meet_as_one_step() {
-    for (count, button, ready) in
-        [(2, "Pick two points", "Click two corners"), (3, "Pick three points", "Click three corners")]
-    {
-        let mut bench = bench();
-        let before = tiers(&bench);
-        let (place, corners) = some_corners(&bench, count);
-        let button = format!("{button} of {}", before.tiers[place].name());
-        reach(&mut bench, &button);
-        bench.click(&button);
-        assert_eq!(bench.editor().model.meet_pick(), Some(&MeetPick::new(place, count)));
-        let message = |bench: &Bench| bench.editor().model.session.message.clone();
-        let body = bench.harness.get_by_label("ASET picture").rect();
-        bench.harness.hover_at(body.left_top() + vec2(4.0, 4.0));
-        bench.harness.run_steps(3);
-        assert!(message(&bench).starts_with(ready), "{}", message(&bench));
-        // Escape ends a pick that has begun, and nothing has changed.
-        bench.click_at(at_corner(&bench, &corners[0]));
-        assert_eq!(bench.editor().model.meet_pick().map(|pick| pick.corners.len()), Some(1));
-        bench.harness.key_press(Key::Escape);
+fn two_corners_that_are_picked_become_one_meet_as_one_step() {
+    let mut bench = bench();
+    let before = tiers(&bench);
+    let (place, corners) = some_corners(&bench, 2);
+    let button = format!("Pick two points of {}", before.tiers[place].name());
+    reach(&mut bench, &button);
+    bench.click(&button);
+    assert_eq!(bench.editor().model.meet_pick(), Some(&MeetPick::new(place, 2)));
+    let message = |bench: &Bench| bench.editor().model.session.message.clone();
+    let body = bench.harness.get_by_label("ASET picture").rect();
+    bench.harness.hover_at(body.left_top() + vec2(4.0, 4.0));
+    bench.harness.run_steps(3);
+    assert!(message(&bench).starts_with("Click two corners"), "{}", message(&bench));
+    // Escape ends a pick that has begun, and nothing has changed.
+    bench.click_at(at_corner(&bench, &corners[0]));
+    assert_eq!(bench.editor().model.meet_pick().map(|pick| pick.corners.len()), Some(1));
+    bench.harness.key_press(Key::Escape);
+    bench.harness.run_steps(2);
+    assert_eq!((bench.editor().model.meet_pick(), tiers(&bench)), (None, before.clone()));
+    bench.click(&button);
+    for (picked, corner) in corners.iter().enumerate() {
+        assert_eq!(tiers(&bench), before, "nothing changes before the last click");
+        bench.click_at(at_corner(&bench, corner));
         bench.harness.run_steps(2);
-        assert_eq!((bench.editor().model.meet_pick(), tiers(&bench)), (None, before.clone()));
-        bench.click(&button);
-        for (picked, corner) in corners.iter().enumerate() {
-            assert_eq!(tiers(&bench), before, "nothing changes before the last click");
-            bench.click_at(at_corner(&bench, corner));
-            bench.harness.run_steps(2);
-            let left = ["", "one to go", "two to go"][count - picked - 1];
-            assert!(message(&bench).contains(left), "{left}: {}", message(&bench));
-        }
-        assert_eq!(bench.editor().model.meet_pick(), None);
-        let now = tiers(&bench);
-        let tier = &now.tiers[place];
-        let Some(Meet::Points(points)) = &tier.meet else { panic!("{:?}", tier.meet) };
-        assert_eq!(points.len(), count);
-        let passes = |facet: &crate::cut::Indexed| {
-            let plane = now.plane(tier, facet.index);
-            corners.iter().all(|corner| plane.distance(corner.at).abs() < THERE)
-        };
-        assert!(tier.facets.iter().any(passes));
-        assert!((tier.angle - before.tiers[place].angle).abs() > 0.05);
-        bench.choose("Edit", "Undo");
-        assert_eq!(tiers(&bench), before, "one step");
+        let left = ["one to go", ""][picked];
+        assert!(message(&bench).contains(left), "{left}: {}", message(&bench));
     }
+    assert_eq!(bench.editor().model.meet_pick(), None);
+    let now = tiers(&bench);
+    let tier = &now.tiers[place];
+    let Some(Meet::Points(points)) = &tier.meet else { panic!("{:?}", tier.meet) };
+    assert_eq!(points.len(), 2);
+    let passes = |facet: &crate::cut::Indexed| {
+        let plane = now.plane(tier, facet.index);
+        corners.iter().all(|corner| plane.distance(corner.at).abs() < THERE)
+    };
+    assert!(tier.facets.iter().any(passes));
+    assert!((tier.angle - before.tiers[place].angle).abs() > 0.05);
+    bench.choose("Edit", "Undo");
+    assert_eq!(tiers(&bench), before, "one step");
 }
 
 #[test]

@@ -69,7 +69,7 @@ fn a_key_that_is_unknown_or_missing_is_told_with_those_that_are_known() {
         &with("table = 53.0", "tabel = 53.0"),
         "x.toml:6: round_brilliant: unknown key `tabel`, known here are `table`, `crown_angle`, `crown_height`, \
          `pavilion_angle`, `pavilion_depth`, `star_length`, `lower_half_length`, `lower_half_length_vertical`, \
-         `girdle_thickness`, `girdle_facets`, `culet`; did you mean `table`?",
+         `girdle_thickness`, `girdle_facets`, `culet`, `total_depth`; did you mean `table`?",
     );
     assert_message(
         &with("[round_brilliant]", ""),
@@ -222,7 +222,7 @@ fn a_depth_stands_in_the_place_of_the_angle_that_it_moves() {
         shallow.contains("total_depth: 18 % must be at least 19.53 %, below which no stone has it"),
         "{shallow}"
     );
-    assert!(shallow.ends_with("raise it by at least 1.53"), "{shallow}");
+    assert!(shallow.ends_with("raise it by at least 1.54"), "{shallow}");
 }
 
 #[test]
