@@ -25,7 +25,7 @@ use crate::io::Failure;
 use crate::io::lighting::Lighting;
 use crate::io::mesh_options::MeshOptions;
 use crate::measure::Figures;
-use crate::scene::{Pose, Specimen};
+use crate::scene::{Movement, Pose, Specimen};
 use crate::search::Goal;
 use glam::DVec2;
 use std::path::PathBuf;
@@ -107,6 +107,8 @@ pub enum Edit {
     Head(f64),
     /// Scatters so many copies anew.
     LayOut(usize),
+    /// How plates move in renders.
+    Movement(Movement),
     /// The number of a copy, and its pose.
     Copy(usize, Pose),
     /// The number of a stone of another design that stands beside the copies, and its pose in mm.
