@@ -61,7 +61,7 @@ pub struct Sampling {
     pub strength: f64,
     /// The share of a ray's light below which light goes on by chance alone, counting for more where it does; 0 where all light
     /// is followed. Packets heed this, and single rays in double precision in solids that are not convex, and between bodies
-    /// and metal; graphics cards follow all light.
+    /// and metal; graphics cards heed it between bodies where there is metal, and else follow all light.
     pub by_chance: f64,
     /// Whether each ray stands for a stretch of its pixel ([`stretch_of_pixel`](super::places::stretch_of_pixel)) and, where bands are
     /// divided into n shares, for √n of them but at most 2.5, so that what few rays see has fewer gaps. Else it stands for its place and its share
