@@ -6,6 +6,7 @@
 @group(0) @binding(8) var sky: texture_2d<f32>;
 @group(0) @binding(9) var photo: texture_2d<f32>;
 
+const FRAC_1_PI: f32 = 0.31830988;
 const STILL: f32 = 1e-14;
 const ALONG: f32 = 1e-6;
 // A least height above the backplate, so that no division is by 0.
@@ -70,6 +71,36 @@ fn share_inside(from_middle: vec3f, fan: vec3f, chord_squared: f32) -> f32 {
     }
     let half = sqrt(inside / a);
     return max(min(nearest + half, 0.5) - max(nearest - half, -0.5), 0.0);
+}
+
+// Returns the area that a chord cuts off a circle of this radius; half the chord is `half`, and `along` is how far the chord
+// lies from the circle's middle, negative where most of the disc is cut off.
+fn segment(radius: f32, along: f32, half: f32) -> f32 {
+    let angle = atan2(half, along);
+    // The difference below has no digits where the angle is small.
+    let narrow = angle * angle * angle * (2.0 / 3.0) * (1.0 - 0.2 * angle * angle);
+    return radius * radius * select(angle - sin(angle) * cos(angle), narrow, angle < 0.1);
+}
+
+// Returns the share of a disc of directions that lies inside a lamp's disc; it has the area of a square of this side.
+fn share_of_disc(from_middle: vec3f, side: f32, chord_squared: f32) -> f32 {
+    let own = side * sqrt(FRAC_1_PI);
+    let lamp = sqrt(chord_squared);
+    let apart = length(from_middle);
+    if apart >= own + lamp {
+        return 0.0;
+    }
+    let small = min(own, lamp);
+    let large = max(own, lamp);
+    var overlap = small * small / FRAC_1_PI;
+    if apart > large - small {
+        // Half the line through both crossings, by Heron's formula.
+        let heron = (apart + own + lamp) * (own + lamp - apart) * (apart + large - small) * (apart - large + small);
+        let half = 0.5 * sqrt(max(heron, 0.0)) / apart;
+        let beyond = (apart * apart + (large - small) * (large + small)) / (2.0 * apart);
+        overlap = segment(large, beyond, half) + segment(small, apart - beyond, half);
+    }
+    return min(overlap / (side * side), 1.0);
 }
 
 // The most look-ups along a stretch of the backplate.
@@ -170,18 +201,19 @@ fn photo_at(arriving: Ray) -> vec4f {
     return vec4f(sum * (share / taps), share);
 }
 
-// Returns the light that arrives along a ray from outside the stones.
-fn radiance(ray: Ray) -> vec4f {
+// Returns the light that arrives along a ray from outside the stones, averaged over its fan or over a square of directions with this
+// side, whichever is wider: the twin of `Environment::radiance_around`.
+fn radiance(ray: Ray, spread: f32) -> vec4f {
     let photographed = photo_at(ray);
     let seen = vec4f(0.0, photographed.xyz);
     if photographed.w >= 1.0 {
         return seen;
     }
-    return seen + beyond(ray) * (1.0 - photographed.w);
+    return seen + beyond(ray, spread) * (1.0 - photographed.w);
 }
 
 // Returns the light that arrives along a ray from the light alone.
-fn beyond(ray: Ray) -> vec4f {
+fn beyond(ray: Ray, spread: f32) -> vec4f {
     let fanned = length(ray.fan);
     let d = vec3f(
         dot(environment.right.xyz, ray.direction),
@@ -193,10 +225,15 @@ fn beyond(ray: Ray) -> vec4f {
         dot(environment.up.xyz, ray.fan),
         dot(environment.zenith.xyz, ray.fan),
     );
-    var sum = sky_at(d, fanned);
+    var sum = sky_at(d, max(fanned, spread));
     for (var k = 0u; k < u32(environment.up.w); k++) {
         let lamp = lamps[k];
-        sum += lamp.radiance * share_inside(d - lamp.toward.xyz, fan, lamp.toward.w);
+        let away = d - lamp.toward.xyz;
+        if spread > fanned {
+            sum += lamp.radiance * share_of_disc(away, spread, lamp.toward.w);
+        } else {
+            sum += lamp.radiance * share_inside(away, fan, lamp.toward.w);
+        }
     }
     // The observer's head, where there is one, hides the light behind it, with an edge as wide as the fan.
     if environment.photo.z > 1.0 {

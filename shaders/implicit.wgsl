@@ -1,6 +1,6 @@
 // Intersection of rays with glass shapes (implicit surfaces). In its frame each reaches 1 from the origin. The twin of src/math/implicit/roots.rs and of src/trace/ray/facets.rs.
 
-@group(0) @binding(1) var<storage, read> fields: array<ImplicitSurface>;
+@group(0) @binding(1) var<uniform> fields: array<ImplicitSurface, MOST_BODIES>;
 
 const IS_CURVED: bool = true;
 // A point this near to the surface is on it: some roundings.

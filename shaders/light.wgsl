@@ -1,19 +1,34 @@
-// The colour that a camera sees of stones under light, one band of wavelengths after the other.
+// The colour that a camera sees of stones and metal under light, one band of wavelengths after the other.
 
 @group(0) @binding(2) var<storage, read_write> lit: array<RadiancePixel>;
 @group(0) @binding(10) var<uniform> responses: array<Response, MOST_WAVELENGTHS + 1u>;
 
-// A ray on its way from one stone to another.
+// The body that a ray meets first, and where: a stone by its number, metal by its number after MOST_BODIES, or NONE.
+struct First {
+    body: u32,
+    met: Meeting,
+}
+
+// The body that a ray has just left, numbered as in `First`, and the triangle where that is metal.
+struct Left {
+    body: u32,
+    triangle: u32,
+}
+
+// A ray on its way to a body.
 struct Waiting {
     ray: Ray,
     weight: f32,
-    // The index of the stone that it left.
-    left: u32,
+    first: First,
+    chances: Chances,
 }
 
 var<private> sum: RadiancePixel;
 var<private> response: Response;
 var<private> present: u32;
+// The chances of the light that the present body is lit by, and the number of rays that have left the body so far.
+var<private> chances: Chances;
+var<private> exits: u32;
 var<private> waiting: array<Waiting, MOST_WAITING>;
 var<private> count: u32;
 // The ray from the eye, which the light would follow without any stone.
@@ -34,85 +49,116 @@ fn mixed(ray: Ray) -> Ray {
     return Ray(mix(beside, ray.origin, strength), between / length, fan, mix(moved, ray.shift, strength));
 }
 
-// Adds the light of the environment that arrives along a ray.
-fn see(leaving: Ray, weight: f32) {
-    let light = radiance(mixed(leaving)) * weight;
+// Adds the light of the environment that arrives along a ray, which may stand for a square of directions with the side `spread`.
+fn see(leaving: Ray, weight: f32, spread: f32, is_mirrored: bool) {
+    // Only refraction is mixed with the straight way.
+    var ray = leaving;
+    if !is_mirrored {
+        ray = mixed(leaving);
+    }
+    let light = radiance(ray, spread) * weight;
     sum.colour += response.key * light.x + response.red * light.y + response.green * light.z + response.blue * light.w;
 }
 
-// Whether a ray runs through the ball around a stone.
-fn is_near(stone: u32, ray: Ray) -> bool {
-    let away = bodies[stone].middle.xyz - ray.origin;
+// Whether a ray runs through a ball, whose radius is the fourth number.
+fn is_near(ball: vec4f, ray: Ray) -> bool {
+    let away = ball.xyz - ray.origin;
     let along = dot(away, ray.direction);
-    let radius = bodies[stone].middle.w;
-    return along > -radius && dot(away, away) - along * along < radius * radius;
+    return along > -ball.w && dot(away, away) - along * along < ball.w * ball.w;
 }
 
-// Whether a ray meets a stone other than `left`, from which it comes, before this distance.
-fn meets_any(ray: Ray, left: u32, before: f32) -> bool {
+// Whether there are bodies that a ray may meet after it has left one.
+fn has_others() -> bool {
+    return frame.counts.x > 1u || frame.most.z > 0u;
+}
+
+// Returns what a ray meets first. The body that is traced stays the present one.
+fn first_body(ray: Ray, left: Left) -> First {
     let own = body;
-    var found = false;
-    for (var k = 0u; k < frame.counts.x; k++) {
-        if !found && k != left && is_near(k, ray) {
-            body = bodies[k];
-            let distance = meet(ray.origin, ray.direction).distance;
-            found = distance > 0.0 && distance < before;
-        }
+    var first = First(NONE, Meeting(0u, -1.0));
+    if COUNTS_TURNS {
+        turns += frame.counts.x;
     }
-    body = own;
-    return found;
-}
-
-// Handles light that leaves the present stone: toward another stone it waits to be followed, else it is looked up.
-fn leave(ray: Ray, weight: f32, is_surface: bool) {
-    if frame.counts.x > 1u && (meets_any(ray, present, FAR) || is_spent()) {
-        if count < MOST_WAITING && weight > frame.limits.x {
-            waiting[count] = Waiting(ray, weight, present);
-            count += 1u;
-        } else {
-            sum.rest.x += weight;
-        }
-        return;
-    }
-    see(ray, weight);
-}
-
-// Whether light that has left the present stone meets another before this distance.
-fn is_taken(ray: Ray, distance: f32) -> bool {
-    return frame.counts.x > 1u && meets_any(ray, present, distance);
-}
-
-// Returns where a ray meets the first stone, other than `left`, and makes that stone the present one. The distance is
-// negative where it meets none.
-fn nearest(ray: Ray, left: u32) -> Meeting {
-    var first = Meeting(0u, -1.0);
     for (var k = 0u; k < frame.counts.x; k++) {
-        if k == left || !is_near(k, ray) {
+        if k == left.body || !is_near(bodies[k].middle, ray) {
             continue;
         }
         body = bodies[k];
         let met = meet(ray.origin, ray.direction);
-        if met.distance > 0.0 && (first.distance < 0.0 || met.distance < first.distance) {
-            first = met;
-            present = k;
+        if met.distance > 0.0 && (first.body == NONE || met.distance < first.met.distance) {
+            first = First(k, met);
         }
     }
+    first = with_metal(first, ray, left);
+    body = own;
     return first;
 }
 
-// Follows a ray through the present stone, which it meets at `met`, or looks up the environment where it meets none.
-fn go(next: Waiting, met: Meeting, wavelength: u32) {
+// Whether light that has left the present stone meets another body before this distance.
+fn is_taken(ray: Ray, distance: f32) -> bool {
+    if !has_others() {
+        return false;
+    }
+    let own = body;
+    var found = false;
+    for (var k = 0u; k < frame.counts.x; k++) {
+        if !found && k != present && is_near(bodies[k].middle, ray) {
+            body = bodies[k];
+            let met = meet(ray.origin, ray.direction).distance;
+            found = met > 0.0 && met < distance;
+        }
+    }
+    found = found || meets_metal(ray, distance);
+    body = own;
+    return found;
+}
+
+// Handles light that leaves the present stone.
+fn leave(ray: Ray, weight: f32, is_surface: bool) {
+    exits += 1u;
+    onward(ray, weight, 0.0, Left(present, NONE), chances_beyond(chances, exits));
+}
+
+// Handles light that has left a body: toward another it waits to be followed, else it is looked up. `spread` is the side of the
+// square of directions for which the ray stands.
+fn onward(ray: Ray, weight: f32, spread: f32, left: Left, own: Chances) {
+    if has_others() {
+        let first = first_body(ray, left);
+        if first.body != NONE || is_spent() {
+            let kept = sieved(weight);
+            if count < MOST_WAITING && kept > frame.limits.x {
+                waiting[count] = Waiting(ray, kept, first, own);
+                count += 1u;
+            } else {
+                sum.rest.x += kept;
+            }
+            return;
+        }
+    }
+    see(ray, weight, spread, is_reflected(own));
+}
+
+// Follows a ray through the stone that it meets first, or reflects it at metal; where it meets nothing, looks up the environment.
+fn go(next: Waiting, wavelength: u32) {
     if is_spent() {
         sum.rest.x += next.weight;
         return;
     }
-    if met.distance < 0.0 {
-        see(next.ray, next.weight);
+    if next.first.body == NONE {
+        see(next.ray, next.weight, 0.0, false);
         return;
     }
+    chances = next.chances;
+    exits = 0u;
+    begin_sieve(chances);
+    if next.first.body >= MOST_BODIES {
+        reflect_by_metal(next, wavelength);
+        return;
+    }
+    present = next.first.body;
     body = bodies[present];
-    medium = media[present * frame.counts.y + wavelength];
-    let rest = follow(next.ray, met, next.weight);
+    medium = medium_of(media[present * frame.counts.y + wavelength]);
+    let rest = follow(next.ray, next.first.met, next.weight);
     sum.rest += vec4f(rest.unresolved, rest.absorbed, 0.0, 0.0);
 }
 
@@ -122,12 +168,12 @@ fn light(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: 
     if place.x >= frame.film.x || place.y >= frame.film.w {
         return;
     }
-    straight = pixel_ray(vec2u(place.x, frame.film.z + place.y), frame.limits.zw);
-    let eye = Waiting(straight, 1.0, NONE);
-    // The ray meets the first stone at the same point in all wavelengths.
-    let met = nearest(eye.ray, NONE);
-    let first = present;
-    if met.distance < 0.0 && environment.backdrop.x <= 0.0 {
+    let pixel = vec2u(place.x, frame.film.z + place.y);
+    straight = pixel_ray(pixel, frame.limits.zw);
+    // The ray meets the first body at the same point in all wavelengths.
+    let first = first_body(straight, Left(NONE, NONE));
+    let is_beside = first.body == NONE;
+    if is_beside && environment.backdrop.x <= 0.0 {
         return;
     }
     let turns_before = turns;
@@ -135,26 +181,22 @@ fn light(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: 
     // Each wavelength is added up alone: so the sum does not depend on how many a dispatch takes.
     var total = lit[at];
     for (var w = frame.turn.z; w < frame.turn.w; w++) {
-        // Light that meets no stone is the same at all wavelengths: it is looked up once, for all of them together.
-        let is_beside = met.distance < 0.0;
+        // Light that meets no body is the same at all wavelengths: it is looked up once, for all of them together.
         if is_beside && w > 0u {
             break;
         }
         sum = RadiancePixel();
         turns = turns_before;
         response = responses[select(w, frame.counts.y, is_beside)];
-        present = first;
-        var next = eye;
-        var entered = met;
+        var next = Waiting(straight, 1.0, first, chances_of_pixel(pixel, w));
         // One call of `go` for all light: compilers put all that it calls in its place, which takes some of them long.
         loop {
-            go(next, entered, w);
+            go(next, w);
             if count == 0u {
                 break;
             }
             count -= 1u;
             next = waiting[count];
-            entered = nearest(next.ray, next.left);
         }
         total.colour += vec4f(sum.colour.xyz, select(1.0, f32(frame.counts.y), is_beside));
         total.rest += sum.rest;

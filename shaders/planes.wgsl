@@ -7,12 +7,20 @@ fn plane_of(facet: u32) -> vec4f {
     return planes[facet];
 }
 
+// Counts the loop turns of one search, where they are counted.
+fn count_planes() {
+    if COUNTS_TURNS {
+        turns += (frame.most.w * (body.range.y - body.range.x)) / 16u;
+    }
+}
+
 // Returns the facet by which a ray from a point outside enters the present body, and the distance to it; the distance is
 // negative where the ray misses.
 fn entry(origin: vec3f, direction: vec3f) -> Meeting {
     var into = 0.0;
     var out = FAR;
     var facet = 0u;
+    count_planes();
     for (var k = body.range.x; k < body.range.y; k++) {
         let plane = planes[k];
         let speed = dot(plane.xyz, direction);
@@ -35,6 +43,7 @@ fn entry(origin: vec3f, direction: vec3f) -> Meeting {
 // Returns the facet by which a ray leaves from a point inside, and the distance to it.
 fn next_facet(point: vec3f, direction: vec3f) -> Meeting {
     let start = Leaving(0.0, 1.0, body.range.x);
+    count_planes();
     let facet = nearer(start, body.range.x, body.range.y, point, direction).facet;
     return Meeting(facet, distance_to(planes[facet], point, direction));
 }

@@ -52,7 +52,7 @@ fn scope(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: 
     strongest_weight = 0.0;
     strongest_band = NONE;
     body = bodies[0];
-    medium = media[0];
+    medium = medium_of(media[0]);
     // A dispatch traces the ray in one cell of the pixel's grid.
     let grid = frame.turn.y;
     let turn = frame.turn.x;

@@ -36,6 +36,11 @@ struct Rest {
     bounces: u32,
 }
 
+// Returns the medium that four numbers stand for.
+fn medium_of(numbers: vec4f) -> Medium {
+    return Medium(numbers.x, numbers.y, numbers.z, numbers.w);
+}
+
 // Returns the share of light that is left after a path through the medium.
 fn transmittance(path: f32) -> f32 {
     return 0.5 * (exp(-medium.absorption_o * path) + exp(-medium.absorption_e * path));

@@ -5,6 +5,7 @@ use super::mesh_options::MeshArguments;
 use super::options::{OptionError, number};
 use crate::picture::{Bloom, Overlay, Smoothing, Tone};
 use crate::render::{USUAL_BOUNCES, Wanted};
+use crate::scene::Movement;
 use clap::Args;
 
 /// The largest side of a picture under light, in pixels.
@@ -63,6 +64,13 @@ pub struct PictureOptions {
     /// 3]
     #[arg(long, allow_negative_numbers = true, value_name = "DISTANCE", value_parser = number)]
     pub photo_distance: Option<f64>,
+    /// Show bodies SECONDS after they have begun to move, 0 to 100000: as in the editor, copies of one design tumble, and plates also
+    /// wave
+    #[arg(long, allow_negative_numbers = true, value_name = "SECONDS", value_parser = number)]
+    pub moment: Option<f64>,
+    /// How plates move by that moment: both tumble and wave, or one of these [default: the scene's, or both]
+    #[arg(long, value_enum, value_name = "HOW", requires = "moment")]
+    pub movement: Option<Movement>,
     #[command(flatten)]
     pub mesh: MeshArguments,
 }

@@ -78,8 +78,12 @@ impl<'a> PictureSetup<'a> {
         file: &Path,
         viewpoint: Viewpoint,
     ) -> Result<Self, Failure> {
-        let assembly =
+        let mut assembly =
             load_assembly(file, options.material.as_deref(), options.stone, options.mesh.options())?;
+        if let Some(seconds) = options.moment {
+            let seconds = within("moment", seconds, 0.0, 1e5)?;
+            assembly = assembly.at_moment(seconds, options.movement)?;
+        }
         assembly.setting.instances.iter().for_each(|stone| note_colour(&stone.material));
         let own = assembly.light.as_ref().map(|light| light.display().to_string());
         let light = options.light.as_ref().or(own.as_ref());

@@ -19,7 +19,7 @@ use clap::Args;
 use std::path::PathBuf;
 
 /// The options that apply only to pictures under light.
-const OF_LIGHT: [&str; 16] = [
+const OF_LIGHT: [&str; 18] = [
     "light",
     "turn",
     "upright",
@@ -30,6 +30,8 @@ const OF_LIGHT: [&str; 16] = [
     "tone",
     "background",
     "photo_distance",
+    "moment",
+    "movement",
     "no_jitter",
     "strength",
     "bounces",

@@ -10,13 +10,15 @@ use crate::cut::{Design, MaterialRef, Size};
 use crate::math::{ShadedMesh, bounds};
 use crate::optics::{Material, Metal};
 use crate::scene::{
-    Instance, MOST_STONES, MetalInstance, Mounting, Pose, Projection, Scene, Specimen, Viewpoint, overlapping,
+    Instance, MOST_STONES, MetalInstance, Mounting, Movement, Pose, Projection, Scene, Specimen, Viewpoint,
+    overlapping,
 };
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+mod moment;
 mod ring;
 
 #[cfg(test)]
@@ -43,6 +45,8 @@ pub struct Assembly {
     pub background_distance_mm: Option<f64>,
     /// The strength of refraction, 0 to 1.
     pub strength: f64,
+    /// How plates move where time goes on.
+    pub movement: Movement,
     /// The angle of view of the scene's perspective, in degrees, if it has one.
     pub angle_of_view: Option<f64>,
     /// The scene's exposure, in stops.
@@ -144,6 +148,7 @@ impl Assembly {
             background: None,
             background_distance_mm: None,
             strength: 1.0,
+            movement: Movement::default(),
             angle_of_view: None,
             exposure: 0.0,
             light_turn: 0.0,
@@ -205,6 +210,7 @@ impl Assembly {
             background: scene.background,
             background_distance_mm: scene.background_distance_mm,
             strength: scene.strength,
+            movement: scene.movement,
             angle_of_view: scene.angle_of_view,
             exposure: scene.exposure,
             light_turn: scene.light_turn,

@@ -9,7 +9,7 @@ use super::toml_format::check_format;
 use super::toml_text::TomlText;
 use crate::cut::{MaterialRef, Size};
 use crate::optics::Metal;
-use crate::scene::{LIGHTS, Layout, MOST_STONES, Pose, light};
+use crate::scene::{LIGHTS, Layout, MOST_STONES, Movement, Pose, light};
 use form::SceneForm;
 use glam::{DQuat, DVec3};
 pub use ring_entry::RingEntry;
@@ -54,6 +54,8 @@ pub struct SceneFile {
     pub background_distance_mm: Option<f64>,
     /// The strength of refraction: the part of its turn that refracted light takes, 0 (straight on) to 1 (physics).
     pub strength: f64,
+    /// How plates move where time goes on.
+    pub movement: Movement,
     /// The angle of view of a perspective, across the longer extent of the stones, in degrees; `None` for parallel rays.
     pub angle_of_view: Option<f64>,
     /// The exposure, in stops.

@@ -54,6 +54,8 @@ pub use polygon::{area, centroid, clip, contains, point_in_polygon};
 pub use polytope::{Facet, Polytope};
 pub use polytope_build::PolytopeError;
 pub use pose::Pose;
+#[cfg(test)]
+pub(crate) use shaded_mesh::torus;
 pub use shaded_mesh::{ShadedMesh, ShadedSurfaceError, SurfaceNormals};
 pub use shaded_surface::ShadedSurface;
 pub use smooth::SmoothSolid;

@@ -91,6 +91,11 @@ impl ShadedMesh {
         &self.surface
     }
 
+    /// Returns the boxes around the triangles.
+    pub(crate) fn bvh(&self) -> &Bvh {
+        &self.bvh
+    }
+
     /// Returns a ball around all triangles.
     pub fn ball(&self) -> Ball {
         self.ball
@@ -113,20 +118,27 @@ impl ShadedMesh {
         self.bvh.nearest(origin, direction, away, |triangle| Some(triangle) != left)
     }
 
+    /// Returns the normal of a triangle, on the side from which its corners run counter-clockwise, and those at its corners, on the same side.
+    pub(crate) fn corner_normals(&self, triangle: u32) -> (DVec3, [DVec3; 3]) {
+        let corners = self.surface.corners[triangle as usize];
+        let [a, b, c] = corners.map(|v| self.surface.points[v as usize]);
+        let flat = (b - a).cross(c - a).try_normalize().unwrap_or(DVec3::Z);
+        let normal = |v: u32| self.surface.normals.get(v as usize).map_or(flat, |&normal| side(normal, flat));
+        (flat, corners.map(normal))
+    }
+
     /// Returns the normals at a point of a triangle, on the side from which its corners run counter-clockwise.
     pub fn normals(&self, triangle: u32, point: DVec3) -> SurfaceNormals {
         let corners = self.surface.corners[triangle as usize];
         let [a, b, c] = corners.map(|v| self.surface.points[v as usize]);
-        let area = (b - a).cross(c - a);
-        let flat = area.try_normalize().unwrap_or(DVec3::Z);
+        let (flat, normals) = self.corner_normals(triangle);
         if self.surface.normals.is_empty() {
             return SurfaceNormals { flat, shading: flat };
         }
         // The areas of the three parts around the point, each opposite its corner.
         let share = |p: DVec3, q: DVec3| (p - point).cross(q - point).dot(flat).max(0.0);
         let shares = [share(b, c), share(c, a), share(a, b)];
-        let normals = corners.map(|v| self.surface.normals[v as usize]);
-        let mixed: DVec3 = normals.into_iter().zip(shares).map(|(n, share)| side(n, flat) * share).sum();
+        let mixed: DVec3 = normals.into_iter().zip(shares).map(|(normal, share)| normal * share).sum();
         SurfaceNormals { flat, shading: mixed.try_normalize().unwrap_or(flat) }
     }
 }
@@ -177,6 +189,24 @@ impl From<ShadedMesh> for ShadedSurface {
     fn from(mesh: ShadedMesh) -> Self {
         mesh.surface
     }
+}
+
+/// Returns a torus around z, cut into this many parts along and across.
+#[cfg(test)]
+pub(crate) fn torus((major, minor): (f64, f64), (along, across): (u32, u32), is_smooth: bool) -> ShadedMesh {
+    let (mut points, mut normals, mut corners) = (vec![], vec![], vec![]);
+    for k in 0..along * across {
+        let (i, j) = (k / across, k % across);
+        let [(sin, cos), (up, out)] = [(i, along), (j, across)]
+            .map(|(k, of)| (std::f64::consts::TAU * f64::from(k) / f64::from(of)).sin_cos());
+        normals.push(DVec3::new(out * cos, out * sin, up));
+        points.push(DVec3::new((major + minor * out) * cos, (major + minor * out) * sin, minor * up));
+        let place = |i: u32, j: u32| (i % along) * across + j % across;
+        let [a, b, c, d] = [place(i, j), place(i + 1, j), place(i + 1, j + 1), place(i, j + 1)];
+        corners.extend([[a, b, c], [a, c, d]]);
+    }
+    let normals = if is_smooth { normals } else { vec![] };
+    ShadedMesh::new(ShadedSurface { points, corners, normals }).unwrap()
 }
 
 #[cfg(test)]

@@ -100,6 +100,22 @@ impl Roughness {
         surface
     }
 
+    /// The number of [`rows`](Self::rows).
+    pub(crate) const ROWS: usize = STEPS + 1;
+
+    /// Returns the surface as a table for the shaders, which shaders/microfacets.wgsl describes. It holds what is lost and not what
+    /// is returned, because f32 would round that to 1 on smooth surfaces.
+    pub(crate) fn rows(&self) -> impl Iterator<Item = [f64; 4]> + '_ {
+        let mut before = 0.0;
+        let step = move |k: usize| {
+            let lost = self.lost.get(k).copied().unwrap_or(0.0);
+            let row = [1.0 - self.once[k], 1.0 - self.once[k + 1], lost, before];
+            before += lost * (square_cos(k as f64 + 1.0) - square_cos(k as f64));
+            row
+        };
+        std::iter::once([self.alpha, 1.0 - self.once_mean, 0.0, 0.0]).chain((0..STEPS).map(step))
+    }
+
     /// Returns the share of light that leaves at the first reflection, in a direction with this cosine.
     pub(super) fn once(&self, cos: f64) -> f64 {
         let at = cos.clamp(0.0, 1.0).sqrt() * STEPS as f64;
@@ -145,6 +161,11 @@ impl Roughness {
 }
 
 impl RoughMetal {
+    /// Returns the part of the light reflected several times that the metal does not absorb.
+    pub(crate) fn again(&self) -> f64 {
+        self.again
+    }
+
     /// Draws a direction from which light arrives that the surface reflects to `out`, from three random numbers from
     /// 0 to below 1; `None` where the light that is drawn is lost.
     pub fn sample(&self, out: DVec3, luck: [f64; 3]) -> Option<Scattered> {

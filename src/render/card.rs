@@ -71,11 +71,6 @@ impl NoCard {
     pub fn frosted() -> Self {
         Self("graphics cards do not scatter light at frosted facets yet".to_owned())
     }
-
-    /// Returns the reason why scenes with metal are never traced by a card.
-    pub fn metal() -> Self {
-        Self("graphics cards do not reflect metal yet".to_owned())
-    }
 }
 
 impl Backend {

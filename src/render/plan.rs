@@ -70,7 +70,8 @@ pub enum Unfit {
     NotConvex(#[from] NotConvex),
     /// The scene holds metal, which exact beams, scopes, figures and refraction maps know nothing of.
     #[error(
-        "only rays in pictures under light reflect metal: trace by rays, and make no scope, figures or refraction map of it"
+        "only rays in pictures under light reflect metal: trace by rays or by a graphics card, and make no scope, figures or \
+         refraction map of it"
     )]
     Metal,
     /// A stone has frosted facets, which exact beams, graphics cards and refraction maps know nothing of.
@@ -164,17 +165,14 @@ impl Demands {
     }
 
     fn of_light(job: &Job, light: &LightProduct) -> Self {
-        let is_alone = matches!(&*job.scene.instances, [only] if only.body.stone().is_ok());
-        let has_backplate = light.surroundings.backplate.is_some();
-        let fits = is_alone && !has_backplate && job.view.projection == Projection::Orthographic;
-        if !job.scene.metals.is_empty() {
-            let no_card = Some(NoCard::metal());
-            return Self { against_beams: Some(Unfit::Metal), card: CardWorth::Nothing, no_card };
-        }
         if job.scene.is_frosted() {
             return Self::frosted();
         }
+        let is_alone = matches!(&*job.scene.instances, [only] if only.body.stone().is_ok());
+        let has_backplate = light.surroundings.backplate.is_some();
+        let fits = is_alone && !has_backplate && job.view.projection == Projection::Orthographic;
         let against_beams = match fits {
+            _ if !job.scene.metals.is_empty() => Some(Unfit::Metal),
             _ if light.strength < 1.0 => Some(Unfit::Mixture),
             _ if job.quality.rays.most_bounces < USUAL_BOUNCES => Some(Unfit::FewBounces),
             false => Some(Unfit::NotAlone),

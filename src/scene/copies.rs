@@ -3,6 +3,7 @@
 //! Lengths are in the body's own unit, girdle radii; times are in seconds. The same numbers always give the same places.
 
 use super::layout::scattered;
+use super::movement::Movement;
 use crate::math::Pose;
 use glam::{DQuat, DVec2, DVec3};
 use serde::{Deserialize, Serialize};
@@ -31,11 +32,14 @@ pub struct Copies {
     /// Half the side of the square in which the copies were laid out. Views are fitted to it, so that nothing shrinks while
     /// a copy is moved. `None` for a body alone, whose own reach counts.
     pub room: Option<f64>,
+    /// How the copies move.
+    #[serde(default)]
+    pub movement: Movement,
 }
 
 impl Default for Copies {
     fn default() -> Self {
-        Self { poses: vec![Pose::STILL], room: None }
+        Self { poses: vec![Pose::STILL], room: None, movement: Movement::default() }
     }
 }
 
@@ -54,7 +58,7 @@ impl Copies {
         loop {
             if let Some(places) = places(count, half, room, number) {
                 let poses = places.into_iter().map(|at| Pose { at: at.extend(0.0), ..Pose::STILL });
-                return Self { poses: poses.collect(), room: Some(room) };
+                return Self { poses: poses.collect(), room: Some(room), ..Self::default() };
             }
             room *= LARGER;
         }
@@ -63,11 +67,16 @@ impl Copies {
     /// Returns copies at given places, in a room that holds bodies of these corners there.
     pub fn at(poses: Vec<Pose>, corners: &[DVec3]) -> Self {
         if poses.len() == 1 && poses[0].at == DVec3::ZERO {
-            return Self { poses, room: None };
+            return Self { poses, ..Self::default() };
         }
         let all = poses.iter().flat_map(|pose| corners.iter().map(|c| pose.place(*c).truncate().abs()));
         let room = all.fold(0.0, |room: f64, c| room.max(c.max_element()));
-        Self { poses, room: Some(room) }
+        Self { poses, room: Some(room), ..Self::default() }
+    }
+
+    /// Whether there is a single copy, in the place and pose of the body itself.
+    pub fn is_one_at_rest(&self) -> bool {
+        self.poses == [Pose::STILL] && self.room.is_none()
     }
 
     /// Returns half the side of the square that a view is fitted to; `alone` is the reach of the body alone.

@@ -1,6 +1,6 @@
 //! An opaque body of metal in its place.
 
-use crate::math::{Pose, ShadedMesh};
+use crate::math::{Ball, Pose, ShadedMesh};
 use crate::optics::Metal;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -42,6 +42,12 @@ impl MetalInstance {
     /// Returns the corners of its triangles in the world.
     pub fn vertices(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.mesh.surface().points.iter().map(|&point| self.pose.place(point))
+    }
+
+    /// Returns a ball around the body in the world; it is a little larger than it must be, for rounding.
+    pub fn ball(&self) -> Ball {
+        let Ball { middle, radius } = self.mesh.ball();
+        Ball { middle: self.pose.place(middle), radius: radius * self.pose.scale * (1.0 + 1e-5) }
     }
 
     /// Returns a distance from the world's origin that no corner exceeds.

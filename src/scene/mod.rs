@@ -14,6 +14,7 @@ mod medium;
 mod metal_instance;
 mod mipmap;
 mod mounting;
+mod movement;
 mod overlap;
 mod panorama;
 mod scope;
@@ -40,6 +41,7 @@ pub use mounting::{
     ALLOYS, Alloy, MetalPart, Mounting, OuterShape, RING_NUMBERS, Ring, RingError, RingNumber, RingSeat,
     RingStyle, SeatKind, SetStone,
 };
+pub use movement::{Movement, has_wave};
 pub use overlap::overlapping;
 pub use panorama::{Panorama, PanoramaError};
 pub use scope::{

@@ -61,7 +61,8 @@ pub struct Sampling {
     pub strength: f64,
     /// The share of a ray's light below which light goes on only by chance, and counts for more where it does; 0
     /// where all light is followed. It concerns packets, and single rays in double precision in solids that are not
-    /// convex and between bodies and metal. Graphics cards follow all light.
+    /// convex and between bodies and metal. Graphics cards heed it between bodies where there is
+    /// metal, and follow all other light.
     pub by_chance: f64,
     /// True where each ray represents a stretch of its pixel ([`stretch_of_pixel`])
     /// and, where bands are divided into n shares, √n of the shares but at most 2.5, so that a picture of few rays

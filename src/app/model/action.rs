@@ -26,7 +26,7 @@ use crate::io::Failure;
 use crate::io::lighting::Lighting;
 use crate::io::mesh_options::MeshOptions;
 use crate::measure::Figures;
-use crate::scene::{Pose, Specimen};
+use crate::scene::{Movement, Pose, Specimen};
 use crate::search::Goal;
 use glam::DVec2;
 use std::path::PathBuf;
@@ -108,6 +108,8 @@ pub enum Edit {
     Head(f64),
     /// Replaces the copies by so many that are scattered anew.
     LayOut(usize),
+    /// Sets how plates move in renders.
+    Movement(Movement),
     /// Moves the copy of this number to a pose.
     Copy(usize, Pose),
     /// Moves a stone of another design that stands beside the copies, by its number, to a pose in mm.

@@ -11,7 +11,7 @@ use crate::measure::STANDARD_ERROR;
 use crate::optics::line;
 use crate::picture::named;
 use crate::render::{Renderer, Wanted};
-use crate::scene::{Companions, Copies, Glare, Pose, Side, Specimen, View, Viewpoint};
+use crate::scene::{Companions, Copies, Glare, Movement, Pose, Side, Specimen, View, Viewpoint};
 use glam::DVec3;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -93,6 +93,8 @@ pub struct ExportPlan {
     /// at rest.
     pub reach: Option<f64>,
     pub selection: Selection,
+    /// How plates move, for the scene file.
+    pub movement: Movement,
     /// The light, as scene files name it.
     pub light: PathBuf,
     pub folder: PathBuf,

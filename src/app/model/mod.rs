@@ -50,7 +50,7 @@ pub use update::update;
 use crate::app::shows::Shows;
 use crate::app::studio::Which;
 use crate::io::Failure;
-use crate::scene::{Companions, Copies, Pose, Specimen, View};
+use crate::scene::{Companions, Pose, Specimen, View};
 use document::Document;
 use framing::FramingFit;
 use motion::WaveCache;
@@ -118,7 +118,7 @@ impl Model {
     /// Returns whether renders show the stone alone and at rest.
     pub fn is_alone(&self) -> bool {
         let Work { copies, companions, .. } = &self.document.work;
-        *copies == Copies::default() && companions.is_empty() && self.session.motion.seconds == 0.0
+        copies.is_one_at_rest() && companions.is_empty() && self.session.motion.seconds == 0.0
     }
 
     /// Returns whether time can go on in renders: copies tumble only where no companion is in their way.
@@ -143,7 +143,7 @@ impl Model {
             return reach;
         }
         let copies = &self.document.work.copies;
-        match self.session.motion.tumbles(self.document.specimen()) {
+        match self.session.motion.tumbles(self.document.specimen(), copies) {
             // A stone that tumbles shows all its sides.
             true => copies
                 .poses

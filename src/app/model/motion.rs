@@ -1,11 +1,7 @@
 //! The motion of time in renders: copies tumble and plates wave. Figures and scopes are of the design at rest.
 
-use crate::cut::{Cut, Glass};
-use crate::scene::{Copies, Pose, Specimen};
+use crate::scene::{Copies, Movement, Pose, Specimen};
 use std::sync::Arc;
-
-/// The speed of a wave's phase, radians per second.
-const WAVING: f64 = 2.0;
 
 /// The time that renders show.
 #[derive(Debug, Clone, Copy, Default)]
@@ -19,7 +15,7 @@ pub struct Motion {
 /// The plates that wave, as they were shown last.
 #[derive(Debug, Clone, Default)]
 pub struct WaveCache {
-    /// Each plate at rest, the time in seconds, and the plate in its phase at that time.
+    /// Each plate at rest, the time in seconds, and the plate with its wave in its phase at that time.
     waved: Vec<(Arc<Specimen>, f64, Arc<Specimen>)>,
 }
 
@@ -39,8 +35,8 @@ impl Motion {
     }
 
     /// Returns whether the stone tumbles now.
-    pub fn tumbles(&self, specimen: &Specimen) -> bool {
-        self.seconds > 0.0 && !waves(specimen)
+    pub fn tumbles(&self, specimen: &Specimen, copies: &Copies) -> bool {
+        self.seconds > 0.0 && copies.movement.tumbles(&specimen.design.cut)
     }
 
     /// Returns the stone in its present phase, and the present poses of its copies.
@@ -50,10 +46,9 @@ impl Motion {
         specimen: &Arc<Specimen>,
         copies: &Copies,
     ) -> (Arc<Specimen>, Vec<Pose>) {
-        let waves = waves(specimen);
-        let specimen =
-            if waves && self.seconds > 0.0 { cache.of(specimen, self.seconds) } else { Arc::clone(specimen) };
-        let tumbling = (!waves && self.seconds > 0.0).then_some(self.seconds);
+        let tumbling = self.tumbles(specimen, copies).then_some(self.seconds);
+        let waves = self.seconds > 0.0 && copies.movement.waves(&specimen.design.cut);
+        let specimen = if waves { cache.of(specimen, self.seconds) } else { Arc::clone(specimen) };
         let poses = copies.poses(specimen.solid().vertices(), tumbling);
         (specimen, poses)
     }
@@ -68,8 +63,8 @@ impl WaveCache {
             return Arc::clone(now);
         }
         let mut design = specimen.design.clone();
-        if let Cut::Glass(Glass::Plate(plate)) = &mut design.cut {
-            plate.phase = (plate.phase + (WAVING * seconds).to_degrees()).rem_euclid(360.0);
+        if let Some(cut) = Movement::Wave.waved(&design.cut, seconds) {
+            design.cut = cut;
         }
         // A plate that can be made at rest can be made in any phase.
         let now = specimen.remade(design).map_or_else(|_| Arc::clone(specimen), Arc::new);
@@ -81,29 +76,31 @@ impl WaveCache {
     }
 }
 
-/// Returns whether the stone waves in time; such a stone does not tumble.
-fn waves(specimen: &Specimen) -> bool {
-    matches!(specimen.design.cut, Cut::Glass(Glass::Plate(plate)) if plate.amplitude > 0.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::app::model::document::Document;
+    use crate::cut::{Cut, Glass};
 
     #[test]
-    fn a_plate_waves_and_anything_else_tumbles() {
+    fn a_plate_waves_and_tumbles_as_its_copies_say_and_anything_else_tumbles() {
         let mut moving = Motion::at(0.7);
         let cache = &mut WaveCache::default();
         let of = |name| Arc::clone(Document::of_library(name).unwrap().specimen());
         let (plate, cube) = (of("plate"), of("cube"));
-        let copies = Copies::default();
+        let copies = Copies { movement: Movement::Wave, ..Copies::default() };
         let (waved, poses) = moving.now(cache, &plate, &copies);
         let Cut::Glass(Glass::Plate(now)) = waved.design.cut else { panic!() };
         assert!((now.phase - 1.4_f64.to_degrees()).abs() < 1e-9 && poses == [Pose::STILL]);
         assert!(Arc::ptr_eq(&waved, &moving.now(cache, &plate, &copies).0), "made once");
+        let is_turned = |poses: &[Pose]| poses[0].turn.angle_between(glam::DQuat::IDENTITY) > 0.3;
+        let (both, poses) = moving.now(cache, &plate, &Copies::default());
+        assert!(Arc::ptr_eq(&both, &waved) && is_turned(&poses));
+        let tumble = Copies { movement: Movement::Tumble, ..Copies::default() };
+        let (still, poses) = moving.now(cache, &plate, &tumble);
+        assert!(Arc::ptr_eq(&still, &plate) && is_turned(&poses));
         let (still, poses) = moving.now(cache, &cube, &copies);
-        assert!(Arc::ptr_eq(&still, &cube) && poses[0].turn.angle_between(glam::DQuat::IDENTITY) > 0.3);
+        assert!(Arc::ptr_eq(&still, &cube) && is_turned(&poses));
         moving.rest();
         assert_eq!(moving.now(cache, &cube, &copies).1, [Pose::STILL]);
         assert!(Arc::ptr_eq(&moving.now(cache, &plate, &copies).0, &plate));

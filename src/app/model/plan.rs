@@ -27,8 +27,20 @@ pub fn export_plan(model: &Model) -> ExportPlan {
     let selection = session.selection.clone();
     let (folder, stem) = (document.folder().join("out"), document.stem());
     let sheet_files = vec![];
-    let mut plan =
-        ExportPlan { shot, upright, linked, own, reach, selection, light, folder, sheet_files, stem };
+    let movement = document.work.copies.movement;
+    let mut plan = ExportPlan {
+        shot,
+        upright,
+        linked,
+        own,
+        reach,
+        selection,
+        movement,
+        light,
+        folder,
+        sheet_files,
+        stem,
+    };
     let can_be_shown: Vec<Shows> = plan.can_be_shown().collect();
     plan.selection.views.retain(|shows| can_be_shown.contains(shows));
     plan.list_sheet();

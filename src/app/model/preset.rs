@@ -92,6 +92,7 @@ impl Preset {
         let larger = Pose { scale: setting.unit_mm, ..Pose::STILL };
         let metals = metals.map(|metal| metal.moved(&larger)).collect();
         let mut copies = Copies::at(poses, first.specimen.solid().vertices());
+        copies.movement = scene.movement;
         let companions = Companions { stones, metals };
         if !companions.is_empty() {
             let across = companions.across() / unit_mm;
@@ -139,11 +140,19 @@ mod tests {
 
     #[test]
     fn the_presets_are_as_their_files_say_and_no_copy_is_put_behind_another() {
-        for Known { name, .. } in PRESETS {
+        for Known { name, moves, .. } in PRESETS {
             let preset = Preset::of_library(name).unwrap();
             let specimen = Specimen::new(preset.design.clone()).unwrap();
             let corners = specimen.solid().vertices();
             assert_eq!(preset.copies.poses(corners, None), preset.copies.poses, "{name}");
+            for seconds in [0.0, 0.4, 1.1, 2.3] {
+                let cut = preset.copies.movement.waved(&preset.design.cut, seconds);
+                let cut = cut.unwrap_or_else(|| preset.design.cut.clone());
+                let specimen = Specimen::new(Design { cut, ..preset.design.clone() }).unwrap();
+                let moving = preset.copies.poses(specimen.solid().vertices(), Some(seconds));
+                let stay = moving.iter().zip(&preset.copies.poses).all(|(now, rest)| now.at == rest.at);
+                assert!(stay || !moves, "{name} has no room to move");
+            }
             assert_eq!(preset.copies.poses.len(), if name == "free-diamond" { 1 } else { 4 });
         }
         let pill = Preset::of_library("subtle-pill").unwrap();

@@ -10,7 +10,7 @@ use crate::app::model::preset::{Known, PRESETS};
 use crate::app::panels::rows::{ANY, NUMBER, Row, choice_row, control_width, field_width, named, skip_name};
 use crate::app::shows::Shows;
 use crate::app::studio::Smoothing;
-use crate::scene::MOST_COPIES;
+use crate::scene::{MOST_COPIES, Movement, has_wave};
 use egui::{Button, Ui, vec2};
 use std::ops::RangeInclusive;
 
@@ -35,6 +35,9 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
         let count = model.document.work.copies.poses.len();
         copies(count, actions, ui);
         motion(model.session.motion, actions, ui);
+        if has_wave(&model.document.work.design.cut) {
+            movement(model.document.work.copies.movement, actions, ui);
+        }
         scatter(count, actions, ui);
     }
     smoothing(model.workspace.smoothing, actions, ui);
@@ -55,7 +58,11 @@ fn scatter(count: usize, actions: &mut Actions, ui: &mut Ui) {
 
 fn motion(motion: Motion, actions: &mut Actions, ui: &mut Ui) {
     ui.horizontal(|ui| {
-        named(ui, "Motion", "In renders, copies tumble and plates wave. M starts and stops the motion.");
+        named(
+            ui,
+            "Motion",
+            "In renders, copies tumble, and plates also wave. M starts and stops the motion.",
+        );
         let (name, meaning) = match motion.is_on {
             true => ("Pause", "Stops the motion; the picture then becomes sharper."),
             false => ("Play", "Starts the motion."),
@@ -70,6 +77,19 @@ fn motion(motion: Motion, actions: &mut Actions, ui: &mut Ui) {
             actions.push(ViewAction::Rest);
         }
     });
+}
+
+/// Draws the row for how plates with a wave move.
+fn movement(before: Movement, actions: &mut Actions, ui: &mut Ui) {
+    let mut movement = before;
+    let meaning =
+        "How plates move in renders: they tumble while their waves run, tumble alone, or wave alone.";
+    let all = [(Movement::Both, "tumble and wave"), (Movement::Tumble, "tumble"), (Movement::Wave, "wave")];
+    let name = all.iter().find(|(each, _)| *each == before).map_or("", |(_, name)| name);
+    choice_row(ui, "Movement", meaning, name, |ui| {
+        all.into_iter().for_each(|(each, name)| drop(ui.selectable_value(&mut movement, each, name)));
+    });
+    actions.push_changed(&before, movement, Edit::Movement);
 }
 
 /// Draws the row for the angle of view, which sets the distance of the eye in perspective.

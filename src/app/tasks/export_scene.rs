@@ -56,6 +56,7 @@ impl SceneOut {
             background: shot.behind.clone(),
             background_distance_mm: is_picture.then(|| (hung(shot) + middle.z) * unit_mm),
             strength: shot.strength,
+            movement: plan.movement,
             angle_of_view: angle_of_view(shot, corners(shot, &poses, &companions), middle),
             exposure: shot.exposure,
             stones: own.chain(others).collect(),

@@ -1,6 +1,7 @@
 //! Tests of copies of a glass shape, moved as a person moves them.
 
 use super::Bench;
+use super::light_and_glass::pick;
 use crate::app::editor::Editor;
 use crate::app::model::action::{Edit, FileAction};
 use crate::app::model::dialog::{Dialog, Then};
@@ -130,6 +131,39 @@ fn what_moves_is_shown_moving_and_stands_still_when_stopped() {
     assert!(bench.harness.query_by_label("Copies").is_none(), "views alone");
 }
 
+#[test]
+fn plates_tumble_and_wave_or_do_what_their_row_says() {
+    let mut bench = bench("wavy-plate");
+    bench.harness.state_mut().model.session.motion = Motion::at(0.9);
+    let shown = |bench: &mut Bench| {
+        bench.harness.run_steps(3);
+        let shot = &bench.editor().model.session.ordered.shots[0].1;
+        let rest = &bench.editor().model.document;
+        let is_turned = |(now, rest): (&Pose, &Pose)| now.turn.angle_between(rest.turn) > 0.2;
+        let turned = shot.copies.iter().zip(&rest.work.copies.poses).all(is_turned);
+        (turned, shot.specimen.design.cut != rest.specimen().design.cut)
+    };
+    assert_eq!(shown(&mut bench), (true, true));
+    for (movement, seen) in [("wave", (false, true)), ("tumble", (true, false))] {
+        pick(&mut bench, "Movement", movement);
+        assert_eq!(shown(&mut bench), seen, "{movement}");
+    }
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::Z);
+    assert_eq!(shown(&mut bench), (false, true), "undone");
+    // The scene file keeps it.
+    let folder = tempfile::tempdir().unwrap();
+    let mut plan = export_plan(&bench.editor().model);
+    (plan.folder, plan.stem) = (folder.path().to_owned(), "mine".to_owned());
+    SceneOut::of(&plan).write().unwrap();
+    let again = Preset::read(&folder.path().join("mine-scene.toml")).unwrap();
+    assert_eq!(again.copies.movement, crate::scene::Movement::Wave);
+    // What has no wave has no such row.
+    bench.click("Rotating cube");
+    bench.click("Discard");
+    bench.harness.run_steps(3);
+    assert!(bench.harness.query_by_label("Movement").is_none());
+}
+
 /// Returns the place of each copy relative to the first, in mm, and its rotation.
 fn arrangement(copies: &Copies, unit_mm: f64) -> Vec<(glam::DVec3, glam::DQuat)> {
     let first = copies.poses[0].at;
@@ -173,7 +207,7 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
         assert!((farther + deeper).abs() < 1e-9, "{scene}: {farther} {deeper}");
         assert_eq!(shot.view.turn, glam::DQuat::from_rotation_z(turn));
         let poses = shot.copies.iter().map(|pose| Pose::turned(shot.view.turn).after(pose)).collect();
-        let shown = arrangement(&Copies { poses, room: None }, unit_mm);
+        let shown = arrangement(&Copies { poses, ..Copies::default() }, unit_mm);
         for ((at, turn), (there, turned)) in arrangement(&again.copies, unit_mm).into_iter().zip(shown) {
             assert!(at.distance(there) < 1e-9 && turn.dot(turned).abs() > 1.0 - 1e-12, "{at} {there}");
         }

@@ -21,7 +21,7 @@ fn shot(bench: &Bench) -> &Shot {
 }
 
 /// Chooses an entry of the list of this name.
-fn pick(bench: &mut Bench, name: &str, entry: &str) {
+pub(super) fn pick(bench: &mut Bench, name: &str, entry: &str) {
     bench.harness.get_by_role_and_label(Role::ComboBox, name).scroll_to_me();
     bench.harness.run_steps(super::SCROLLED);
     bench.harness.get_by_role_and_label(Role::ComboBox, name).click();

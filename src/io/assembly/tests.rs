@@ -143,6 +143,33 @@ fn stones_in_one_anothers_way_and_cuts_that_are_not_there_are_named() {
 }
 
 #[test]
+fn copies_of_one_design_move_and_nothing_else_does() {
+    let scene = |tables: &str| {
+        let text = format!("format = 1\nname = \"x\"\n{tables}");
+        Assembly::of(Path::new("x.toml"), scene_file::parse(&text, "x.toml", None).unwrap()).unwrap()
+    };
+    let plates = "stone = [{ cut = \"plate\", at = [-30, 0, 0] }, { cut = \"plate\", at = [30, 0, 0] }]";
+    let seen = |movement: &str, asked: Option<Movement>| {
+        let rest = scene(&format!("{movement}{plates}"));
+        let before = rest.setting.clone();
+        let moved = rest.at_moment(1.3, asked).unwrap().setting;
+        let turned = |k: usize| moved.instances[k].pose.turn.angle_between(before.instances[k].pose.turn);
+        assert!(
+            (0..2).all(|k| moved.instances[k].pose.at.distance(before.instances[k].pose.at) < 1e-9)
+                && moved.instances.iter().zip(&before.instances).all(|(a, b)| a.pose.scale == b.pose.scale)
+        );
+        let waves = !moved.instances[0].body.solid().is_same(before.instances[0].body.solid());
+        (turned(0) > 0.3 && turned(1) > 0.3, waves)
+    };
+    assert_eq!(seen("", None), (true, true));
+    assert_eq!(seen("movement = \"wave\"\n", None), (false, true));
+    assert_eq!(seen("movement = \"wave\"\n", Some(Movement::Tumble)), (true, false));
+    let two = "stone = [{ cut = \"plate\", at = [-30, 0, 0] }, { cut = \"cube\", at = [30, 0, 0] }]";
+    let error = scene(two).at_moment(1.0, None).unwrap_err().to_string();
+    assert!(error.starts_with("x.toml: only stones of one design move"), "{error}");
+}
+
+#[test]
 fn metal_lies_where_it_is_put_beside_stones_or_alone_and_may_cut_into_them() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("plate.obj"), "v 0 0 0\nv 4 0 0\nv 0 8 0\nf 1 2 3\n").unwrap();

@@ -11,7 +11,7 @@ use super::ring_form::{RingForm, ring};
 use super::shared::{DEGREES, SizeForm, likely, material, place_mm, shown, within};
 use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, behind, found};
 use crate::cut::is_printable;
-use crate::scene::Layout;
+use crate::scene::{Layout, Movement};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -32,6 +32,7 @@ pub(super) struct SceneForm {
     background: Option<String>,
     background_distance_mm: Option<f64>,
     strength: Option<f64>,
+    movement: Option<String>,
     angle_of_view: Option<f64>,
     exposure: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -89,6 +90,7 @@ impl SceneForm {
             background: scene.background.as_ref().map(ToString::to_string),
             background_distance_mm: scene.background_distance_mm,
             strength: Some(scene.strength),
+            movement: (scene.movement != Movement::default()).then(|| scene.movement.name().to_owned()),
             angle_of_view: scene.angle_of_view,
             exposure: (scene.exposure != 0.0).then_some(scene.exposure),
             stone: (!scene.stones.is_empty()).then(|| scene.stones.iter().map(stone).collect()),
@@ -121,6 +123,7 @@ impl SceneForm {
         let (strength, exposure) = (self.strength.unwrap_or(1.0), self.exposure.unwrap_or(0.0));
         let light_turn = self.light_turn.unwrap_or(0.0);
         check_picture(strength, self.angle_of_view, light_turn, exposure)?;
+        let movement = self.movement.as_deref().map(movement).transpose()?.unwrap_or_default();
         let stones = stones(self.stone, !self.metal.is_empty() || self.ring.is_some())?;
         let alone = stones.len() == 1;
         let entry = |(index, stone): (usize, Spanned<TomlTable<StoneForm>>)| {
@@ -144,6 +147,7 @@ impl SceneForm {
             background,
             background_distance_mm,
             strength,
+            movement,
             angle_of_view,
             exposure,
             stones,
@@ -177,6 +181,13 @@ fn layout(given: &str) -> Result<Layout, Fault> {
     let found = Layout::NAMES.iter().find(|(name, _)| *name == given).map(|(_, layout)| *layout);
     let unknown = || format!("layout: '{}' is unknown{}", shown(given), likely(given, &names));
     found.ok_or_else(|| Fault::key("layout", unknown()))
+}
+
+fn movement(given: &str) -> Result<Movement, Fault> {
+    let names = Movement::NAMES.map(|(name, _)| name);
+    let found = Movement::NAMES.iter().find(|(name, _)| *name == given).map(|(_, movement)| *movement);
+    let unknown = || format!("movement: '{}' is unknown{}", shown(given), likely(given, &names));
+    found.ok_or_else(|| Fault::key("movement", unknown()))
 }
 
 /// Returns the tables of stones, which may be missing where there is metal.

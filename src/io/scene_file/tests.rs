@@ -136,6 +136,10 @@ fn what_is_wrong_with_a_scene_is_told_with_line_and_key() {
         ),
         ("strength = 1.5", "x.toml:3: strength: 1.5 must be from 0, straight on, to 1, physics"),
         ("strength = nan", "x.toml:3: strength: NaN must be"),
+        (
+            "movement = \"waves\"",
+            "x.toml:3: movement: 'waves' is unknown; did you mean 'wave'? known: both, tumble, wave",
+        ),
         ("angle_of_view = 0.5", "x.toml:3: angle_of_view: 0.5 must be from 1 to 120 degrees"),
         ("exposure = 50", "x.toml:3: exposure: 50 must be from -40 to 40 stops"),
     ] {
@@ -224,7 +228,9 @@ proptest::proptest! {
 
 #[test]
 fn what_is_written_reads_back_as_the_same_scene() {
-    let behind = |text: &str| with(PLACED, "[[stone]]", &format!("{text}\nstrength = 0.25\n[[stone]]"));
+    let behind = |text: &str| {
+        with(PLACED, "[[stone]]", &format!("{text}\nstrength = 0.25\nmovement = \"tumble\"\n[[stone]]"))
+    };
     let alone = "format = 1\nname = \"One\"\nstone = [{ cut = \"shallow\", turn = 1e5, size = \"0.37ct\" }]";
     let own = "material = { name = \"mine\", index = 1.7, density = 3.1 }";
     let [own, pattern, colours] = [

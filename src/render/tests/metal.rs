@@ -6,7 +6,7 @@ use crate::optics::Metal;
 use crate::scene::MetalInstance;
 
 #[test]
-fn metal_is_planned_to_the_processor_with_the_reason_where_a_card_is_wanted() {
+fn metal_is_planned_to_a_card_where_there_is_one_else_to_rays_and_never_to_beams() {
     let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
     let surface = ShadedSurface { points, corners: vec![[0, 1, 2]], normals: vec![] };
     let plate = Arc::new(ShadedMesh::new(surface).unwrap());
@@ -21,10 +21,7 @@ fn metal_is_planned_to_the_processor_with_the_reason_where_a_card_is_wanted() {
         let plan = of(&scene, wanted).unwrap();
         assert_eq!(plan.backend.name(), "ray");
         let why = plan.no_card.map(|why| why.to_string());
-        assert_eq!(
-            why.as_deref(),
-            (wanted == Wanted::Card).then_some("graphics cards do not reflect metal yet")
-        );
+        assert_eq!(why.as_deref(), (wanted == Wanted::Card).then_some("no graphics card is used"));
     }
     assert!(matches!(of(&scene, Wanted::Beams), Err(Unfit::Metal)));
     let rough = MetalInstance { roughness: 2.0, ..plate };

@@ -43,11 +43,29 @@ pub enum GpuError {
         most: usize,
     },
     /// There are more triangles than the card has room for.
-    #[error("the stones have {count} triangles, the graphics card takes {most}")]
+    #[error(
+        "stones and metal have {count} triangles (of metal, each counts twice), the graphics card takes {most}"
+    )]
     TooManyTriangles {
         /// The number of triangles.
         count: usize,
         /// The most triangles that the card takes.
+        most: usize,
+    },
+    /// There are more bodies of metal than the card has room for.
+    #[error("the scene has {count} bodies of metal, the graphics card takes {most}")]
+    TooManyMetals {
+        /// The number of bodies of metal.
+        count: usize,
+        /// The most bodies of metal that the card takes.
+        most: usize,
+    },
+    /// The metal has more kinds of roughness than the card has room for.
+    #[error("the metal has {count} kinds of roughness, the graphics card takes {most}")]
+    TooManyRoughnesses {
+        /// The number of kinds.
+        count: usize,
+        /// The most kinds that the card takes.
         most: usize,
     },
     /// Smooth solids stand beside others in one picture.
@@ -63,8 +81,8 @@ pub enum GpuError {
         /// The number of stones.
         stones: usize,
     },
-    /// There is no stone.
-    #[error("the scene has no stone, the graphics card takes one or more")]
+    /// There is no stone and no metal.
+    #[error("the scene has no stone and no metal, the graphics card takes one or more")]
     NoStones,
     /// A sample pass has no wavelength, or more than the card has room for.
     #[error("a pass has {count} wavelengths, the graphics card takes 1 to {most}")]

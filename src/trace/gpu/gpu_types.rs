@@ -28,9 +28,9 @@ macro_rules! both_sides {
 both_sides! {
     /// The parameters of a dispatch, for scopes and for light.
     Frame, FRAME_WGSL {
-        /// x: loop turns that a ray may take where it counts them; the others are unused. It comes first because Mesa's software
-        /// driver (22.3) writes the first number of a uniform into the shader, and compiles that anew at each dispatch where
-        /// it then has more operations than before, as with a tilted axis.
+        /// x: loop turns that a ray may take where it counts them; y: number of the sample pass; z: number of bodies of metal; w: sixteenths
+        /// of a turn for which one plane counts. It comes first because Mesa's software driver (22.3) writes the first number of a uniform into the shader, and
+        /// compiles that anew at each dispatch where it then has more operations than before, as with a tilted axis.
         most: vec4u,
         /// xyz: the image's x axis; w: how far the stones reach from the origin.
         right: vec4f,
@@ -38,7 +38,7 @@ both_sides! {
         up: vec4f,
         /// xyz: the axis to the eye; w: the eye's distance, 0 for parallel rays.
         toward: vec4f,
-        /// x: the least weight that is followed; y: unused; zw: where the ray stands in its pixel, or in its cell of the pixel's grid.
+        /// x: the least weight that is followed; y: beside metal, the weight below which light goes on to another body by chance; zw: where the ray stands in its pixel, or in its cell of the pixel's grid.
         limits: vec4f,
         /// x: number of stones; y: number of wavelengths; z: most bounces; w: 1 for polarised light.
         counts: vec4u,
@@ -69,12 +69,13 @@ both_sides! {
 }
 
 both_sides! {
-    /// One stone: the ball around it, where its surface is kept, and its pose.
+    /// One stone, or body of metal: the ball around it, where its surface is kept, and its pose.
     Body, BODY_WGSL {
         /// xyz: middle in the world of a ball around the stone; w: its radius there.
         middle: vec4f,
         /// Of planes: the first, the one after the last, the first cluster, the one after the last. Of triangles: the first
-        /// box, and the bits of how far they reach from the frame's origin. Of a glass shape: x is its index among the shapes.
+        /// box, and the bits of how far they reach from the frame's origin; of metal also how many triangles after a triangle its
+        /// smooth normals stand, and the number of its finish. Of a glass shape: x is its index among the shapes.
         range: vec4u,
         /// The unit quaternion that rotates the body's frame into the world.
         turn: vec4f,
@@ -173,7 +174,7 @@ both_sides! {
 }
 
 both_sides! {
-    /// A triangle; the fourth numbers of its corners are the normal of its facet.
+    /// A triangle; the fourth numbers of its corners are the normal of its facet. Smooth normals take the places of corners.
     Triangle, TRIANGLE_WGSL {
         /// xyz: first corner; w: the normal's x.
         a: vec4f,

@@ -3,6 +3,7 @@
 use super::device::{Gpu, GpuError};
 use super::gpu_types::{self, Lamp, Response, with};
 use super::limits::MOST_WAVELENGTHS;
+use super::metals::GpuMetals;
 use super::solids::Solids;
 use super::stage::{GpuCamera, Stage, StripLayer};
 use crate::math::PosedSolid;
@@ -24,6 +25,7 @@ pub struct ByCard<'a> {
     media: wgpu::Buffer,
     /// The unit of length in which the shader traces each stone, in units of the stone's body.
     units: Vec<f64>,
+    metals: Option<GpuMetals>,
     responses: wgpu::Buffer,
     wavelengths: usize,
     looks: u32,
@@ -53,12 +55,13 @@ impl<'a> ByCard<'a> {
             return Err(GpuError::Wavelengths { count: wavelengths, most: MOST_WAVELENGTHS });
         }
         let stones: Vec<PosedSolid> = lit_scene.scene.instances.iter().map(Instance::solid).collect();
-        let solids = Solids::new(gpu, &stones)?;
+        let solids = Solids::new(gpu, &stones, &lit_scene.scene.metals)?;
         let copied = |label, bytes: usize, usage| {
             let usage = usage | wgpu::BufferUsages::COPY_DST;
             gpu.buffer(label, &vec![0; bytes], usage)
         };
-        let bytes = size_of::<gpu_types::Medium>() * wavelengths * stones.len();
+        let finishes = solids.metals.as_ref().map_or(0, GpuMetals::finish_count);
+        let bytes = size_of::<gpu_types::Medium>() * wavelengths * (stones.len() + finishes);
         let media = copied("media", bytes, wgpu::BufferUsages::STORAGE);
         // After the bands comes the response of all of them together.
         let bytes = size_of::<Response>() * (MOST_WAVELENGTHS + 1);
@@ -74,7 +77,7 @@ impl<'a> ByCard<'a> {
         };
         let frame = eye.frame(gpu, &solids, wavelengths);
         solids.enough(gpu, frame.counts[2], lit_scene.options.most_bounces)?;
-        let kernel = gpu.lights.kernel(&gpu.device, solids.surfaces.facets);
+        let kernel = gpu.lights.kernel(&gpu.device, solids.surfaces.facets, solids.metals.is_some());
         // A software driver counts the loop turns of all wavelengths of a dispatch together.
         let at_once = if gpu.is_software() { 1 } else { AT_ONCE };
         let cost = (solids.cost(frame.counts[2]), at_once);
@@ -85,6 +88,7 @@ impl<'a> ByCard<'a> {
             stage,
             media,
             units: solids.units,
+            metals: solids.metals,
             responses,
             wavelengths,
             looks: 0,
@@ -92,12 +96,14 @@ impl<'a> ByCard<'a> {
         })
     }
 
-    /// Writes the media of the stones and the colours of the bands to the card's memory.
+    /// Writes the media of the stones, the finishes of metal and the colours of the bands to the card's memory.
     fn write_frame(&self, look: &SamplePass) {
-        let of_stone = |(media, &unit): (&Vec<scene::Medium>, &f64)| -> Vec<gpu_types::Medium> {
-            media.iter().map(|medium| gpu_types::Medium::new(medium, unit)).collect()
+        let of_stone = |(media, &unit): (&Vec<scene::Medium>, &f64)| -> Vec<[f32; 4]> {
+            media.iter().map(|medium| bytemuck::cast(gpu_types::Medium::new(medium, unit))).collect()
         };
-        let media: Vec<gpu_types::Medium> = look.media.iter().zip(&self.units).flat_map(of_stone).collect();
+        let finishes = self.metals.iter().flat_map(|metals| metals.finishes(&look.metals));
+        let media: Vec<[f32; 4]> =
+            look.media.iter().zip(&self.units).flat_map(of_stone).chain(finishes).collect();
         let wide = |c: DVec3| with(c, 0.0);
         let response = |r: &[DVec3; 4]| {
             let [key, red, green, blue] = r.map(wide);
@@ -114,6 +120,9 @@ impl<E: From<Stopped> + From<GpuError>> ProgressiveImage<E> for ByCard<'_> {
     fn add_pass(&mut self, look: &SamplePass, watch: Watch) -> Result<(), E> {
         self.write_frame(look);
         let stretch = look.footprint_in_image(&self.film).as_vec2();
+        // Chance ends weak light where metal sends it back to stones again and again; else all light is followed.
+        self.stage.frame.limits[1] = if self.metals.is_some() { look.by_chance as f32 } else { 0.0 };
+        self.stage.frame.most[1] = look.number;
         self.stage.frame.sample = [look.strength as f32, stretch.x, stretch.y, 0.0];
         let origin = self.film.shift();
         let layer =

@@ -8,8 +8,14 @@ pub(super) const MOST_UNIFORM: usize = 1024;
 /// The most stones that one picture may hold.
 pub const MOST_BODIES: usize = MOST_STONES;
 
+/// The most bodies of metal that one picture may hold: they fill a uniform array of 16 KiB.
+pub const MOST_METALS: usize = 256;
+
+/// The most kinds of roughness that the metal of one picture may have: their tables fit into a uniform array of 16 KiB.
+pub const MOST_ROUGHNESSES: usize = 15;
+
 /// The most triangles that one picture may hold: 48 bytes each, in a buffer of less than the 128 MiB that all cards take.
-/// Their indices are exact in f32.
+/// Their indices are exact in f32. Triangles of metal count twice, because their smooth normals take as much.
 pub const MOST_TRIANGLES: usize = 2_500_000;
 
 /// The most boxes that may lie within one another.

@@ -9,6 +9,7 @@ mod fields;
 mod gpu_types;
 mod light;
 mod limits;
+mod metals;
 mod pane;
 mod peak;
 mod pieces;
@@ -22,7 +23,10 @@ mod triangles;
 pub use device::{DispatchTotals, Gpu, GpuError};
 pub use gpu_types::{PaneData, ScopePixel};
 pub use light::{ByCard, GpuEnvironment};
-pub use limits::{MOST_BODIES, MOST_BOUNCES, MOST_CARD_BANDS, MOST_TRIANGLES, MOST_WAVELENGTHS};
+pub use limits::{
+    MOST_BODIES, MOST_BOUNCES, MOST_CARD_BANDS, MOST_METALS, MOST_ROUGHNESSES, MOST_TRIANGLES,
+    MOST_WAVELENGTHS,
+};
 pub use pane::PaneStage;
 pub use peak::CardPeak;
 

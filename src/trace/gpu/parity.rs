@@ -3,6 +3,8 @@
 
 mod glass;
 mod lamps;
+mod metal;
+mod rings;
 
 use super::Gpu;
 use super::gpu_types;
@@ -16,10 +18,11 @@ use wgpu::naga::{front, valid};
 
 #[test]
 fn every_shader_is_valid_and_its_structs_are_laid_out_as_in_rust() {
-    for (facets, reading) in
-        ShaderSurface::ALL.into_iter().flat_map(|f| [(f, ShaderTask::Scope), (f, ShaderTask::Light)])
+    let kinds = [(ShaderTask::Scope, false), (ShaderTask::Light, false), (ShaderTask::Light, true)];
+    for (facets, (reading, has_metal)) in
+        ShaderSurface::ALL.into_iter().flat_map(|f| kinds.map(|kind| (f, kind)))
     {
-        let text = source(facets, reading);
+        let text = source(facets, reading, has_metal);
         let module = front::wgsl::parse_str(&text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(&text)));
         let mut validator =
             valid::Validator::new(valid::ValidationFlags::all(), valid::Capabilities::empty());
@@ -35,7 +38,7 @@ fn every_shader_is_valid_and_its_structs_are_laid_out_as_in_rust() {
         if facets == ShaderSurface::Many {
             assert_eq!(size("Cluster"), Some(size_of::<gpu_types::Cluster>()));
         }
-        if facets == ShaderSurface::Triangles {
+        if facets == ShaderSurface::Triangles || has_metal {
             assert_eq!(size("Triangle"), Some(size_of::<gpu_types::Triangle>()));
             assert_eq!(size("BvhNode"), Some(size_of::<gpu_types::BvhNode>()));
         }

@@ -57,7 +57,7 @@ fn stage<'a>(gpu: &'a Gpu, shot: &ScopeShot, rows: u32) -> Result<Stage<'a>, Gpu
         return Err(GpuError::TooManyBands { count, most: MOST_CARD_BANDS });
     }
     let reach = shot.solid.reach();
-    let solids = Solids::new(gpu, &[PosedSolid { solid: shot.solid, pose: Pose::STILL }])?;
+    let solids = Solids::new(gpu, &[PosedSolid { solid: shot.solid, pose: Pose::STILL }], &[])?;
     let bands = gpu.buffer("bands", bytemuck::bytes_of(&bands(shot)), wgpu::BufferUsages::UNIFORM);
     let medium = Medium::new(&shot.medium, solids.units[0]);
     let media = gpu.buffer("media", bytemuck::bytes_of(&medium), wgpu::BufferUsages::STORAGE);
@@ -66,7 +66,7 @@ fn stage<'a>(gpu: &'a Gpu, shot: &ScopeShot, rows: u32) -> Result<Stage<'a>, Gpu
     let eye = GpuCamera { view: shot.view, film: shot.film, reach, options: shot.options };
     let frame = eye.frame(gpu, &solids, 1);
     solids.enough(gpu, frame.counts[2], shot.options.most_bounces)?;
-    let kernel = gpu.scopes.kernel(&gpu.device, solids.surfaces.facets);
+    let kernel = gpu.scopes.kernel(&gpu.device, solids.surfaces.facets, false);
     Stage::new::<ScopePixel>(gpu, kernel, (frame, rows), (solids.cost(frame.counts[2]), 1), entries)
 }
 

@@ -1,8 +1,12 @@
 //! The shaders: put together as text, and each compiled when first used.
 
 use super::gpu_types;
-use super::limits::{GROUPS_ACROSS, MOST_BODIES, MOST_INBOUND, MOST_LEVELS, MOST_UNIFORM, MOST_WAVELENGTHS};
+use super::limits::{
+    GROUPS_ACROSS, MOST_BODIES, MOST_INBOUND, MOST_LEVELS, MOST_METALS, MOST_ROUGHNESSES, MOST_UNIFORM,
+    MOST_WAVELENGTHS,
+};
 use super::throttle::Throttle;
+use crate::optics::Roughness;
 use crate::scene::MOST_LAMPS;
 use crate::trace::environment::TEXEL_ANGLE;
 use crate::trace::sampling::MOST_WAITING;
@@ -42,10 +46,10 @@ pub(super) enum ShaderTask {
     Light,
 }
 
-/// The pipelines of one task, one for each kind of surface, each compiled when first used.
+/// The pipelines of one task, one for each kind of surface, without metal and with it, each compiled when first used.
 pub(super) struct Pipelines {
     reading: ShaderTask,
-    by_facets: [OnceLock<Kernel>; ShaderSurface::ALL.len()],
+    by_facets: [[OnceLock<Kernel>; 2]; ShaderSurface::ALL.len()],
 }
 
 /// A compiled shader, and what was learnt of how much work it does in a time.
@@ -60,65 +64,95 @@ impl Kernel {
     }
 }
 
-/// Returns a shader's text, with its structs and constants in front.
-pub(super) fn source(facets: ShaderSurface, reading: ShaderTask) -> String {
-    let constants = format!(
-        "const MOST_PLANES: u32 = {MOST_UNIFORM}u;\nconst MOST_BODIES: u32 = {MOST_BODIES}u;\n\
-         const MOST_WAITING: u32 = {MOST_WAITING}u;\nconst MOST_LAMPS: u32 = {MOST_LAMPS}u;\n\
-         const MOST_WAVELENGTHS: u32 = {MOST_WAVELENGTHS}u;\nconst TEXEL_ANGLE: f32 = {TEXEL_ANGLE};\n\
-         const NONE: u32 = 0xffffffffu;\nconst MOST_INBOUND: u32 = {MOST_INBOUND}u;\n\
-         const MOST_LEVELS: u32 = {MOST_LEVELS}u;\nconst GROUPS_ACROSS: u32 = {GROUPS_ACROSS}u;\n"
-    );
-    let stones = "@group(0) @binding(0) var<uniform> frame: Frame;\n\
-        @group(0) @binding(4) var<uniform> bodies: array<Body, MOST_BODIES>;\n\
-        @group(0) @binding(5) var<storage, read> media: array<Medium>;\n";
-    let leaving = include_str!("../../../shaders/leaving.wgsl");
-    let flat = include_str!("../../../shaders/flat.wgsl");
-    let fields = include_str!("../../../shaders/implicit.wgsl");
-    let jets = include_str!("../../../shaders/jets.wgsl");
-    let convex = include_str!("../../../shaders/convex.wgsl");
-    let branching = include_str!("../../../shaders/branching.wgsl");
-    let facets: &[&str] = match facets {
-        ShaderSurface::Few => &[leaving, include_str!("../../../shaders/planes.wgsl"), flat, convex],
-        ShaderSurface::Many => {
-            &[gpu_types::CLUSTER_WGSL, leaving, include_str!("../../../shaders/clusters.wgsl"), flat, convex]
-        }
-        ShaderSurface::Triangles => &[
-            gpu_types::TRIANGLE_WGSL,
-            gpu_types::BVH_NODE_WGSL,
-            include_str!("../../../shaders/triangles.wgsl"),
-            flat,
-            branching,
-        ],
-        ShaderSurface::Smooth => &[gpu_types::IMPLICIT_SURFACE_WGSL, jets, fields, convex],
-        ShaderSurface::Wavy => &[gpu_types::IMPLICIT_SURFACE_WGSL, jets, fields, branching],
-    };
-    let reading: &[&str] = match reading {
-        ShaderTask::Scope => {
-            &[gpu_types::BANDS_WGSL, gpu_types::SCOPE_PIXEL_WGSL, include_str!("../../../shaders/scope.wgsl")]
-        }
-        ShaderTask::Light => &[
-            gpu_types::ENVIRONMENT_WGSL,
-            gpu_types::LAMP_WGSL,
-            gpu_types::RESPONSE_WGSL,
-            gpu_types::RADIANCE_PIXEL_WGSL,
-            include_str!("../../../shaders/environment.wgsl"),
-            include_str!("../../../shaders/light.wgsl"),
-        ],
-    };
-    let common = [
+/// The search of triangles.
+const BVH: [&str; 3] =
+    [gpu_types::TRIANGLE_WGSL, gpu_types::BVH_NODE_WGSL, include_str!("../../../shaders/bvh.wgsl")];
+
+/// What metal under light needs besides [`BVH`].
+const METAL: [&str; 3] = [
+    include_str!("../../../shaders/random.wgsl"),
+    include_str!("../../../shaders/microfacets.wgsl"),
+    include_str!("../../../shaders/metal.wgsl"),
+];
+
+/// Returns a shader's text, with its structs and constants in front; `has_metal` says whether metal stands beside the stones, which
+/// only pictures under light know.
+pub(super) fn source(facets: ShaderSurface, reading: ShaderTask, has_metal: bool) -> String {
+    let constants = constants(has_metal || facets.count_turns());
+    let mut parts = vec![
         gpu_types::FRAME_WGSL,
         gpu_types::BODY_WGSL,
         gpu_types::MEDIUM_WGSL,
         &constants,
-        stones,
+        "@group(0) @binding(0) var<uniform> frame: Frame;\n\
+         @group(0) @binding(4) var<uniform> bodies: array<Body, MOST_BODIES>;\n\
+         @group(0) @binding(5) var<storage, read> media: array<vec4f>;\n",
         include_str!("../../../shaders/optics.wgsl"),
         include_str!("../../../shaders/trace.wgsl"),
         include_str!("../../../shaders/pose.wgsl"),
         include_str!("../../../shaders/camera.wgsl"),
         include_str!("../../../shaders/tiles.wgsl"),
     ];
-    common.iter().chain(facets).chain(reading).copied().collect()
+    parts.extend(surface(facets));
+    if has_metal || facets == ShaderSurface::Triangles {
+        parts.extend(BVH);
+    }
+    match reading {
+        ShaderTask::Scope => parts.extend([
+            gpu_types::BANDS_WGSL,
+            gpu_types::SCOPE_PIXEL_WGSL,
+            include_str!("../../../shaders/scope.wgsl"),
+        ]),
+        ShaderTask::Light => {
+            parts.extend([
+                gpu_types::ENVIRONMENT_WGSL,
+                gpu_types::LAMP_WGSL,
+                gpu_types::RESPONSE_WGSL,
+                gpu_types::RADIANCE_PIXEL_WGSL,
+                include_str!("../../../shaders/environment.wgsl"),
+                include_str!("../../../shaders/light.wgsl"),
+            ]);
+            let beside: &[&str] =
+                if has_metal { &METAL } else { &[include_str!("../../../shaders/no_metal.wgsl")] };
+            parts.extend(beside);
+        }
+    }
+    parts.concat()
+}
+
+/// Returns the constants of the shaders; `counts_turns` says whether rays count the turns of all their loops.
+fn constants(counts_turns: bool) -> String {
+    format!(
+        "const MOST_PLANES: u32 = {MOST_UNIFORM}u;\nconst MOST_BODIES: u32 = {MOST_BODIES}u;\n\
+         const MOST_WAITING: u32 = {MOST_WAITING}u;\nconst MOST_LAMPS: u32 = {MOST_LAMPS}u;\n\
+         const MOST_WAVELENGTHS: u32 = {MOST_WAVELENGTHS}u;\nconst TEXEL_ANGLE: f32 = {TEXEL_ANGLE};\n\
+         const NONE: u32 = 0xffffffffu;\nconst MOST_INBOUND: u32 = {MOST_INBOUND}u;\n\
+         const MOST_LEVELS: u32 = {MOST_LEVELS}u;\nconst GROUPS_ACROSS: u32 = {GROUPS_ACROSS}u;\n\
+         const MOST_METALS: u32 = {MOST_METALS}u;\nconst ROUGHNESS_ROWS: u32 = {}u;\n\
+         const MOST_ROUGHNESS_ROWS: u32 = {}u;\nconst COUNTS_TURNS: bool = {counts_turns};\n",
+        Roughness::ROWS,
+        MOST_ROUGHNESSES * Roughness::ROWS,
+    )
+}
+
+/// Returns the texts that know a kind of surface, and where light goes that leaves it.
+fn surface(facets: ShaderSurface) -> Vec<&'static str> {
+    let leaving = include_str!("../../../shaders/leaving.wgsl");
+    let flat = include_str!("../../../shaders/flat.wgsl");
+    let fields = include_str!("../../../shaders/implicit.wgsl");
+    let jets = include_str!("../../../shaders/jets.wgsl");
+    let convex = include_str!("../../../shaders/convex.wgsl");
+    let branching = include_str!("../../../shaders/branching.wgsl");
+    match facets {
+        ShaderSurface::Few => vec![leaving, include_str!("../../../shaders/planes.wgsl"), flat, convex],
+        ShaderSurface::Many => {
+            let clusters = include_str!("../../../shaders/clusters.wgsl");
+            vec![gpu_types::CLUSTER_WGSL, leaving, clusters, flat, convex]
+        }
+        ShaderSurface::Triangles => vec![include_str!("../../../shaders/triangles.wgsl"), flat, branching],
+        ShaderSurface::Smooth => vec![gpu_types::IMPLICIT_SURFACE_WGSL, jets, fields, convex],
+        ShaderSurface::Wavy => vec![gpu_types::IMPLICIT_SURFACE_WGSL, jets, fields, branching],
+    }
 }
 
 impl Pipelines {
@@ -126,9 +160,9 @@ impl Pipelines {
         Self { reading, by_facets: Default::default() }
     }
 
-    pub fn kernel(&self, device: &wgpu::Device, facets: ShaderSurface) -> &Kernel {
-        self.by_facets[facets as usize].get_or_init(|| Kernel {
-            pipeline: compiled(device, source(facets, self.reading)),
+    pub fn kernel(&self, device: &wgpu::Device, facets: ShaderSurface, has_metal: bool) -> &Kernel {
+        self.by_facets[facets as usize][usize::from(has_metal)].get_or_init(|| Kernel {
+            pipeline: compiled(device, source(facets, self.reading, has_metal)),
             throttle: Mutex::default(),
         })
     }

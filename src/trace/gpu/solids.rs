@@ -1,15 +1,19 @@
-//! Packs the stones of a picture into a card's memory.
+//! Packs the stones of a picture, and the metal beside them, into a card's memory.
 
 use super::clusters::clusters;
 use super::device::Gpu;
 use super::fields::field;
 use super::gpu_types::{Body, Cluster, with};
 use super::limits::{MOST_BODIES, MOST_UNIFORM};
+use super::metals::{GpuMetals, meshes};
 use super::shaders::ShaderSurface;
 use super::triangles::GpuTriangles;
-use crate::math::{Ball, ImplicitSurface, Plane, PosedSolid, SolidRef};
+use crate::math::{Ball, ImplicitSurface, Plane, Pose, PosedSolid, ShadedMesh, SolidRef};
+use crate::scene::MetalInstance;
 use crate::trace::gpu::GpuError;
 use crate::trace::sampling::MOST_WAITING;
+use bytemuck::Zeroable;
+use glam::DVec3;
 
 /// The number of planes in a stone above which clusters are quicker than trying all planes one after the other.
 const FEW: usize = 192;
@@ -33,32 +37,45 @@ pub(super) fn most_turns(gpu: &Gpu) -> u32 {
     if gpu.is_software() { MOST_COUNTED_IN_SOFTWARE } else { MOST_TURNS }
 }
 
+/// Returns for how many sixteenths of a turn one plane counts, where turns are counted: a software driver counts it as a whole one, and a
+/// card tries many planes while one step among boxes waits for memory.
+pub(super) fn plane_sixteenths(gpu: &Gpu) -> u32 {
+    if gpu.is_software() { 16 } else { 1 }
+}
+
 /// The least number of bounces: with fewer, pictures of stones would be dark.
 const LEAST_BOUNCES: u32 = 12;
 
-/// The stones of a picture in a card's memory.
+/// The stones of a picture, and the metal beside them, in a card's memory.
 pub(super) struct Solids {
     pub surfaces: Surfaces,
     bodies: wgpu::Buffer,
     /// The unit of length in which the shader traces each stone, in units of the stone's body.
     pub units: Vec<f64>,
+    /// `None` where there is no metal.
+    pub metals: Option<GpuMetals>,
 }
 
 /// The surfaces of bodies, each once however many stones are made of it.
 pub(super) struct Surfaces {
     pub facets: ShaderSurface,
-    /// Planes, or triangles, or glass shapes.
-    planes: wgpu::Buffer,
-    /// Clusters of planes, or boxes of triangles.
-    clusters: wgpu::Buffer,
+    /// Planes, or glass shapes; `None` for triangles.
+    planes: Option<wgpu::Buffer>,
+    /// The clusters of planes where there are many.
+    clusters: Option<wgpu::Buffer>,
+    /// The triangles of stones and of metal, and the boxes around them.
+    triangles: Option<[wgpu::Buffer; 2]>,
     /// Where the surface of each body is kept, as in [`Body`].
     ranges: Vec<[u32; 4]>,
+    /// The same of each mesh of metal.
+    of_metals: Vec<[u32; 4]>,
     /// The number of planes and clusters of the largest body.
     largest: usize,
 }
 
 impl Surfaces {
-    fn new(gpu: &Gpu, solids: &[SolidRef]) -> Result<Self, GpuError> {
+    /// Packs the bodies of stones, and meshes of metal.
+    fn new(gpu: &Gpu, solids: &[SolidRef], metals: &[&ShadedMesh]) -> Result<Self, GpuError> {
         let planes = |s: &SolidRef| match s {
             SolidRef::Convex(polytope) => Some(polytope.planes().collect()),
             SolidRef::Triangles(_) | SolidRef::Smooth(_) => None,
@@ -67,44 +84,52 @@ impl Surfaces {
             SolidRef::Smooth(smooth) => Some(*smooth.field()),
             SolidRef::Convex(_) | SolidRef::Triangles(_) => None,
         });
-        if let Some(fields) = smooth.collect::<Option<Vec<ImplicitSurface>>>().filter(|f| !f.is_empty()) {
-            return Ok(Self::of_fields(gpu, &fields));
-        }
-        match solids.iter().map(planes).collect::<Option<Vec<Vec<Plane>>>>() {
-            Some(convex) => Ok(Self::of_planes(gpu, &convex)),
-            None => Self::of_triangles(gpu, solids),
+        let surfaces = if let Some(fields) = smooth.collect::<Option<Vec<_>>>().filter(|f| !f.is_empty()) {
+            Some(Self::of_fields(gpu, &fields))
+        } else {
+            // Clusters and the triangles of metal would need more storage buffers than every card has.
+            let convex = solids.iter().map(planes).collect::<Option<Vec<Vec<Plane>>>>();
+            convex.filter(|stones| metals.is_empty() || are_few(stones)).map(|s| Self::of_planes(gpu, &s))
+        };
+        match surfaces {
+            Some(surfaces) if metals.is_empty() => Ok(surfaces),
+            Some(surfaces) => surfaces.with_triangles(gpu, GpuTriangles::new(&[], metals)?),
+            // All bodies are packed as triangles, convex ones as well.
+            None => {
+                Self::bare(ShaderSurface::Triangles).with_triangles(gpu, GpuTriangles::new(solids, metals)?)
+            }
         }
     }
 
-    /// Packs all bodies as triangles, convex ones as well.
-    fn of_triangles(gpu: &Gpu, solids: &[SolidRef]) -> Result<Self, GpuError> {
-        let GpuTriangles { triangles, nodes, ranges } = GpuTriangles::new(solids)?;
+    /// Returns surfaces of a kind without any.
+    fn bare(facets: ShaderSurface) -> Self {
+        let (ranges, of_metals) = (vec![], vec![]);
+        Self { facets, planes: None, clusters: None, triangles: None, ranges, of_metals, largest: 0 }
+    }
+
+    /// Copies triangles to the card.
+    fn with_triangles(self, gpu: &Gpu, all: GpuTriangles) -> Result<Self, GpuError> {
+        let GpuTriangles { triangles, nodes, of_solids, of_metals } = all;
         let storage = wgpu::BufferUsages::STORAGE;
-        Ok(Self {
-            facets: ShaderSurface::Triangles,
-            planes: gpu.buffer("triangles", bytemuck::cast_slice(&triangles), storage),
-            clusters: gpu.buffer("boxes", bytemuck::cast_slice(&nodes), storage),
-            ranges,
-            largest: 0,
-        })
+        let triangles = gpu.buffer("triangles", bytemuck::cast_slice(&triangles), storage);
+        let boxes = gpu.buffer("boxes", bytemuck::cast_slice(&nodes), storage);
+        let ranges = if of_solids.is_empty() { self.ranges } else { of_solids };
+        Ok(Self { triangles: Some([triangles, boxes]), ranges, of_metals, ..self })
     }
 
     fn of_fields(gpu: &Gpu, fields: &[ImplicitSurface]) -> Self {
         let is_convex = fields.iter().all(ImplicitSurface::is_convex);
-        let shapes: Vec<_> = fields.iter().map(field).collect();
-        let storage = wgpu::BufferUsages::STORAGE;
+        let mut shapes: Vec<_> = fields.iter().map(field).collect();
+        shapes.resize(MOST_BODIES, Zeroable::zeroed());
         Self {
-            facets: if is_convex { ShaderSurface::Smooth } else { ShaderSurface::Wavy },
-            planes: gpu.buffer("shapes", bytemuck::cast_slice(&shapes), storage),
-            clusters: gpu.buffer("none", &[0; 16], storage),
+            planes: Some(gpu.buffer("shapes", bytemuck::cast_slice(&shapes), wgpu::BufferUsages::UNIFORM)),
             ranges: (0..fields.len() as u32).map(|k| [k, 0, 0, 0]).collect(),
-            largest: 0,
+            ..Self::bare(if is_convex { ShaderSurface::Smooth } else { ShaderSurface::Wavy })
         }
     }
 
     fn of_planes(gpu: &Gpu, stones: &[Vec<Plane>]) -> Self {
-        let all: usize = stones.iter().map(Vec::len).sum();
-        let is_few = all <= MOST_UNIFORM && stones.iter().all(|s| s.len() <= FEW);
+        let is_few = are_few(stones);
         let (mut planes, mut bunched, mut ranges, mut largest) = (vec![], vec![], vec![], 0);
         for stone in stones {
             let (order, own) = clusters(stone);
@@ -118,23 +143,28 @@ impl Surfaces {
             ranges.push([first, planes.len(), first_bunch, bunched.len()].map(|k| k as u32));
             largest = largest.max(stone.len() + own.len());
         }
-        if is_few {
+        let storage = wgpu::BufferUsages::STORAGE;
+        let (facets, kind, clusters) = if is_few {
             planes.resize(MOST_UNIFORM, [0.0; 4]);
-        }
-        let kind = if is_few { wgpu::BufferUsages::UNIFORM } else { wgpu::BufferUsages::STORAGE };
-        Self {
-            facets: if is_few { ShaderSurface::Few } else { ShaderSurface::Many },
-            planes: gpu.buffer("planes", bytemuck::cast_slice(&planes), kind),
-            clusters: gpu.buffer("clusters", bytemuck::cast_slice(&bunched), wgpu::BufferUsages::STORAGE),
-            ranges,
-            largest,
-        }
+            (ShaderSurface::Few, wgpu::BufferUsages::UNIFORM, None)
+        } else {
+            let clusters = gpu.buffer("clusters", bytemuck::cast_slice(&bunched), storage);
+            (ShaderSurface::Many, storage, Some(clusters))
+        };
+        let planes = Some(gpu.buffer("planes", bytemuck::cast_slice(&planes), kind));
+        Self { planes, clusters, ranges, largest, ..Self::bare(facets) }
     }
 }
 
+/// Whether planes are so few that they fit into the uniform array, and clusters would be slower.
+fn are_few(stones: &[Vec<Plane>]) -> bool {
+    stones.iter().map(Vec::len).sum::<usize>() <= MOST_UNIFORM && stones.iter().all(|s| s.len() <= FEW)
+}
+
 impl Solids {
-    pub fn new(gpu: &Gpu, stones: &[PosedSolid]) -> Result<Self, GpuError> {
-        if stones.is_empty() {
+    /// Packs stones, and metal beside them.
+    pub fn new(gpu: &Gpu, stones: &[PosedSolid], metals: &[MetalInstance]) -> Result<Self, GpuError> {
+        if stones.is_empty() && metals.is_empty() {
             return Err(GpuError::NoStones);
         }
         if stones.len() > MOST_BODIES {
@@ -149,21 +179,20 @@ impl Solids {
                 solids.push(stone.solid);
             }
         }
-        let surfaces = Surfaces::new(gpu, &solids)?;
+        let (meshes, mesh_of) = meshes(metals);
+        let surfaces = Surfaces::new(gpu, &solids, &meshes)?;
         let units: Vec<f64> = stones.iter().map(|stone| unit(stone.solid)).collect();
-        let body = |(k, stone): (usize, &PosedSolid)| {
-            let (Ball { middle, radius }, pose) = (stone.ball(), &stone.pose);
-            Body {
-                middle: with(middle, radius),
-                range: surfaces.ranges[place_of[k]],
-                turn: pose.turn.to_array().map(|x| x as f32),
-                place: with(pose.at, pose.scale * units[k]),
-            }
+        let packed = |(k, stone): (usize, &PosedSolid)| {
+            let Ball { middle, radius } = stone.ball();
+            body((middle, radius), surfaces.ranges[place_of[k]], &stone.pose, units[k])
         };
-        let mut bodies: Vec<Body> = stones.iter().enumerate().map(body).collect();
-        bodies.resize(MOST_BODIES, Body { middle: [0.0; 4], range: [0; 4], turn: [0.0; 4], place: [0.0; 4] });
+        let mut bodies: Vec<Body> = stones.iter().enumerate().map(packed).collect();
+        bodies.resize(MOST_BODIES, Body::zeroed());
         let bodies = gpu.buffer("stones", bytemuck::cast_slice(&bodies), wgpu::BufferUsages::UNIFORM);
-        Ok(Self { surfaces, bodies, units })
+        let ranges: Vec<[u32; 4]> = mesh_of.iter().map(|&mesh| surfaces.of_metals[mesh]).collect();
+        let is_any = !metals.is_empty();
+        let metals = is_any.then(|| GpuMetals::new(gpu, metals, &ranges)).transpose()?;
+        Ok(Self { surfaces, bodies, units, metals })
     }
 
     /// Returns the number of stones.
@@ -171,15 +200,26 @@ impl Solids {
         self.units.len()
     }
 
+    /// Returns the number of bodies of metal.
+    pub fn metal_count(&self) -> usize {
+        self.metals.as_ref().map_or(0, GpuMetals::count)
+    }
+
+    /// Whether rays count the turns of their loops, so that a limit ends them.
+    pub fn count_turns(&self) -> bool {
+        self.surfaces.facets.count_turns() || self.metals.is_some()
+    }
+
     /// Returns an estimate of the most that a ray through the stones costs in one wavelength, in plane tests.
     pub fn cost(&self, bounces: u32) -> f64 {
         let search = if self.surfaces.largest > 0 { self.surfaces.largest } else { SEARCH };
-        (1.0 + f64::from(bounces)) * search as f64 * self.count() as f64
+        let of_metal = if self.metals.is_some() { SEARCH } else { 0 };
+        (1.0 + f64::from(bounces)) * (search * self.count() + of_metal) as f64
     }
 
     /// Returns how many of the wanted bounces the card can follow.
     pub fn bounces(&self, gpu: &Gpu, wanted: u32) -> u32 {
-        if !gpu.is_software() || self.surfaces.facets.count_turns() {
+        if !gpu.is_software() || self.count_turns() {
             return wanted;
         }
         if self.count() == 1 {
@@ -204,11 +244,25 @@ impl Solids {
             binding,
             resource: buffer.as_entire_binding(),
         };
-        let mut entries = vec![entry(1, &self.surfaces.planes), entry(4, &self.bodies), entry(5, media)];
-        if matches!(self.surfaces.facets, ShaderSurface::Many | ShaderSurface::Triangles) {
-            entries.push(entry(3, &self.surfaces.clusters));
+        let mut entries = vec![entry(4, &self.bodies), entry(5, media)];
+        entries.extend(self.surfaces.planes.iter().map(|planes| entry(1, planes)));
+        entries.extend(self.surfaces.clusters.iter().map(|clusters| entry(3, clusters)));
+        if let Some([triangles, boxes]) = &self.surfaces.triangles {
+            entries.extend([entry(11, triangles), entry(12, boxes)]);
         }
+        entries.extend(self.metals.iter().flat_map(GpuMetals::entries));
         entries
+    }
+}
+
+/// Packs what the shader knows of a body: the ball around it, where its surface is kept, and its pose; it is traced in a unit of
+/// `unit` units of its frame.
+pub(super) fn body((middle, radius): (DVec3, f64), range: [u32; 4], pose: &Pose, unit: f64) -> Body {
+    Body {
+        middle: with(middle, radius),
+        range,
+        turn: pose.turn.to_array().map(|x| x as f32),
+        place: with(pose.at, pose.scale * unit),
     }
 }
 

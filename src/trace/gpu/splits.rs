@@ -6,13 +6,15 @@ use super::shaders::ShaderSurface;
 use super::throttle::Throttle;
 use super::{ByCard, Gpu, GpuEnvironment, ScopePixel};
 use crate::cut::{Design, Family, MaterialRef};
-use crate::optics::{Illuminant, Strata};
-use crate::scene::{ASET_CONE, Backing, Film, Light, Scene, Scope, Specimen, View};
+use crate::math::{ShadedMesh, ShadedSurface};
+use crate::optics::{Illuminant, Metal, Strata};
+use crate::scene::{ASET_CONE, Backing, Film, Light, MetalInstance, Scene, Scope, Specimen, View};
 use crate::trace::environment::{Environment, EnvironmentMap};
 use crate::trace::ray::RayOptions;
 use crate::trace::sampling::{LitScene, ProgressiveImage, SamplePass};
 use crate::trace::{ScopeShot, unwatched};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 /// No side is a multiple of a tile's.
 const SIZE: [u32; 2] = [61, 45];
@@ -47,6 +49,13 @@ fn specimen(family: &str) -> Specimen {
     Specimen::new(design).unwrap()
 }
 
+/// Returns an open leaf of gold under a stone, wider than it.
+fn leaf() -> MetalInstance {
+    let points = [[-2.0, -2.1], [2.2, -1.9], [0.1, 2.3]].map(|[x, y]| DVec3::new(x, y, -1.0)).to_vec();
+    let surface = ShadedSurface { points, corners: vec![[0, 1, 2]], normals: vec![] };
+    MetalInstance::new(&Arc::new(ShadedMesh::new(surface).unwrap()), Metal::Gold)
+}
+
 fn options() -> RayOptions {
     RayOptions { polarised: true, most_bounces: 6, least_weight: 1e-4 }
 }
@@ -66,7 +75,7 @@ fn lit(
     let lit_scene = LitScene { scene, environment, view: &view, film, options: options() };
     let around = GpuEnvironment::new(gpu, &environment).unwrap();
     let mut image = ByCard::new(gpu, &lit_scene, &around, 0..SIZE[1], BANDS as usize).unwrap();
-    *gpu.lights.kernel(&gpu.device, surface).throttle() = throttle;
+    *gpu.lights.kernel(&gpu.device, surface, !scene.metals.is_empty()).throttle() = throttle;
     image.stage.bands_at_once = bands;
     gpu.take_totals();
     for number in 0..PASSES {
@@ -91,7 +100,7 @@ fn in_scope(gpu: &Gpu, specimen: &Specimen, throttle: Throttle, per_side: u32) -
         shift: DVec2::splat(0.5),
         options: options(),
     };
-    *gpu.scopes.kernel(&gpu.device, ShaderSurface::Few).throttle() = throttle;
+    *gpu.scopes.kernel(&gpu.device, ShaderSurface::Few, false).throttle() = throttle;
     gpu.take_totals();
     let mut bits = vec![];
     let taken = gpu.scope::<Broken>(&shot, &unwatched, |_, pixels: &[ScopePixel]| {
@@ -108,8 +117,12 @@ fn pictures_under_light_are_the_same_to_the_bit_however_they_are_divided() {
         return;
     };
     let map = EnvironmentMap::new(&Light::lamps_on_dome(), None);
-    for (family, surface) in [("round_brilliant", ShaderSurface::Few), ("plate", ShaderSurface::Wavy)] {
-        let scene = Scene::alone(&specimen(family));
+    for (family, surface, metals) in [
+        ("round_brilliant", ShaderSurface::Few, vec![]),
+        ("plate", ShaderSurface::Wavy, vec![]),
+        ("round_brilliant", ShaderSurface::Few, vec![leaf()]),
+    ] {
+        let scene = Scene { metals, ..Scene::alone(&specimen(family)) };
         let taken = |division| lit(&gpu, (&scene, surface, &map), division, 0.0);
         let [whole, others @ ..] = divisions().map(taken);
         assert_eq!(whole.1, PASSES);

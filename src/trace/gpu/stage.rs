@@ -5,7 +5,7 @@ use super::gpu_types::{Frame, with};
 use super::limits::{GROUPS_ACROSS, MOST_BOUNCES};
 use super::pieces::{Piece, Pieces, stride};
 use super::shaders::Kernel;
-use super::solids::{Solids, most_turns};
+use super::solids::{Solids, most_turns, plane_sixteenths};
 use crate::scene::{Film, Projection, View};
 use crate::trace::ray::RayOptions;
 use crate::trace::{Stopped, Watch};
@@ -48,7 +48,7 @@ impl GpuCamera<'_> {
             film: [across, down, 0, 0],
             turn: [0, 1, 0, wavelengths as u32],
             tiles: [0, 0, 1, 1],
-            most: [most_turns(gpu), 0, 0, 0],
+            most: [most_turns(gpu), 0, solids.metal_count() as u32, plane_sixteenths(gpu)],
             sample: [1.0, 0.0, 0.0, 0.0],
         }
     }

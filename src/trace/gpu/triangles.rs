@@ -2,33 +2,57 @@
 
 use super::gpu_types::{BvhNode, Triangle, with};
 use super::limits::{MOST_LEVELS, MOST_TRIANGLES};
-use crate::math::{self, SolidRef, TriangleMesh};
+use crate::math::{self, Bvh, ShadedMesh, SolidRef, TriangleMesh};
 use crate::trace::gpu::GpuError;
 use std::sync::Arc;
 
-/// The triangles of solids, the boxes around them, and the range of each solid, as in [`super::gpu_types::Body`].
+/// The triangles of solids and of metal, the boxes around them, and the range of each body, as in [`super::gpu_types::Body`].
 pub(super) struct GpuTriangles {
+    /// The triangles, then the smooth normals of those of metal.
     pub triangles: Vec<Triangle>,
     pub nodes: Vec<BvhNode>,
-    pub ranges: Vec<[u32; 4]>,
+    pub of_solids: Vec<[u32; 4]>,
+    pub of_metals: Vec<[u32; 4]>,
 }
 
 impl GpuTriangles {
-    pub fn new(solids: &[SolidRef]) -> Result<Self, GpuError> {
-        let mut all = Self { triangles: vec![], nodes: vec![], ranges: vec![] };
+    /// Packs some solids and some bodies of metal.
+    pub fn new(solids: &[SolidRef], metals: &[&ShadedMesh]) -> Result<Self, GpuError> {
         let shells = solids.iter().map(shell).collect::<Result<Vec<Arc<TriangleMesh>>, GpuError>>()?;
-        let count = shells.iter().map(|s| s.facets().len()).sum();
-        if count > MOST_TRIANGLES || shells.iter().any(|s| s.bvh().depth() as usize > MOST_LEVELS) {
+        let of_metals: usize = metals.iter().map(|mesh| mesh.surface().corners.len()).sum();
+        let count = shells.iter().map(|s| s.facets().len()).sum::<usize>() + 2 * of_metals;
+        let mut trees = shells.iter().map(|s| s.bvh()).chain(metals.iter().map(|mesh| mesh.bvh()));
+        if count > MOST_TRIANGLES || trees.any(|tree| tree.depth() as usize > MOST_LEVELS) {
             return Err(GpuError::TooManyTriangles { count, most: MOST_TRIANGLES });
         }
+        let mut all = Self { triangles: vec![], nodes: vec![], of_solids: vec![], of_metals: vec![] };
         for shell in &shells {
-            let (first, first_node) = (all.triangles.len(), all.nodes.len());
+            let root = all.add_boxes(shell.bvh());
             all.triangles.extend(shell.bvh().order().iter().map(|&k| triangle(shell, k as usize)));
-            all.nodes.extend(shell.bvh().nodes().iter().map(|n| node(n, first)));
-            all.ranges.push([first_node as u32, (SolidRef::from(shell).reach() as f32).to_bits(), 0, 0]);
+            all.of_solids.push([root, reach_bits(SolidRef::from(shell).reach()), 0, 0]);
+        }
+        for mesh in metals {
+            let root = all.add_boxes(mesh.bvh());
+            all.triangles.extend(mesh.bvh().order().iter().map(|&k| shaded_triangle(mesh, k)));
+            // The normals follow all triangles, in their order.
+            all.of_metals.push([root, reach_bits(mesh.reach()), of_metals as u32, 0]);
+        }
+        for mesh in metals {
+            all.triangles.extend(mesh.bvh().order().iter().map(|&k| smooth_normals(mesh, k)));
         }
         Ok(all)
     }
+
+    /// Adds the boxes around triangles that are about to be added, and returns the place of the outermost.
+    fn add_boxes(&mut self, tree: &Bvh) -> u32 {
+        let (root, first) = (self.nodes.len() as u32, self.triangles.len());
+        self.nodes.extend(tree.nodes().iter().map(|n| node(n, first)));
+        root
+    }
+}
+
+fn reach_bits(reach: f64) -> u32 {
+    (reach as f32).to_bits()
 }
 
 /// Returns a solid as triangles; a convex stone's facets are triangulated.
@@ -41,6 +65,16 @@ fn triangle(shell: &TriangleMesh, k: usize) -> Triangle {
     let [a, b, c] = shell.surface().triangles[k].map(|v| shell.vertices()[v as usize]);
     let normal = shell.planes()[shell.facets()[k] as usize].normal;
     Triangle { a: with(a, normal.x), b: with(b, normal.y), c: with(c, normal.z) }
+}
+
+fn shaded_triangle(mesh: &ShadedMesh, k: u32) -> Triangle {
+    let ([a, b, c], (flat, _)) = (mesh.surface().triangle(k as usize), mesh.corner_normals(k));
+    Triangle { a: with(a, flat.x), b: with(b, flat.y), c: with(c, flat.z) }
+}
+
+fn smooth_normals(mesh: &ShadedMesh, k: u32) -> Triangle {
+    let [a, b, c] = mesh.corner_normals(k).1.map(|normal| with(normal, 0.0));
+    Triangle { a, b, c }
 }
 
 fn node(node: &math::BvhNode, first_triangle: usize) -> BvhNode {
@@ -63,9 +97,9 @@ mod tests {
             Arc::new(shell.reframed(&Pose { at, turn, ..Pose::STILL }))
         });
         let solids = shells.each_ref().map(SolidRef::from);
-        let all = GpuTriangles::new(&solids).unwrap();
+        let all = GpuTriangles::new(&solids, &[]).unwrap();
         let roots = [0, shells[0].bvh().nodes().len() as u32];
-        assert_eq!(all.ranges.iter().map(|range| range[0]).collect::<Vec<_>>(), roots);
+        assert_eq!(all.of_solids.iter().map(|range| range[0]).collect::<Vec<_>>(), roots);
         let mut next = 0;
         for node in all.nodes.iter().filter(|n| n.high[3] > 0.0) {
             let [first, count] = [node.low[3] as usize, node.high[3] as usize];

@@ -53,19 +53,12 @@ pub(super) struct MetalReflection {
 impl MetalTracer {
     /// Prepares the bodies of a scene; [`made_of`](Self::made_of) gives them their indices.
     pub fn of_all(metals: &[MetalInstance]) -> Vec<Self> {
-        let tracer = |metal: &MetalInstance| {
-            let Ball { middle, radius } = metal.mesh.ball();
-            Self {
-                mesh: Arc::clone(&metal.mesh),
-                pose: metal.pose,
-                // A little larger than it must be, for rounding.
-                ball: Ball {
-                    middle: metal.pose.place(middle),
-                    radius: radius * metal.pose.scale * (1.0 + 1e-5),
-                },
-                roughness: metal.roughness,
-                finish: None,
-            }
+        let tracer = |metal: &MetalInstance| Self {
+            mesh: Arc::clone(&metal.mesh),
+            pose: metal.pose,
+            ball: metal.ball(),
+            roughness: metal.roughness,
+            finish: None,
         };
         metals.iter().map(tracer).collect()
     }

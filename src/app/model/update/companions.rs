@@ -88,6 +88,7 @@ pub fn take_up(model: &mut Model, number: usize) {
     let copies = Copies {
         poses: of_kind.iter().map(|stone| Pose { scale: 1.0, ..in_unit.after(&stone.pose) }).collect(),
         room: copies.room.map(|room| room * own_mm / unit_mm),
+        movement: copies.movement,
     };
     let metals = companions.metals.clone();
     let companions = Companions { stones: left.chain(others).collect(), metals };

@@ -48,6 +48,7 @@ pub fn edit(model: &mut Model, edit: Edit) {
         Edit::Exposure(stops) => work.exposure = stops,
         Edit::Head(degrees) => work.head = degrees,
         Edit::LayOut(count) => lay_out(model, count),
+        Edit::Movement(movement) => work.copies.movement = movement,
         Edit::Copy(copy, pose) => {
             companions::move_to(&mut model.document, MovedStone::Copy(copy), pose);
         }
@@ -151,5 +152,5 @@ fn lay_out(model: &mut Model, count: usize) {
         .collect();
     let mut laid = Copies::scattered(count, &corners, model.session.layings);
     laid.poses.iter_mut().enumerate().for_each(|(k, pose)| pose.turn = turn(k));
-    *copies = laid;
+    *copies = Copies { movement: copies.movement, ..laid };
 }

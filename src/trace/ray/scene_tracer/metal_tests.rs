@@ -1,7 +1,7 @@
 //! Scenes with metal: all light is accounted for, and nothing depends on what it must not depend on.
 
 use super::*;
-use crate::math::{Plane, Polytope, Pose, ShadedMesh, ShadedSurface};
+use crate::math::{Plane, Polytope, Pose, ShadedMesh, ShadedSurface, torus};
 use crate::optics::{Metal, Strata, material, metal_reflectance};
 use crate::scene::{Film, Instance, Light, MetalInstance, Scene, View};
 use crate::trace::environment::{Environment, EnvironmentMap};
@@ -10,30 +10,12 @@ use crate::trace::sampling::Sampling;
 use crate::trace::unwatched;
 use glam::DVec3;
 use num_complex::Complex64;
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
 const SIZE: u32 = 32;
 
 /// A metal that absorbs next to nothing.
 const PERFECT: Complex64 = Complex64::new(1.0, 1e9);
-
-/// Returns a torus around z, cut into this many parts along and across.
-fn torus((major, minor): (f64, f64), (along, across): (u32, u32), is_smooth: bool) -> ShadedMesh {
-    let (mut points, mut normals, mut corners) = (vec![], vec![], vec![]);
-    for k in 0..along * across {
-        let (i, j) = (k / across, k % across);
-        let [(sin, cos), (up, out)] =
-            [(i, along), (j, across)].map(|(k, of)| (TAU * f64::from(k) / f64::from(of)).sin_cos());
-        normals.push(DVec3::new(out * cos, out * sin, up));
-        points.push(DVec3::new((major + minor * out) * cos, (major + minor * out) * sin, minor * up));
-        let place = |i: u32, j: u32| (i % along) * across + j % across;
-        let [a, b, c, d] = [place(i, j), place(i + 1, j), place(i + 1, j + 1), place(i, j + 1)];
-        corners.extend([[a, b, c], [a, c, d]]);
-    }
-    let normals = if is_smooth { normals } else { vec![] };
-    ShadedMesh::new(ShadedSurface { points, corners, normals }).unwrap()
-}
 
 fn of(mesh: ShadedMesh, metal: Metal, roughness: f64) -> MetalInstance {
     MetalInstance { roughness, ..MetalInstance::new(&Arc::new(mesh), metal) }

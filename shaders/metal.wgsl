@@ -1,0 +1,198 @@
+// Bodies of metal beside the stones: the twin of src/trace/ray/metal_tracer.rs, of what src/trace/ray/scene_tracer.rs does with them, of
+// src/trace/ray/lobe_luck.rs, and of the sieve in src/trace/ray/roulette.rs.
+
+@group(0) @binding(13) var<uniform> metals: array<Body, MOST_METALS>;
+@group(0) @binding(14) var<uniform> roughnesses: array<vec4f, MOST_ROUGHNESS_ROWS>;
+
+// The most reflections by metal on a ray's way.
+const MOST_REFLECTIONS: u32 = 256u;
+// How far from its start light that metal has reflected meets nothing of that body, as a share of how far it reaches: some thirty
+// roundings.
+const AWAY: f32 = 2e-6;
+// As in metal_tracer.rs.
+const LIFT = vec2f(0.9, 0.01);
+const LEAST_SINE: f32 = 1e-6;
+const PARTS: f32 = 64.0;
+// The squared length below which a vector has no direction.
+const SHORT: f32 = 1e-36;
+// As in lobe_luck.rs.
+const STEP_X = vec2u(0x5f1d36f1u, 0xa54ff53au);
+const STEP_Y = vec2u(0x2425cfa0u, 0x7311c281u);
+const STEP_Z = vec2u(0xd3a0a666u, 0xca91d722u);
+const SALT = vec2u(0x6c75636cu, 0x6d657461u);
+// The first number of a roulette that is drawn at random.
+const EVEN: u32 = 4u;
+
+// What decides by chance where light goes on: the seeds of the directions that rough metal draws and of the roulette, the number of the ray
+// in its pixel, by which the roulette draws, and the number of reflections by metal so far.
+struct Chances {
+    luck: vec2u,
+    roulette: vec2u,
+    number: vec2u,
+    reflections: u32,
+}
+
+// The weight of what the sieve has not let pass since the last weak light that it did.
+var<private> level: f32;
+
+fn chances_of_pixel(pixel: vec2u, wavelength: u32) -> Chances {
+    let seed = mixed_bits(vec2u(pixel.y, pixel.x));
+    let number = sum64(wide_product(frame.most.y, frame.counts.y), vec2u(wavelength, 0u));
+    return Chances(mixed_bits(seed ^ SALT), seed, number, 0u);
+}
+
+fn chances_beyond(own: Chances, exit: u32) -> Chances {
+    let by = mixed_bits(vec2u(exit, 0u));
+    return Chances(mixed_bits(own.luck ^ by), mixed_bits(own.roulette ^ by), own.number, own.reflections);
+}
+
+fn is_reflected(own: Chances) -> bool {
+    return own.reflections > 0u;
+}
+
+// Begins the sieve of the light that leaves one body.
+fn begin_sieve(own: Chances) {
+    let seed = mixed_bits(own.roulette ^ mixed_bits(vec2u(0u)));
+    let bits = mixed_bits(mixed_bits(sum64(seed, vec2u(EVEN, 0u))) ^ mixed_bits(own.number));
+    level = unit_of_bits(bits) * frame.limits.y;
+}
+
+// Returns the weight with which light of this weight goes on to another body; 0 where chance ends it.
+fn sieved(weight: f32) -> f32 {
+    if weight > frame.limits.y {
+        return weight;
+    }
+    level += weight;
+    if level < frame.limits.y {
+        return 0.0;
+    }
+    level -= frame.limits.y;
+    return frame.limits.y;
+}
+
+// Returns one of the three numbers from 0 to below 1 by which metal draws a direction.
+fn drawn(own: Chances, k: u32, step: vec2u) -> f32 {
+    let bits = mixed_bits(sum64(own.luck, vec2u(k, 0u)));
+    let number = vec2u(frame.most.y, 0u);
+    if own.reflections > 0u {
+        return unit_of_bits(mixed_bits(bits ^ mixed_bits(number)));
+    }
+    return unit_of_bits(sum64(bits, product64(step, number)));
+}
+
+// Returns where a ray meets a body of metal, of which it has just left a triangle, or NONE; makes that body the present one.
+fn metal_met(metal: u32, ray: Ray, left: u32) -> Meeting {
+    body = metals[metal];
+    let after = select(AWAY * bitcast<f32>(body.range.y), 0.0, left == NONE);
+    let met = nearest_triangle(unplace(ray.origin), own_vector(ray.direction), 0.0, left, after);
+    return Meeting(met.facet, met.distance * unit());
+}
+
+// Returns what a ray meets first, metal or the stone that it meets first.
+fn with_metal(stone: First, ray: Ray, left: Left) -> First {
+    var first = stone;
+    turns += frame.most.z;
+    for (var k = 0u; k < frame.most.z; k++) {
+        if !is_near(metals[k].middle, ray) {
+            continue;
+        }
+        let met = metal_met(k, ray, select(NONE, left.triangle, left.body == MOST_BODIES + k));
+        if met.distance >= 0.0 && (first.body == NONE || met.distance <= first.met.distance) {
+            first = First(MOST_BODIES + k, met);
+        }
+    }
+    return first;
+}
+
+// Whether a ray meets metal before this distance.
+fn meets_metal(ray: Ray, before: f32) -> bool {
+    var found = false;
+    turns += frame.most.z;
+    for (var k = 0u; k < frame.most.z; k++) {
+        if !found && is_near(metals[k].middle, ray) {
+            let distance = metal_met(k, ray, NONE).distance;
+            found = distance >= 0.0 && distance < before;
+        }
+    }
+    return found;
+}
+
+// Returns a vector at unit length, or another where it has no direction.
+fn normal_or(v: vec3f, otherwise: vec3f) -> vec3f {
+    let square = dot(v, v);
+    return select(otherwise, v * inverseSqrt(max(square, SHORT)), square > SHORT);
+}
+
+// The twin of `bent` in metal_tracer.rs.
+fn bent(shading: vec3f, flat: vec3f, out: vec3f) -> vec3f {
+    let image = shading * (2.0 * dot(shading, out)) - out;
+    let lacking = min(LIFT.x * dot(flat, out), LIFT.y) - dot(image, flat);
+    if lacking <= 0.0 {
+        return shading;
+    }
+    return normal_or(out + normal_or(image + flat * lacking, flat), flat);
+}
+
+// The twin of `above` in metal_tracer.rs.
+fn above(direction: vec3f, flat: vec3f) -> vec3f {
+    let sine = dot(direction, flat);
+    if sine >= LEAST_SINE {
+        return direction;
+    }
+    return normal_or(direction + flat * (max(abs(sine), LEAST_SINE) - sine), flat);
+}
+
+// Returns the normals at a point of a triangle of the present body, in the world: the triangle's, and the one by which light is reflected.
+fn normals_at(triangle: u32, place: vec3f) -> array<vec3f, 2> {
+    let t = triangles[triangle];
+    let corner = triangles[triangle + body.range.z];
+    let flat = vec3f(t.a.w, t.b.w, t.c.w);
+    let point = unplace(place);
+    let a = t.a.xyz - point;
+    let b = t.b.xyz - point;
+    let c = t.c.xyz - point;
+    // Areas of the three parts around the point, each opposite its corner.
+    let shares = max(vec3f(dot(cross(b, c), flat), dot(cross(c, a), flat), dot(cross(a, b), flat)), vec3f(0.0));
+    let shading = corner.a.xyz * shares.x + corner.b.xyz * shares.y + corner.c.xyz * shares.z;
+    return array<vec3f, 2>(world_vector(flat), world_vector(normal_or(shading, flat)));
+}
+
+// Reflects light at the body of metal that it meets first, and sends it on.
+fn reflect_by_metal(next: Waiting, wavelength: u32) {
+    let own = next.chances;
+    if own.reflections >= MOST_REFLECTIONS {
+        sum.rest.x += next.weight;
+        return;
+    }
+    body = metals[next.first.body - MOST_BODIES];
+    let hit = next.first.met;
+    let place = next.ray.origin + next.ray.direction * hit.distance;
+    let normals = normals_at(hit.facet, place);
+    let out = -next.ray.direction;
+    let side = select(1.0, -1.0, dot(normals[0], out) < 0.0);
+    let flat = normals[0] * side;
+    let up = bent(normals[1] * side, flat, out);
+    // T. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017, as in glam.
+    let sign = select(-1.0, 1.0, up.z >= 0.0);
+    let a = -1.0 / (sign + up.z);
+    let b = up.x * up.y * a;
+    let right = vec3f(1.0 + sign * up.x * up.x * a, sign * b, -sign * up.x);
+    let ahead = vec3f(b, sign + up.y * up.y * a, -up.y);
+    let seen = normalize(vec3f(dot(right, out), dot(ahead, out), max(dot(up, out), LEAST_SINE)));
+    let finish = media[frame.counts.x * frame.counts.y + body.range.w * frame.counts.y + wavelength];
+    let luck = vec3f(drawn(own, 0u, STEP_X), drawn(own, 1u, STEP_Y), drawn(own, 2u, STEP_Z));
+    let found = sample_metal(finish, seen, luck);
+    sum.rest.y += next.weight * (1.0 - found.weight);
+    if found.weight <= 0.0 {
+        return;
+    }
+    let toward = above(right * found.direction.x + ahead * found.direction.y + up * found.direction.z, flat);
+    let middle = normal_or(toward + out, up);
+    let fan = next.ray.fan - middle * (2.0 * dot(next.ray.fan, middle));
+    let ray = Ray(place, toward, fan, next.ray.shift + next.ray.fan * hit.distance);
+    let by = mixed_bits(vec2u(1u, 0u));
+    let later =
+        Chances(mixed_bits(own.luck ^ SALT), mixed_bits(own.roulette ^ by), own.number, own.reflections + 1u);
+    let left = Left(next.first.body, hit.facet);
+    onward(ray, next.weight * found.weight, sqrt(found.solid_angle / PARTS), left, later);
+}

@@ -1,0 +1,81 @@
+//! How bodies move in time: copies tumble, and plates wave.
+
+use crate::cut::{Cut, Glass};
+use serde::{Deserialize, Serialize};
+
+/// How fast a wave runs, radians a second.
+const WAVING: f64 = 2.0;
+
+/// How plates of glass with a wave move. All other bodies tumble.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[serde(rename_all = "kebab-case")]
+pub enum Movement {
+    /// Plates tumble as other bodies do, and their waves run.
+    #[default]
+    Both,
+    /// Plates tumble, and their waves stand still.
+    Tumble,
+    /// The waves run, and the plates stay in their pose.
+    Wave,
+}
+
+impl Movement {
+    /// The movements by name.
+    pub const NAMES: [(&str, Self); 3] =
+        [("both", Self::Both), ("tumble", Self::Tumble), ("wave", Self::Wave)];
+
+    /// Returns the movement's name.
+    pub fn name(self) -> &'static str {
+        Self::NAMES.into_iter().find(|(_, movement)| *movement == self).map_or("both", |(name, _)| name)
+    }
+
+    /// Whether a body of this cut tumbles.
+    pub fn tumbles(self, cut: &Cut) -> bool {
+        self != Self::Wave || !has_wave(cut)
+    }
+
+    /// Whether a body of this cut waves.
+    pub fn waves(self, cut: &Cut) -> bool {
+        self != Self::Tumble && has_wave(cut)
+    }
+
+    /// Returns a cut as its wave is some seconds after rest; `None` where it does not wave.
+    pub fn waved(self, cut: &Cut, seconds: f64) -> Option<Cut> {
+        match cut {
+            Cut::Glass(Glass::Plate(plate)) if self.waves(cut) => {
+                let mut plate = *plate;
+                plate.phase = (plate.phase + (WAVING * seconds).to_degrees()).rem_euclid(360.0);
+                Some(Cut::Glass(Glass::Plate(plate)))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Whether a cut is a plate with a wave.
+pub fn has_wave(cut: &Cut) -> bool {
+    matches!(cut, Cut::Glass(Glass::Plate(plate)) if plate.amplitude > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::Family;
+
+    #[test]
+    fn plates_move_as_they_are_told_to_and_all_else_tumbles() {
+        let [plate, cube] = ["plate", "cube"].map(|key| Family::of_key(key).unwrap().first.clone());
+        let moves = |cut: &Cut| Movement::NAMES.map(|(_, m)| (m.tumbles(cut), m.waves(cut)));
+        assert_eq!(moves(&plate), [(true, true), (true, false), (false, true)]);
+        assert_eq!(moves(&cube), [(true, false); 3]);
+        let phase = |cut: &Cut| match cut {
+            Cut::Glass(Glass::Plate(plate)) => plate.phase,
+            _ => f64::NAN,
+        };
+        let later = Movement::Wave.waved(&plate, 0.7).unwrap();
+        let turned = (phase(&later) - phase(&plate)).rem_euclid(360.0);
+        assert!((turned - 1.4_f64.to_degrees()).abs() < 1e-9, "{turned}");
+        assert!(Movement::Tumble.waved(&plate, 0.7).is_none() && Movement::Both.waved(&cube, 0.7).is_none());
+    }
+}
