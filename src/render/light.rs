@@ -132,7 +132,7 @@ impl Exposure<'_> {
         let mut taken = 0;
         while taken < count {
             // The picture is shown after 1, 2, 4, 8 and so on passes; those between are taken together.
-            let next = (2 * taken).clamp(1, count);
+            let next = (taken.max(hidden.min(count)) + 1).next_power_of_two().min(count);
             let done = |part: f64| {
                 (self.watch)((f64::from(taken) + f64::from(next - taken) * part) / f64::from(count))
             };
