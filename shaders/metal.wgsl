@@ -18,8 +18,8 @@ const SHORT: f32 = 1e-36;
 // As in lobe_luck.rs.
 const STEP_X = vec2u(0x5f1d36f1u, 0xa54ff53au);
 const STEP_Y = vec2u(0x2425cfa0u, 0x7311c281u);
-const STEP_Z = vec2u(0xd3a0a666u, 0xca91d722u);
-const SALT = vec2u(0x6c75636cu, 0x6d657461u);
+const STEP_Z = vec2u(0xa3d0a666u, 0xca91d722u);
+const SALT = vec2u(0x6c6c7563u, 0x6d657461u);
 // The first number of a roulette that is drawn at random.
 const EVEN: u32 = 4u;
 

@@ -110,6 +110,6 @@ fn metal_reflects_on_the_card_as_in_the_library() {
     let ([direction, weight, angle], count) = compared(&given, &found, 1.0);
     assert!(count > 17_000, "{count} compared");
     assert!(direction < 1e-3 && weight < 2e-3 && angle < 5e-3, "{direction:e} {weight:e} {angle:e}");
-    let mutant = compared(&given, &found, 1.02).0[1];
+    let mutant = compared(&given, &found, 1.05).0[1];
     assert!(mutant > 2e-2, "another index makes only {mutant:e}");
 }

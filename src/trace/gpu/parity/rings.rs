@@ -75,6 +75,9 @@ impl Shot {
     }
 }
 
+/// A change of a scene.
+type Change = fn(&mut Scene);
+
 /// Returns an open square plate with sides along x and y.
 fn plate(half: f64) -> Arc<ShadedMesh> {
     let points = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| DVec3::new(x, y, 0.0));
@@ -187,7 +190,7 @@ fn the_comparison_of_metal_sees_every_change() {
     let base = || ring(gem(), 0.3);
     let exact = base().by_rays();
     assert_same("no change", &differences(&exact, &base().by_card(&gpu)));
-    let changes: [(&str, fn(&mut Scene)); 7] = [
+    let changes: [(&str, Change); 7] = [
         ("metal", |s| s.metals[0].metal = Metal::Silver),
         ("roughness", |s| s.metals[0].roughness = 0.35),
         ("a mirror's roughness", |s| s.metals[1].roughness = 0.2),
