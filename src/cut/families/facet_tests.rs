@@ -123,9 +123,12 @@ fn split_meets(cut: &Cut) -> Option<usize> {
 fn facets_meet_in_points() {
     let first = made().filter_map(|(family, _)| Some((family.key, split_meets(&family.first)?)));
     let first: Vec<_> = first.filter(|(_, count)| *count > 0).collect();
-    assert_eq!(first, []);
-    // These have short edges at some numbers: where chevrons part, or where rows or a corner's facet nearly end in a point.
-    let others = ["asscher", "radiant"];
+    // Where a pair of chevrons parts in the middle of a side, the outline has no corner: with one, the stone would be narrower in a
+    // direction beside that of its width, by 4e-5 where it is square, and be measured so in another format.
+    assert_eq!(first, [("modified_cushion", 8)]);
+    // These have short edges, where chevrons part or rows or a corner's facet nearly end in a point: in so many stones of 300 at most.
+    let others = [("modified_cushion", 300), ("asscher", 300), ("radiant", 300)];
+    let most = |key: &str| others.iter().find(|(other, _)| *other == key).map_or(0, |(_, most)| *most);
     let found: RefCell<BTreeMap<_, u32>> = RefCell::default();
     on_random_cuts(|family, cut| {
         let Some(splits) = split_meets(cut) else { return Ok(false) };
@@ -133,7 +136,7 @@ fn facets_meet_in_points() {
         Ok(true)
     });
     let found = found.into_inner();
-    let split: Vec<_> = found.iter().filter(|(key, count)| **count > 0 && !others.contains(key)).collect();
+    let split: Vec<_> = found.iter().filter(|(key, count)| **count > most(key)).collect();
     assert!(found.len() > 15 && split.is_empty(), "stones of 300 with split meets: {split:?}");
 }
 

@@ -11,7 +11,7 @@ use super::super::shape::Cut;
 use super::brilliant::Brilliant;
 use super::curves::around;
 use super::cushion_chevrons::CushionChevrons;
-use super::girdle::{Girdle, GirdlePlace};
+use super::girdle::Girdle;
 use super::{brilliant_rows, cushion, rows};
 use glam::DVec2;
 
@@ -100,10 +100,7 @@ fn depth(cut: &FamilyCut) -> f64 {
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let quarter = cushion::quarter(cut[LENGTH], cut[BULGE], cut[CORNER])?;
-    // A pair of chevrons parts in the middle of a side: there two facets of the girdle meet as well.
-    let is_middle = |part: f64| part == 0.0 || part == 1.0;
-    let place = |part: f64| GirdlePlace { is_corner: is_middle(part), ..quarter.at(part) };
-    let girdle = Girdle::new(8, |way| around(way, place));
+    let girdle = Girdle::new(8, |way| around(way, |part| quarter.at(part)));
     let (table, thickness) = (cut[TABLE] / 100.0, cut[GIRDLE] / 50.0);
     let chevrons = CushionChevrons { girdle: &girdle, thickness, slopes: slopes(cut), tip: cut[TIP] / 100.0 };
     let brilliant = Brilliant {
