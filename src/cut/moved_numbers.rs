@@ -72,11 +72,10 @@ mod tests {
 
     /// Returns the rows that move others, of all families, with a possible cut of the family.
     fn moving() -> impl Iterator<Item = (&'static Proportion, &'static Cut)> {
-        let rows = FAMILIES.into_iter().flat_map(|family| {
+        FAMILIES.into_iter().flat_map(|family| {
             let moving = family.proportions.iter().filter(|row| !row.moves.is_empty());
             moving.map(move |row| (row, &family.first))
-        });
-        rows
+        })
     }
 
     #[test]
@@ -109,7 +108,7 @@ mod tests {
             row.set(&mut cut, (row.get)(first) + 1.0);
             for ((given, now), (_, before)) in cut.given().zip(first.given()) {
                 let moves = |key: &&str| *key == given.key || given.pair == Some(key);
-                assert_eq!(now != before, row.moves.iter().any(|key| moves(&key)), "{given:?} of {first:?}");
+                assert_eq!(now != before, row.moves.iter().any(moves), "{given:?} of {first:?}");
             }
         }
     }
