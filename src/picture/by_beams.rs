@@ -126,8 +126,8 @@ impl<'a> ByBeams<'a> {
         ((MOST_BYTES / piece).max(1) as u32).saturating_mul(PIECE)
     }
 
-    /// Prepares some rows of a picture, as [`new`](Self::new) does for all. Each sample pass still traces the beams of
-    /// the whole picture.
+    /// Prepares some rows of a picture, as [`new`](Self::new) does for all. Each range of rows traces
+    /// the beams of the whole picture anew.
     ///
     /// Where the ranges begin at multiples of [`most_rows`](Self::most_rows), the rows equal those of the whole picture
     /// to the bit.
@@ -316,16 +316,25 @@ impl ByBeams<'_> {
 
 impl<E: From<Stopped>> ProgressiveImage<E> for ByBeams<'_> {
     fn add_pass(&mut self, pass: &SamplePass, watch: Watch) -> Result<(), E> {
-        self.add_passes(std::slice::from_ref(pass), watch)
+        match self.is_apart {
+            true => Ok(self.add_apart(pass, watch)?),
+            false => Ok(self.add_shared(std::slice::from_ref(pass), watch)?),
+        }
     }
 
-    fn add_passes(&mut self, passes: &[SamplePass], watch: Watch) -> Result<(), E> {
+    fn add_passes(
+        &mut self,
+        numbers: Range<u32>,
+        pass: &dyn Fn(u32) -> SamplePass,
+        watch: Watch,
+    ) -> Result<(), E> {
         if !self.is_apart {
-            return Ok(self.add_shared(passes, watch)?);
+            let passes: Vec<SamplePass> = numbers.map(pass).collect();
+            return Ok(self.add_shared(&passes, watch)?);
         }
-        let all = passes.len() as f64;
-        for (number, pass) in passes.iter().enumerate() {
-            self.add_apart(pass, &|part| watch((number as f64 + part) / all))?;
+        let all = numbers.len() as f64;
+        for (done, number) in numbers.enumerate() {
+            self.add_apart(&pass(number), &|part| watch((done as f64 + part) / all))?;
         }
         Ok(())
     }

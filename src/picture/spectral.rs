@@ -2,7 +2,7 @@
 
 use super::Linear;
 use crate::optics::Strata;
-use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass, Sampling};
+use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, Sampling};
 use crate::trace::{Stopped, Watch};
 use std::ops::Range;
 
@@ -48,10 +48,9 @@ pub fn expose_rows<E: From<Stopped>, X: ProgressiveImage<E>>(
     for first in (0..height).step_by(most_rows as usize) {
         let rows = first..(first + most_rows).min(height);
         let mut exposure = prepare(rows.clone())?;
-        let passes: Vec<SamplePass> =
-            (0..sampling.count).map(|number| sampling.pass(lit_scene.scene, strata, number)).collect();
+        let pass = |number: u32| sampling.pass(lit_scene.scene, strata, number);
         let done = |part: f64| watch((f64::from(rows.start) + rows.len() as f64 * part) / f64::from(height));
-        exposure.add_passes(&passes, &done)?;
+        exposure.add_passes(0..sampling.count, &pass, &done)?;
         sum.add(&exposure)?;
     }
     Ok(sum.remainder())

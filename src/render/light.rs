@@ -139,8 +139,7 @@ impl Exposure<'_> {
             let pass = |number: u32| {
                 self.sampling.pass(self.lit_scene.scene, &self.strata, first.wrapping_add(number))
             };
-            let passes: Vec<SamplePass> = (taken..next).map(pass).collect();
-            image.add_passes(&passes, &done)?;
+            image.add_passes(taken..next, &pass, &done)?;
             taken = next;
             let is_white = self.strata.is_white_after(taken);
             if taken == count || taken > hidden && is_white {

@@ -8,6 +8,7 @@ use crate::scene::{Film, Instance, Medium, Scene, View};
 use crate::trace::ray::{RayOptions, Roulette};
 use glam::{DVec2, DVec3, DVec4};
 use num_complex::Complex64;
+use std::ops::Range;
 
 /// Stones and metal in one world, the environment around them, and the camera.
 #[derive(Clone, Copy)]
@@ -100,14 +101,20 @@ pub trait ProgressiveImage<E: From<Stopped>> {
     /// Fails with [`Stopped`] when `watch` stops the work, or with the error of a graphics card.
     fn add_pass(&mut self, pass: &SamplePass, watch: Watch) -> Result<(), E>;
 
-    /// Adds several sample passes. Some tracers do what they have in common once.
+    /// Adds the sample passes of these numbers, which `pass` makes. Some tracers do what passes have in common once; the
+    /// others hold one pass at a time.
     ///
     /// # Errors
-    /// Those of [`add_pass`](Self::add_pass).
-    fn add_passes(&mut self, passes: &[SamplePass], watch: Watch) -> Result<(), E> {
-        let all = passes.len() as f64;
-        for (number, pass) in passes.iter().enumerate() {
-            self.add_pass(pass, &|part| watch((number as f64 + part) / all))?;
+    /// Fails as [`add_pass`](Self::add_pass) does.
+    fn add_passes(
+        &mut self,
+        numbers: Range<u32>,
+        pass: &dyn Fn(u32) -> SamplePass,
+        watch: Watch,
+    ) -> Result<(), E> {
+        let all = numbers.len() as f64;
+        for (done, number) in numbers.enumerate() {
+            self.add_pass(&pass(number), &|part| watch((done as f64 + part) / all))?;
         }
         Ok(())
     }

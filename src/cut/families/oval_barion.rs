@@ -104,7 +104,8 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     pavilion.add_half_moon(&mut quarters, DVec2::X, outline.size);
     for place in 0..3 {
         let (from, inward) = outline.corner(place);
-        let foot = pavilion.down(from, inward * pavilion.cotangent).ok_or(moon)?;
+        let no_room = NoRoom { tier: MOONS[place + 1] };
+        let foot = pavilion.down(from, inward * pavilion.cotangent).ok_or(no_room)?;
         let ends = [from, outline.corner(place + 1).0].map(|at| pavilion.on_girdle(at));
         quarters.through(MOONS[place + 1], [ends[0], ends[1], foot])?;
         feet.push(foot);

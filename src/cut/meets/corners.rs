@@ -11,7 +11,7 @@ use glam::DVec3;
 const MOST_REACHED: usize = 8;
 
 /// The most meets that are followed through the whole design before a corner counts as one that no meet names.
-const MOST_FOLLOWED: usize = 12;
+pub(super) const MOST_FOLLOWED: usize = 12;
 
 /// A corner of the stone to which a facet of a tier can be cut.
 #[derive(Debug, Clone, PartialEq)]

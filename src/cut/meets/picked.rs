@@ -1,7 +1,7 @@
 //! The meet that leads a tier through two or three corners which were picked: its angle follows from two, its index too from three.
 
 use super::super::tiers::{Tier, Tiers};
-use super::corners::TierCorner;
+use super::corners::{MOST_FOLLOWED, TierCorner};
 use super::found::{NAMES, PASSES};
 use super::meet::{Meet, MeetPoint};
 use super::solve::{Bench, TierOutcome};
@@ -54,8 +54,8 @@ impl Tiers {
             let turned = bench.turned(&tier, &planes, facet, corners)?;
             let ways = corners.iter().map(|corner| bench.ways(place, &turned, facet, corner));
             let meets = combined(&ways.collect::<Vec<_>>()).into_iter().map(Meet::Points);
-            let mut given = meets.filter(|meet| bench.follow(place, &mut tier.clone(), meet).is_ok());
-            given.find(|meet| self.passes(place, &tier, meet, (facet, corners)))
+            let given = meets.filter(|meet| bench.follow(place, &mut tier.clone(), meet).is_ok());
+            given.take(MOST_FOLLOWED).find(|meet| self.passes(place, &tier, meet, (facet, corners)))
         })
     }
 

@@ -17,6 +17,7 @@ use crate::trace::sampling::{SamplePass, colour};
 use crate::trace::shared_tail::SharedTail;
 use crate::trace::{DispersedRay, Stopped, Watch};
 use glam::{DAffine2, DMat2, DVec2, DVec3, DVec4};
+use std::cmp::Ordering;
 use std::ops::Range;
 
 /// The most by which sharing one beam may change a pixel, as a part of what light of radiance 1 gives.
@@ -94,7 +95,12 @@ impl<'a> SharedPicture<'a> {
         let bands = passes.iter().flat_map(|pass| pass.media[0].iter().zip(&pass.responses));
         let mut waves: Vec<(Medium, [DVec3; 4])> = bands.map(|(m, r)| (*m, *r)).collect();
         // From short wavelengths to long, so that fans that follow one another lie one behind the other.
-        waves.sort_by(|a, b| b.0.index.total_cmp(&a.0.index));
+        // Media of one index are ordered by the rest, so that equal ones are neighbours.
+        let rest = |m: &Medium| [m.absorption[0], m.absorption[1], m.spread];
+        waves.sort_by(|(a, _), (b, _)| {
+            let others = rest(a).into_iter().zip(rest(b)).map(|(a, b)| a.total_cmp(&b));
+            std::iter::once(b.index.total_cmp(&a.index)).chain(others).fold(Ordering::Equal, Ordering::then)
+        });
         waves.dedup_by(|next, kept| {
             let is_same = next.0 == kept.0;
             if is_same {
@@ -225,24 +231,26 @@ impl PaintedPiece<'_> {
             let end = ends.iter().find(is_there).unwrap_or(first);
             let wave = end.group.start + (draw() * end.group.len() as f64) as usize;
             let luck = (DVec2::new(draw(), draw()), draw());
+            // Ends are drawn by the light that absorption has left, and shares are parts of the light without it.
+            let scale = end.weight * end.area / (end.energy * f64::from(rays));
             let loss = picture.tail.follow(end, &picture.media[wave], luck, |direction, share| {
                 for (mean, (copy, _)) in mean.iter_mut().zip(&self.copies) {
                     let direction = picture.subject.in_world(&self.view.basis, *copy, direction);
                     let ray = DispersedRay::new(DVec3::ZERO, direction);
                     let environment = &picture.subject.lit_scene.environment;
-                    *mean += environment.radiance_around(&ray, SPREAD_OF_TAIL) * (share / f64::from(rays));
+                    *mean += environment.radiance_around(&ray, SPREAD_OF_TAIL) * (share * scale);
                 }
             });
-            absorbed += loss.absorbed / f64::from(rays);
-            unresolved += loss.unresolved / f64::from(rays);
+            absorbed += loss.absorbed * scale;
+            unresolved += loss.unresolved * scale;
         }
         for end in &ends {
-            let energy = end.weight * end.area * end.group.len() as f64;
+            let energy = end.energy * end.group.len() as f64;
             self.lost.absorbed += absorbed * energy;
             self.lost.unresolved += unresolved * energy;
             let response = picture.response(&end.group);
             for (mean, (_, pixels)) in mean.iter().zip(&self.copies) {
-                let seen = colour(&response, *mean * end.weight);
+                let seen = colour(&response, *mean * (end.energy / end.area));
                 self.patches.put(&end.outline, pixels, seen.extend(0.0));
             }
         }
@@ -362,6 +370,9 @@ impl PaintedPiece<'_> {
         self.polygon.extend(beam.outline.iter().map(|corner| corner.after(change)));
         // Where corners have passed by one another, other beams are too large by what this one is too small.
         let sign = if area(&self.polygon) < 0.0 { -1.0 } else { 1.0 };
+        if sign < 0.0 {
+            self.polygon.reverse();
+        }
         if picture.is_clear {
             self.patches.put(&self.polygon, &self.copies[copy].1, (whole * sign).extend(0.0));
             return;

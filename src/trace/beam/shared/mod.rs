@@ -34,6 +34,9 @@ const MOST_ROUNDS: u32 = 12;
 /// The number of seeds whose beams are found before they are handed on.
 const SEEDS_AT_ONCE: usize = 64;
 
+/// The part of the progress that finding the least energy of beams takes.
+const PART_OF_LEVEL: f64 = 0.1;
+
 /// The square of the cosine of refraction above which the share that is reflected changes little with the wavelength.
 const STEADY: f64 = 0.25;
 
@@ -149,7 +152,7 @@ impl BeamEnd {
 /// A beam that is still to be followed from its last facet on.
 #[derive(Clone)]
 struct SharedFront {
-    group: (u16, u16),
+    group: (u32, u32),
     /// The place of its facet in the chain.
     link: u32,
     bounces: u32,
@@ -202,10 +205,10 @@ struct Sharer<'a> {
 /// The place of a facet in the chain that has none before it.
 const FIRST_LINK: u32 = u32::MAX;
 
-/// Follows light of several wavelengths from the eye into a stone, down to the energy at which beams of the middle one satisfy
-/// `options`. `prepare` makes a container for each piece of work, and `hand_on` takes in some that are full, in order.
+/// Follows light of several wavelengths from the eye into a stone, down to the energy at which beams of the middle index satisfy
+/// `options`, if they are absorbed as those of the clearest wavelength. `prepare` makes a container for each piece of work, and `hand_on` takes in some that are full, in order.
 ///
-/// `media` are those of the wavelengths, ordered by index. At most 65535 are taken.
+/// `media` are those of the wavelengths, ordered by index.
 ///
 /// # Errors
 /// [`Stopped`] when `watch` asks to stop.
@@ -220,7 +223,10 @@ pub fn trace_shared<B: SharedBeams>(
 ) -> Result<(), Stopped> {
     let Some(middle) = media.get(media.len() / 2) else { return Ok(()) };
     let facets = Facets::new(polytope);
-    let level = level_for(polytope, *middle, view, &options.beams, watch)?;
+    // Of other wavelengths less light is left to follow.
+    let least = |which: usize| media.iter().map(|m| m.absorption[which]).fold(f64::INFINITY, f64::min);
+    let clearest = Medium { absorption: [least(0), least(1)], ..*middle };
+    let level = level_for(polytope, clearest, view, &options.beams, &|part| watch(PART_OF_LEVEL * part))?;
     let level = level * (media.len() as f64 * options.usual_part).max(1.0);
     let basis = view.basis();
     let symmetry = match options.beams.symmetry {
@@ -246,17 +252,19 @@ pub fn trace_shared<B: SharedBeams>(
     hand_on(&shared_view, vec![first]);
     let seeds = sharer.seeds();
     for (number, some) in seeds.chunks(SEEDS_AT_ONCE).enumerate() {
-        if watch((number * SEEDS_AT_ONCE) as f64 / seeds.len() as f64).is_break() {
-            return Err(Stopped);
-        }
+        let part = (number * SEEDS_AT_ONCE) as f64 / seeds.len() as f64;
+        let done = PART_OF_LEVEL + (1.0 - PART_OF_LEVEL) * part;
         let follow = |sharer: &mut Sharer, seed: &Seed| {
+            if watch(done).is_break() {
+                return Err(Stopped);
+            }
             let mut beams = prepare(&shared_view);
             sharer.follow(seed, &mut beams);
             beams.finish();
-            beams
+            Ok(beams)
         };
-        let found = some.par_iter().map_init(|| Sharer::new(&common), follow).collect();
-        hand_on(&shared_view, found);
+        let found: Result<_, Stopped> = some.par_iter().map_init(|| Sharer::new(&common), follow).collect();
+        hand_on(&shared_view, found?);
     }
     Ok(())
 }
@@ -356,13 +364,16 @@ impl<'a> Sharer<'a> {
         let (link, corners) = (self.chain.len() as u32 - 1, (0, self.corners.len() as u32));
         self.stack.push(SharedFront { link, corners, ..seed.front.clone() });
         while let Some(front) = self.stack.pop() {
+            // The corners and links of the fronts that still wait were stored before its own.
+            self.corners.truncate(front.corners.1 as usize);
+            self.chain.truncate(front.link as usize + 1);
             self.step(&front, beams);
         }
     }
 
     /// Splits one beam among the facets that it lands on, or its group into two.
     fn step(&mut self, front: &SharedFront, beams: &mut impl SharedBeams) {
-        let group = usize::from(front.group.0)..usize::from(front.group.1);
+        let group = front.group.0 as usize..front.group.1 as usize;
         let outline = &self.corners[front.corners.0 as usize..front.corners.1 as usize];
         let astray = self.splitter.split(&MovingBeam {
             light: &front.light,
@@ -405,7 +416,7 @@ impl<'a> Sharer<'a> {
         let (area, speed) =
             (cell.twice_area / 2.0, DVec2::new(front.light.down.dot(normal), front.light.along.dot(normal)));
         let outline = &self.splitter.corners[cell.corners.0..cell.corners.1];
-        let group = usize::from(front.group.0)..usize::from(front.group.1);
+        let group = front.group.0 as usize..front.group.1 as usize;
         beams.take(&SharedBeam {
             group: group.clone(),
             entry: &front.entry,
@@ -466,7 +477,7 @@ impl<'a> Sharer<'a> {
             _ => front.depth * (speed(front.slant.slant) / speed(slant.slant)),
         };
         let (coherency, s) = self.light_at(front, &slant);
-        let group = (group.start as u16, group.end as u16);
+        let group = (group.start as u32, group.end as u32);
         let corners = (start, self.corners.len() as u32);
         self.stack.push(SharedFront { group, slant, reach, coherency, s, depth, corners, ..front.clone() });
     }
