@@ -71,7 +71,7 @@ impl Cuts {
             let entry = |(name, title, source)| json!({ "name": name, "title": title, "source": source });
             return print(&json(&Value::Array(rows.into_iter().map(entry).collect())));
         }
-        let line = |(name, title, source)| format!("{name:<18}{title:<20}{source}");
+        let line = |(name, title, source)| format!("{name:<18}{title:<24}{source}");
         print(&rows.into_iter().map(line).collect::<Vec<_>>().join("\n"))
     }
 }

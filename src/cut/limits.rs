@@ -102,6 +102,9 @@ impl Cut {
     }
 }
 
+/// A number is reached where it is off by no more than this part of itself; far above rounding, far below what shows.
+const REACHED: f64 = 1e-6;
+
 impl Proportion {
     /// Returns a cut with this number set, after a check that the stone can have it.
     ///
@@ -114,14 +117,18 @@ impl Proportion {
             self.set(&mut cut, value);
             cut
         };
-        let (wanted, usual) = (with(value), (self.get)(cut));
+        let usual = (self.get)(cut);
         if !value.is_finite() {
             return Err(ProportionError::NotFinite { row: self, value });
         }
-        if wanted.check().is_ok() || cut.check().is_err() {
+        // Huge values are not reached at all, because the numbers that would have to move round to others.
+        let has = |cut: &Cut, value: f64| ((self.get)(cut) - value).abs() <= REACHED * value.abs().max(1.0);
+        let is_possible = |cut: &Cut, value: f64| has(cut, value) && cut.check().is_ok();
+        let wanted = with(value);
+        if is_possible(&wanted, value) || cut.check().is_err() && has(&wanted, value) {
             return Ok(wanted);
         }
-        let limit = farthest(usual, value, |value| with(value).check().is_ok());
+        let limit = farthest(usual, value, |value| is_possible(&with(value), value));
         let reason = "beyond which no stone has it with the other numbers as they are";
         let limit = Limit { row: self, value, limit, inclusive: true, reason, tier: "" };
         Err(if value > limit.limit {

@@ -45,7 +45,11 @@ pub fn picked(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneVi
     cx.tools.attention.message.clone_from(&said);
     match meet {
         _ if !response.clicked() => {}
-        Some(meet) => cx.actions.push(Edit::Tiers(TierChange::Meet(pick.place, Some(meet)))),
+        Some(meet) => {
+            cx.actions.push(Edit::Tiers(TierChange::Meet(pick.place, Some(meet))));
+            // It takes the place of what was said about earlier clicks.
+            cx.actions.push(NoteAction::Say(format!("The tier follows {said}.")));
+        }
         None => cx.actions.push(NoteAction::Say(said)),
     }
     true
