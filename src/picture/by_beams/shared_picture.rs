@@ -23,6 +23,10 @@ use std::ops::Range;
 /// The most by which sharing one beam may change a pixel, as a part of what light of radiance 1 gives.
 const MOST_CHANGE: f64 = 2e-3;
 
+/// The number of pixels of a stone's face above which beams are not shared less and tails not estimated more finely: such work
+/// grows with the pixels, and their errors are areas and mean colours that larger pictures show no worse.
+const MOST_PIXELS: f64 = 1e6;
+
 /// The most by which painting a beam for several wavelengths at once may change a pixel at its edge.
 const MOST_AT_EDGE: f64 = 1e-3;
 
@@ -56,7 +60,7 @@ pub(super) struct SharedPicture<'a> {
     passes: f64,
     is_clear: bool,
     tail: SharedTail,
-    /// The area of a pixel in the body's frame.
+    /// The area of a pixel in the body's frame, but at least that of one of [`MOST_PIXELS`].
     pixel: f64,
     /// The energy of all wavelengths for which one ray estimates where it goes.
     left_at_once: f64,
@@ -115,7 +119,9 @@ impl<'a> SharedPicture<'a> {
         }
         let media: Vec<Medium> = waves.iter().map(|wave| wave.0).collect();
         let is_clear = media.iter().all(Medium::is_clear);
-        let pixel = (subject.lit_scene.film.pixel / subject.instance.pose.scale).powi(2);
+        let film_pixel = (subject.lit_scene.film.pixel / subject.instance.pose.scale).powi(2);
+        let face = subject.stone.silhouette_area(subject.view.basis().toward);
+        let pixel = film_pixel.max(face / MOST_PIXELS);
         let left_at_once = LEFT_AT_ONCE * pixel * media.len() as f64;
         let tail = SharedTail::new(subject.stone, subject.options.polarised);
         Self { subject, media, responses, passes: passes.len() as f64, is_clear, tail, pixel, left_at_once }
