@@ -92,6 +92,7 @@ impl ShadedMesh {
     }
 
     /// Returns the boxes around the triangles.
+    #[cfg(feature = "gpu")]
     pub(crate) fn bvh(&self) -> &Bvh {
         &self.bvh
     }

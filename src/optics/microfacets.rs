@@ -101,10 +101,12 @@ impl Roughness {
     }
 
     /// The number of [`rows`](Self::rows).
+    #[cfg(feature = "gpu")]
     pub(crate) const ROWS: usize = STEPS + 1;
 
     /// Returns the surface as a table for the shaders, which shaders/microfacets.wgsl describes. It holds what is lost and not what
     /// is returned, because f32 would round that to 1 on smooth surfaces.
+    #[cfg(feature = "gpu")]
     pub(crate) fn rows(&self) -> impl Iterator<Item = [f64; 4]> + '_ {
         let mut before = 0.0;
         let step = move |k: usize| {
@@ -162,6 +164,7 @@ impl Roughness {
 
 impl RoughMetal {
     /// Returns the part of the light reflected several times that the metal does not absorb.
+    #[cfg(feature = "gpu")]
     pub(crate) fn again(&self) -> f64 {
         self.again
     }

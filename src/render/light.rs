@@ -11,9 +11,9 @@ use crate::trace::Watch;
 #[cfg(feature = "gpu")]
 use crate::trace::gpu::{ByCard, Gpu, GpuEnvironment, GpuError};
 use crate::trace::ray::ByRays;
+use crate::trace::sampling::{LitScene, ProgressiveImage, Sampling};
 #[cfg(feature = "gpu")]
-use crate::trace::sampling::RadiancePixel;
-use crate::trace::sampling::{LitScene, ProgressiveImage, SamplePass, Sampling};
+use crate::trace::sampling::{RadiancePixel, SamplePass};
 use std::ops::Range;
 
 /// The share of a ray's light below which Russian roulette decides whether the ray goes on, in a picture of one pass:

@@ -1,6 +1,6 @@
 //! The oval barion: an oval outline of sixteen sides, a step crown, and half-moons that carry a round pavilion.
 //!
-//! The cone of the [barion](super::barion) is round here, and runs through the ends of the sides at both ends of the stone. Along the
+//! The cone of the [barion] is round here, and runs through the ends of the sides at both ends of the stone. Along the
 //! long sides it lies outside of the outline, so that each other side has a moon. Where two moons meet, a crease runs down to the cone.
 //! Eight mains touch the cone: in the middle of a long side, at the crease in the middle of a quarter, and at the ends. Two halves between
 //! neighbouring mains meet in a tip. So every facet ends in points. The construction is this program's own; facets: 49 in the
