@@ -221,7 +221,8 @@ impl PaintedPiece<'_> {
         let left = std::mem::take(&mut self.left);
         let Some(first) = ends.first() else { return };
         let rays = (left / picture.left_at_once).ceil().max(1.0) as u32;
-        let mut state = first.energy.to_bits();
+        // Rounded, so that the last digits of a stone's planes do not change what chance draws.
+        let mut state = (first.energy.ln() * 1e6).round() as i64 as u64;
         let mut draw = || {
             state = state.wrapping_add(GAMMA);
             unit(mixed(state))
