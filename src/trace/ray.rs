@@ -332,7 +332,14 @@ impl StoneTracer {
             }
             let SplitLight { reflected: onward, passed } = light.split(direction, normal, index);
             let leaving = cos_transmitted(cos_i, index).map(|cos_t| {
-                ray.refracted_outside(&arrival, index, (cos_i, cos_t), spread, passed.weight() * left)
+                let (direction, fan) = ray.refracted_outside(&arrival, index, (cos_i, cos_t), spread);
+                ExitLight {
+                    direction,
+                    fan,
+                    shift: arrival.shift,
+                    weight: passed.weight() * left,
+                    spread: 0.0,
+                }
             });
             rest.bounces += 1;
             remaining = onward.weight() * left;

@@ -1,7 +1,6 @@
 //! The point where a ray meets a facet, and how that point moves over what the ray stands for.
 
 use super::facets::FacetSearch;
-use super::path::ExitLight;
 use crate::optics::{reflect, reflected_change, refract, refracted_change};
 use crate::trace::DispersedRay;
 use glam::DVec3;
@@ -43,8 +42,9 @@ impl DispersedRay {
         Self { origin: point, direction, fan, shift }
     }
 
-    /// Returns the light of this weight that a facet lets out of a body of this index. `cosines` are those of the angles inside
-    /// and outside; `spread` is the change of the index over the band of wavelengths, and `None` leaves the light without a fan.
+    /// Returns the direction and the fan of light that a facet lets out of a body of this index. `cosines` are those of the angles
+    /// inside and outside; `spread` is the change of the index over the band of wavelengths, and `None` leaves the light without
+    /// a fan.
     #[inline]
     pub(super) fn refracted_outside(
         &self,
@@ -52,19 +52,12 @@ impl DispersedRay {
         index: f64,
         cosines: (f64, f64),
         spread: Option<f64>,
-        weight: f64,
-    ) -> ExitLight {
-        let &Arrival { normal, shift, of_normal, .. } = arrival;
+    ) -> (DVec3, DVec3) {
+        let &Arrival { normal, of_normal, .. } = arrival;
         let change = |spread| {
             refracted_change(self.direction, -normal, index, cosines, (self.fan, -of_normal, spread))
         };
-        ExitLight {
-            direction: refract(self.direction, -normal, index, cosines),
-            fan: spread.map_or(DVec3::ZERO, change),
-            shift,
-            weight,
-            spread: 0.0,
-        }
+        (refract(self.direction, -normal, index, cosines), spread.map_or(DVec3::ZERO, change))
     }
 }
 
