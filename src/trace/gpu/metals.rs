@@ -27,7 +27,7 @@ struct Finish {
     surface: Arc<Roughness>,
     /// The number of the table of its roughness.
     table: usize,
-    /// A body that is made of it.
+    /// The number of one of the bodies that have this finish.
     body: usize,
 }
 

@@ -6,15 +6,17 @@
 //! order, corner by corner. Wavelengths share a beam as long as little would change; else their group is halved, and each
 //! half goes on from its own middle.
 
+mod handed_on;
 mod moving;
 mod slanted_light;
 
+pub use self::handed_on::{BeamEnd, Inside, SharedBeam, SharedBeams, SharedExit};
 pub use self::moving::MovingCorner;
 use self::moving::{MovingBeam, MovingCell, MovingSplitter};
 use self::slanted_light::SlantedLight;
 pub use self::slanted_light::{EntryFacet, Slant};
 use super::coherency::Coherency;
-use super::follow::{SLIVER, attenuated, s_axis};
+use super::follow::{SLIVER, s_axis};
 use super::grow::{BeamOptions, MOST_BOUNCES, level_for};
 use super::split::Facets;
 use crate::math::{Affine, Basis, Polytope, Symmetry, area, clip};
@@ -64,89 +66,6 @@ pub struct SharedView {
     pub symmetry: Symmetry,
     /// Area of the whole silhouette.
     pub silhouette_area: f64,
-}
-
-/// A part of a beam that lands on one facet, for a group of wavelengths.
-pub struct SharedBeam<'a> {
-    /// The wavelengths, by their number among the media.
-    pub group: Range<usize>,
-    /// The facet by which the light entered.
-    pub entry: &'a EntryFacet,
-    /// The outline at `slant`, convex and counter-clockwise, with the drift of its corners.
-    pub outline: &'a [MovingCorner],
-    /// The slant in the middle of the group.
-    pub slant: Slant,
-    /// The outline's area at `slant`.
-    pub area: f64,
-    /// The share of the light that arrives, without absorption, at `slant`; 1 for a beam that enters here.
-    pub weight: f64,
-    /// What has become of the light inside; `None` for a beam that enters here, of which the surface reflects a part.
-    pub inside: Option<Inside>,
-}
-
-/// Light inside a stone that arrives at a facet.
-pub struct Inside {
-    /// Outward unit normal of the facet.
-    normal: DVec3,
-    light: SlantedLight,
-    /// Its polarisation in the axes of the facet.
-    arriving: Coherency,
-    /// The depth of the facet before, and of this one, behind the facet by which the light entered.
-    depths: [Affine; 2],
-    /// The parts of the speed toward this facet: of light that is not slanted, and per slant.
-    speed: DVec2,
-}
-
-/// Light of one wavelength that leaves a shared beam.
-#[derive(Debug, Clone, Copy)]
-pub struct SharedExit {
-    /// Unit direction, followed from the eye.
-    pub direction: DVec3,
-    /// The change of the direction over the medium's spread of indices.
-    pub change: DVec3,
-    /// The share of the light from that direction that reaches the eye, if nothing is absorbed.
-    pub weight: f64,
-}
-
-/// What takes in shared beams, in the order of the tree.
-pub trait SharedBeams: Send {
-    /// Takes in a beam.
-    fn take(&mut self, beam: &SharedBeam);
-
-    /// Takes in a beam that is not followed any further.
-    fn leave(&mut self, end: BeamEnd);
-
-    /// Takes note that no more beams come.
-    fn finish(&mut self);
-}
-
-/// The end of a beam that is too weak to be followed.
-pub struct BeamEnd {
-    /// The wavelengths, by their number among the media.
-    pub group: Range<usize>,
-    /// The outline at `slant`.
-    pub outline: Vec<DVec2>,
-    /// Its area.
-    pub area: f64,
-    /// The slant in the middle of the group.
-    pub slant: Slant,
-    /// The share of the light that goes on, without absorption.
-    pub weight: f64,
-    /// The most light of a wavelength that goes on, as share times area, with absorption.
-    pub energy: f64,
-    pub(in crate::trace) coherency: Coherency,
-    /// The axis s of `coherency`.
-    pub(in crate::trace) s: DVec3,
-    light: SlantedLight,
-    depth: Affine,
-}
-
-impl BeamEnd {
-    /// Returns how the ray of an image point goes on: its start, its unit direction, and the length of its path so far.
-    pub(in crate::trace) fn ray(&self, p: DVec2) -> (DVec3, DVec3, f64) {
-        let (depth, way) = (self.depth.at(p), self.light.way(self.slant.slant));
-        (self.light.start(p) + way * depth, self.light.direction(&self.slant), depth / self.slant.cos_t)
-    }
 }
 
 /// A beam that is still to be followed from its last facet on.
@@ -568,42 +487,5 @@ impl Common<'_> {
         }
         let [a, b] = ends.map(|(cos_i, index, _)| fresnel(cos_i, index).reflectance());
         (a - b).abs()
-    }
-}
-
-impl SharedBeam<'_> {
-    /// Returns the share of light from the direction of the [glare](EntryFacet::glare) that the surface reflects, where light of a
-    /// medium enters.
-    pub fn glare(&self, medium: &Medium) -> f64 {
-        fresnel(self.entry.cos_i, 1.0 / medium.index).reflectance()
-    }
-
-    /// Returns the energy, weight times area, that media absorb between the facet before and this one, at the beam's slant.
-    pub fn absorbed(&self, media: &[Medium]) -> f64 {
-        let Some(inside) = &self.inside else { return 0.0 };
-        let outline: Vec<DVec2> = self.outline.iter().map(|corner| corner.at).collect();
-        let [before, after] = inside.depths.map(|depth| depth * (1.0 / self.slant.cos_t));
-        let lost =
-            |medium: &Medium| attenuated(&outline, before, medium) - attenuated(&outline, after, medium);
-        self.weight * media.iter().map(lost).sum::<f64>()
-    }
-}
-
-impl Inside {
-    /// Returns the light of a medium that leaves; `None` where reflection is total.
-    pub fn exit(&self, entry: &EntryFacet, medium: &Medium) -> Option<SharedExit> {
-        let slant = entry.slant(medium.index);
-        let ray = self.light.direction(&slant);
-        let surface = fresnel(ray.dot(self.normal), medium.index);
-        let (direction, change) =
-            self.light.leaving(entry, (&slant, medium.spread), ray, self.normal, surface.cos_t?);
-        let (_, weight) = self.arriving.split(&surface);
-        Some(SharedExit { direction, change, weight })
-    }
-
-    /// Returns the length of the path inside the stone to the facet, over the image, at a slant; `middle` is that of the beam.
-    pub fn path(&self, middle: &Slant, slant: &Slant) -> Affine {
-        let speed = |slant: &Slant| self.speed.x + self.speed.y * slant.slant;
-        self.depths[1] * (speed(middle) / (speed(slant) * slant.cos_t))
     }
 }
