@@ -43,6 +43,13 @@ impl Medium {
         material.absorption.each_ref().map(|a| a.coefficient(nm) * unit_mm)
     }
 
+    /// Returns the medium with the index of the first of several media that absorbs, of each polarisation, as little as the clearest of
+    /// them; `None` where there are no media.
+    pub fn clearest(media: &[Self]) -> Option<Self> {
+        let least = |which: usize| media.iter().map(|m| m.absorption[which]).fold(f64::INFINITY, f64::min);
+        media.first().map(|first| Self { absorption: [least(0), least(1)], ..*first })
+    }
+
     /// Returns whether the medium absorbs nothing.
     pub fn is_clear(&self) -> bool {
         self.absorption == [0.0; 2]

@@ -15,6 +15,17 @@ pub struct SharedTail {
     polarised: bool,
 }
 
+/// Light of a followed ray that leaves the stone.
+#[derive(Debug, Clone, Copy)]
+pub struct TailExit {
+    /// Unit direction, followed from the eye.
+    pub direction: DVec3,
+    /// The share that leaves here, of the light that would go on if nothing were absorbed.
+    pub share: f64,
+    /// The length of the path inside the stone, from where the light entered.
+    pub path: f64,
+}
+
 impl SharedTail {
     /// Prepares a stone; its medium is given with each ray.
     pub fn new(polytope: &Polytope, polarised: bool) -> Self {
@@ -22,8 +33,8 @@ impl SharedTail {
         Self { tracer: StoneTracer::new(polytope, Medium::clear(1.0), options), polarised }
     }
 
-    /// Follows one ray from the end of a beam, as light of a medium goes on, and calls `leave` with the direction and the
-    /// share of each exit. Shares are parts of the light that goes on where nothing has been absorbed.
+    /// Follows one ray from the end of a beam through a medium, at the index in the middle of the end's group, and calls `leave` for
+    /// each exit. Returns what does not leave, and the length of the path inside the stone to the ray's start.
     ///
     /// `spot` says where in the outline it starts and `luck` how long it is followed; all are from 0 to below 1. Where they are
     /// spread evenly, the mean of all rays is what becomes of the light.
@@ -32,8 +43,8 @@ impl SharedTail {
         end: &BeamEnd,
         medium: &Medium,
         (spot, luck): (DVec2, f64),
-        mut leave: impl FnMut(DVec3, f64),
-    ) -> Loss {
+        mut leave: impl FnMut(TailExit),
+    ) -> (Loss, f64) {
         let point = point_in_polygon(&end.outline, end.area, spot);
         let (origin, direction, path) = end.ray(point);
         let scale = 1.0 / end.weight;
@@ -50,9 +61,10 @@ impl SharedTail {
         let loss = tracer.follow_inside((origin, direction), (light, path), chances.least, |met| {
             let factor = chances.meet(met.light, met.left, met.onward);
             if let Some(leaving) = met.leaving {
-                leave(leaving.direction, leaving.weight * factor);
+                let share = leaving.weight * factor;
+                leave(TailExit { direction: leaving.direction, share, path: met.path });
             }
         });
-        chances.loss(loss.bounces)
+        (chances.loss(loss.bounces), path)
     }
 }

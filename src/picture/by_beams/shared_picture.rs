@@ -88,6 +88,15 @@ struct PaintedPiece<'a> {
     left: f64,
 }
 
+/// The mean of what rays see from the ends of beams, per light that absorption has left there.
+#[derive(Debug, Clone, Copy, Default)]
+struct MeanLight {
+    /// The light of the clearest wavelength, by channel.
+    light: DVec4,
+    /// The colour of the light of all wavelengths of a group, divided by their number.
+    colour: DVec3,
+}
+
 /// Light that was looked up at once for some wavelengths of a beam, by channel.
 struct SeenLight {
     waves: Range<usize>,
@@ -162,6 +171,24 @@ impl<'a> SharedPicture<'a> {
         Ok(lost)
     }
 
+    /// Returns the mean response of some wavelengths whose light has run this far through the stone, where light of the clearest
+    /// medium has kept all: and the mean share that it has kept.
+    fn response_after(&self, waves: &Range<usize>, clearest: &Medium, path: f64) -> ([DVec3; 4], f64) {
+        let part = 1.0 / waves.len() as f64;
+        if self.is_clear {
+            return (self.response(waves).map(|response| response * part), 1.0);
+        }
+        let kept = clearest.transmittance(path).max(f64::MIN_POSITIVE);
+        let (mut sum, mut left) = ([DVec3::ZERO; 4], 0.0);
+        for wave in waves.clone() {
+            let share = self.media[wave].transmittance(path) / kept * part;
+            let response = self.response(&(wave..wave + 1));
+            sum = std::array::from_fn(|k| sum[k] + response[k] * share);
+            left += share;
+        }
+        (sum, left)
+    }
+
     /// Returns the response of some wavelengths together.
     fn response(&self, waves: &Range<usize>) -> [DVec3; 4] {
         let (before, all) = (&self.responses[waves.start], &self.responses[waves.end]);
@@ -215,7 +242,7 @@ impl PaintedPiece<'_> {
         }
     }
 
-    /// Estimates by rays where the light of the ends goes, and paints all of them in its mean colour.
+    /// Estimates by rays where the light of the ends goes, and paints all of them in its mean.
     fn estimate(&mut self) {
         let (picture, ends) = (self.picture, std::mem::take(&mut self.ends));
         let left = std::mem::take(&mut self.left);
@@ -227,7 +254,7 @@ impl PaintedPiece<'_> {
             state = state.wrapping_add(GAMMA);
             unit(mixed(state))
         };
-        let mut mean = vec![DVec4::ZERO; self.copies.len()];
+        let mut means = vec![MeanLight::default(); self.copies.len()];
         let (mut absorbed, mut unresolved) = (0.0, 0.0);
         for number in 0..rays {
             let mut place = (f64::from(number) + draw()) / f64::from(rays) * left;
@@ -236,31 +263,51 @@ impl PaintedPiece<'_> {
                 place <= 0.0
             };
             let end = ends.iter().find(is_there).unwrap_or(first);
-            let wave = end.group.start + (draw() * end.group.len() as f64) as usize;
             let luck = (DVec2::new(draw(), draw()), draw());
-            // Ends are drawn by the light that absorption has left, and shares are parts of the light without it.
-            let scale = end.weight * end.area / (end.energy * f64::from(rays));
-            let loss = picture.tail.follow(end, &picture.media[wave], luck, |direction, share| {
-                for (mean, (copy, _)) in mean.iter_mut().zip(&self.copies) {
-                    let direction = picture.subject.in_world(&self.view.basis, *copy, direction);
-                    let ray = DispersedRay::new(DVec3::ZERO, direction);
-                    let environment = &picture.subject.lit_scene.environment;
-                    *mean += environment.radiance_around(&ray, SPREAD_OF_TAIL) * (share * scale);
-                }
-            });
-            absorbed += loss.absorbed * scale;
-            unresolved += loss.unresolved * scale;
+            let lost = self.follow(end, luck, f64::from(rays), &mut means);
+            (absorbed, unresolved) = (absorbed + lost.absorbed, unresolved + lost.unresolved);
         }
         for end in &ends {
             let energy = end.energy * end.group.len() as f64;
             self.lost.absorbed += absorbed * energy;
             self.lost.unresolved += unresolved * energy;
             let response = picture.response(&end.group);
-            for (mean, (_, pixels)) in mean.iter().zip(&self.copies) {
-                let seen = colour(&response, *mean * (end.energy / end.area));
+            for (mean, (_, pixels)) in means.iter().zip(&self.copies) {
+                let seen = match picture.is_clear {
+                    true => colour(&response, mean.light) * (end.energy / end.area),
+                    false => mean.colour * (energy / end.area),
+                };
                 self.patches.put(&end.outline, pixels, seen.extend(0.0));
             }
         }
+    }
+
+    /// Follows one of several rays on from the end of a beam, and adds what it sees to the mean of each copy. Returns its part of
+    /// the light that is lost, per light that absorption has left at the end.
+    fn follow(&self, end: &BeamEnd, luck: (DVec2, f64), rays: f64, means: &mut [MeanLight]) -> Lost {
+        let picture = self.picture;
+        let environment = &picture.subject.lit_scene.environment;
+        let clearest = Medium::clearest(&picture.media[end.group.clone()]).unwrap_or(Medium::clear(1.0));
+        // Ends are drawn by the light that absorption has left, and shares are parts of the light without it.
+        let scale = end.weight * end.area / (end.energy * rays);
+        let mut seen = 0.0;
+        let (loss, path) = picture.tail.follow(end, &clearest, luck, |exit| {
+            let (response, left) = picture.response_after(&end.group, &clearest, exit.path);
+            seen += exit.share * left;
+            for (mean, (copy, _)) in means.iter_mut().zip(&self.copies) {
+                let direction = picture.subject.in_world(&self.view.basis, *copy, exit.direction);
+                let ray = DispersedRay::new(DVec3::ZERO, direction);
+                let light = environment.radiance_around(&ray, SPREAD_OF_TAIL) * (exit.share * scale);
+                mean.light += light;
+                mean.colour += colour(&response, light);
+            }
+        });
+        let (_, left) = picture.response_after(&end.group, &clearest, path);
+        let absorbed = match picture.is_clear {
+            true => 0.0,
+            false => left * clearest.transmittance(path) - seen - loss.unresolved,
+        };
+        Lost { absorbed: absorbed * scale, unresolved: loss.unresolved * scale }
     }
 
     /// Looks up the light that comes through a copy of a beam, as if nothing were absorbed, into `seen`.

@@ -143,8 +143,7 @@ pub fn trace_shared<B: SharedBeams>(
     let Some(middle) = media.get(media.len() / 2) else { return Ok(()) };
     let facets = Facets::new(polytope);
     // Of other wavelengths less light is left to follow.
-    let least = |which: usize| media.iter().map(|m| m.absorption[which]).fold(f64::INFINITY, f64::min);
-    let clearest = Medium { absorption: [least(0), least(1)], ..*middle };
+    let clearest = Medium { index: middle.index, ..Medium::clearest(media).unwrap_or(*middle) };
     let level = level_for(polytope, clearest, view, &options.beams, &|part| watch(PART_OF_LEVEL * part))?;
     let level = level * (media.len() as f64 * options.usual_part).max(1.0);
     let basis = view.basis();
