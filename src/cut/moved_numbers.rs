@@ -136,6 +136,16 @@ mod tests {
     }
 
     #[test]
+    fn a_depth_too_large_for_any_number_is_refused() {
+        for (row, first) in moving() {
+            for wanted in [1e18, 1e300] {
+                let limit = *row.reached(first, wanted).unwrap_err().limit().unwrap();
+                assert!(limit.value == wanted && limit.limit < 1e4, "{limit:?} of {first:?}");
+            }
+        }
+    }
+
+    #[test]
     fn numbers_that_are_not_finite_are_named() {
         for (row, first) in moving() {
             let mut cut = first.clone();

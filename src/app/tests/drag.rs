@@ -52,14 +52,19 @@ fn drag_of(cut: Option<&str>, name: &str, shows_map: bool, mut change: impl FnMu
     );
 }
 
+/// Drags the crown angle of the first cut by this many degrees at a time.
+fn drag_crown(name: &str, step: f64) {
+    drag(name, false, |editor, k| {
+        if let Cut::RoundBrilliant(brilliant) = &mut editor.model.document.work.design.cut {
+            brilliant.crown = Crown::Angle(33.0 + step * f64::from(k));
+        }
+    });
+}
+
 #[test]
 #[ignore = "measures times, which takes a minute of two idle cores"]
 fn the_views_follow_the_hand() {
-    drag("crown angle", false, |editor, k| {
-        if let Cut::RoundBrilliant(brilliant) = &mut editor.model.document.work.design.cut {
-            brilliant.crown = Crown::Angle(33.0 + 0.02 * f64::from(k));
-        }
-    });
+    drag_crown("crown angle", 0.02);
     // This starts with a tilted stone: near a tilt of 0 the view would snap to 0.
     drag("tilt", false, |editor, k| {
         if k == 0 {
@@ -90,11 +95,7 @@ fn drag_tier(cut: Option<&str>, name: &str, is_meant: fn(&Tier) -> bool) {
 #[test]
 #[ignore = "measures times, which takes a minute of two idle cores"]
 fn the_views_follow_a_tier_as_they_follow_the_brilliant() {
-    drag("crown angle", false, |editor, k| {
-        if let Cut::RoundBrilliant(brilliant) = &mut editor.model.document.work.design.cut {
-            brilliant.crown = Crown::Angle(33.0 + 0.005 * f64::from(k));
-        }
-    });
+    drag_crown("crown angle", 0.005);
     drag_tier(None, "a tier of the brilliant", |tier| tier.name() == "C1");
     let portuguese = Some("portuguese.toml");
     drag_tier(portuguese, "a pavilion tier of 193 facets", |tier| (-80.0..0.0).contains(&tier.angle));

@@ -23,7 +23,8 @@ from the girdle plane. The length is measured along y, which is up in pictures. 
 range of the editor's slider, with its source: \"published\" is a page or a cutter's design that was read, \"ours\" what no source\ngives; \"possible\" is what the program takes if the facets still have room. All keys are required but those
 that have a default, and `total_depth`. That follows from the others and can be set all the same: the numbers that it moves change by
 one factor, angles by that of their tangents (the tangent ratio), until the stone is as deep. A file gives either `total_depth` or the numbers that it
-moves, which then keep the ratios of the first cut. Where no such stone is possible, the message says how deep it can be.
+moves, which then keep the ratios that they have in the cut's own file in `cuts/`. Where no such stone is possible, the message says
+how deep it can be.
 
 ![All families of this page: facets, ASET, and a render under the studio light](images/contact-sheet.png)
 
