@@ -17,7 +17,7 @@ pub struct SharedTail {
 
 /// Light of a followed ray that leaves the stone.
 #[derive(Debug, Clone, Copy)]
-pub struct TailExit {
+pub struct SharedExit {
     /// Unit direction, followed from the eye.
     pub direction: DVec3,
     /// The share that leaves here, of the light that would go on if nothing were absorbed.
@@ -43,7 +43,7 @@ impl SharedTail {
         end: &BeamEnd,
         medium: &Medium,
         (spot, luck): (DVec2, f64),
-        mut leave: impl FnMut(TailExit),
+        mut leave: impl FnMut(SharedExit),
     ) -> (Loss, f64) {
         let point = point_in_polygon(&end.outline, end.area, spot);
         let (origin, direction, path) = end.ray(point);
@@ -62,7 +62,7 @@ impl SharedTail {
             let factor = chances.meet(met.light, met.left, met.onward);
             if let Some(leaving) = met.leaving {
                 let share = leaving.weight * factor;
-                leave(TailExit { direction: leaving.direction, share, path: met.path });
+                leave(SharedExit { direction: leaving.direction, share, path: met.path });
             }
         });
         (chances.loss(loss.bounces), path)
