@@ -2,7 +2,7 @@
 
 use crate::optics::SrgbEncoder;
 use crate::scene::{Light, toward};
-use crate::trace::environment::{channels, shine};
+use crate::trace::environment::{BroadLight, channels};
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 use std::f64::consts::PI;
 
@@ -24,10 +24,11 @@ pub fn light_picture(light: &Light, [width, height]: [u32; 2]) -> Vec<u8> {
             (toward(lamp.azimuth, lamp.elevation), radius, lamp.radiance * under_white(channels(lamp.colour)))
         })
         .collect();
+    let broad_light = BroadLight::new(light, None);
     let radiance = |x: u32, y: u32| {
         let azimuth = 360.0 * (0.5 - (f64::from(x) + 0.5) / f64::from(width));
         let direction = toward(azimuth, 90.0 - 180.0 * (f64::from(y) + 0.5) / f64::from(height));
-        let broad = under_white(shine(light, None, direction));
+        let broad = under_white(broad_light.radiance(direction));
         let world = light.world.map_or(DVec3::ZERO, |world| world.radiance(direction, pixel));
         let lamps = lamps.iter().filter(|(at, radius, _)| at.angle_between(direction) <= *radius);
         broad + world + lamps.map(|(_, _, colour)| *colour).sum::<DVec3>()

@@ -15,7 +15,7 @@ use crate::math::Basis;
 use crate::scene::{Light, LightError, Panorama, World, toward};
 pub(in crate::trace) use backplate::{ALONG, Photographed};
 pub use backplate::{Backplate, backplate_point};
-pub use drawing::{channels, shine};
+pub use drawing::{BroadLight, channels};
 use glam::{DVec2, DVec3, DVec4, IVec2, Vec2Swizzles as _, Vec4Swizzles as _};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -171,12 +171,13 @@ impl EnvironmentMap {
         let pixels = panorama.map_or(0, |p| p.width as usize / (2 * side));
         let per_side = pixels.clamp(PER_SIDE.0, PER_SIDE.1);
         let cells = side * per_side;
+        let broad = BroadLight::new(light, panorama);
         let row = |y: usize| {
             let texel = |x: usize| {
                 let sample = |k: usize| {
                     let (i, j) = (x * per_side + k % per_side, y * per_side + k / per_side);
                     let at = (DVec2::new(i as f64, j as f64) + 0.5) / cells as f64;
-                    shine(light, panorama, direction(at))
+                    broad.radiance(direction(at))
                 };
                 let all: DVec4 = (0..per_side * per_side).map(sample).sum();
                 let world = world.as_ref().map_or(DVec3::ZERO, |texels| texels[y * side + x]);
