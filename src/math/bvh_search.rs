@@ -41,6 +41,8 @@ static ARCH: LazyLock<Arch> = LazyLock::new(Arch::new);
 pub(super) struct WideTree {
     boxes: Vec<FourBoxes>,
     leaves: Vec<FourTriangles>,
+    /// The coordinates of the normals of each leaf's triangles, axis by axis; empty where none were given.
+    normals: Vec<[Four; 3]>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -89,17 +91,38 @@ impl WideTree {
         }
         // An unused place refers to the first leaf, which is empty.
         let nothing = FourTriangles { corners: [[[0.0; SIDE]; 3]; 3], first: 0, count: 0 };
-        let mut tree = Self { boxes: vec![], leaves: vec![nothing] };
+        let mut tree = Self { boxes: vec![], leaves: vec![nothing], normals: vec![] };
         if !nodes.is_empty() {
             Gathering { nodes, spans: &spans, corners, tree: &mut tree }.fill(vec![0]);
         }
         tree
     }
 
+    /// Sets the normals of the triangles, in the order in which the boxes hold them.
+    pub fn set_normals(&mut self, normals: &[DVec3]) {
+        let of_leaf = |leaf: &FourTriangles| {
+            let mut four = [[0.0; SIDE]; 3];
+            for (k, normal) in normals[leaf.first as usize..][..leaf.count as usize].iter().enumerate() {
+                (0..3).for_each(|axis| four[axis][k] = normal[axis]);
+            }
+            four
+        };
+        self.normals = self.leaves.iter().map(of_leaf).collect();
+    }
+
     /// Finds the first triangle that a ray meets at a distance above `after`, among those for whose places `keep` is
     /// true. Of several triangles at the same distance, the one with the first place is returned.
     pub fn nearest(&self, ray: &Sheared, after: f64, keep: impl Fn(usize) -> bool) -> Option<Found> {
-        ARCH.dispatch(Nearest { tree: self, ray, after, keep })
+        ARCH.dispatch(Nearest { tree: self, ray, after, along: None, keep })
+    }
+
+    /// Finds the first triangle that a ray meets at a distance above `after`, as [`nearest`](Self::nearest) does, among
+    /// those whose normals have a positive part along a vector.
+    pub fn nearest_along(&self, ray: &Sheared, after: f64, along: DVec3) -> Option<Found> {
+        if self.normals.is_empty() {
+            return None;
+        }
+        ARCH.dispatch(Nearest { tree: self, ray, after, along: Some(along), keep: |_| true })
     }
 
     /// Returns whether any corner lies farther than `slack` beyond a plane.
@@ -202,6 +225,8 @@ struct Nearest<'a, K> {
     tree: &'a WideTree,
     ray: &'a Sheared,
     after: f64,
+    /// Where it is given, only triangles whose normals have a positive part along it count.
+    along: Option<DVec3>,
     keep: K,
 }
 
@@ -261,7 +286,7 @@ impl<K: Fn(usize) -> bool> WithSimd for Nearest<'_, K> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Option<Found> {
-        let Self { tree, ray, after, keep } = self;
+        let Self { tree, ray, after, along, keep } = self;
         let (mut best, mut far) = (None, f64::INFINITY);
         let mut pending =
             Pending { content: [0; FEW_PENDING], distance: [0.0; FEW_PENDING], count: 0, more: Vec::new() };
@@ -271,14 +296,21 @@ impl<K: Fn(usize) -> bool> WithSimd for Nearest<'_, K> {
                 let boxes = &tree.boxes[at as usize];
                 pending.push_sorted(boxes, &ray.enters(simd, boxes, after, far));
             } else {
-                let leaf = &tree.leaves[(at ^ IS_LEAF) as usize];
-                let met = ray.meets(simd, &leaf.corners);
-                for (k, &distance) in met.iter().enumerate().take(leaf.count as usize) {
-                    let place = leaf.first as usize + k;
-                    let is_first =
-                        distance < far || distance == far && best.is_some_and(|first| place < first);
-                    if distance > after && is_first && keep(place) {
-                        (best, far) = (Some(place), distance);
+                let number = (at ^ IS_LEAF) as usize;
+                let leaf = &tree.leaves[number];
+                let facing = match along {
+                    Some(along) => parts(simd, &tree.normals[number], along),
+                    None => [1.0; SIDE],
+                };
+                if facing[0] > 0.0 || facing[1] > 0.0 || facing[2] > 0.0 || facing[3] > 0.0 {
+                    let met = ray.meets(simd, &leaf.corners);
+                    for (k, &distance) in met.iter().enumerate().take(leaf.count as usize) {
+                        let place = leaf.first as usize + k;
+                        let is_first =
+                            distance < far || distance == far && best.is_some_and(|first| place < first);
+                        if distance > after && is_first && facing[k] > 0.0 && keep(place) {
+                            (best, far) = (Some(place), distance);
+                        }
                     }
                 }
             }
@@ -395,6 +427,19 @@ impl Sheared {
         }
         distances
     }
+}
+
+/// Returns the parts of four vectors, given axis by axis, along another; the sums are those of [`DVec3::dot`].
+#[inline(always)]
+fn parts<S: Simd>(simd: S, vectors: &[Four; 3], along: DVec3) -> Four {
+    let mut parts = [0.0; SIDE];
+    for row in (0..SIDE).step_by(S::F64_LANES) {
+        let x = simd.mul_f64s(load(simd, &vectors[0], row), simd.splat_f64s(along.x));
+        let y = simd.mul_f64s(load(simd, &vectors[1], row), simd.splat_f64s(along.y));
+        let z = simd.mul_f64s(load(simd, &vectors[2], row), simd.splat_f64s(along.z));
+        store(simd, &mut parts, row, simd.add_f64s(simd.add_f64s(x, y), z));
+    }
+    parts
 }
 
 /// Returns as many numbers, from a place on, as the processor takes side by side; places beyond the end give 0.

@@ -37,7 +37,7 @@ mod triangle_mesh;
 pub use affine::Affine;
 pub use ball::Ball;
 pub use basis::Basis;
-pub use bvh::{Bvh, BvhNode, Hit};
+pub use bvh::{Bvh, BvhNode, FromSide, Hit};
 pub use calipers::{Calipers, hull};
 pub use decay::{Moments, integral_of_decay, moments_along_edge, moments_of_decay};
 pub(crate) use draft::{Draft, DraftCut};

@@ -111,7 +111,8 @@ impl TriangleMesh {
 
     /// Builds the boxes and the ball around the triangles of known facets.
     fn of_parts(surface: Surface, facets: Vec<u32>, planes: Vec<Plane>) -> Self {
-        let bvh = Bvh::new(&surface.vertices, &surface.triangles);
+        let normal = |triangle: u32| planes[facets[triangle as usize] as usize].normal;
+        let bvh = Bvh::new(&surface.vertices, &surface.triangles).with_normals(normal);
         let (ball, reach) = (Ball::around(&surface.vertices), reach(&surface.vertices));
         let is_beyond = |plane: &Plane| bvh.reaches_beyond(plane, BEYOND * ball.radius);
         let is_overtopped = planes.par_iter().map(is_beyond).collect();

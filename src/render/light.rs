@@ -18,10 +18,10 @@ use std::ops::Range;
 
 /// The share of a ray's light below which Russian roulette decides whether the ray goes on, in a picture of one pass:
 /// so little that the noise is hardly visible.
-const CHANCE_OF_ONE_PASS: f64 = 0.025;
+const CHANCE_OF_ONE_PASS: f64 = 0.05;
 
 /// The greatest such share, for pictures of many passes, which average the noise.
-const MOST_CHANCE: f64 = 0.1;
+const MOST_CHANCE: f64 = 0.4;
 
 /// A picture under light that is being traced.
 struct Exposure<'a> {

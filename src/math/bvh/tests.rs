@@ -85,6 +85,38 @@ proptest! {
     }
 }
 
+proptest! {
+    #[test]
+    fn the_nearest_from_a_side_is_the_nearest_whose_normal_faces_it(
+        (vertices, triangles) in scene(), (origin, direction) in ray(), after in -1.0..1.0_f64, is_inside in any::<bool>(),
+    ) {
+        let normal = |k: u32| {
+            let [a, b, c] = triangles[k as usize].map(|v| vertices[v as usize]);
+            (b - a).cross(c - a).normalize_or_zero()
+        };
+        let bvh = Bvh::new(&vertices, &triangles).with_normals(normal);
+        let found = |side: FromSide| bvh.nearest_from(side, origin, direction, after);
+        let (side, other, sign) = match is_inside {
+            true => (FromSide::Inside, FromSide::Outside, 1.0),
+            false => (FromSide::Outside, FromSide::Inside, -1.0),
+        };
+        let expected = bvh.nearest(origin, direction, after, |k| sign * normal(k).dot(direction) > 0.0);
+        prop_assert_eq!(found(side), expected);
+        // The other side gives another triangle, or none.
+        prop_assert!(expected.is_none() || found(other) != expected);
+    }
+}
+
+#[test]
+fn without_normals_no_side_is_known() {
+    let bvh = Bvh::new(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]]);
+    let from = |bvh: &Bvh, side| bvh.nearest_from(side, DVec3::new(0.2, 0.2, 1.0), DVec3::NEG_Z, 0.0);
+    assert_eq!(from(&bvh, FromSide::Outside), None);
+    let bvh = bvh.with_normals(|_| DVec3::Z);
+    assert!(from(&bvh, FromSide::Outside).is_some());
+    assert_eq!(from(&bvh, FromSide::Inside), None);
+}
+
 /// Makes a closed bumpy ball with poles, of `rows` rows and twice as many columns of squares, each halved into triangles.
 fn ball(rows: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let columns = 2 * rows;

@@ -4,7 +4,7 @@
 //! runs into, inside only what it runs out of; so it cannot meet the facet again from which it starts.
 
 use super::search::Search;
-use crate::math::{ImplicitSurface, Plane, Polytope, SolidRef, TriangleMesh};
+use crate::math::{FromSide, ImplicitSurface, Plane, Polytope, SolidRef, TriangleMesh};
 use crate::trace::facet_guess::FacetGuess;
 use glam::DVec3;
 use std::ops::Range;
@@ -166,12 +166,10 @@ impl TriangleFacets {
         Self { mesh: Arc::clone(mesh), behind: -BEHIND * SolidRef::from(mesh).reach() }
     }
 
-    /// Returns the facet and the distance of the first triangle for which `keep` accepts the normal's part along the ray.
-    fn first(&self, origin: DVec3, direction: DVec3, keep: impl Fn(f64) -> bool) -> Option<(usize, f64)> {
-        let facet = |triangle: u32| self.mesh.facets()[triangle as usize] as usize;
-        let is_kept = |triangle| keep(self.mesh.planes()[facet(triangle)].normal.dot(direction));
-        let hit = self.mesh.bvh().nearest(origin, direction, self.behind, is_kept)?;
-        Some((facet(hit.triangle), hit.distance.max(0.0)))
+    /// Returns the facet and the distance of the first triangle that a ray meets from one side of the surface.
+    fn first(&self, side: FromSide, origin: DVec3, direction: DVec3) -> Option<(usize, f64)> {
+        let hit = self.mesh.bvh().nearest_from(side, origin, direction, self.behind)?;
+        Some((self.mesh.facets()[hit.triangle as usize] as usize, hit.distance.max(0.0)))
     }
 }
 
@@ -201,7 +199,7 @@ impl FacetSearch for TriangleFacets {
     }
 
     fn entry(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)> {
-        self.first(origin, direction, |speed| speed < 0.0)
+        self.first(FromSide::Outside, origin, direction)
     }
 
     fn again(&self, facet: usize, point: DVec3, direction: DVec3) -> Option<(usize, f64)> {
@@ -209,7 +207,7 @@ impl FacetSearch for TriangleFacets {
     }
 
     fn next(&self, point: DVec3, direction: DVec3) -> Option<(usize, f64)> {
-        self.first(point, direction, |speed| speed > 0.0)
+        self.first(FromSide::Inside, point, direction)
     }
 }
 
