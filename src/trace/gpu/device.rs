@@ -69,10 +69,14 @@ pub enum GpuError {
         most: usize,
     },
     /// Smooth solids stand beside others in one picture.
-    #[error("the scene has glass shapes beside stones, but the graphics card takes only one of these kinds at a time")]
+    #[error(
+        "the scene has glass shapes beside stones, but the graphics card takes only one of these kinds at a time"
+    )]
     MixedKinds,
     /// A software driver would follow too few bounces.
-    #[error("{name} would follow only {bounces} bounces of light in a scene with so many facets (stones: {stones})")]
+    #[error(
+        "{name} would follow only {bounces} bounces of light in a scene with so many facets (stones: {stones})"
+    )]
     TooFewBounces {
         /// The card's name.
         name: String,
@@ -101,7 +105,9 @@ pub enum GpuError {
         most: usize,
     },
     /// The picture behind the stones, or the map of the light, has more pixels each way than the card takes.
-    #[error("a picture around the stones has {width} by {height} pixels, but {name} takes at most {most} each way")]
+    #[error(
+        "a picture around the stones has {width} by {height} pixels, but {name} takes at most {most} each way"
+    )]
     PictureTooLarge {
         /// The card's name.
         name: String,
