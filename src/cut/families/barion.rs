@@ -53,7 +53,7 @@ pub static BARION: Family = Family {
 /// How steep the half-moons stand.
 pub(super) const fn half_moons<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How steep the half-moons stand, the facets that run along the sides below the girdle.",
+        meaning: "The angle between the half-moons, the facets that run along the sides below the girdle, and the girdle plane.",
         ..rows::slope::<PLACE>("half_moon_angle", "Half-moons", [62.0, 82.0])
     }
 }
@@ -61,7 +61,7 @@ pub(super) const fn half_moons<const PLACE: usize>() -> Proportion {
 /// How steep the brilliant pavilion is.
 pub(super) const fn pavilion<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How steep the mains below the sides stand, those of the brilliant pavilion.",
+        meaning: "The angle between those mains of the brilliant pavilion that lie below the sides and the girdle plane.",
         ..rows::slope::<PLACE>("pavilion_angle", "Pavilion angle", [38.0, 44.0])
     }
 }
@@ -70,7 +70,7 @@ pub(super) const fn pavilion<const PLACE: usize>() -> Proportion {
 pub(super) const fn lower_halves<const PLACE: usize>() -> Proportion {
     let of = "of the way from the girdle to the middle";
     Proportion {
-        meaning: "How far the lower halves reach from the girdle to the middle, seen from below.",
+        meaning: "The reach of the lower halves from the girdle to the middle, seen from below.",
         ..rows::part::<PLACE>("lower_half_length", "Lower halves", of, [60.0, 85.0])
     }
 }

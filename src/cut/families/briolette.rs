@@ -35,7 +35,7 @@ pub static BRIOLETTE: Family = Family {
             ..rows::length_to_width::<LENGTH>([1.2, 3.0])
         },
         Proportion {
-            meaning: "How much of the length lies above the widest place, on the side by which the drop hangs.",
+            meaning: "The part of the length that lies above the widest place, on the side by which the drop hangs.",
             ..rows::part::<DROP>("drop", "Drop", "of the length", [45.0, 75.0])
         },
         rows::rosette::<UPPER_ROSETTE>("upper_rosette", "Upper rosette", [15.0, 40.0]),

@@ -46,7 +46,7 @@ pub static CUSHION: Family = Family {
 /// How far the sides bulge.
 pub(super) const fn bulge<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How far the sides bulge out between corners that are not rounded.",
+        meaning: "The distance by which the sides would bulge out between corners that are not rounded.",
         least: Bound::at(Fixed(0.1), "where the sides are straight"),
         most: Bound::at(Fixed(40.0), "where the outline is nearly round"),
         ..rows::of_width::<PLACE>("bulge", "Bulge of the sides", [4.0, 10.0])

@@ -47,38 +47,38 @@ pub static HEART: Family = Family {
     proportions: &[
         rows::length_to_width::<LENGTH>([0.9, 1.1]),
         Proportion {
-            meaning: "How deep the cleft is below the lobes.",
+            meaning: "The depth of the cleft below the tops of the lobes.",
             least: Bound::at(Fixed(0.5), "where the lobes are one"),
             most: Bound::before(Of(lobe), "where both lobes are half circles or ellipses"),
             ..rows::of_width::<CLEFT>("cleft", "Cleft", [8.0, 20.0])
         },
         Proportion {
-            meaning: "How far the lobes rise above the widest place.",
+            meaning: "The height of the lobes above the widest place.",
             least: Bound::at(Fixed(5.0), "the flattest lobes allowed"),
             most: Bound::at(Fixed(70.0), "the highest lobes allowed"),
             ..rows::of_width::<LOBE>("lobe_height", "Lobe height", [25.0, 35.0])
         },
         brilliant_rows::fullness::<FULLNESS>(),
         Proportion {
-            meaning: "How far the culet and the middle of the table lie from the widest place toward the point.",
+            meaning: "The distance of the culet and the middle of the table from the widest place toward the point.",
             least: Bound::at(Fixed(-30.0), "the highest middle allowed"),
             most: Bound::at(Fixed(60.0), "the lowest middle allowed"),
             ..rows::of_width::<MIDDLE>("middle", "Middle", [0.0, 15.0])
         },
         rows::table::<TABLE>([50.0, 66.0]),
         Proportion {
-            meaning: "How steep bezels at half the width from the middle stand on the girdle plane. Those farther away are \
+            meaning: "The angle between the girdle plane and a bezel at half the width from the middle. Bezels farther away are \
                       flatter.",
             ..brilliant_rows::crown_angle::<6>([28.0, 40.0])
         },
         Proportion {
-            meaning: "How steep mains at half the width from the middle stand on the girdle plane. Those farther away are \
+            meaning: "The angle between the girdle plane and a main at half the width from the middle. Mains farther away are \
                       flatter.",
             ..brilliant_rows::pavilion_angle::<7>([38.0, 46.0])
         },
         Proportion {
             of: "of the way from where they would lie flat to the girdle",
-            meaning: "How far the stars reach toward the girdle, from where they would lie flat with the table.",
+            meaning: "The reach of the stars toward the girdle, from the place where they would lie flat with the table.",
             usual: [20.0, 50.0],
             ..brilliant_rows::star_length::<8>()
         },
@@ -90,7 +90,7 @@ pub static HEART: Family = Family {
             name: "Mains per half",
             unit: Unit::Count,
             of: "in half of the outline",
-            meaning: "The number of mains, and of bezels, in each half of the outline beside that at the point: 4 make nine mains.",
+            meaning: "The number of mains, and of bezels, in each half of the outline, besides the one at the point; 4 make nine bezels.",
             usual: [4.0, 6.0],
             step: 1.0,
             speed: 0.02,

@@ -31,7 +31,7 @@ pub static KITE: Family = Family {
     proportions: &[
         rows::length_to_width::<LENGTH>([1.3, 2.0]),
         Proportion {
-            meaning: "How far from the sharper end the stone is widest.",
+            meaning: "The distance of the widest place from the sharper end.",
             ..rows::part::<SHOULDER>(
                 "shoulder",
                 "Shoulder",

@@ -35,7 +35,7 @@ pub static PEAR: Family = Family {
             key: "head",
             name: "Head",
             of: "of half the width",
-            meaning: "How far the head reaches from the widest place: 100 is a half circle.",
+            meaning: "The length of the head from the widest place; 100 is a half circle.",
             usual: [85.0, 110.0],
             least: Bound::at(Fixed(40.0), "the flattest head allowed"),
             most: Bound::at(Fixed(200.0), "the longest head allowed"),
@@ -44,7 +44,7 @@ pub static PEAR: Family = Family {
         Proportion {
             key: "middle",
             name: "Middle",
-            meaning: "How far the culet and the middle of the table lie from the widest place toward the point.",
+            meaning: "The distance of the culet and the middle of the table from the widest place toward the point.",
             least: Bound::at(Fixed(-30.0), "the lowest middle allowed"),
             most: Bound::at(Fixed(60.0), "the highest middle allowed"),
             ..rows::of_width::<MIDDLE>("middle", "Middle", [-5.0, 12.0])

@@ -38,11 +38,11 @@ pub static PRINCESS: Family = Family {
         step_rows::corner::<CORNER>([1.0, 5.0]),
         rows::table::<TABLE>([60.0, 80.0]),
         Proportion {
-            meaning: "How steep the mains of the sides stand that begin at the girdle.",
+            meaning: "The angle between the girdle plane and those mains of the sides that begin at the girdle.",
             ..rows::slope::<MAIN_1>("main_1_angle", "First mains", [32.0, 46.0])
         },
         Proportion {
-            meaning: "How steep the mains of the sides stand that reach the table.",
+            meaning: "The angle between the girdle plane and those mains of the sides that reach the table.",
             ..rows::slope::<MAIN_2>("main_2_angle", "Second mains", [18.0, 30.0])
         },
         star_azimuth::<STAR_AZIMUTH>([4.0, 9.0]),
@@ -63,7 +63,7 @@ pub(super) const fn star_azimuth<const PLACE: usize>(usual: [f64; 2]) -> Proport
         name: "Star azimuth",
         unit: Unit::Degrees,
         of: "from the direction of the end of the stone",
-        meaning: "How far the two stars of an end turn away from each other: 0 would be a table with straight sides.",
+        meaning: "The angle by which each of the two stars of an end turns away from the direction of the end; 0 would be a table with straight sides.",
         usual,
         least: Bound::before(Fixed(0.0), "where both stars of a side would be one"),
         most: Bound::before(Fixed(45.0), "where the table's corners would vanish"),
@@ -74,7 +74,7 @@ pub(super) const fn star_azimuth<const PLACE: usize>(usual: [f64; 2]) -> Proport
 /// The number of rows of chevrons.
 pub(super) const fn chevrons<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How many rows of chevrons, pairs of facets that form a V, each side of the pavilion has.",
+        meaning: "The number of rows of chevrons, pairs of facets that form a V, on each side of the pavilion.",
         ..step_rows::count::<PLACE>(
             "chevrons",
             "Chevrons",
@@ -97,7 +97,7 @@ pub(super) const fn pavilion_depth<const PLACE: usize>(usual: [f64; 2]) -> Propo
 /// The angle between neighbouring chevrons.
 pub(super) const fn chevron_step<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How much steeper the pavilion is in each row than in the next inner one, along the middle of a side.",
+        meaning: "The angle by which each row of the pavilion is steeper than the next inner row, along the middle of a side.",
         ..step_rows::step::<PLACE>("chevron_step", "Chevron step", [4.0, 9.0])
     }
 }
@@ -105,7 +105,7 @@ pub(super) const fn chevron_step<const PLACE: usize>() -> Proportion {
 /// How wide the mains are.
 pub(super) const fn shoulder<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How far from the middle, along the middle of a side, neighbouring mains touch and the chevrons begin.",
+        meaning: "The distance from the middle at which neighbouring mains touch and the chevrons begin, along the middle of a side.",
         ..rows::part::<PLACE>(
             "shoulder",
             "Main shoulders",

@@ -42,7 +42,7 @@ pub static RADIANT: Family = Family {
         step_rows::corner::<CORNER>([12.0, 24.0]),
         rows::table::<TABLE>([55.0, 75.0]),
         Proportion {
-            meaning: "How many rows of steps the crown has; 0 is a brilliant crown: a row, a row of triangles, and stars.",
+            meaning: "The number of rows of steps in the crown; 0 is a brilliant crown, with a first row, a row of triangles, and stars.",
             nothing: Some("brilliant"),
             ..step_rows::count::<CROWN_ROWS>(
                 "crown_rows",
@@ -59,7 +59,7 @@ pub static RADIANT: Family = Family {
         chevron_step::<STEP>(),
         shoulder::<SHOULDER>(),
         Proportion {
-            meaning: "How much steeper the pavilion's facets at the corners are than the mains.",
+            meaning: "The angle by which the pavilion's facets at the corners are steeper than the mains.",
             ..step_rows::step::<CORNER_STEP>("corner_step", "Corner step", [5.0, 20.0])
         },
         rows::girdle_thickness::<GIRDLE>(),

@@ -31,7 +31,7 @@ pub static ROSE: Family = Family {
     depth: Some(depth),
     proportions: &[
         Proportion {
-            meaning: "How many triangles meet in the point: 3 and 6 are usual.",
+            meaning: "The number of triangles that meet in the point; 3 and 6 are usual.",
             ..rows::count::<SIDES>(
                 "sides",
                 "Sides",
@@ -40,7 +40,7 @@ pub static ROSE: Family = Family {
             )
         },
         Proportion {
-            meaning: "1 is a pyramid of triangles; 2 is a star of triangles with three below each: 12 for 3 sides, 24 for 6.",
+            meaning: "The number of rows: 1 is a pyramid of triangles; 2 is a star of triangles with three below each, which makes 12 for 3 sides and 24 for 6.",
             ..rows::count::<ROWS>(
                 "rows",
                 "Rows",
@@ -49,19 +49,19 @@ pub static ROSE: Family = Family {
             )
         },
         Proportion {
-            meaning: "From the girdle's upper edge to the point.",
+            meaning: "The height of the dome from the girdle's upper edge to the point.",
             least: Bound::at(Fixed(2.0), "the flattest dome allowed"),
             most: Bound::at(Fixed(300.0), "the highest dome allowed"),
             ..rows::of_width::<HEIGHT>("height", "Height", [25.0, 60.0])
         },
         Proportion {
-            meaning: "The star around the point, corner to opposite corner. A pyramid has none.",
+            meaning: "The width of the star around the point, from corner to opposite corner. A pyramid has no star.",
             least: Bound::at(Fixed(5.0), "the smallest star allowed"),
             most: Bound::at(Fixed(90.0), "the largest star allowed"),
             ..rows::of_width::<STAR>("star", "Star", [25.0, 70.0])
         },
         Proportion {
-            meaning: "How steep the star's triangles stand on the girdle plane. A pyramid has none.",
+            meaning: "The angle between the star's triangles and the girdle plane. A pyramid has no star.",
             most: Bound::before(Of(steepest_star), "where the dome would be a pyramid"),
             ..rows::slope::<STAR_ANGLE>("star_angle", "Star angle", [10.0, 30.0])
         },

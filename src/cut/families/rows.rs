@@ -105,7 +105,7 @@ pub const fn girdle_thickness<const PLACE: usize>() -> Proportion {
 /// The culet's size.
 pub const fn culet<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "The size of the culet, the small facet at the bottom, as a part of the stone's own; 0 is a point.",
+        meaning: "The size of the culet, the small facet at the bottom, as a part of the stone's size; 0 is a point.",
         least: Bound::at(Fixed(0.0), "a point"),
         most: Bound::at(Fixed(60.0), "the largest culet allowed"),
         nothing: Some("a point"),
@@ -150,7 +150,7 @@ pub const fn count<const PLACE: usize>(
 /// The number of facets in each row of a cut whose rows alternate by half a step.
 pub const fn facets_per_row<const PLACE: usize>(range: [f64; 2]) -> Proportion {
     Proportion {
-        meaning: "How many facets each row has. The next row has as many, turned by half a step.",
+        meaning: "The number of facets in each row. Each row is turned by half a step against the next.",
         ..count::<PLACE>(
             "facets",
             "Facets a row",
@@ -167,7 +167,7 @@ pub const fn row_count<const PLACE: usize>(
     range: [f64; 2],
 ) -> Proportion {
     Proportion {
-        meaning: "How many rows of equal facets lie between the girdle and the end of this side.",
+        meaning: "The number of rows of equal facets between the girdle and the end of this side.",
         ..count::<PLACE>(key, name, range, ["the fewest rows", "the most rows allowed"])
     }
 }

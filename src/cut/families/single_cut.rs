@@ -31,15 +31,15 @@ pub static SINGLE_CUT: Family = Family {
     depth: Some(depth),
     proportions: &[
         Proportion {
-            meaning: "The flat facet on top, corner to opposite corner.",
+            meaning: "The width of the flat facet on top, from corner to opposite corner.",
             ..rows::table::<TABLE>([40.0, 70.0])
         },
         Proportion {
-            meaning: "How steep the eight facets around the table stand on the girdle plane.",
+            meaning: "The angle between the eight facets around the table and the girdle plane.",
             ..rows::slope::<CROWN>("crown_angle", "Crown angle", [25.0, 42.0])
         },
         Proportion {
-            meaning: "How steep the eight facets below stand on the girdle plane.",
+            meaning: "The angle between the eight facets of the pavilion and the girdle plane.",
             ..rows::slope::<PAVILION>("pavilion_angle", "Pavilion angle", [38.0, 44.0])
         },
         Proportion {

@@ -28,7 +28,7 @@ pub const fn count<const PLACE: usize>(
 /// How much of a corner of the outline is cut away.
 pub const fn corner<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     Proportion {
-        meaning: "How much of each side is cut away at a corner, in percent of the width of the stone.",
+        meaning: "The length that a corner cuts off each side, in percent of the width of the stone.",
         least: Bound::before(Fixed(0.0), "where the corner would be sharp"),
         most: Bound::before(Fixed(50.0), "where no side would be left between two corners"),
         ..rows::of_width::<PLACE>("corner", "Corner", usual)
@@ -38,7 +38,7 @@ pub const fn corner<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
 /// The number of rows of the crown.
 pub const fn crown_rows<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How many rows of facets run around the crown, from the girdle to the table.",
+        meaning: "The number of rows of facets around the crown, from the girdle to the table.",
         ..count::<PLACE>("crown_rows", "Crown rows", [1.0, 5.0], ROWS)
     }
 }
@@ -54,7 +54,7 @@ pub const fn crown<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
 /// The angle between rows of the crown.
 pub const fn crown_step<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How much steeper each row of the crown is than the next above it.",
+        meaning: "The angle by which each row of the crown is steeper than the next row above it.",
         ..step::<PLACE>("crown_step", "Crown step", [3.0, 15.0])
     }
 }
@@ -62,7 +62,7 @@ pub const fn crown_step<const PLACE: usize>() -> Proportion {
 /// The number of rows of the pavilion.
 pub const fn pavilion_rows<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How many rows of facets run around the pavilion, from the girdle to its lowest line or point.",
+        meaning: "The number of rows of facets around the pavilion, from the girdle to its lowest line or point.",
         ..count::<PLACE>("pavilion_rows", "Pavilion rows", [1.0, 5.0], ROWS)
     }
 }
@@ -78,7 +78,7 @@ pub const fn pavilion<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
 /// The angle between rows of the pavilion.
 pub const fn pavilion_step<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How much steeper each row of the pavilion is than the next below it.",
+        meaning: "The angle by which each row of the pavilion is steeper than the next row below it.",
         ..step::<PLACE>("pavilion_step", "Pavilion step", [3.0, 12.0])
     }
 }

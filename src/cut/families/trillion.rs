@@ -33,7 +33,7 @@ pub static TRILLION: Family = Family {
             key: "bulge",
             name: "Bulge of the sides",
             of: "of the distance between two corners",
-            meaning: "How far the sides bulge out between the corners.",
+            meaning: "The distance by which the sides bulge out between the corners.",
             usual: [3.0, 12.0],
             least: Bound::at(Fixed(0.5), "where the sides are straight"),
             most: Bound::at(Fixed(13.3), "where the stone is as wide in all directions"),
@@ -50,7 +50,7 @@ pub static TRILLION: Family = Family {
             key: "mains_per_side",
             name: "Mains per side",
             of: "in a third of the outline",
-            meaning: "The number of mains, and of bezels, in a third of the outline, with that at a corner: 2 make six mains.",
+            meaning: "The number of mains, and of bezels, in a third of the outline, including the one at a corner; 2 make six mains.",
             usual: [2.0, 3.0],
             most: Bound::at(Fixed(3.0), "the most mains allowed"),
             ..brilliant_rows::mains_per_quarter::<MAINS>()
