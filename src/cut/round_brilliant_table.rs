@@ -185,7 +185,7 @@ pub static ROUND_BRILLIANT: Family = Family {
             step: 8.0,
             speed: 0.2,
             least: Bound::at(Fixed(16.0), "one for each half facet"),
-            most: Bound::at(Fixed(128.0), "finer than which no girdle is faceted"),
+            most: Bound::at(Fixed(128.0), "the most facets of any girdle"),
             get: |cut| of(cut, |b| f64::from(b.girdle_facets)),
             give: Some(|cut, v| give(cut, |b| b.girdle_facets = v as u32)),
             ..Proportion::BLANK

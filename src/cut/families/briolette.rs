@@ -1,8 +1,8 @@
-//! The briolette: a drop without table and girdle, with rows of facets that alternate by half a step above and below its
+//! The briolette: a drop without table and girdle. Its rows of facets alternate by half a step, above and below its
 //! widest place.
 //!
-//! The rows are those of PC 01.386 in kind: 16 facets a row, five rows below and four above. Its shape is a barrel; the
-//! drop here, its length and the sizes of the rosettes are estimates of what is worn as an earring.
+//! The kind of its rows is that of PC 01.386: 16 facets a row, five rows below and four above. That stone is a
+//! barrel. The drop here, its length and the sizes of the rosettes are estimates of the shape of earrings.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::{Family, Proportion};

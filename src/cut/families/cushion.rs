@@ -43,7 +43,7 @@ pub static CUSHION: Family = Family {
     ],
 };
 
-/// How far the sides bulge.
+/// Returns the row for the bulge of the sides.
 pub(super) const fn bulge<const PLACE: usize>() -> Proportion {
     Proportion {
         meaning: "The distance by which the sides would bulge out between corners that are not rounded.",
@@ -53,7 +53,7 @@ pub(super) const fn bulge<const PLACE: usize>() -> Proportion {
     }
 }
 
-/// The radius of the corners.
+/// Returns the row for the radius of the corners.
 pub(super) const fn corner<const PLACE: usize>() -> Proportion {
     Proportion {
         key: "corner_radius",
@@ -70,7 +70,7 @@ pub(super) const fn corner<const PLACE: usize>() -> Proportion {
 /// Returns the curve of a cushion's outline, as a function of the part of the way from +x to +y.
 ///
 /// # Errors
-/// The sides and corners do not follow one another.
+/// Fails where the sides and corners do not follow one another.
 pub(super) fn quarter(length: f64, bulge: f64, corner: f64) -> Result<RoundedQuarter, NoRoom> {
     RoundedQuarter::new(length, bulge / 50.0, corner / 50.0).ok_or(NoRoom { tier: "girdle" })
 }

@@ -1,4 +1,4 @@
-//! What holds for every facet of a family's stones: it is no sliver, its plane is used, and facets meet in points.
+//! Tests for every facet of a family's stones: no facet is a sliver, every plane is used, and facets meet in points.
 
 use super::tests::{made, on_random_cuts, stone};
 use super::*;
@@ -42,7 +42,7 @@ impl Solid {
         self.solid.facet_area(facet) * if is_cut { 2.0 } else { 1.0 }
     }
 
-    /// Returns whether a facet is a thin sliver. An upright one may be as low as the girdle is thin, and then as short.
+    /// Returns whether a facet is a sliver. An upright facet may be as low as the girdle is thin, and then as short.
     fn is_thin(&self, facet: &Facet) -> bool {
         let least = 2.0 * LEAST;
         if self.zones.zone(facet) != TierZone::Girdle {
@@ -55,7 +55,7 @@ impl Solid {
         extent(facet.plane.normal.cross(DVec3::Z)) < least.min(extent(DVec3::Z))
     }
 
-    /// Returns what is wrong with the facets: each with its tier and a figure in percent.
+    /// Returns the faults of the facets, each with its tier and a figure in percent.
     fn faults(&self) -> Vec<(&'static str, &'static str, f64)> {
         let mut faults = vec![];
         let mut areas: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
@@ -69,7 +69,7 @@ impl Solid {
             if area < LEAST {
                 faults.push(("small", tier, 100.0 * area));
             }
-            // A culet is as small as it is asked for.
+            // A culet may be as small as its proportion asks.
             if tier != "culet" && self.is_thin(facet) {
                 faults.push(("thin", tier, 50.0 * self.solid.facet_width(facet)));
             }
@@ -104,8 +104,8 @@ fn no_facet_is_a_sliver_and_every_plane_has_a_facet() {
     assert!(found.borrow().is_empty(), "{:#?}", found.borrow());
 }
 
-/// Returns the number of edges of a convex stone that may be a meet of four facets that is split. Edges of a culet are as short as
-/// it is small.
+/// Returns the number of edges of a convex stone that may be a split meet of four facets. Edges of a culet are as
+/// short as the culet is small, and do not count.
 fn split_meets(cut: &Cut) -> Option<usize> {
     let (stone, names) = stone(cut)?;
     let key = cut.family().map_or("", |family| family.key);
@@ -123,10 +123,12 @@ fn split_meets(cut: &Cut) -> Option<usize> {
 fn facets_meet_in_points() {
     let first = made().filter_map(|(family, _)| Some((family.key, split_meets(&family.first)?)));
     let first: Vec<_> = first.filter(|(_, count)| *count > 0).collect();
-    // Where a pair of chevrons parts in the middle of a side, the outline has no corner: with one, the stone would be narrower in a
-    // direction beside that of its width, by 4e-5 where it is square, and be measured so in another format.
+    // Where a pair of chevrons parts in the middle of a side, the outline has no corner. With a corner, the stone
+    // would be narrower in a direction next to that of its width, by 4e-5 where it is square, and another format
+    // would measure that width.
     assert_eq!(first, [("modified_cushion", 8)]);
-    // These have short edges, where chevrons part or rows or a corner's facet nearly end in a point: in so many stones of 300 at most.
+    // These families have short edges, where chevrons part or where rows or a corner's facet nearly end in a point;
+    // the numbers are the most stones of 300.
     let others = [("modified_cushion", 300), ("asscher", 300), ("radiant", 300)];
     let most = |key: &str| others.iter().find(|(other, _)| *other == key).map_or(0, |(_, most)| *most);
     let found: RefCell<BTreeMap<_, u32>> = RefCell::default();
@@ -144,7 +146,7 @@ fn facets_meet_in_points() {
 fn a_brilliant_has_the_facets_that_its_mains_make() {
     let counted = on_random_cuts(|family, cut| {
         let count = |key: &str| family.proportion(key).map_or(0.0, |row| (row.get)(cut)) as usize;
-        // A heart has a main more than gaps between mains.
+        // A heart has one main more than gaps between mains.
         let (gaps, extra) = match family.key {
             "oval" | "marquise" | "pear" | "cushion" => (4 * count("mains_per_quarter"), 0),
             "trillion" => (3 * count("mains_per_side"), 0),

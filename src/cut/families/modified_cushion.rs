@@ -1,7 +1,8 @@
 //! The modified cushion: the crown of a brilliant on a pavilion of chevrons, 61 to 77 facets.
 //!
-//! CushionChevrons instead of pavilion mains, 2 to 4 rows (caratwire.com); L/W, table and depth as of the cushion with mains. No
-//! source gives angles of the rows: they are chosen so that the depth is 61 to 68 (gemmology.dev).
+//! Chevrons replace the mains of the pavilion, in 2 to 4 rows (caratwire.com). L/W, table and depth are those of the
+//! cushion with mains. No source gives angles of the rows: they are chosen so that the depth is 61 to 68
+//! (gemmology.dev).
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::{Fixed, Of};
@@ -77,7 +78,7 @@ pub static MODIFIED_CUSHION: Family = Family {
     ],
 };
 
-/// Returns the angle of the last row, degrees.
+/// Returns the angle of the last row, in degrees.
 fn lower(cut: &Cut) -> f64 {
     match cut {
         Cut::Family(cut) => cut[LOWER],

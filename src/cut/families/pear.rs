@@ -65,7 +65,7 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let head = cut[HEAD] / 100.0;
     let point = 2.0 * cut[LENGTH] - head;
     let wing = Wing::new(point, cut[FULLNESS] / 100.0).ok_or(NoRoom { tier: "girdle" })?;
-    // The widest place lies this far from the middle of the length.
+    // The widest place has this distance from the middle of the length.
     let widest = DVec2::new(0.0, head - cut[LENGTH]);
     let curve = |way: f64| {
         let place = around(way, |part| match way < 0.5 {

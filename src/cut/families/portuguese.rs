@@ -1,7 +1,9 @@
-//! The Portuguese cut: equal rows of facets, each turned by half a step against the one before, on crown and pavilion.
+//! The Portuguese cut: equal rows of facets on crown and pavilion, each row turned by half a step against the row
+//! before.
 //!
-//! Source of the first cut: PC 01.028A, 16 facets a row, crown 52/45/40/35/30, pavilion 60/56/52/48/44/40, table .45. The trade
-//! quotes 161 to 193 facets. Ranges of angles and sizes: PC 01.028A, B and C, widened by an estimate.
+//! The first cut has the numbers of PC 01.028A: 16 facets a row, crown 52/45/40/35/30, pavilion 60/56/52/48/44/40,
+//! table .45. The trade quotes 161 to 193 facets. Ranges of angles and sizes are those of PC 01.028A, B and C,
+//! widened by an estimate.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
@@ -67,10 +69,10 @@ pub static PORTUGUESE: Family = Family {
     ],
 };
 
-/// What the rows of derived angles have in common.
+/// The common part of the rows of derived angles.
 const ANGLE: Proportion = Proportion { give: None, ..rows::slope::<FACETS>("", "", [0.0, 90.0]) };
 
-/// Returns the angle of a tangent that follows from the numbers, degrees.
+/// Returns the angle, in degrees, of a tangent that follows from the numbers.
 fn angle(cut: &Cut, tangent: fn(&FamilyCut) -> f64) -> f64 {
     match cut {
         Cut::Family(cut) => tangent(cut).atan().to_degrees(),

@@ -1,9 +1,10 @@
-//! The princess cut: a square brilliant with bevelled corners, whose pavilion has mains in an X and rows of chevrons.
+//! The princess cut: a square brilliant with bevelled corners. Its pavilion has mains in an X and rows of chevrons.
 //!
-//! Ranges: crown with two mains a side, stars at an azimuth of 6 degrees, equal widths at mid-side (B. Harding, on the AGS's
-//! model); 2, 3 or 4 rows of chevrons (briangavindiamonds.com); table 60 to 80, total depth 65 to 80 percent (brilliancelab).
-//! No figures are published of the mains' angles; those here give crowns 8 to 15 percent high. Beside its chevrons, each side
-//! has one facet along the girdle: a level girdle allows no two.
+//! Ranges: the crown has two mains a side, stars at an azimuth of 6 degrees and equal widths at mid-side (B. Harding,
+//! on the AGS's model); 2, 3 or 4 rows of chevrons (briangavindiamonds.com); table 60 to 80, total depth 65 to 80
+//! percent (brilliancelab). No figures are published for the mains' angles; those here give crowns 8 to 15 percent
+//! high. In addition to its chevrons, each side has one facet along the girdle, because a level girdle does not allow
+//! two.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
@@ -56,7 +57,7 @@ pub static PRINCESS: Family = Family {
     ],
 };
 
-/// The azimuth of the stars.
+/// Returns the row for the azimuth of the stars.
 pub(super) const fn star_azimuth<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     Proportion {
         key: "star_azimuth",
@@ -71,7 +72,7 @@ pub(super) const fn star_azimuth<const PLACE: usize>(usual: [f64; 2]) -> Proport
     }
 }
 
-/// The number of rows of chevrons.
+/// Returns the row for the number of rows of chevrons.
 pub(super) const fn chevrons<const PLACE: usize>() -> Proportion {
     Proportion {
         meaning: "The number of rows of chevrons, pairs of facets that form a V, on each side of the pavilion.",
@@ -79,12 +80,12 @@ pub(super) const fn chevrons<const PLACE: usize>() -> Proportion {
             "chevrons",
             "Chevrons",
             [2.0, 4.0],
-            ["fewer than which no such cut has", "more than which no such cut has"],
+            ["the fewest rows of any such cut", "the most rows of any such cut"],
         )
     }
 }
 
-/// The depth of the pavilion.
+/// Returns the row for the depth of the pavilion.
 pub(super) const fn pavilion_depth<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     Proportion {
         meaning: "The depth of the mains' point below the girdle, in percent of the width of the stone.",
@@ -94,7 +95,7 @@ pub(super) const fn pavilion_depth<const PLACE: usize>(usual: [f64; 2]) -> Propo
     }
 }
 
-/// The angle between neighbouring chevrons.
+/// Returns the row for the angle between neighbouring chevrons.
 pub(super) const fn chevron_step<const PLACE: usize>() -> Proportion {
     Proportion {
         meaning: "The angle by which each row of the pavilion is steeper than the next inner row, along the middle of a side.",
@@ -102,7 +103,7 @@ pub(super) const fn chevron_step<const PLACE: usize>() -> Proportion {
     }
 }
 
-/// How wide the mains are.
+/// Returns the row for the width of the mains.
 pub(super) const fn shoulder<const PLACE: usize>() -> Proportion {
     Proportion {
         meaning: "The distance from the middle at which neighbouring mains touch and the chevrons begin, along the middle of a side.",

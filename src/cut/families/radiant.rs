@@ -48,7 +48,7 @@ pub static RADIANT: Family = Family {
                 "crown_rows",
                 "Crown rows",
                 [0.0, 4.0],
-                ["a brilliant crown", "more than which no radiant has"],
+                ["a brilliant crown", "the most rows of any radiant"],
             )
         },
         step_rows::crown::<CROWN>([28.0, 40.0]),

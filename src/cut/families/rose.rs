@@ -1,9 +1,10 @@
 //! The rose cut: a flat base and a dome of triangles.
 //!
-//! With one row the dome is a pyramid. With two, a star of triangles around the point stands on a ring; below each of its sides hangs
-//! a triangle with its tip on the girdle, and two more fill each gap. Six sides make the Dutch rose of 24 = 6 + 18.
-//! Triangles in threes, 3, 6, 12, 24: the trade's count. The first cut has the angles of PC 45.063 (Double Holland Rose, 36.5,
-//! 34, 30), whose height is 32 percent of the width; the trade also quotes about half.
+//! With one row the dome is a pyramid. With two rows, a star of triangles around the point stands on a ring; below
+//! each of its sides hangs a triangle with its tip on the girdle, and two more triangles fill each gap. Six sides
+//! make the Dutch rose of 24 = 6 + 18. The trade counts triangles in threes: 3, 6, 12, 24. The first cut has the
+//! angles of PC 45.063 (Double Holland Rose, 36.5, 34, 30), whose height is 32 percent of the width; the trade also
+//! quotes about half of the width.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::{Fixed, Of};
@@ -74,7 +75,8 @@ pub static ROSE: Family = Family {
     ],
 };
 
-/// Returns the slope of a cone as high as the dome that stands on the girdle's corners, degrees: steeper stars would be no dome.
+/// Returns the slope, in degrees, of a cone as high as the dome that stands on the girdle's corners. Steeper stars
+/// would leave no dome.
 fn steepest_star(cut: &Cut) -> f64 {
     match cut {
         Cut::Family(cut) if cut[ROWS] > 1.0 => {
@@ -126,7 +128,7 @@ fn depth(cut: &FamilyCut) -> f64 {
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let dome = RoseCorners::of(cut);
     let thickness = cut[GIRDLE] / 50.0;
-    // The middle of the dome.
+    // The point is inside the dome, at a quarter of its height.
     let inside = dome.point * 0.25;
     let mut net = FacetNet::default();
     for side in 0..dome.sides {

@@ -5,7 +5,7 @@ use super::super::family::{Bound, Proportion, Unit};
 use super::super::family_cut::number;
 use super::rows;
 
-/// How many rows, chevrons or styles; all that is possible is usual.
+/// Returns a row for a number of rows, chevrons or styles, whose whole possible range is usual.
 pub const fn count<const PLACE: usize>(
     key: &'static str,
     name: &'static str,
@@ -25,7 +25,7 @@ pub const fn count<const PLACE: usize>(
     }
 }
 
-/// How much of a corner of the outline is cut away.
+/// Returns the row for the length that a corner cuts off each side of the outline.
 pub const fn corner<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     Proportion {
         meaning: "The length that a corner cuts off each side, in percent of the width of the stone.",
@@ -35,7 +35,7 @@ pub const fn corner<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     }
 }
 
-/// The number of rows of the crown.
+/// Returns the row for the number of rows of the crown.
 pub const fn crown_rows<const PLACE: usize>() -> Proportion {
     Proportion {
         meaning: "The number of rows of facets around the crown, from the girdle to the table.",
@@ -43,7 +43,7 @@ pub const fn crown_rows<const PLACE: usize>() -> Proportion {
     }
 }
 
-/// The slope of the crown as a whole.
+/// Returns the row for the slope of the crown as a whole.
 pub const fn crown<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     Proportion {
         meaning: "The slope of the crown as a whole, from the girdle's to the table's edge in the middle of a side.",
@@ -51,7 +51,7 @@ pub const fn crown<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     }
 }
 
-/// The angle between rows of the crown.
+/// Returns the row for the angle between neighbouring rows of the crown.
 pub const fn crown_step<const PLACE: usize>() -> Proportion {
     Proportion {
         meaning: "The angle by which each row of the crown is steeper than the next row above it.",
@@ -59,7 +59,7 @@ pub const fn crown_step<const PLACE: usize>() -> Proportion {
     }
 }
 
-/// The number of rows of the pavilion.
+/// Returns the row for the number of rows of the pavilion.
 pub const fn pavilion_rows<const PLACE: usize>() -> Proportion {
     Proportion {
         meaning: "The number of rows of facets around the pavilion, from the girdle to its lowest line or point.",
@@ -67,7 +67,7 @@ pub const fn pavilion_rows<const PLACE: usize>() -> Proportion {
     }
 }
 
-/// The slope of the pavilion as a whole.
+/// Returns the row for the slope of the pavilion as a whole.
 pub const fn pavilion<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     Proportion {
         meaning: "The slope of the pavilion as a whole, from the girdle to its lowest line or point, in the middle of a side.",
@@ -75,7 +75,7 @@ pub const fn pavilion<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     }
 }
 
-/// The angle between rows of the pavilion.
+/// Returns the row for the angle between neighbouring rows of the pavilion.
 pub const fn pavilion_step<const PLACE: usize>() -> Proportion {
     Proportion {
         meaning: "The angle by which each row of the pavilion is steeper than the next row below it.",
@@ -83,7 +83,7 @@ pub const fn pavilion_step<const PLACE: usize>() -> Proportion {
     }
 }
 
-/// The length of the pavilion's lowest line.
+/// Returns the row for the length of the keel, the pavilion's lowest line.
 pub const fn keel<const PLACE: usize>() -> Proportion {
     Proportion {
         of: "of the length of a keel between ends as steep as the sides",
@@ -96,7 +96,7 @@ pub const fn keel<const PLACE: usize>() -> Proportion {
     }
 }
 
-/// The angle between neighbouring rows, in degrees.
+/// Returns a row for the angle between neighbouring rows, in degrees.
 pub const fn step<const PLACE: usize>(key: &'static str, name: &'static str, usual: [f64; 2]) -> Proportion {
     Proportion {
         key,
@@ -110,4 +110,4 @@ pub const fn step<const PLACE: usize>(key: &'static str, name: &'static str, usu
     }
 }
 
-const ROWS: [&str; 2] = ["a single row", "more than which no step cut has"];
+const ROWS: [&str; 2] = ["a single row", "the most rows of any step cut"];

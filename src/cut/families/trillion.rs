@@ -81,7 +81,7 @@ fn bulge(cut: &FamilyCut) -> f64 {
     cut[BULGE] / 50.0
 }
 
-/// Returns how far the middle of a side lies from the axis, in girdle radii.
+/// Returns the distance of the middle of a side from the axis, in girdle radii.
 fn reach(cut: &FamilyCut) -> f64 {
     (INNER + bulge(cut)) / length(cut)
 }
@@ -90,7 +90,7 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let (bulge, length) = (bulge(cut), length(cut));
     let radius = (1.0 + bulge * bulge) / (2.0 * bulge);
     let widest = (1.0 / radius).asin();
-    // The length is shorter than the width, so that half of it is 1.
+    // The length is shorter than the width, so half of the length is 1.
     let centre = DVec2::Y * ((INNER + bulge) / length - 1.0);
     let place = |at: DVec2, normal: f64, is_corner: bool| GirdlePlace {
         at: centre + at / length,
