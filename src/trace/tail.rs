@@ -45,7 +45,7 @@ struct TailSource<'a> {
     until: f64,
     /// The length of that interval, above 0.
     density: f64,
-    /// The beam's part of the silhouette's light, and below its part of the area that is undecided.
+    /// The beam's part of the silhouette's light; `undecided` is its part of the area that is undecided.
     light: f64,
     undecided: f64,
     /// The weight of the strongest exit so far, and its band.

@@ -86,7 +86,7 @@ struct PaintedPiece<'a> {
     lost: Lost,
     seen: Vec<SeenLight>,
     polygon: Vec<DVec2>,
-    /// The ends of beams that are neighbours in the tree, and below the energy of all their wavelengths.
+    /// The ends of beams that are neighbours in the tree; `left` is the energy of all their wavelengths.
     ends: Vec<BeamEnd>,
     left: f64,
 }

@@ -3,8 +3,8 @@
 //! Light of all wavelengths is reflected by the same facets at the same angles; it differs only by its refraction
 //! where it entered. So the directions inside differ by one number, the [`Slant`]. Along one sequence of facets
 //! everything else follows exactly from it: where light lands, how it leaves and with which weight. Only the outline
-//! of a beam is carried to first order, corner by corner. Wavelengths share a beam as long as little would change
-//! without sharing. Then their group is halved, and each half goes on from its own middle.
+//! of a beam is carried to first order, corner by corner. Wavelengths share a beam as long as sharing changes little.
+//! Where it would change more, their group is halved, and each half goes on from its own middle.
 
 mod handed_on;
 mod moving;
@@ -82,7 +82,7 @@ struct SharedFront {
     slant: Slant,
     /// The greatest difference of the group's slants from `slant`, to both sides.
     reach: f64,
-    /// The weight and polarisation at `slant`, without absorption, and below the axis s.
+    /// The weight and polarisation at `slant`, without absorption; the field `s` holds its axis s.
     coherency: Coherency,
     s: DVec3,
     /// The depth of the front's facet behind the facet by which the light entered, at `slant`.
