@@ -50,7 +50,7 @@ pub enum MeetFault {
         /// The angle, in degrees.
         angle: f64,
     },
-    /// The facets of the tier would need different distances.
+    /// The facets of the tier would need different distances or angles.
     #[error(
         "the facets at {first} and {other} would need distances that differ by {by:.2e}; split the tier, or name other facets"
     )]

@@ -65,7 +65,7 @@ const SPLIT_KEPT: usize = 1 << 14;
 /// the work.
 const FORESEEN: f64 = 1e-2;
 
-/// The factor by which the level of energy falls in a step where [`BeamEffort`](super::effort::BeamEffort) decides
+/// The factor by which the level of energy falls in a step where [`BeamEffort`] decides
 /// the end.
 const EFFORT_STEP: f64 = 0.6;
 
