@@ -133,8 +133,8 @@ mod tests {
     /// The greatest distance of a tier from a picked point, in lengths of the largest distance.
     const NEAR: f64 = 2e-5;
 
-    /// Looks for sets of corners through which meets lead tiers of a design, and follows up to `most` of them.
-    /// Returns the changes of angle and index of each first facet.
+    /// Looks for sets of corners through which meets lead tiers of a design. Follows up to `most` of them, and returns by how much each
+    /// changed the angle and the index of its first facet.
     fn followed(design: &Tiers, count: usize, most: usize) -> Vec<[f64; 2]> {
         let mut changes = vec![];
         for place in 0..design.tiers.len() {

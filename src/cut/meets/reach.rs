@@ -7,8 +7,7 @@ use super::stone::{StoneCorner, StoneSide};
 use crate::math::Plane;
 use glam::DVec3;
 
-/// The least depth of a corner below the highest point, in lengths of the largest distance, at which a facet can be
-/// cut to it.
+/// A corner this much below the highest, in lengths of the largest distance, is one that a facet can be cut to.
 const REACHABLE: f64 = 1e-6;
 
 impl Bench<'_> {
