@@ -63,7 +63,7 @@ fn see(leaving: Ray, weight: f32, spread: f32, is_mirrored: bool) {
     sum.colour += response.key * light.x + response.red * light.y + response.green * light.z + response.blue * light.w;
 }
 
-// Returns whether a ray runs through a ball, whose radius is the fourth number.
+// Whether a ray runs through a ball, whose radius is the fourth number.
 fn is_near(ball: vec4f, ray: Ray) -> bool {
     let away = ball.xyz - ray.origin;
     let along = dot(away, ray.direction);

@@ -1,9 +1,8 @@
 //! Paints beams that several wavelengths share.
 //!
-//! A beam is painted once for each part of its group, in the colour of all light of that part and at the part's
-//! place. There are as few parts as its drift over the group and the strength of its light allow. Light is looked up
-//! for as many wavelengths at once as its weight allows, along the fan of all of them; where a lamp may lie in that
-//! fan, each wavelength is looked up separately.
+//! A beam is painted as seldom as its drift over the group and the strength of its light allow, each time where a part of the
+//! group sees it, in the colour of all light of that part. Light is looked up as seldom as its weight allows, along the fan of
+//! all wavelengths that share the look-up; where a lamp may come into that fan, each wavelength looks for itself.
 
 use super::Subject;
 use super::patches::{Patches, UNEVEN};
@@ -314,7 +313,7 @@ impl PaintedPiece<'_> {
         Lost { absorbed: absorbed * scale, unresolved: loss.unresolved * scale }
     }
 
-    /// Looks up the light that comes through a copy of a beam, before absorption, and stores it in `seen`.
+    /// Looks up the light that comes through a copy of a beam, as if nothing were absorbed, into `seen`.
     fn look(&mut self, beam: &SharedBeam, inside: &Inside, copy: usize) {
         self.seen.clear();
         let all = self.picture.media.len() as f64;
@@ -339,8 +338,8 @@ impl PaintedPiece<'_> {
         }
     }
 
-    /// Looks up the light of several wavelengths along the fan of all of them. Returns false where they must be
-    /// looked up one by one, because a lamp is near or some of them are totally reflected.
+    /// Looks up the light of several wavelengths along the fan of all. Returns false where they have to be looked up one by
+    /// one, because a lamp is near or some are totally reflected.
     fn look_at_once(
         &mut self,
         beam: &SharedBeam,

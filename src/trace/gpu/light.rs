@@ -96,7 +96,7 @@ impl<'a> ByCard<'a> {
         })
     }
 
-    /// Writes the media of the stones, the finishes of metal and the colours of the bands to the card.
+    /// Writes the media of the stones, the finishes of metal and the colours of the bands to the card's memory.
     fn write_frame(&self, look: &SamplePass) {
         let of_stone = |(media, &unit): (&Vec<scene::Medium>, &f64)| -> Vec<[f32; 4]> {
             media.iter().map(|medium| bytemuck::cast(gpu_types::Medium::new(medium, unit))).collect()
@@ -120,8 +120,7 @@ impl<E: From<Stopped> + From<GpuError>> ProgressiveImage<E> for ByCard<'_> {
     fn add_pass(&mut self, look: &SamplePass, watch: Watch) -> Result<(), E> {
         self.write_frame(look);
         let stretch = look.footprint_in_image(&self.film).as_vec2();
-        // Chance ends weak light where metal sends it back to stones again and again. Without metal all light is
-        // followed.
+        // Chance ends weak light where metal sends it back to stones again and again; else all light is followed.
         self.stage.frame.limits[1] = if self.metals.is_some() { look.by_chance as f32 } else { 0.0 };
         self.stage.frame.most[1] = look.number;
         self.stage.frame.sample = [look.strength as f32, stretch.x, stretch.y, 0.0];
