@@ -5,12 +5,12 @@
 //! gaps below the table's edges. Table, angles and the stars' azimuth determine everything (after Harding's
 //! description of the princess crown: two mains of equal width a side, stars, corners).
 //!
-//! **Pavilion.** In the plane through the middle of a side and the axis, the profile is a convex line of straight
-//! pieces, from the girdle down to the shoulder of the mains, and on to the culet. Each piece and a corner of the
-//! girdle give a facet. So all facets of half a side meet in that corner as in a fan, and those of both halves meet
-//! in the profile: chevrons. The last piece belongs to the mains, which neighbouring sides share, so that they form
-//! an X. Every section through the fan is the convex profile again, seen from the corner, so the stone is convex.
-//! Both constructions are this program's own.
+//! **Pavilion.** In the plane through the middle of a side and the axis, the profile is a convex line of straight pieces,
+//! from the girdle down to the shoulder of the mains, and on to the culet. Each piece and a corner of the girdle give a
+//! facet, so that all facets of half a side meet in that corner as in a fan, and those of both halves in the profile: chevrons.
+//! The last piece belongs to the mains, which both neighbouring sides have in common, so that they form an X. Every section
+//! through the fan is the convex profile again, seen from the corner, so that the stone is convex. Both constructions are this
+//! program's own.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::steps::{Rectangle, StepRows};
@@ -134,8 +134,7 @@ pub struct Chevrons {
     pub step: f64,
     /// The part of the way from the middle to the girdle, along the middle of a side, to which the mains reach.
     pub shoulder: f64,
-    /// The angle by which the facets at the corners are steeper than the mains, in degrees; `None` where mains reach
-    /// the corners.
+    /// How many degrees the facets at the corners are steeper than the mains; `None` where mains reach the corners.
     pub corner_step: Option<f64>,
     /// The part of the mains' way to their point at which the culet cuts them off; 0 is a point.
     pub culet: f64,

@@ -46,7 +46,7 @@ impl CushionChevrons<'_> {
     /// Adds the pavilion.
     ///
     /// # Errors
-    /// Fails with the tier whose points give no plane.
+    /// The tier whose points give no plane.
     pub fn add_to(&self, net: &mut FacetNet) -> Result<(), NoRoom> {
         let inside = DVec3::NEG_Z * (0.5 * self.thickness);
         let around = self.girdle.mains().len();

@@ -104,8 +104,8 @@ fn no_facet_is_a_sliver_and_every_plane_has_a_facet() {
     assert!(found.borrow().is_empty(), "{:#?}", found.borrow());
 }
 
-/// Returns the number of edges of a convex stone that may be a split meet of four facets. Edges of a culet are as
-/// short as the culet is small, and do not count.
+/// Returns the number of edges of a convex stone that may be a meet of four facets that is split. Edges of a culet are as short as
+/// it is small.
 fn split_meets(cut: &Cut) -> Option<usize> {
     let (stone, names) = stone(cut)?;
     let key = cut.family().map_or("", |family| family.key);
@@ -123,12 +123,10 @@ fn split_meets(cut: &Cut) -> Option<usize> {
 fn facets_meet_in_points() {
     let first = made().filter_map(|(family, _)| Some((family.key, split_meets(&family.first)?)));
     let first: Vec<_> = first.filter(|(_, count)| *count > 0).collect();
-    // Where a pair of chevrons parts in the middle of a side, the outline has no corner. With a corner, the stone
-    // would be narrower in a direction next to that of its width, by 4e-5 where it is square, and another format
-    // would measure that width.
+    // Where a pair of chevrons parts in the middle of a side, the outline has no corner: with one, the stone would be narrower in a
+    // direction beside that of its width, by 4e-5 where it is square, and be measured so in another format.
     assert_eq!(first, [("modified_cushion", 8)]);
-    // These families have short edges, where chevrons part or where rows or a corner's facet nearly end in a point;
-    // the numbers are the most stones of 300.
+    // These have short edges, where chevrons part or rows or a corner's facet nearly end in a point: in so many stones of 300 at most.
     let others = [("modified_cushion", 300), ("asscher", 300), ("radiant", 300)];
     let most = |key: &str| others.iter().find(|(other, _)| *other == key).map_or(0, |(_, most)| *most);
     let found: RefCell<BTreeMap<_, u32>> = RefCell::default();

@@ -59,7 +59,7 @@ pub static RADIANT: Family = Family {
         chevron_step::<STEP>(),
         shoulder::<SHOULDER>(),
         Proportion {
-            meaning: "The angle by which the pavilion's facets at the corners are steeper than the mains.",
+            meaning: "How much steeper the pavilion's facets at the corners are than the mains.",
             ..step_rows::step::<CORNER_STEP>("corner_step", "Corner step", [5.0, 20.0])
         },
         rows::girdle_thickness::<GIRDLE>(),

@@ -74,9 +74,7 @@ pub enum GpuError {
     )]
     MixedKinds,
     /// A software driver would follow too few bounces.
-    #[error(
-        "{name} would follow only {bounces} bounces of light in a scene with so many facets (stones: {stones})"
-    )]
+    #[error("{name} follows only {bounces} bounces of light in a scene of so many facets (stones: {stones})")]
     TooFewBounces {
         /// The card's name.
         name: String,
