@@ -17,7 +17,7 @@ pub struct SharedTail {
 
 /// Light of a followed ray, at a point where it leaves the stone.
 #[derive(Debug, Clone, Copy)]
-pub struct SharedExit {
+pub struct SharedTailExit {
     /// The unit direction of the light, followed from the eye.
     pub direction: DVec3,
     /// The share of the light that leaves here, as if nothing were absorbed.
@@ -45,7 +45,7 @@ impl SharedTail {
         end: &BeamEnd,
         medium: &Medium,
         (spot, luck): (DVec2, f64),
-        mut leave: impl FnMut(SharedExit),
+        mut leave: impl FnMut(SharedTailExit),
     ) -> (Loss, f64) {
         let point = point_in_polygon(&end.outline, end.area, spot);
         let (origin, direction, path) = end.ray(point);
@@ -64,7 +64,7 @@ impl SharedTail {
             let factor = chances.meet(met.light, met.left, met.onward);
             if let Some(leaving) = met.leaving {
                 let share = leaving.weight * factor;
-                leave(SharedExit { direction: leaving.direction, share, path: met.path });
+                leave(SharedTailExit { direction: leaving.direction, share, path: met.path });
             }
         });
         (chances.loss(loss.bounces), path)
