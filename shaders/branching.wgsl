@@ -1,12 +1,13 @@
-// Exits from solids that need not be convex: light that leaves may enter again. The twin of src/trace/ray/tree.rs.
+// Exits from solids that need not be convex: light that leaves may enter again. This is the twin of
+// src/trace/ray/tree.rs.
 
-// Light that has left the body and meets it again, waiting to be followed.
+// Light that has left the body, will meet it again and waits to be followed.
 var<private> inbound: array<Inbound, MOST_INBOUND>;
 var<private> inbound_count: u32;
-// The weight of the light that is not followed any farther: it counts as unresolved.
+// The weight of the light that is not followed further, which counts as unresolved.
 var<private> given_up: f32;
 
-// Decides what becomes of light that leaves the body. It leaves for good by `leave`, or waits to enter the body again; light
+// Handles light that leaves the body. The light leaves for good by `leave`, or waits to enter the body again. Light
 // that is too weak to wait, or finds no room, is given up.
 fn depart(departing: Inbound) {
     let weight = (departing.light.x + departing.light.y) * departing.left;

@@ -3,18 +3,18 @@
 @group(0) @binding(11) var<storage, read> triangles: array<Triangle>;
 @group(0) @binding(12) var<storage, read> nodes: array<BvhNode>;
 
-// Boxes are enlarged by this share of how far the solid reaches plus how far the ray's start is from the origin: some thirty
-// roundings.
+// Boxes are enlarged by this part of the sum of the solid's reach and the distance of the ray's start from the
+// origin; it is some thirty roundings.
 const BOX_SLACK: f32 = 4e-6;
-// The least component of a direction that is divided by; smaller ones are replaced by it.
+// The least absolute component of a direction that is divided by; smaller ones are replaced by it.
 const STILLEST: f32 = 1e-20;
 
 // The boxes that wait to be opened in the present search, and the distances to them. They are kept once for all searches,
 // because compilers copy a search to each place that calls it.
 var<private> pending: array<vec2f, MOST_LEVELS>;
 
-// Permutes a vector's axes so that the longest component of a direction becomes z. Where that component is negative x and y
-// are swapped too, so that nothing is mirrored.
+// Permutes a vector's axes so that the longest component of a direction becomes z. Where that component is negative,
+// x and y are swapped too, so that nothing is mirrored.
 fn turned_axes(v: vec3f, longest: u32, is_down: bool) -> vec3f {
     var p = v;
     if longest == 0u {
@@ -25,8 +25,8 @@ fn turned_axes(v: vec3f, longest: u32, is_down: bool) -> vec3f {
     return select(p, p.yxz, is_down);
 }
 
-// Returns the distance at which a ray is first within a box; negative where that is not before `far`. `per` is the
-// reciprocal of the direction.
+// Returns the distance at which a ray enters a box, 0 for a start inside; negative where the ray does not enter it
+// before `far`. `per` is the reciprocal of the direction.
 fn enters(node: BvhNode, origin: vec3f, per: vec3f, slack: f32, far: f32) -> f32 {
     let is_up = per >= vec3f(0.0);
     let near = (select(node.high.xyz + slack, node.low.xyz - slack, is_up) - origin) * per;
@@ -36,9 +36,9 @@ fn enters(node: BvhNode, origin: vec3f, per: vec3f, slack: f32, far: f32) -> f32
     return select(-1.0, into, into <= out);
 }
 
-// Returns the first triangle of the present body that a ray runs into (side -1), out of (side 1), or meets from either side (0);
-// the distance is negative where there is none. Left out are the triangle `left`, and what is not farther away than `after`. The
-// test is that of Woop, Benthin and Wald, as in `Sheared::meets`.
+// Returns the first triangle of the present body that a ray runs into (side -1), out of (side 1), or meets from
+// either side (0). The distance is negative where there is none. The triangle `left`, and triangles that are not
+// farther away than `after`, are ignored. The test is that of Woop, Benthin and Wald, as in `Sheared::meets`.
 fn nearest_triangle(origin: vec3f, direction: vec3f, side: f32, left: u32, after: f32) -> Meeting {
     let size = abs(direction);
     var longest = select(0u, 1u, size.y >= size.x);

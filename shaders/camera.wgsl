@@ -1,7 +1,7 @@
 // The rays of a picture from the eye: the twin of src/trace/ray/camera.rs.
 
-// Returns the ray through the point `p` of the image plane, from a point outside all stones, with its change where `p` moves by
-// `by`.
+// Returns the ray through the point `p` of the image plane, from a point outside all stones, with its change when `p`
+// moves by `by`.
 fn camera_ray(p: vec2f, by: vec2f) -> Ray {
     let at = frame.right.xyz * p.x + frame.up.xyz * p.y;
     let moved = frame.right.xyz * by.x + frame.up.xyz * by.y;

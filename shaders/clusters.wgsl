@@ -1,5 +1,5 @@
 // Intersection of rays with convex stones of many planes. Planes of similar normals and offsets form a cluster, and a
-// cluster is searched only where its bound says that it may hold the facet sought.
+// cluster is searched only where its bound shows that it may hold the wanted facet.
 
 @group(0) @binding(1) var<storage, read> planes: array<vec4f>;
 @group(0) @binding(3) var<storage, read> clusters: array<Cluster>;
@@ -14,8 +14,9 @@ fn height_at_most(cluster: Cluster, point: vec3f) -> f32 {
     return dot(cluster.middle.xyz, point) - cluster.middle.w + cluster.spread.y + cluster.spread.x * length(point);
 }
 
-// Returns where a ray enters the body, as `entry` in planes.wgsl does. A cluster is skipped where the point reached so far
-// is certainly inside all its planes: it can neither move the entry on nor show that the ray misses.
+// Returns the point where a ray enters the body, as `entry` in planes.wgsl does. A cluster is skipped where the point
+// reached so far is certainly inside all its planes, because it can then neither move the entry farther nor show that
+// the ray misses.
 fn entry(origin: vec3f, direction: vec3f) -> Meeting {
     var into = 0.0;
     var facet = body.range.x;
@@ -52,8 +53,8 @@ fn entry(origin: vec3f, direction: vec3f) -> Meeting {
     return Meeting(facet, select(-1.0, into, into > 0.0));
 }
 
-// Returns where a ray leaves the body, as `next_facet` in planes.wgsl does. A cluster is skipped where none of its planes
-// can be nearer than the best so far.
+// Returns the facet by which a ray leaves the body, as `next_facet` in planes.wgsl does. A cluster is skipped where
+// none of its planes can be nearer than the nearest so far.
 fn next_facet(point: vec3f, direction: vec3f) -> Meeting {
     var best = Leaving(0.0, 1.0, body.range.x);
     let reach = length(point);

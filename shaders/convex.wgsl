@@ -1,6 +1,6 @@
 // Exits from convex stones.
 
-// Passes light that leaves the body on to `leave`: it never meets a convex stone again.
+// Passes light that leaves the body on to `leave`, because it never meets a convex stone again.
 fn depart(departing: Inbound) {
     leave(outward(departing.ray), (departing.light.x + departing.light.y) * departing.left, departing.bounce == 0u);
 }

@@ -1,5 +1,5 @@
-// The environment around the stones: the twin of src/trace/environment.rs. Light is radiance in four channels: of the key
-// illuminant's spectrum, and of red, green and blue.
+// The environment around the stones, the twin of src/trace/environment.rs. Light is radiance in four channels: of the
+// key illuminant's spectrum, and of red, green and blue.
 
 @group(0) @binding(6) var<uniform> environment: Environment;
 @group(0) @binding(7) var<uniform> lamps: array<Lamp, MOST_LAMPS>;
@@ -9,7 +9,7 @@
 const FRAC_1_PI: f32 = 0.31830988;
 const STILL: f32 = 1e-14;
 const ALONG: f32 = 1e-6;
-// A least height above the backplate, so that no division is by 0.
+// The least height above the backplate, which prevents divisions by 0.
 const LEAST_HEIGHT: f32 = 1e-20;
 
 // Returns the place of a direction in the octahedral map, 0 to 1.
@@ -19,7 +19,7 @@ fn octahedral(d: vec3f) -> vec2f {
     return 0.5 + 0.5 * select(folded, flat, d.z >= 0.0);
 }
 
-// Returns a texel of the map; beyond the map's edge, the one that lies next to that edge on the sphere.
+// Returns a texel of the map. Beyond the map's edge, it is the texel that lies next to that edge on the sphere.
 fn sky_texel(at: vec2i, level: i32, size: i32) -> vec4f {
     var p = at;
     if p.x < 0 || p.x >= size {
@@ -55,14 +55,15 @@ fn sky_at(direction: vec3f, angle: f32) -> vec4f {
     return mix(whole, sky_level(at, fine + 1), level - f32(fine));
 }
 
-// Returns the share of a fan of directions, from half of it before the ray's direction to half after it, that lies inside
-// a lamp's disc.
+// Returns the share of a fan of directions that lies inside a lamp's disc. The fan reaches from half its length
+// before the ray's direction to half after it.
 fn share_inside(from_middle: vec3f, fan: vec3f, chord_squared: f32) -> f32 {
     let a = dot(fan, fan);
     if a < STILL {
         return select(0.0, 1.0, dot(from_middle, from_middle) < chord_squared);
     }
-    // Computed from the nearest point: b² - ac has no digits in f32 where curved surfaces make fans of many radians.
+    // The share is computed from the nearest point, because b² - ac has no digits in f32 where curved surfaces make
+    // fans of many radians.
     let nearest = -dot(from_middle, fan) / a;
     let apart = from_middle + fan * nearest;
     let inside = chord_squared - dot(apart, apart);
@@ -73,8 +74,8 @@ fn share_inside(from_middle: vec3f, fan: vec3f, chord_squared: f32) -> f32 {
     return max(min(nearest + half, 0.5) - max(nearest - half, -0.5), 0.0);
 }
 
-// Returns the area that a chord cuts off a circle of this radius; half the chord is `half`, and `along` is how far the chord
-// lies from the circle's middle, negative where most of the disc is cut off.
+// Returns the area that a chord cuts off a circle of this radius. `half` is half the chord, and `along` the distance
+// of the chord from the circle's middle, negative where most of the disc is cut off.
 fn segment(radius: f32, along: f32, half: f32) -> f32 {
     let angle = atan2(half, along);
     // The difference below has no digits where the angle is small.
@@ -82,7 +83,8 @@ fn segment(radius: f32, along: f32, half: f32) -> f32 {
     return radius * radius * select(angle - sin(angle) * cos(angle), narrow, angle < 0.1);
 }
 
-// Returns the share of a disc of directions that lies inside a lamp's disc; it has the area of a square of this side.
+// Returns the share of a disc of directions that lies inside a lamp's disc. The disc has the area of a square with
+// this side.
 fn share_of_disc(from_middle: vec3f, side: f32, chord_squared: f32) -> f32 {
     let own = side * sqrt(FRAC_1_PI);
     let lamp = sqrt(chord_squared);
@@ -94,7 +96,7 @@ fn share_of_disc(from_middle: vec3f, side: f32, chord_squared: f32) -> f32 {
     let large = max(own, lamp);
     var overlap = small * small / FRAC_1_PI;
     if apart > large - small {
-        // Half the line through both crossings, by Heron's formula.
+        // This is half the line through both crossings, by Heron's formula.
         let heron = (apart + own + lamp) * (own + lamp - apart) * (apart + large - small) * (apart - large + small);
         let half = 0.5 * sqrt(max(heron, 0.0)) / apart;
         let beyond = (apart * apart + (large - small) * (large + small)) / (2.0 * apart);
@@ -106,8 +108,8 @@ fn share_of_disc(from_middle: vec3f, side: f32, chord_squared: f32) -> f32 {
 // The most look-ups along a stretch of the backplate.
 const MOST_TAPS: f32 = 8.0;
 
-// Returns the pixels across and down of a level of the backplate. They are computed, as Mesa's software driver (22.3) says 0 of
-// all levels but the first.
+// Returns the number of pixels across and down of a level of the backplate. They are computed, because Mesa's
+// software driver (22.3) returns 0 for all levels but the first.
 fn photo_size(level: i32) -> vec2u {
     return max(textureDimensions(photo) >> vec2u(u32(level)), vec2u(1u));
 }
@@ -124,35 +126,35 @@ fn photo_level(at: vec2f, level: i32) -> vec3f {
     return mix(above, below, part.y).xyz;
 }
 
-// Returns a ray whose fan alone runs over the same stretch of the backplate's plane, to first order, as its fan and its shift
-// together; its height above the plane is given.
+// Returns a ray whose fan alone covers, to first order, the same stretch of the backplate's plane as its fan and its
+// shift together. `height` is the ray's height above the plane.
 fn fanned_onto_plane(ray: Ray, height: f32) -> Ray {
     let along = ray.shift * -dot(ray.direction, frame.toward.xyz) + ray.direction * dot(ray.shift, frame.toward.xyz);
     return Ray(ray.origin, ray.direction, ray.fan + along / max(height, LEAST_HEIGHT), vec3f(0.0));
 }
 
-// How fast a ray runs toward the backplate's plane, at a part of its fan from its middle.
+// Returns the speed at which a ray approaches the backplate's plane, at a part of its fan from its middle.
 fn photo_speed(ray: Ray, part: f32) -> f32 {
     return -dot(ray.direction + ray.fan * part, frame.toward.xyz);
 }
 
-// Returns the place in the backplate's pixels, from the middle of the first, that a ray meets at a part of its fan. Its
-// height above the plane is given.
+// Returns the place, in the backplate's pixels from the middle of the first, that a ray meets at a part of its fan.
+// `height` is the ray's height above the plane.
 fn photo_place(ray: Ray, height: f32, part: f32) -> vec2f {
     let p = ray.origin + (ray.direction + ray.fan * part) * (height / max(photo_speed(ray, part), ALONG));
     let size = vec2f(textureDimensions(photo));
     let on = vec2f(dot(p, frame.right.xyz), -dot(p, frame.up.xyz)) / environment.photo.y + 0.5;
-    // `on` is measured in the picture's width along both axes.
+    // `on` is in units of the picture's width along both axes.
     return vec2f(on.x, (on.y - 0.5) * size.x / size.y + 0.5) * size - 0.5;
 }
 
-// Returns the part, 0 to 1, of a fan that has passed where its straight track has run through a part of its length.
+// Returns the part of a fan, 0 to 1, that corresponds to a part of its line across the picture.
 fn photo_passed(along: f32, speeds: vec2f) -> f32 {
     let near = along * speeds.x;
     return near / (near + (1.0 - along) * speeds.y);
 }
 
-// Returns the light of the backplate behind the stones that a ray sees; a is the part of the ray's fan that meets it. The
+// Returns the light of the backplate along a ray; a is the part of the ray's fan that meets the backplate. It is the
 // twin of `Backplate::at` and of `Mipmap::along`.
 fn photo_at(arriving: Ray) -> vec4f {
     let height = dot(arriving.origin, frame.toward.xyz) + environment.photo.x;
@@ -185,7 +187,7 @@ fn photo_at(arriving: Ray) -> vec4f {
         return vec4f(0.0);
     }
     let speeds = vec2f(photo_speed(ray, first), photo_speed(ray, last));
-    // The ends are taken as they are, because rounding must not make a whole fan less.
+    // The ends of the line are taken exactly, because rounding must not make a whole fan smaller.
     let begin = select(mix(first, last, photo_passed(enters, speeds)), first, enters <= 0.0);
     let finish = select(mix(first, last, photo_passed(leaves, speeds)), last, leaves >= 1.0);
     let length = length(way) * (leaves - enters);
@@ -201,8 +203,8 @@ fn photo_at(arriving: Ray) -> vec4f {
     return vec4f(sum * (share / taps), share);
 }
 
-// Returns the light that arrives along a ray from outside the stones, averaged over its fan or over a square of directions with this
-// side, whichever is wider: the twin of `Environment::radiance_around`.
+// Returns the light that arrives along a ray from outside the stones, averaged over its fan or over a square of
+// directions with the side `spread`, whichever is wider. It is the twin of `Environment::radiance_around`.
 fn radiance(ray: Ray, spread: f32) -> vec4f {
     let photographed = photo_at(ray);
     let seen = vec4f(0.0, photographed.xyz);
@@ -212,7 +214,7 @@ fn radiance(ray: Ray, spread: f32) -> vec4f {
     return seen + beyond(ray, spread) * (1.0 - photographed.w);
 }
 
-// Returns the light that arrives along a ray from the light alone.
+// Returns the light that arrives along a ray from the light alone, in the shadow of the observer's head.
 fn beyond(ray: Ray, spread: f32) -> vec4f {
     let fanned = length(ray.fan);
     let d = vec3f(
@@ -235,7 +237,8 @@ fn beyond(ray: Ray, spread: f32) -> vec4f {
             sum += lamp.radiance * share_inside(away, fan, lamp.toward.w);
         }
     }
-    // The observer's head, where there is one, hides the light behind it, with an edge as wide as the fan.
+    // The observer's head, where there is one, hides the light behind it; the edge of its shadow is as wide as the
+    // fan.
     if environment.photo.z > 1.0 {
         return sum;
     }

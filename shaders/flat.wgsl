@@ -1,4 +1,4 @@
-// Flat facets: what trace.wgsl needs to trace them.
+// The surface functions that trace.wgsl needs, for flat facets.
 
 const IS_CURVED: bool = false;
 

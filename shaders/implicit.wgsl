@@ -1,15 +1,16 @@
-// Intersection of rays with glass shapes (implicit surfaces). In its frame each reaches 1 from the origin. The twin of src/math/implicit/roots.rs and of src/trace/ray/facets.rs.
+// Intersection of rays with glass shapes (implicit surfaces). In its frame, each shape reaches 1 from the origin.
+// This is the twin of src/math/implicit/roots.rs and of src/trace/ray/facets.rs.
 
 @group(0) @binding(1) var<uniform> fields: array<ImplicitSurface, MOST_BODIES>;
 
 const IS_CURVED: bool = true;
-// A point this near to the surface is on it: some roundings.
+// A point counts as on the surface if the function is at most this, which is some roundings.
 const ROUNDING: f32 = 5e-7;
-// The most steps to a root; where more are needed the ray only touches the shape.
+// The most steps to a root. Where more are needed, the ray only touches the shape.
 const MOST_STEPS: u32 = 200u;
-// A bound's root counts as near where the bound is no more than this share of the start's depth.
+// The search is near a root where the bound is at most this part of the depth at its start.
 const NEAR: f32 = 0.5;
-// From a start less deep than this the steps go on to the full number of digits.
+// From starts that are less deep than this, the steps go on to the last digits.
 const FINE: f32 = 1e-3;
 // The least step of a ray outside; a smaller one would be lost to rounding.
 const LEAST_STEP: f32 = 1e-7;
@@ -19,7 +20,7 @@ fn present_field() -> ImplicitSurface {
     return fields[body.range.x];
 }
 
-// Returns a point near the surface moved onto it.
+// Returns a point near the surface, moved onto it.
 fn polished(point: vec3f) -> vec3f {
     let jet = jet_at(present_field(), point, vec3f(0.0));
     return point - jet.gradient * (jet.value / max(dot(jet.gradient, jet.gradient), LEAST_RADIUS));
@@ -37,7 +38,7 @@ fn entry(origin: vec3f, direction: vec3f) -> Meeting {
     return Meeting(0u, way_in(present_field(), origin, direction));
 }
 
-// Returns where light that leaves the body enters it again; only a shape with a wave is not convex.
+// Returns the place where light that leaves the body enters it again. Only a shape with a wave is not convex.
 fn again(origin: vec3f, direction: vec3f) -> Meeting {
     let shape = present_field();
     if !has_wave(shape) {
@@ -50,8 +51,8 @@ fn next_facet(point: vec3f, direction: vec3f) -> Meeting {
     return Meeting(0u, way_out(present_field(), point, direction));
 }
 
-// Takes the wave's shear out of a point and a direction. The line through them becomes a curve around the unsheared body;
-// the result is the curve's point and its tangent there.
+// Removes the wave's shear from a point and a direction. The line through them becomes a curve around the unsheared
+// body; the result is the curve's point and its tangent there.
 fn tangent(shape: ImplicitSurface, p: vec3f, v: vec3f) -> array<vec3f, 2> {
     if !has_wave(shape) {
         return array<vec3f, 2>(p, v);
@@ -123,19 +124,19 @@ fn way_out(shape: ImplicitSurface, p: vec3f, v: vec3f) -> f32 {
     return -1.0;
 }
 
-// Returns a step along the line from `p` in direction `on` that does not pass the far surface; at `p` the body's function
-// has the value `at.x` and the slope `at.y`. The ray's curve lies off the line by at most `bend_at_most` s²/2 up or down;
-// the step is no greater than the far root of the function with the point moved by this away from the middle. A straight
-// line is followed to the surface itself. The second number is negative where there is no root.
+// Returns a step along the line from `p` in direction `on` that does not pass the far surface. At `p`, the body's
+// function has the value `at.x` and the slope `at.y`. The ray's curve lies off the line by at most `bend_at_most`
+// s²/2 up or down; the step is at most the far root of the function of the point moved by this away from the middle.
+// A straight line is followed to the surface itself. The second number is negative where there is no root.
 fn far_step(shape: ImplicitSurface, p: vec3f, on: vec3f, at: vec2f, bend_at_most: f32) -> vec2f {
-    // A start that rounding has put outside counts as on the surface: otherwise a ray that enters at grazing incidence would
-    // miss.
+    // A start that rounding has put outside counts as on the surface. Otherwise a ray that enters at grazing
+    // incidence would miss.
     let level = max(at.x, 0.0);
     let depth = max(-at.x, 0.0);
     let squared = dot(on, on);
     let beyond = shape.size.z / sqrt(squared) - dot(p, on) / squared;
-    // Farther on, the displacement alone puts every point outside the body. The function is convex: its root is no farther
-    // than the tangent's.
+    // Beyond this, the displacement alone puts every point outside the body. The function is convex, so its root is
+    // no farther than the root of its tangent.
     var s = min(beyond, sqrt(2.0 * (shape.size.x + shape.size.y) / max(bend_at_most, LEAST_GAP)));
     if at.y > 0.0 {
         s = min(s, depth / at.y);
@@ -152,7 +153,7 @@ fn far_step(shape: ImplicitSurface, p: vec3f, on: vec3f, at: vec2f, bend_at_most
         if bend_at_most > 0.0 && depth > FINE && value < NEAR * depth {
             return vec2f(s * depth / (depth + value), 1.0);
         }
-        // Along a straight line the root is the surface itself, and one more step adds digits.
+        // Along a straight line, the root is the surface itself, and one more step adds digits.
         let is_there = value <= ROUNDING;
         if !is_there || bend_at_most == 0.0 {
             s -= max(value, 0.0) / there.y;

@@ -1,12 +1,13 @@
-// The functions of glass shapes (implicit surfaces) and their derivatives: the twin of src/math/implicit/jet.rs, profile.rs,
-// body.rs and wave.rs, in the shape's own frame and in units of its reach. Of the second derivatives only the product with
-// one displacement is computed.
+// The functions of glass shapes (implicit surfaces) and their derivatives, in the shape's own frame and in units of
+// its reach: the twin of src/math/implicit/jet.rs, profile.rs, body.rs and wave.rs. Of the second derivatives, only
+// the product with one displacement is computed.
 
-// The least divisor; no radius is meant to be so small.
+// The least divisor, which is smaller than any radius that a shape is meant to have.
 const LEAST_RADIUS: f32 = 1e-6;
 const TURN: f32 = 6.2831853;
 
-// A function near a point: its value, its gradient, and the gradient's change where the point moves by a given displacement.
+// A function near a point: its value, its gradient, and the change of the gradient when the point moves by a given
+// displacement.
 struct Jet {
     value: f32,
     gradient: vec3f,
@@ -17,16 +18,16 @@ fn plane_jet(value: f32, normal: vec3f) -> Jet {
     return Jet(value, normal, vec3f(0.0));
 }
 
-// Returns the distance from an axis or a point. `away` leads from it to the present point; `by` is the displacement's part
-// perpendicular to the axis.
+// Returns the distance from an axis or a point. `away` leads from it to the present point, and `by` is the component
+// of the displacement perpendicular to the axis.
 fn radial(away: vec3f, by: vec3f) -> Jet {
     let value = max(length(away), LEAST_RADIUS);
     let gradient = away / value;
     return Jet(value, gradient, (by - gradient * dot(gradient, by)) / value);
 }
 
-// The twin of `Jet::and`: returns the signed distance from the part that two solids share, from their signed distances along
-// perpendicular directions. Where the edge between them is `sharp`, only faces count.
+// Returns the signed distance from the part that two solids share, from their signed distances along perpendicular
+// directions. Where the edge between them is `sharp`, only faces count. It is the twin of `Jet::and`.
 fn shared_by(a: Jet, b: Jet, by: vec3f, sharp: bool) -> Jet {
     if sharp || min(a.value, b.value) <= 0.0 {
         if a.value > b.value {
@@ -72,7 +73,8 @@ fn triangle_jet(shape: ImplicitSurface, p: vec3f, by: vec3f, sharp: bool) -> Jet
     return flank;
 }
 
-// The twin of `RoundedBody::jet` for a point on the surface or on the way to it.
+// Returns the jet of the body's function for a point on the surface or on the way to it. It is the twin of
+// `RoundedBody::jet`.
 fn body_jet(shape: ImplicitSurface, p: vec3f, by: vec3f) -> Jet {
     let sharp = shape.size.y == 0.0;
     var outline: Jet;
@@ -99,8 +101,9 @@ fn has_wave(shape: ImplicitSurface) -> bool {
     return shape.flank.w > 0.0;
 }
 
-// Returns sines and cosines of angles given in turns, exact to some roundings. GPUs promise their own functions only to
-// 2^-11, and the wave's slope must be that of its height. Polynomials: S. L. Moshier, Cephes, sinf.c.
+// Returns sines and cosines of angles given in turns, exact to some roundings. Cards guarantee their own functions
+// only to 2^-11, but the wave's slope must fit its height. The polynomials are those of S. L. Moshier, Cephes,
+// sinf.c.
 fn sin_cos(turns_given: vec2f) -> array<vec2f, 2> {
     let part = turns_given - round(turns_given);
     let quarter = round(part * 4.0);
@@ -116,8 +119,8 @@ fn sin_cos(turns_given: vec2f) -> array<vec2f, 2> {
     return array<vec2f, 2>(select(sines, -sine, is_half), select(cosines, -cosine, is_half));
 }
 
-// The wave at a point: the slopes of its height along x and y, its height, and its second derivatives, the one along x alone
-// (that along y is equal) and the mixed one.
+// The wave at a point: the slopes of its height along x and y, its height, and its second derivatives, the pure one,
+// which is the same along x and along y, and the mixed one.
 struct Wave {
     rise: vec2f,
     height: f32,
@@ -135,13 +138,14 @@ fn wave_at(shape: ImplicitSurface, p: vec3f) -> Wave {
     return Wave(rise, half * (cosines.x - cosines.y), bend);
 }
 
-// Returns an upper bound of how fast the wave's slope changes along a line of this direction.
+// Returns an upper bound for the rate of change of the wave's slope along a line of this direction.
 fn most_bend(shape: ImplicitSurface, direction: vec3f) -> f32 {
     let number = TURN * shape.wave.y;
     return shape.wave.x * number * number * dot(direction.xy, direction.xy);
 }
 
-// Returns the jet of the shape's function for a point on the surface: the body's, sheared by the wave as in `Wave::shear`.
+// Returns the jet of the shape's function for a point on the surface: that of the body, sheared by the wave as in
+// `Wave::shear`.
 fn jet_at(shape: ImplicitSurface, p: vec3f, by: vec3f) -> Jet {
     if !has_wave(shape) {
         return body_jet(shape, p, by);
@@ -154,13 +158,13 @@ fn jet_at(shape: ImplicitSurface, p: vec3f, by: vec3f) -> Jet {
     return Jet(jet.value, jet.gradient - rise * falling, jet.change - rise * jet.change.z - bent * falling);
 }
 
-// The twin of `Jet::normal`.
+// Returns the unit normal at a jet. It is the twin of `Jet::normal`.
 fn normal_of(jet: Jet) -> vec3f {
     return jet.gradient / max(length(jet.gradient), LEAST_RADIUS);
 }
 
-// The twin of `ImplicitSurface::bend`, times a displacement: returns the change of the unit normal over the displacement's
-// part along the surface.
+// Returns the change of the unit normal over the component of a displacement along the surface. It is the twin of
+// `ImplicitSurface::bend`, times the displacement.
 fn bend(shape: ImplicitSurface, p: vec3f, by: vec3f) -> vec3f {
     let normal = normal_of(jet_at(shape, p, vec3f(0.0)));
     let jet = jet_at(shape, p, by - normal * dot(normal, by));

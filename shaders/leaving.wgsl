@@ -1,14 +1,14 @@
-// Which of several planes a ray inside a convex body meets first. It is the plane with the greatest ratio of the speed toward
-// it to the gap before it; ratios are compared without dividing.
+// Finds the plane that a ray inside a convex body meets first. It is the plane with the greatest ratio of the speed
+// toward it to the gap before it; ratios are compared without a division.
 
-// The plane that is the nearest so far, and the ray's speed toward it and gap before it.
+// The nearest plane so far, the ray's speed toward it, and the gap before it.
 struct Leaving {
     speed: f32,
     gap: f32,
     facet: u32,
 }
 
-// Returns the nearest of the planes from `first` to before `end`, or the nearest so far where that is nearer.
+// Returns the nearest among the nearest plane so far and the planes from `first` to before `end`.
 fn nearer(so_far: Leaving, first: u32, end: u32, point: vec3f, direction: vec3f) -> Leaving {
     var best = so_far;
     for (var k = first; k < end; k++) {

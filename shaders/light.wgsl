@@ -3,13 +3,14 @@
 @group(0) @binding(2) var<storage, read_write> lit: array<RadiancePixel>;
 @group(0) @binding(10) var<uniform> responses: array<Response, MOST_WAVELENGTHS + 1u>;
 
-// The body that a ray meets first, and where: a stone by its number, metal by its number after MOST_BODIES, or NONE.
+// The body that a ray meets first, and the place. A stone has its number, metal has its number plus MOST_BODIES, and
+// no body is NONE.
 struct First {
     body: u32,
     met: Meeting,
 }
 
-// The body that a ray has just left, numbered as in `First`, and the triangle where that is metal.
+// The body that a ray has just left, numbered as in `First`, and the triangle where the body is metal.
 struct Left {
     body: u32,
     triangle: u32,
@@ -26,15 +27,16 @@ struct Waiting {
 var<private> sum: RadiancePixel;
 var<private> response: Response;
 var<private> present: u32;
-// The chances of the light that the present body is lit by, and the number of rays that have left the body so far.
+// The random numbers of the light that enters the present body, and the number of rays that have left the body so
+// far.
 var<private> chances: Chances;
 var<private> exits: u32;
 var<private> waiting: array<Waiting, MOST_WAITING>;
 var<private> count: u32;
-// The ray from the eye, which the light would follow without any stone.
+// The ray from the eye, as it would go on without any stone.
 var<private> straight: Ray;
 
-// Returns the ray on which light is looked up: the twin of `SamplePass::mixed` in src/trace/sampling.rs.
+// Returns the ray along which light is looked up. It is the twin of `SamplePass::mixed` in src/trace/sampling.rs.
 fn mixed(ray: Ray) -> Ray {
     let strength = frame.sample.x;
     if strength >= 1.0 || dot(ray.direction, straight.direction) <= 0.0 {
@@ -49,9 +51,10 @@ fn mixed(ray: Ray) -> Ray {
     return Ray(mix(beside, ray.origin, strength), between / length, fan, mix(moved, ray.shift, strength));
 }
 
-// Adds the light of the environment that arrives along a ray, which may stand for a square of directions with the side `spread`.
+// Adds the light of the environment that arrives along a ray, which may represent a square of directions with the
+// side `spread`.
 fn see(leaving: Ray, weight: f32, spread: f32, is_mirrored: bool) {
-    // Only refraction is mixed with the straight way.
+    // Only refracted light is mixed with the straight ray.
     var ray = leaving;
     if !is_mirrored {
         ray = mixed(leaving);
@@ -67,12 +70,12 @@ fn is_near(ball: vec4f, ray: Ray) -> bool {
     return along > -ball.w && dot(away, away) - along * along < ball.w * ball.w;
 }
 
-// Whether there are bodies that a ray may meet after it has left one.
+// Returns whether there are bodies that a ray may meet after it has left one.
 fn has_others() -> bool {
     return frame.counts.x > 1u || frame.most.z > 0u;
 }
 
-// Returns what a ray meets first. The body that is traced stays the present one.
+// Returns the first hit of a ray. The body that is traced stays the present one.
 fn first_body(ray: Ray, left: Left) -> First {
     let own = body;
     var first = First(NONE, Meeting(0u, -1.0));
@@ -94,7 +97,7 @@ fn first_body(ray: Ray, left: Left) -> First {
     return first;
 }
 
-// Whether light that has left the present stone meets another body before this distance.
+// Returns whether light that has left the present stone meets another body before this distance.
 fn is_taken(ray: Ray, distance: f32) -> bool {
     if !has_others() {
         return false;
@@ -119,8 +122,8 @@ fn leave(ray: Ray, weight: f32, is_surface: bool) {
     onward(ray, weight, 0.0, Left(present, NONE), chances_beyond(chances, exits));
 }
 
-// Handles light that has left a body: toward another it waits to be followed, else it is looked up. `spread` is the side of the
-// square of directions for which the ray stands.
+// Handles light that has left a body. Light that meets another body waits to be followed, and all other light is
+// looked up. `spread` is the side of the square of directions that the ray represents.
 fn onward(ray: Ray, weight: f32, spread: f32, left: Left, own: Chances) {
     if has_others() {
         let first = first_body(ray, left);
@@ -138,7 +141,8 @@ fn onward(ray: Ray, weight: f32, spread: f32, left: Left, own: Chances) {
     see(ray, weight, spread, is_reflected(own));
 }
 
-// Follows a ray through the stone that it meets first, or reflects it at metal; where it meets nothing, looks up the environment.
+// Follows a ray through the stone that it meets first, or reflects it at metal. Where it meets nothing, the
+// environment is looked up.
 fn go(next: Waiting, wavelength: u32) {
     if is_spent() {
         sum.rest.x += next.weight;
@@ -178,10 +182,11 @@ fn light(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: 
     }
     let turns_before = turns;
     let at = place.y * frame.film.x + place.x;
-    // Each wavelength is added up alone: so the sum does not depend on how many a dispatch takes.
+    // Each wavelength is summed separately, so that the sum does not depend on the number of wavelengths in a
+    // dispatch.
     var total = lit[at];
     for (var w = frame.turn.z; w < frame.turn.w; w++) {
-        // Light that meets no body is the same at all wavelengths: it is looked up once, for all of them together.
+        // Light that meets no body is the same at all wavelengths, so it is looked up once for all of them.
         if is_beside && w > 0u {
             break;
         }
@@ -189,7 +194,8 @@ fn light(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: 
         turns = turns_before;
         response = responses[select(w, frame.counts.y, is_beside)];
         var next = Waiting(straight, 1.0, first, chances_of_pixel(pixel, w));
-        // One call of `go` for all light: compilers put all that it calls in its place, which takes some of them long.
+        // `go` is called at one place for all light, because compilers inline it with everything it calls, which
+        // takes some of them long.
         loop {
             go(next, w);
             if count == 0u {

@@ -1,5 +1,5 @@
-// Panes of liquid glass: the twin of src/picture/liquid_glass, whose functions have the same names and say what they mean.
-// Tested by src/picture/liquid_glass/on_card.rs.
+// Panes of liquid glass: the twin of src/picture/liquid_glass, whose functions have the same names and describe them.
+// The tests are in src/picture/liquid_glass/on_card.rs.
 
 @group(0) @binding(0) var<uniform> pane: PaneData;
 @group(0) @binding(1) var<storage, read> background: array<vec4f>;
@@ -11,7 +11,7 @@ const FLAT = 1e-9;
 // The standard deviation of the frost at full intensity and roughness.
 const BLUR = 0.003;
 
-// How far dispersion moves red, green and blue.
+// The displacement of red, green and blue by dispersion, in units of its strength.
 const PARTS = vec3f(1.1, 0.0, -0.9);
 
 struct PaneField {
@@ -119,7 +119,8 @@ fn brightness(normal: vec3f) -> f32 {
     return 0.3 * diffuse + 0.5 * shine + 0.3 * (rim * rim * rim);
 }
 
-// Returns the light some pixels beside the middle of a pixel, between the four pixels around it.
+// Returns the light at a place some pixels beside the middle of a pixel, interpolated between the four pixels around
+// the place.
 fn around(at: vec2i, by: vec2f) -> vec3f {
     let base = floor(by);
     let part = by - base;
@@ -132,7 +133,7 @@ fn around(at: vec2i, by: vec2f) -> vec3f {
     return mix(high, low, part.y);
 }
 
-// Returns the samples of the frost: places in standard deviations, and weights.
+// Returns the weighted mean of the frost's samples, whose places are in standard deviations.
 fn frosted(at: vec2i, by: vec2f, sigma: f32) -> vec3f {
     var five = array<vec3f, 5>(
         vec3f(0.0, 0.0, 1.0 / 3.0),

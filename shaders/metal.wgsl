@@ -1,21 +1,21 @@
-// Bodies of metal beside the stones: the twin of src/trace/ray/metal_tracer.rs, of what src/trace/ray/scene_tracer.rs does with them, of
-// src/trace/ray/lobe_luck.rs, and of the sieve in src/trace/ray/roulette.rs.
+// Bodies of metal beside the stones. This is the twin of src/trace/ray/metal_tracer.rs, of its use in
+// src/trace/ray/scene_tracer.rs, of src/trace/ray/lobe_luck.rs, and of the sieve in src/trace/ray/roulette.rs.
 
 @group(0) @binding(13) var<uniform> metals: array<Body, MOST_METALS>;
 @group(0) @binding(14) var<uniform> roughnesses: array<vec4f, MOST_ROUGHNESS_ROWS>;
 
-// The most reflections by metal on a ray's way.
+// The most reflections by metal along a ray's path.
 const MOST_REFLECTIONS: u32 = 256u;
-// How far from its start light that metal has reflected meets nothing of that body, as a share of how far it reaches: some thirty
-// roundings.
+// The distance from its start within which light that metal has reflected does not meet the same body, as a part of
+// the body's reach; it is some thirty roundings.
 const AWAY: f32 = 2e-6;
-// As in metal_tracer.rs.
+// The lift of mirror images below the surface, as in metal_tracer.rs.
 const LIFT = vec2f(0.9, 0.01);
 const LEAST_SINE: f32 = 1e-6;
 const PARTS: f32 = 64.0;
 // The squared length below which a vector has no direction.
 const SHORT: f32 = 1e-36;
-// As in lobe_luck.rs.
+// The steps of the random numbers, as in lobe_luck.rs.
 const STEP_X = vec2u(0x5f1d36f1u, 0xa54ff53au);
 const STEP_Y = vec2u(0x2425cfa0u, 0x7311c281u);
 const STEP_Z = vec2u(0xa3d0a666u, 0xca91d722u);
@@ -23,8 +23,8 @@ const SALT = vec2u(0x6c6c7563u, 0x6d657461u);
 // The first number of a roulette that is drawn at random.
 const EVEN: u32 = 4u;
 
-// What decides by chance where light goes on: the seeds of the directions that rough metal draws and of the roulette, the number of the ray
-// in its pixel, by which the roulette draws, and the number of reflections by metal so far.
+// The state of the random numbers: the seeds for the directions that rough metal draws and for the roulette, the
+// number of the ray in its pixel, by which the roulette draws, and the number of reflections by metal so far.
 struct Chances {
     luck: vec2u,
     roulette: vec2u,
@@ -32,7 +32,7 @@ struct Chances {
     reflections: u32,
 }
 
-// The weight of what the sieve has not let pass since the last weak light that it did.
+// The sum of the weak weights since the last of them that passed the sieve.
 var<private> level: f32;
 
 fn chances_of_pixel(pixel: vec2u, wavelength: u32) -> Chances {
@@ -80,7 +80,8 @@ fn drawn(own: Chances, k: u32, step: vec2u) -> f32 {
     return unit_of_bits(sum64(bits, product64(step, number)));
 }
 
-// Returns where a ray meets a body of metal, of which it has just left a triangle, or NONE; makes that body the present one.
+// Returns the hit of a ray on a body of metal, and makes that body the present one. `left` is the triangle of it that
+// the ray has just left, or NONE.
 fn metal_met(metal: u32, ray: Ray, left: u32) -> Meeting {
     body = metals[metal];
     let after = select(AWAY * bitcast<f32>(body.range.y), 0.0, left == NONE);
@@ -88,7 +89,7 @@ fn metal_met(metal: u32, ray: Ray, left: u32) -> Meeting {
     return Meeting(met.facet, met.distance * unit());
 }
 
-// Returns what a ray meets first, metal or the stone that it meets first.
+// Returns the first hit of a ray on metal, or `stone` where that is nearer.
 fn with_metal(stone: First, ray: Ray, left: Left) -> First {
     var first = stone;
     turns += frame.most.z;
@@ -104,7 +105,7 @@ fn with_metal(stone: First, ray: Ray, left: Left) -> First {
     return first;
 }
 
-// Whether a ray meets metal before this distance.
+// Returns whether a ray meets metal before this distance.
 fn meets_metal(ray: Ray, before: f32) -> bool {
     var found = false;
     turns += frame.most.z;
@@ -117,13 +118,14 @@ fn meets_metal(ray: Ray, before: f32) -> bool {
     return found;
 }
 
-// Returns a vector at unit length, or another where it has no direction.
+// Returns a vector scaled to length 1, or `otherwise` where it has no direction.
 fn normal_or(v: vec3f, otherwise: vec3f) -> vec3f {
     let square = dot(v, v);
     return select(otherwise, v * inverseSqrt(max(square, SHORT)), square > SHORT);
 }
 
-// The twin of `bent` in metal_tracer.rs.
+// Returns the smooth normal, turned so that the mirror image leaves the true surface. It is the twin of `bent` in
+// metal_tracer.rs.
 fn bent(shading: vec3f, flat: vec3f, out: vec3f) -> vec3f {
     let image = shading * (2.0 * dot(shading, out)) - out;
     let lacking = min(LIFT.x * dot(flat, out), LIFT.y) - dot(image, flat);
@@ -133,7 +135,8 @@ fn bent(shading: vec3f, flat: vec3f, out: vec3f) -> vec3f {
     return normal_or(out + normal_or(image + flat * lacking, flat), flat);
 }
 
-// The twin of `above` in metal_tracer.rs.
+// Returns a direction, mirrored to the outside of the true surface where needed. It is the twin of `above` in
+// metal_tracer.rs.
 fn above(direction: vec3f, flat: vec3f) -> vec3f {
     let sine = dot(direction, flat);
     if sine >= LEAST_SINE {
@@ -142,7 +145,8 @@ fn above(direction: vec3f, flat: vec3f) -> vec3f {
     return normal_or(direction + flat * (max(abs(sine), LEAST_SINE) - sine), flat);
 }
 
-// Returns the normals at a point of a triangle of the present body, in the world: the triangle's, and the one by which light is reflected.
+// Returns the normals at a point of a triangle of the present body, in the world: that of the triangle, and the one
+// by which light is reflected.
 fn normals_at(triangle: u32, place: vec3f) -> array<vec3f, 2> {
     let t = triangles[triangle];
     let corner = triangles[triangle + body.range.z];
@@ -151,13 +155,13 @@ fn normals_at(triangle: u32, place: vec3f) -> array<vec3f, 2> {
     let a = t.a.xyz - point;
     let b = t.b.xyz - point;
     let c = t.c.xyz - point;
-    // Areas of the three parts around the point, each opposite its corner.
+    // These are the areas of the three parts around the point, each opposite its corner.
     let shares = max(vec3f(dot(cross(b, c), flat), dot(cross(c, a), flat), dot(cross(a, b), flat)), vec3f(0.0));
     let shading = corner.a.xyz * shares.x + corner.b.xyz * shares.y + corner.c.xyz * shares.z;
     return array<vec3f, 2>(world_vector(flat), world_vector(normal_or(shading, flat)));
 }
 
-// Reflects light at the body of metal that it meets first, and sends it on.
+// Reflects light at the body of metal that it meets first, and hands the reflected light on.
 fn reflect_by_metal(next: Waiting, wavelength: u32) {
     let own = next.chances;
     if own.reflections >= MOST_REFLECTIONS {
@@ -172,7 +176,7 @@ fn reflect_by_metal(next: Waiting, wavelength: u32) {
     let side = select(1.0, -1.0, dot(normals[0], out) < 0.0);
     let flat = normals[0] * side;
     let up = bent(normals[1] * side, flat, out);
-    // T. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017, as in glam.
+    // The basis is that of T. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017, as in glam.
     let sign = select(-1.0, 1.0, up.z >= 0.0);
     let a = -1.0 / (sign + up.z);
     let b = up.x * up.y * a;

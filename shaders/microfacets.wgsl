@@ -1,23 +1,25 @@
-// Rough metal: the twin of src/optics/microfacets.rs and of `metal_reflectance` in src/optics/metal.rs, where the sources are. src/trace/gpu/parity/metal.rs
-// runs both on the same numbers. Directions are in a frame whose z is the surface's normal and point away from the surface.
+// Rough metal: the twin of src/optics/microfacets.rs and of `metal_reflectance` in src/optics/metal.rs, which name
+// the sources. src/trace/gpu/parity/metal.rs runs both on the same numbers. Directions are in a frame whose z axis is
+// the surface's normal, and point away from the surface.
 //
-// `roughnesses` holds the tables of surfaces, each of ROUGHNESS_ROWS rows. The first row is the width of the law of slopes and the mean of
-// what one reflection loses. The others are the steps of the table of `Roughness::once`: what one reflection loses at the step's
-// ends and in its mean, and the even light that is lost in all steps before.
+// `roughnesses` holds the tables of surfaces, each of ROUGHNESS_ROWS rows. The first row holds the width of the law
+// of slopes and the mean loss of one reflection. The other rows are the steps of the table of `Roughness::once`: the
+// loss of one reflection at both ends of the step and in its mean, and the even light that is lost in all steps
+// before.
 
 const TAU: f32 = 6.2831855;
-// The greatest solid angle for which a direction stands: the whole sphere.
+// The greatest solid angle that a direction represents: the whole sphere.
 const WHOLE: f32 = 12.566371;
 
-// Light that a rough surface has reflected: the direction that it comes from, the factor by which it counts (0 where it is lost), and
-// the reciprocal of the density with which the direction was drawn, in steradians.
+// Light that a rough surface has reflected: the direction from which it comes, the factor by which it counts (0 where
+// it is lost), and the reciprocal of the density with which the direction was drawn, in steradians.
 struct Scattered {
     direction: vec3f,
     weight: f32,
     solid_angle: f32,
 }
 
-// Returns the root, with a real part that is not negative, of a complex number.
+// Returns the square root of a complex number, of both roots the one with a real part of at least 0.
 fn complex_root(z: vec2f) -> vec2f {
     let size = sqrt(0.5 * (length(z) + abs(z.x)));
     let other = 0.5 * z.y / max(size, 1e-20);
@@ -36,7 +38,7 @@ fn unpolarised_reflectance(cos_given: f32, index: vec2f) -> f32 {
     return 0.5 * (s + p);
 }
 
-// Returns the share of light that one reflection loses, towards a cosine: 1 - `Roughness::once`.
+// Returns the share of light that one reflection toward a cosine loses: 1 - `Roughness::once`.
 fn lost_once(surface: u32, cos: f32) -> f32 {
     let at = sqrt(clamp(cos, 0.0, 1.0)) * f32(ROUGHNESS_ROWS - 1u);
     let step = min(u32(at), ROUGHNESS_ROWS - 2u);
@@ -49,9 +51,9 @@ fn square_cos(step: f32) -> f32 {
     return part * part * part * part;
 }
 
-// Returns the density of normals whose tangent parts and cosine are those of `normal`.
+// Returns the density of normals with the tangential components and the cosine of `normal`.
 fn slopes(alpha: f32, normal: vec3f) -> f32 {
-    // The square of the sine, so that narrow laws keep their digits.
+    // The square of the sine is used, so that narrow distributions keep their digits.
     let fall = dot(normal.xy, normal.xy) + alpha * alpha * normal.z * normal.z;
     return alpha * alpha * FRAC_1_PI / (fall * fall);
 }
@@ -76,10 +78,10 @@ fn visible_normal(alpha: f32, out: vec3f, luck: vec2f) -> vec3f {
     return normalize(vec3f(alpha * normal.xy, max(normal.z, 1e-9)));
 }
 
-// Returns a direction of light that has met several mirrors, and the exact density divided by the table's.
+// Returns a direction of light that has met several mirrors, and the exact density divided by that of the table.
 fn several_times(surface: u32, luck: vec2f) -> vec4f {
     let wanted = luck.x * roughnesses[surface].y;
-    // The last step before which no more than the wanted light is lost.
+    // The search ends at the last step before which at most the wanted light is lost.
     var low = 0u;
     var high = ROUGHNESS_ROWS - 1u;
     while high - low > 1u {
@@ -101,8 +103,9 @@ fn several_times(surface: u32, luck: vec2f) -> vec4f {
     return vec4f(sin_o * cos(TAU * luck.y), sin_o * sin(TAU * luck.y), cos_o, exact);
 }
 
-// Draws a direction from which light comes that is reflected to `out`, by three numbers from 0 to below 1. A metal's finish is its complex
-// index, the part of the light reflected several times that it does not absorb, and its surface by number.
+// Draws, by three numbers from 0 to below 1, a direction from which light comes that is reflected to `out`. A metal's
+// finish is its complex index, the share of repeatedly reflected light that it does not absorb, and the number of its
+// surface.
 fn sample_metal(finish: vec4f, out: vec3f, luck: vec3f) -> Scattered {
     let surface = u32(finish.w) * ROUGHNESS_ROWS;
     let alpha = roughnesses[surface].x;

@@ -1,6 +1,7 @@
-// What light.wgsl asks where no metal stands beside the stones; metal.wgsl answers where there is some.
+// The functions that light.wgsl calls, where no metal stands beside the stones; metal.wgsl has them for scenes with
+// metal.
 
-// What decides by chance where light goes on: nothing does.
+// The state of the random numbers, which is empty, because nothing is decided by chance.
 struct Chances {
     none: u32,
 }
@@ -19,7 +20,7 @@ fn is_reflected(own: Chances) -> bool {
 
 fn begin_sieve(own: Chances) {}
 
-// Returns the weight with which light of this weight goes on to another body.
+// Returns the weight with which light of this weight goes on to another body: all of it.
 fn sieved(weight: f32) -> f32 {
     return weight;
 }

@@ -1,5 +1,5 @@
-// Snell, Fresnel and polarisation. Each function bears the name of its twin in src/optics and src/trace/beam/coherency.rs,
-// where the sources are; src/trace/gpu/parity.rs runs both on the same numbers.
+// Snell's law, Fresnel's formulae and polarisation. Each function has the name of its twin in src/optics and
+// src/trace/beam/coherency.rs, which name the sources. src/trace/gpu/parity.rs runs both on the same numbers.
 
 const SQUARE_ON: f32 = 1e-4;
 const LEAST_COS_T: f32 = 1e-4;
@@ -16,7 +16,7 @@ fn cos_transmitted(cos_i: f32, eta: f32) -> f32 {
 
 fn reflect_ray(d: vec3f, n: vec3f, cos_i: f32) -> vec3f {
     let reflected = d + n * (2.0 * cos_i);
-    // One Newton step toward unit length: a chain of bounces would drift from it.
+    // One Newton step toward unit length prevents the drift of a chain of bounces.
     return reflected * (1.5 - 0.5 * dot(reflected, reflected));
 }
 
@@ -24,13 +24,13 @@ fn refract_ray(d: vec3f, n: vec3f, eta: f32, cos_i: f32, cos_t: f32) -> vec3f {
     return d * eta + n * (eta * cos_i - cos_t);
 }
 
-// Returns the change of the reflected direction where the ray's direction changes by `of_d` and the normal by `of_n`.
+// Returns the change of the reflected direction when the ray's direction changes by `of_d` and the normal by `of_n`.
 fn reflected_change(d: vec3f, n: vec3f, of_d: vec3f, of_n: vec3f) -> vec3f {
     return of_d - n * (2.0 * (dot(of_d, n) + dot(d, of_n))) - of_n * (2.0 * dot(d, n));
 }
 
-// Returns the change of the refracted direction where the ray's direction changes by `of_d`, the normal by `of_n` and eta by
-// `of_eta`; cos_t must be above 0.
+// Returns the change of the refracted direction when the ray's direction changes by `of_d`, the normal by `of_n` and
+// eta by `of_eta`; cos_t must be above 0.
 fn refracted_change(
     d: vec3f,
     n: vec3f,
@@ -75,7 +75,7 @@ fn fresnel(cos_i_given: f32, eta: f32) -> Fresnel {
     return Fresnel(total(eta * cos_i, decay), total(cos_i, eta * decay), 0.0);
 }
 
-// Returns the reflected shares of s and p power.
+// Returns the reflected shares of the power of s- and of p-polarised light.
 fn reflectances(f: Fresnel) -> vec2f {
     return select(vec2f(1.0), vec2f(dot(f.r_s, f.r_s), dot(f.r_p, f.r_p)), f.cos_t > 0.0);
 }
@@ -119,15 +119,15 @@ fn unpolarised(light: vec4f) -> vec4f {
     return vec4f(vec2f(0.5 * (light.x + light.y)), 0.0, 0.0);
 }
 
-// Returns the unit axis perpendicular to a ray and a facet's normal. Where the ray is square to the facet it is `otherwise`,
-// made perpendicular to the ray.
+// Returns the unit axis perpendicular to a ray and to a facet's normal. Where the ray is perpendicular to the facet,
+// the axis is `otherwise`, made perpendicular to the ray.
 fn s_axis(direction: vec3f, normal: vec3f, otherwise: vec3f) -> vec3f {
     let s = cross(direction, normal);
     let length_squared = dot(s, s);
     if length_squared > SQUARE_ON * SQUARE_ON {
         return s * inverseSqrt(length_squared);
     }
-    // Made perpendicular to this ray, so that the axes do not drift.
+    // The axis is made perpendicular to this ray, so that the axes do not drift.
     let kept = otherwise - direction * dot(direction, otherwise);
     return kept * inverseSqrt(max(dot(kept, kept), 1e-12));
 }

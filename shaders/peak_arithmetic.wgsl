@@ -1,7 +1,7 @@
-// Fused multiply-adds of f32 and little else: 32 independent chains an invocation, 128 operations a turn. It measures what a
-// card computes at most.
+// Measures the computing speed of a card: 32 independent chains of fused multiply-adds of f32 in each invocation, 128
+// operations a turn, and little else.
 
-// x: the factor; y: what is added; z: the number of turns.
+// x: the factor; y: the summand; z: the number of turns.
 @group(0) @binding(0) var<uniform> given: vec4f;
 @group(0) @binding(1) var<storage, read_write> found: array<vec4f>;
 
@@ -35,6 +35,6 @@ fn arithmetic(@builtin(global_invocation_id) id: vec3u) {
         g = fma(g, factor, more);
         h = fma(h, factor, more);
     }
-    // All results are written, so that no compiler leaves a chain out.
+    // All results are written, so that no compiler can leave a chain out.
     found[id.x] = (a + b) + (c + d) + ((e + f) + (g + h));
 }

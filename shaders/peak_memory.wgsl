@@ -1,5 +1,5 @@
-// Reads of a buffer that is larger than caches, 28 of 16 bytes a turn and invocation, neighbours side by side. It measures how
-// fast a card's memory is at most.
+// Measures how fast a card reads its memory. Each invocation reads 28 times 16 bytes in each turn from a buffer that
+// is larger than caches; neighbouring invocations read neighbouring places.
 
 // z: the number of turns; w: the number of invocations.
 @group(0) @binding(0) var<uniform> given: vec4f;
@@ -11,7 +11,7 @@ fn memory(@builtin(global_invocation_id) id: vec3u) {
     var sum = vec4f(0.0);
     for (var turn = 0u; turn < u32(given.z); turn++) {
         for (var k = 0u; k < 28u; k++) {
-            // Each turn begins elsewhere: no compiler can keep what another turn has read.
+            // Each turn begins elsewhere, so that no compiler can keep the numbers that another turn has read.
             sum += kept[id.x + (k + turn) % 28u * u32(given.w)];
         }
     }

@@ -7,7 +7,7 @@ fn plane_of(facet: u32) -> vec4f {
     return planes[facet];
 }
 
-// Counts the loop turns of one search, where they are counted.
+// Counts the loop turns of one search, in shaders that count turns.
 fn count_planes() {
     if COUNTS_TURNS {
         turns += (frame.most.w * (body.range.y - body.range.x)) / 16u;

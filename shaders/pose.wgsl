@@ -1,5 +1,5 @@
-// The pose of the present body: rays are carried into the frame in which it was built, and what leaves it is carried back.
-// The twin of src/math/pose.rs and of src/trace/ray/instance_tracer.rs.
+// The pose of the present body. Rays are carried into the frame in which the body was built, and light that leaves is
+// carried back. This is the twin of src/math/pose.rs and of src/trace/ray/instance_tracer.rs.
 
 // Rotates a vector by a unit quaternion.
 fn rotated(turn: vec4f, v: vec3f) -> vec3f {
@@ -21,12 +21,12 @@ fn unit() -> f32 {
     return body.place.w;
 }
 
-// Returns the place of a point of the body.
+// Returns the place in the world of a point of the body.
 fn place(point: vec3f) -> vec3f {
     return world_vector(point) * unit() + body.place.xyz;
 }
 
-// Returns the point of the body that lies at a place.
+// Returns the point of the body at a place in the world.
 fn unplace(place: vec3f) -> vec3f {
     return own_vector(place - body.place.xyz) / unit();
 }

@@ -1,4 +1,5 @@
-// Numbers whose bits look random: the twin of src/math/random_bits.rs. A number of 64 bits is its low and its high half.
+// Numbers whose bits look random: the twin of src/math/random_bits.rs. A number of 64 bits is stored as its low and
+// its high half.
 
 const GAMMA = vec2u(0x7f4a7c15u, 0x9e3779b9u);
 
@@ -7,7 +8,7 @@ fn sum64(a: vec2u, b: vec2u) -> vec2u {
     return vec2u(low, a.y + b.y + select(0u, 1u, low < a.x));
 }
 
-// Returns the whole product of two numbers of 32 bits, by the products of their halves.
+// Returns the whole product of two numbers of 32 bits, computed from products of their halves.
 fn wide_product(a: u32, b: u32) -> vec2u {
     let low = vec2u(a, b) & vec2u(0xffffu);
     let high = vec2u(a, b) >> vec2u(16u);
@@ -30,7 +31,7 @@ fn shifted64(a: vec2u, by: u32) -> vec2u {
     return vec2u((a.x >> by) | (a.y << (32u - by)), a.y >> by);
 }
 
-// The twin of `mixed` in src/math/random_bits.rs.
+// Returns a number whose bits look random. It is the twin of `mixed` in src/math/random_bits.rs.
 fn mixed_bits(number: vec2u) -> vec2u {
     var z = sum64(number, GAMMA);
     z = product64(z ^ shifted64(z, 30u), vec2u(0x1ce4e5b9u, 0xbf58476du));
@@ -38,7 +39,7 @@ fn mixed_bits(number: vec2u) -> vec2u {
     return z ^ shifted64(z, 31u);
 }
 
-// Returns a number from 0 to below 1, out of random bits: the twin of `unit`, with the digits that f32 has.
+// Returns a number from 0 to below 1 made of random bits. It is the twin of `unit`, with the digits that f32 has.
 fn unit_of_bits(bits: vec2u) -> f32 {
     return f32(bits.y >> 8u) / 16777216.0;
 }

@@ -1,4 +1,4 @@
-// What a camera in a scope records of each pixel: energy by band, and the bands of the strongest exits.
+// Records, for each pixel of a picture in a scope, the energy by band and the bands of the strongest exits.
 
 @group(0) @binding(2) var<storage, read_write> seen: array<ScopePixel>;
 @group(0) @binding(6) var<uniform> bands: Bands;
@@ -7,8 +7,8 @@ var<private> sum: ScopePixel;
 var<private> strongest_weight: f32;
 var<private> strongest_band: u32;
 
-// Returns the band of a direction: the number of borders at or below it. Borders are the sines of the bands' elevations,
-// rising.
+// Returns the band of a direction: the number of borders at or below it. Borders are the sines of the bands'
+// elevations, in ascending order.
 fn band_of(direction: vec3f) -> u32 {
     let up = dot(direction, bands.zenith.xyz);
     let above = vec4u(select(vec4f(0.0), vec4f(1.0), vec4f(up) >= bands.borders_low))
@@ -37,7 +37,7 @@ fn leave(ray: Ray, weight: f32, is_surface: bool) {
     }
 }
 
-// Whether light that has left the stone meets another: never, as a scope holds one stone alone.
+// Returns whether light that has left the stone meets another one: never, because a scope holds one stone alone.
 fn is_taken(ray: Ray, distance: f32) -> bool {
     return false;
 }

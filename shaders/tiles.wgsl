@@ -1,7 +1,7 @@
-// Which pixel an invocation traces. A dispatch takes some tiles of 8 by 8 pixels from everywhere in the strip, so that it is
-// about as heavy as any other; src/trace/gpu/pieces.rs says which.
+// Finds the pixel that an invocation traces. A dispatch takes some tiles of 8 by 8 pixels from everywhere in the
+// strip, so that it is about as heavy as any other; src/trace/gpu/pieces.rs chooses them.
 
-// Returns the column and the row, in the strip, of an invocation's pixel; it may lie beyond the strip.
+// Returns the column and the row, in the strip, of an invocation's pixel, which may lie beyond the strip.
 fn strip_pixel(group: vec3u, within: vec2u) -> vec2u {
     let number = group.x + group.y * GROUPS_ACROSS;
     if number >= frame.tiles.y {

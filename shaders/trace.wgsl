@@ -1,27 +1,28 @@
-// One chain of bounces: the twin of src/trace/ray.rs. Light that leaves the stone goes to `depart` and from there to
-// `leave`, which scope.wgsl or light.wgsl defines. The surface is known through `entry`, `next_facet` and `facet_normal`.
-// Everything here is in the frame of the body, in which lengths and absorption have its unit; pose.wgsl leads there and back.
+// One chain of bounces, the twin of src/trace/ray.rs. Light that leaves the stone goes to `depart` and from there to
+// `leave`, which scope.wgsl or light.wgsl defines. The functions `entry`, `next_facet` and `facet_normal` describe
+// the surface. Everything here is in the frame of the body, whose unit lengths and absorption have; pose.wgsl
+// converts to it and back.
 
 const LEAST_GAP: f32 = 1e-30;
 const FAR: f32 = 1e30;
-// The greatest component of a fan or a shift. Larger ones mean a fan beyond the whole sphere or a shift beyond the
-// solid, and each bounce may multiply them.
+// The greatest component of a fan or a shift. A larger fan would cover more than the whole sphere, and a larger shift
+// more than the solid, and each bounce may multiply them.
 const WIDEST_FAN: f32 = 1e4;
 
 // The stone that is being traced, and its medium at the present wavelength.
 var<private> body: Body;
 var<private> medium: Medium;
-// The loop turns that the ray has taken, where they are counted; with too many its light is unresolved.
+// The number of loop turns of the ray so far, where turns are counted. With too many, the ray's light is unresolved.
 var<private> turns: u32;
 
-// The facet that a ray meets, and the distance to it; a negative distance means none.
+// The facet that a ray meets, and the distance to it. A negative distance means that there is none.
 struct Meeting {
     facet: u32,
     distance: f32,
 }
 
-// A ray; `fan` is the change of its direction, and `shift` that of its origin, over what it stands for: a band of
-// wavelengths and a stretch of its pixel.
+// A ray. `fan` is the change of its direction, and `shift` that of its origin, over the range that the ray
+// represents: a band of wavelengths and a stretch of its pixel.
 struct Ray {
     origin: vec3f,
     direction: vec3f,
@@ -36,7 +37,7 @@ struct Rest {
     bounces: u32,
 }
 
-// Returns the medium that four numbers stand for.
+// Returns the medium that four numbers describe.
 fn medium_of(numbers: vec4f) -> Medium {
     return Medium(numbers.x, numbers.y, numbers.z, numbers.w);
 }
@@ -46,13 +47,14 @@ fn transmittance(path: f32) -> f32 {
     return 0.5 * (exp(-medium.absorption_o * path) + exp(-medium.absorption_e * path));
 }
 
-// Whether the ray has taken too many loop turns.
+// Returns whether the ray has taken too many loop turns.
 fn is_spent() -> bool {
     return turns > frame.most.x;
 }
 
-// Light outside the body, on its way into it or away from it. `light` is the light without absorption, along `s` and direction × s, and `left` the share that
-// absorption has left; `path` and `bounce` are the length of its way and the number of bounces inside so far.
+// Light outside the body that is about to enter it or has just left it. `light` is the light without absorption,
+// along `s` and direction × s, and `left` is the share that absorption has left. `path` and `bounce` are the length
+// of its path and the number of bounces inside so far.
 struct Inbound {
     met: Meeting,
     ray: Ray,
@@ -70,13 +72,13 @@ fn inbound_of(ray: Ray, met: Meeting, weight: f32) -> Inbound {
     return Inbound(met, ray, vec4f(vec2f(0.5 * weight), 0.0, 0.0), s, 1.0, 0.0, 0u);
 }
 
-// Returns a vector, scaled down until no component exceeds WIDEST_FAN.
+// Returns a vector, scaled down so that no component exceeds WIDEST_FAN.
 fn limited(v: vec3f) -> vec3f {
     let size = abs(v);
     return v * min(WIDEST_FAN / max(max(size.x, size.y), max(size.z, LEAST_GAP)), 1.0);
 }
 
-// Returns a vector, on curved bodies scaled down until no component exceeds WIDEST_FAN.
+// Returns a vector, which is scaled down on curved bodies so that no component exceeds WIDEST_FAN.
 fn tamed(v: vec3f) -> vec3f {
     if !IS_CURVED {
         return v;
@@ -91,7 +93,7 @@ fn along_surface(by: vec3f, direction: vec3f, normal: vec3f) -> vec3f {
     return limited(by - direction * (dot(normal, by) / divisor));
 }
 
-// Returns the distance to a plane that a ray inside runs toward.
+// Returns the distance to a plane toward which a ray inside runs.
 fn distance_to(plane: vec4f, point: vec3f, direction: vec3f) -> f32 {
     return max(plane.w - dot(plane.xyz, point), 0.0) / max(dot(plane.xyz, direction), LEAST_GAP);
 }
@@ -130,7 +132,7 @@ fn passage(inbound: Inbound) -> Rest {
         tamed(refracted_change(ray.direction, normal, eta, outside, surface.cos_t, ray.fan, of_normal, of_eta));
     while (light.x + light.y) * left > frame.limits.x && rest.bounces < frame.counts.z {
         let next = next_facet(point, direction);
-        // Rounding has let the ray slip out.
+        // Rounding has let the ray slip out of the body.
         if next.distance < 0.0 {
             break;
         }

@@ -1,7 +1,7 @@
-// Intersection of rays with solids of triangles, by bvh.wgsl: the twin of src/trace/ray/facets.rs.
+// Intersection of rays with solids of triangles, by bvh.wgsl. This is the twin of src/trace/ray/facets.rs.
 
-// A ray's start may lie this far beyond the triangle that it is about to meet, as a share of how far the solid reaches from
-// its origin: some ten roundings.
+// The farthest that rounding may put a ray's start beyond the triangle that the ray is about to meet, as a part of
+// the solid's reach from its origin; it is some ten roundings.
 const BEHIND: f32 = 1e-6;
 
 fn plane_of(facet: u32) -> vec4f {

@@ -27,7 +27,7 @@ const SIDE: Proportion = Proportion {
 const LENGTH: Proportion = Proportion {
     key: "length",
     name: "Length",
-    meaning: "From left to right, along x.",
+    meaning: "The size from left to right, along x.",
     get: |cut| side(cut, |s| s.length),
     give: Some(|cut, v| give_side(cut, |s| s.length = v)),
     ..SIDE
@@ -35,7 +35,7 @@ const LENGTH: Proportion = Proportion {
 const WIDTH: Proportion = Proportion {
     key: "width",
     name: "Width",
-    meaning: "From front to back, along y.",
+    meaning: "The size from front to back, along y.",
     get: |cut| side(cut, |s| s.width),
     give: Some(|cut, v| give_side(cut, |s| s.width = v)),
     ..SIDE
@@ -43,7 +43,7 @@ const WIDTH: Proportion = Proportion {
 const DEPTH: Proportion = Proportion {
     key: "depth",
     name: "Depth",
-    meaning: "Toward the eye of the view face up, along z.",
+    meaning: "The size along z, toward the eye of the view face up.",
     get: |cut| side(cut, |s| s.depth),
     give: Some(|cut, v| give_side(cut, |s| s.depth = v)),
     ..SIDE
@@ -65,7 +65,7 @@ const EDGE: Proportion = Proportion {
 const AMPLITUDE: Proportion = Proportion {
     key: "amplitude",
     name: "Amplitude",
-    meaning: "How far the middle rises and falls.",
+    meaning: "The distance by which the middle of the plate rises and falls.",
     usual: [0.0, 30.0],
     least: Bound::at(Fixed(0.0), "a plate without waves"),
     most: Bound::at(
@@ -79,7 +79,7 @@ const AMPLITUDE: Proportion = Proportion {
 const WAVELENGTH: Proportion = Proportion {
     key: "wavelength",
     name: "Wavelength",
-    meaning: "From crest to crest, along x and along y.",
+    meaning: "The distance from crest to crest, along x and along y.",
     usual: [5.0, 250.0],
     least: Bound::at(
         Of(|cut| wave(cut, |p| (p.sides.length.max(p.sides.width) / MOST_WAVES).max(LENGTHS[0]))),
@@ -94,7 +94,7 @@ const PHASE: Proportion = Proportion {
     name: "Phase",
     unit: Unit::Degrees,
     of: "at which the wave begins",
-    meaning: "Where the wave begins.",
+    meaning: "The place where the wave begins.",
     usual: [-360.0, 360.0],
     least: Bound::at(Fixed(-MOST_PHASE), "ten thousand turns"),
     most: Bound::at(Fixed(MOST_PHASE), "ten thousand turns"),

@@ -42,7 +42,7 @@ pub static ROUND_BRILLIANT: Family = Family {
         Proportion {
             key: "crown_angle",
             name: "Crown angle",
-            meaning: "How steep the bezels stand on the girdle plane.",
+            meaning: "The angle between the bezels and the girdle plane.",
             usual: [22.0, 44.0],
             least: Bound::at(Fixed(LEAST_ANGLE), "the flattest facet allowed"),
             most: Bound::before(Fixed(90.0), "where the bezels would stand upright"),
@@ -57,7 +57,7 @@ pub static ROUND_BRILLIANT: Family = Family {
         Proportion {
             key: "crown_height",
             name: "Crown height",
-            meaning: "From the girdle's upper edge to the table, in percent of the girdle's diameter.",
+            meaning: "The distance from the girdle's upper edge to the table, in percent of the girdle's diameter.",
             usual: [6.0, 24.0],
             least: Bound::at(
                 Of(|cut| of(cut, |b| rise(LEAST_ANGLE, 50.0 - 0.5 * b.table))),
@@ -73,7 +73,7 @@ pub static ROUND_BRILLIANT: Family = Family {
         Proportion {
             key: "pavilion_angle",
             name: "Pavilion angle",
-            meaning: "How steep the mains, the eight large facets below, stand on the girdle plane. Nothing affects \
+            meaning: "The angle between the mains, the eight large facets below, and the girdle plane. Nothing affects \
                 light return more.",
             usual: [38.0, 45.0],
             least: Bound::at(Fixed(LEAST_ANGLE), "the flattest facet allowed"),
@@ -89,7 +89,7 @@ pub static ROUND_BRILLIANT: Family = Family {
         Proportion {
             key: "pavilion_depth",
             name: "Pavilion depth",
-            meaning: "From the girdle's lower edge to the culet, in percent of the girdle's diameter.",
+            meaning: "The distance from the girdle's lower edge to the culet, in percent of the girdle's diameter.",
             usual: [38.0, 50.0],
             least: Bound::at(
                 Of(|cut| of(cut, |b| rise(LEAST_ANGLE, 50.0 - 0.5 * b.culet))),
@@ -106,7 +106,7 @@ pub static ROUND_BRILLIANT: Family = Family {
             key: "star_length",
             name: "Star length",
             of: "of the way from the table's edge to the girdle",
-            meaning: "How far the star facets reach from the table's edge to the girdle, seen from above.",
+            meaning: "The reach of the stars from the table's edge to the girdle, seen from above.",
             usual: [30.0, 75.0],
             least: Bound::before(
                 Of(|cut| of(cut, |b| least_star_length(b.table))),
@@ -125,7 +125,7 @@ pub static ROUND_BRILLIANT: Family = Family {
             key: "lower_half_length",
             name: "Lower half",
             of: "of the way from the girdle to the centre",
-            meaning: "How far the lower halves reach from the girdle to the centre, seen from below. Long ones make narrow \
+            meaning: "The reach of the lower halves from the girdle to the centre, seen from below. Long ones make narrow \
                       arrows.",
             usual: [50.0, 95.0],
             least: Bound::at(
@@ -168,7 +168,7 @@ pub static ROUND_BRILLIANT: Family = Family {
             key: "girdle_thickness",
             name: "Girdle",
             of: "of the girdle diameter, at the bezels",
-            meaning: "The stone's rim, measured at the bezels where it is thickest, in percent of its diameter.",
+            meaning: "The girdle's thickness at the bezels, where it is greatest, in percent of the stone's diameter.",
             usual: [0.0, 8.0],
             least: Bound::at(Fixed(0.0), "a knife edge all round"),
             handles: &[ProfileHandle::GirdleUpper, ProfileHandle::GirdleLower],
@@ -180,12 +180,12 @@ pub static ROUND_BRILLIANT: Family = Family {
             key: "girdle_facets",
             name: "Girdle facets",
             unit: Unit::Count,
-            meaning: "How many small upright facets the rim has; multiples of 8 keep the stone's symmetry.",
+            meaning: "The number of small upright facets of the girdle; multiples of 8 keep the stone's symmetry.",
             usual: [16.0, 128.0],
             step: 8.0,
             speed: 0.2,
             least: Bound::at(Fixed(16.0), "one for each half facet"),
-            most: Bound::at(Fixed(128.0), "finer than which no girdle is faceted"),
+            most: Bound::at(Fixed(128.0), "the most facets of any girdle"),
             get: |cut| of(cut, |b| f64::from(b.girdle_facets)),
             give: Some(|cut, v| give(cut, |b| b.girdle_facets = v as u32)),
             ..Proportion::BLANK
@@ -206,7 +206,7 @@ pub static ROUND_BRILLIANT: Family = Family {
         Proportion {
             key: "total_depth",
             name: "Total depth",
-            meaning: "From table to culet. Setting it changes the depth of the pavilion; crown and girdle stay.",
+            meaning: "The distance from table to culet. Setting it changes the depth of the pavilion; crown and girdle stay.",
             usual: [52.0, 70.0],
             moves: &["pavilion_depth"],
             // Up to this value, rounding errors stay below every tolerance.
@@ -221,28 +221,28 @@ pub static ROUND_BRILLIANT: Family = Family {
         Proportion {
             key: "star_angle",
             name: "Star angle",
-            meaning: "How steep the small facets around the table are.",
+            meaning: "The angle between the small facets around the table and the girdle plane.",
             get: |cut| derived(cut, |d| d.star_angle),
             ..ANGLE
         },
         Proportion {
             key: "upper_half_angle",
             name: "Upper halves",
-            meaning: "How steep the crown facets at the girdle are.",
+            meaning: "The angle between the crown facets at the girdle and the girdle plane.",
             get: |cut| derived(cut, |d| d.upper_half_angle),
             ..ANGLE
         },
         Proportion {
             key: "lower_half_angle",
             name: "Lower halves",
-            meaning: "How steep the pavilion facets at the girdle are.",
+            meaning: "The angle between the pavilion facets at the girdle and the girdle plane.",
             get: |cut| derived(cut, |d| d.lower_half_angle),
             ..ANGLE
         },
         Proportion {
             key: "girdle_thickness_valley",
             name: "Girdle valleys",
-            meaning: "Thickness of the rim where it is thinnest, between the bezels.",
+            meaning: "The girdle's thickness between the bezels, where it is least.",
             nothing: Some("closed"),
             get: |cut| derived(cut, |d| d.girdle_thickness_valley),
             ..Proportion::BLANK

@@ -1,5 +1,5 @@
-//! Pictures under light by exact beams. Every virtual facet is painted in the colour of the light that comes through it,
-//! so that edges are as smooth as a pixel's area and only the choice of wavelengths is sampled.
+//! Pictures under light by exact beams. Every virtual facet is painted in the colour of the light that comes through
+//! it. So edges are as smooth as the exact area of pixels makes them, and only the wavelengths are sampled.
 
 mod patches;
 mod shared_picture;
@@ -20,18 +20,18 @@ use std::ops::Range;
 /// The number of rows painted as one piece of work.
 const PIECE: u32 = 16;
 
-/// The most bytes of colour and cover that are held at once; larger pictures are taken in several ranges of rows.
+/// The most bytes of colour and cover that are held at once; larger pictures are painted in several ranges of rows.
 const MOST_BYTES: usize = 192 << 20;
 
-/// The number of beams whose colours are found as one piece of work.
+/// The number of beams whose colours are computed as one piece of work.
 const AT_ONCE: usize = 512;
 
-/// What is painted: one stone in its light.
+/// The subject of a picture: one stone in its light.
 struct Subject<'a> {
     lit_scene: LitScene<'a>,
     instance: &'a Instance,
     stone: &'a Polytope,
-    /// The view in the frame of the stone's body. However the stone is turned, its beams are those of another view.
+    /// The view in the frame of the stone's body. A stone that is turned has the beams of another view.
     view: View,
     /// The image's axes in the world.
     eye: Basis,
@@ -41,7 +41,7 @@ struct Subject<'a> {
 /// A picture of one stone, or some rows of it, by exact beams.
 pub struct ByBeams<'a> {
     subject: Subject<'a>,
-    /// Whether each wavelength is traced on its own.
+    /// True where each wavelength is traced on its own.
     is_apart: bool,
     looks: u32,
     rows: Range<u32>,
@@ -90,7 +90,7 @@ impl Subject<'_> {
         ids.par_chunks(AT_ONCE).map(some).collect()
     }
 
-    /// Returns the light that comes through a copy of a beam, by channel, as if nothing were absorbed.
+    /// Returns the light that comes through a copy of a beam, by channel, before absorption.
     fn arriving(&self, beams: &Beams, beam: &Beam, (exit, fan): (DVec3, DVec3), copy: DMat2) -> DVec4 {
         let turned = |v: DVec3| self.in_world(&beams.view, copy, v);
         let weight = beam.weight / beam.transmittance;
@@ -99,7 +99,7 @@ impl Subject<'_> {
 
     /// Returns a vector in the world that lies in a copy of the body's frame; `own` are the image's axes in that frame.
     fn in_world(&self, own: &Basis, copy: DMat2, v: DVec3) -> DVec3 {
-        // From the frame of the body into the image, and from there into the world.
+        // The vector is converted from the frame of the body into the image, and from there into the world.
         self.eye.lift(copy * own.project(v)) + self.eye.toward * own.toward.dot(v)
     }
 
@@ -126,8 +126,8 @@ impl<'a> ByBeams<'a> {
         ((MOST_BYTES / piece).max(1) as u32).saturating_mul(PIECE)
     }
 
-    /// Prepares some rows of a picture, as [`new`](Self::new) does for all. Each range of rows traces
-    /// the beams of the whole picture anew.
+    /// Prepares some rows of a picture, as [`new`](Self::new) does for all rows. Each range of rows traces the beams
+    /// of the whole picture again.
     ///
     /// Where the ranges begin at multiples of [`most_rows`](Self::most_rows), the rows equal those of the whole picture
     /// to the bit.
@@ -157,20 +157,19 @@ impl<'a> ByBeams<'a> {
         })
     }
 
-    /// Returns a picture in which no wavelengths share beams. It is exact in what shared beams approximate, and takes many times
-    /// as long.
+    /// Returns the same picture without sharing of beams between wavelengths. It has no error from sharing, and takes
+    /// many times as long.
     pub fn apart(self) -> Self {
         Self { is_apart: true, ..self }
     }
 
-    /// Adds a sample pass over all wavelengths from the beams of the middle one alone. It is quick, for a picture that
-    /// is about to change.
-    ///
-    /// Directions at the other wavelengths are spread to first order, and light is absorbed as along the path through
+    /// Adds a sample pass over all wavelengths from the beams of the middle wavelength alone. It is quick, and meant
+    /// for a picture that will soon change.
+    /// Directions at the other wavelengths are correct to first order, and absorption is that along the path through
     /// the middle of each beam.
     ///
     /// # Errors
-    /// [`Stopped`] when `watch` stops the work.
+    /// Fails with [`Stopped`] when `watch` stops the work.
     pub fn glance(&mut self, strata: &[Stratum], watch: Watch) -> Result<(), Stopped> {
         let (Some(first), Some(last)) = (strata.first(), strata.last()) else { return Ok(()) };
         let middle = strata[strata.len() / 2].at(0.5);
@@ -228,7 +227,7 @@ impl<'a> ByBeams<'a> {
 fn paint(pieces: &mut [Rows<DVec4>], rows: &Range<u32>, found: &[Patches]) {
     let count = pieces.len();
     let (top, bottom) = (f64::from(rows.start), f64::from(rows.end));
-    // For each piece of rows, the patches that touch it, by (list, place).
+    // For each piece of rows, the patches that touch it, as (list, place).
     let mut touching: Vec<Vec<(u32, u32)>> = vec![vec![]; count];
     for (list, patches) in found.iter().enumerate() {
         for (place, &(start, end, _)) in patches.patches.iter().enumerate() {
@@ -250,12 +249,12 @@ fn paint(pieces: &mut [Rows<DVec4>], rows: &Range<u32>, found: &[Patches]) {
     });
 }
 
-/// Returns the share of the silhouette's light that a unit of area stands for, in all copies of the symmetry.
+/// Returns the share of the silhouette's light that a unit of area represents, over all copies of the symmetry.
 fn share_of_area(beams: &Beams) -> f64 {
     f64::from(beams.symmetry.order()) / beams.silhouette_area
 }
 
-/// A band of wavelengths, seen by the beams of another wavelength.
+/// A band of wavelengths whose light follows the beams of another wavelength.
 struct Band {
     /// The offset of the band's middle, and the band's width, as parts of the spread of all bands.
     off: f64,
@@ -265,7 +264,8 @@ struct Band {
 }
 
 impl Band {
-    /// Returns a band of this medium, seen by beams of the index `middle`; `spread` is that of the indices of all bands.
+    /// Returns a band with this medium for beams of the index `middle`. `spread` is the difference of the indices
+    /// over all bands.
     fn new(stratum: &Stratum, medium: Medium, middle: f64, spread: f64) -> Self {
         let share = |change: f64| if spread == 0.0 { 0.0 } else { change / spread };
         Self {

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-/// A ray from the eye, between two facets or away from a stone, with its change over the range that it represents:
-/// the wavelengths of a band, and a stretch of its pixel
+/// A ray from the eye, between two facets, or away from a stone. It includes its change over the range that it
+/// represents: the wavelengths of a band, and a stretch of its pixel
 /// ([`SamplePass::footprint`](super::sampling::SamplePass::footprint)).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DispersedRay {

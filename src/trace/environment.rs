@@ -71,7 +71,7 @@ pub struct Lighting {
     pub light: Light,
     /// The light as a map by direction, with its panorama.
     pub map: EnvironmentMap,
-    /// Warnings about unusual properties of the panorama, which name the file.
+    /// Warnings about unusual properties of the panorama. They name its file.
     pub warnings: Vec<String>,
 }
 

@@ -21,7 +21,7 @@ pub(in crate::trace) struct FacetGuess {
     offset: Vec<f32>,
     /// The numbers of the planes, in the bits of `tag_bits`.
     tag: Vec<f32>,
-    /// The low bits of a ratio's fraction, in which the number of its plane is stored.
+    /// The low bits of a ratio's fraction; they hold the number of the ratio's plane.
     tag_bits: u32,
     /// The number of the last plane. Places beyond it in the last row are no facets.
     last: u32,

@@ -1,4 +1,4 @@
-//! Vectors of f64, with one ray's vector in each lane of the processor's registers.
+//! Vectors of f64, with the vector of one ray in each lane of the processor's registers.
 //!
 //! Products and sums are not fused, so that the result does not depend on the processor.
 

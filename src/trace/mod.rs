@@ -1,5 +1,5 @@
-//! Floor 3: the tracers, which follow light through stones. Exact beams and point rays share only Fresnel's equations
-//! and the guess of the next facet, which each of them verifies in its own way.
+//! Floor 3: the tracers, which follow light through stones. Exact beams and point rays share Fresnel's equations, the
+//! stone, the view and the guess of the next facet, which each of them verifies in its own way.
 
 pub mod beam;
 mod dispersed_ray;

@@ -1,5 +1,5 @@
 //! Packets of rays, one ray in each lane of the processor's registers, in single precision. They serve for pictures
-//! that people look at.
+//! under light.
 //!
 //! A packet follows the same chains of bounces as [`ray`](super::ray) does in double precision, through bodies of
 //! planes and glass shapes; light may enter a plate with waves again. Light that goes from one body to another keeps

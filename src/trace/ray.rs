@@ -1,9 +1,10 @@
-//! Point rays: the same light as the beams', followed as one chain of bounces for each ray, in f64.
+//! Point rays: each ray follows the light of one point through a chain of bounces, in f64, and finds the same light
+//! as beams do.
 //!
-//! A convex stone never takes back a ray that has left it, so a ray needs no branching: at every facet a part leaves and the
-//! rest goes on. Rays through solids that are not convex are in `tree`. Rays know nothing of outlines or symmetry and follow
-//! polarisation as two fields, where beams follow a coherency matrix, so that where rays and beams agree it is not by a
-//! shared mistake.
+//! A convex stone never takes back a ray that has left it, so a ray needs no branching: at every facet a part of the
+//! light leaves and the rest goes on. Solids that are not convex are in `tree`. Rays know nothing of outlines or
+//! symmetry, and follow polarisation as two fields, where beams follow a coherency matrix. So where rays and beams
+//! agree, they hardly agree by a shared mistake.
 
 mod camera;
 mod dispersed_ray;
@@ -48,14 +49,15 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// How far a ray is followed.
+/// The limits up to which a ray is followed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RayOptions {
-    /// Whether polarisation is followed; without it, every surface meets unpolarised light.
+    /// True where polarisation is followed; otherwise every surface meets unpolarised light.
     pub polarised: bool,
     /// The most bounces inside the stone.
     pub most_bounces: u32,
-    /// The weight at which a ray is given up: it ends when no more than this is left.
+    /// The weight at which a ray ends, a share of the light that the eye receives: the ray is followed while more
+    /// than this is left.
     pub least_weight: f64,
 }
 
@@ -70,38 +72,41 @@ impl Default for RayOptions {
 pub struct Exit {
     /// The facet, by its index in the solid.
     pub facet: u32,
-    /// The point at which it leaves.
+    /// The point where the light leaves.
     pub point: DVec3,
-    /// Length of its path inside the stone, in girdle radii.
+    /// The length of the path inside the stone, in girdle radii.
     pub path: f64,
-    /// Unit direction in which it leaves.
+    /// The unit direction in which the light leaves.
     pub direction: DVec3,
-    /// The change of that direction over what the ray stands for: the medium's spread of indices, and a stretch of the pixel.
+    /// The change of that direction over the range that the ray represents: the medium's spread of indices, and a
+    /// stretch of the pixel.
     pub fan: DVec3,
-    /// The displacement of the point over the same.
+    /// The displacement of the point over the same range.
     pub shift: DVec3,
     /// The share of the light from that direction that reaches the eye.
     pub weight: f64,
-    /// The number of the bounce inside at which it leaves, from 1; 0 for the glare of the outer surface.
+    /// The number of the bounce at which the light leaves, from 1; 0 for the glare of the outer surface.
     pub bounce: u32,
-    /// Whether this is the glare of the outer surface: light that was never inside.
+    /// True for the glare of the outer surface, which is light that was never inside.
     pub surface: bool,
-    /// The side, in radians, of the square of directions that it stands for: frosted facets spread light; 0 for one direction.
+    /// The side, in radians, of the square of directions that the exit represents, because frosted facets spread
+    /// light; 0 for one direction.
     pub spread: f64,
 }
 
-/// A ray that is known to [`meet`](StoneTracer::meet) a stone.
+/// A ray that is known to meet a stone (see [`meet`](StoneTracer::meet)).
 #[derive(Debug, Clone, Copy)]
 pub struct MeetingRay {
-    /// The facet that it meets, and the distance from its origin.
+    /// The facet that the ray meets, and the distance from the ray's origin.
     pub met: (usize, f64),
-    /// The ray, and how it changes over what it stands for.
+    /// The ray, with its change over the range that it represents.
     pub ray: DispersedRay,
     /// The share of the light from that direction that reaches the eye.
     pub weight: f64,
-    /// By what chance weak light goes on in a solid that is not convex; without it, all of it does.
+    /// The chance by which weak light goes on in a solid that is not convex; `None` where all light is followed.
     pub roulette: Option<Roulette>,
-    /// What decides where frosted facets scatter the light; without it, light that meets one is unresolved.
+    /// The random numbers by which frosted facets scatter the light; `None` where light that meets such a facet
+    /// counts as unresolved.
     luck: Option<LobeLuck>,
 }
 
@@ -116,7 +121,7 @@ impl MeetingRay {
 #[derive(Debug, Clone)]
 pub struct StoneTracer {
     shape: SolidFacets,
-    /// `None` where all facets are polished.
+    /// The frosted facets; `None` where all facets are polished.
     frosted: Option<Arc<FrostedFacets>>,
     medium: Medium,
     options: RayOptions,
@@ -143,13 +148,14 @@ impl StoneTracer {
         Self { medium, ..self.clone() }
     }
 
-    /// Whether light that has left never meets the stone again; false for triangles, of which this is not known.
+    /// Returns whether light that has left never meets the stone again. The result is false for all solids of
+    /// triangles, even convex ones, because it is not known of them.
     pub fn is_convex(&self) -> bool {
         matches!(self.shape, SolidFacets::Planes(_) | SolidFacets::Smooth(_))
     }
 
-    /// Whether a part of the stone hides a point of its surface from the eye; `way` is that point and the unit direction to
-    /// the eye.
+    /// Returns whether a part of the stone hides a point of its surface from the eye. `way` is that point and the
+    /// unit direction to the eye.
     pub fn hides_itself(&self, way: (DVec3, DVec3)) -> bool {
         match &self.shape {
             SolidFacets::Planes(_) | SolidFacets::Smooth(_) => false,
@@ -158,8 +164,8 @@ impl StoneTracer {
         }
     }
 
-    /// Follows a ray from a point outside; calls `leave` for the surface's glare and for each exit. `None` where the ray
-    /// misses the stone.
+    /// Follows a ray from a point outside, and calls `leave` for the surface's glare and for each exit. `None` where
+    /// the ray misses the stone.
     pub fn follow(&self, origin: DVec3, direction: DVec3, leave: impl FnMut(Exit)) -> Option<Loss> {
         let met = self.meet(origin, direction)?;
         self.follow_from(
@@ -169,10 +175,10 @@ impl StoneTracer {
         )
     }
 
-    /// Follows a ray that may have left another stone. `None` where it runs along the facet.
+    /// Follows a ray that may have left another stone. `None` where the ray runs along the facet.
     ///
-    /// Light that would enter this stone again after some distance leaves it for good where `is_taken` says that it meets
-    /// something else before.
+    /// Light that would enter this stone again after some distance leaves it for good where `is_taken` returns true,
+    /// because another body is nearer.
     pub fn follow_from(
         &self,
         ray: &MeetingRay,
@@ -198,9 +204,9 @@ impl StoneTracer {
         }
     }
 
-    /// Follows light on from a point inside a stone until no more than `least_weight` of it is left, and calls `meets` for
-    /// each facet. The light begins with the share that absorption has left along `path`, the way so far. Light that leaves
-    /// is not followed.
+    /// Follows light from a point inside a stone until at most `least_weight` of it is left, and calls `meets` for
+    /// each facet. `path` is the length of the path so far; the light begins with the share that absorption has left
+    /// along it. Light that leaves is not followed.
     pub(super) fn follow_inside(
         &self,
         (origin, direction): (DVec3, DVec3),
@@ -219,7 +225,7 @@ impl StoneTracer {
         }
     }
 
-    /// Follows light through a solid that never takes back what has left it.
+    /// Follows light through a solid that never takes back light that has left it.
     fn chain<F: FacetSearch>(&self, facets: &F, start: Inbound, leave: &mut dyn FnMut(Exit)) -> Option<Loss> {
         self.passage(facets, start, self.options.least_weight, |meeting| {
             if let Some(exit) = meeting.exit() {
@@ -235,8 +241,8 @@ impl StoneTracer {
         Inbound { met, ray, light, left: 1.0, path: 0.0, bounce: 0, luck }
     }
 
-    /// Follows light through the stone, from the facet where it enters until no more than `least_weight` is left, and calls
-    /// `meets` for each facet: the one loop behind everything that is reported of rays.
+    /// Follows light through the stone, from the facet where it enters until at most `least_weight` of it is left,
+    /// and calls `meets` for each facet. All results of rays come from this one loop.
     fn passage<F: FacetSearch>(
         &self,
         facets: &F,
@@ -291,7 +297,7 @@ impl StoneTracer {
         self.frosted.as_ref()?.of_facet(facet)
     }
 
-    /// Follows light inside the stone; its ray begins at the point where it has entered.
+    /// Follows light inside the stone. Its ray begins at the point where the light has entered.
     fn bounce<F: FacetSearch>(
         &self,
         facets: &F,
@@ -302,7 +308,7 @@ impl StoneTracer {
         let Inbound { mut ray, mut light, mut left, mut path, mut luck, .. } = inside;
         let mut rest = Loss { bounces: inside.bounce, ..Loss::default() };
         let mut remaining = light.weight() * left;
-        // Without any change of direction there will be none at the next facet either.
+        // A ray that has no fan here, in a medium without spread, has none at the next facet either.
         let spread = (self.medium.spread != 0.0 || ray.is_fanned()).then_some(self.medium.spread);
         while remaining > least_weight && rest.bounces < self.options.most_bounces {
             let (direction, index) = (ray.direction, self.medium.index);

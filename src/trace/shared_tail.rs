@@ -1,5 +1,5 @@
-//! The light that shared beams leave, followed by single rays from the places where the beams end, as the
-//! [`tail`](super::tail) of figures is.
+//! Follows the light that shared beams leave by single rays from the places where the beams end, as
+//! [`tail`](super::tail) does for figures.
 
 use super::beam::BeamEnd;
 use super::ray::{ChainRoulette, Loss, PathLight, RayOptions, StoneTracer};
@@ -15,12 +15,12 @@ pub struct SharedTail {
     polarised: bool,
 }
 
-/// Light of a followed ray that leaves the stone.
+/// Light of a followed ray, at a point where it leaves the stone.
 #[derive(Debug, Clone, Copy)]
-pub struct SharedExit {
-    /// Unit direction, followed from the eye.
+pub struct SharedTailExit {
+    /// The unit direction of the light, followed from the eye.
     pub direction: DVec3,
-    /// The share that leaves here, of the light that would go on if nothing were absorbed.
+    /// The share of the light that leaves here, as if nothing were absorbed.
     pub share: f64,
     /// The length of the path inside the stone, from where the light entered.
     pub path: f64,
@@ -33,17 +33,19 @@ impl SharedTail {
         Self { tracer: StoneTracer::new(polytope, Medium::clear(1.0), options), polarised }
     }
 
-    /// Follows one ray from the end of a beam through a medium, at the index in the middle of the end's group, and calls `leave` for
-    /// each exit. Returns what does not leave, and the length of the path inside the stone to the ray's start.
+    /// Follows one ray from the end of a beam through a medium, whose light begins at the index in the middle of the
+    /// end's group, and calls `leave` for each exit. Returns the light that does not leave, and the length of the
+    /// path inside the stone up to the ray's start.
     ///
-    /// `spot` says where in the outline it starts and `luck` how long it is followed; all are from 0 to below 1. Where they are
-    /// spread evenly, the mean of all rays is what becomes of the light.
+    /// `spot` gives the place in the outline where the ray starts, and `luck` decides how long it is followed; all
+    /// three numbers are from 0 to below 1. Where they are spread evenly, the mean over all rays is the distribution
+    /// of the light.
     pub fn follow(
         &self,
         end: &BeamEnd,
         medium: &Medium,
         (spot, luck): (DVec2, f64),
-        mut leave: impl FnMut(SharedExit),
+        mut leave: impl FnMut(SharedTailExit),
     ) -> (Loss, f64) {
         let point = point_in_polygon(&end.outline, end.area, spot);
         let (origin, direction, path) = end.ray(point);
@@ -62,7 +64,7 @@ impl SharedTail {
             let factor = chances.meet(met.light, met.left, met.onward);
             if let Some(leaving) = met.leaving {
                 let share = leaving.weight * factor;
-                leave(SharedExit { direction: leaving.direction, share, path: met.path });
+                leave(SharedTailExit { direction: leaving.direction, share, path: met.path });
             }
         });
         (chances.loss(loss.bounces), path)

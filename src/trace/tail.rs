@@ -1,8 +1,9 @@
-//! The light that exact beams leave, followed by single rays from the places where the beams end.
+//! Follows the light that exact beams leave by single rays from the places where the beams end.
 //!
-//! Each open beam is a polygon of the image with rays of one direction. A ray starts at a random point of a random polygon
-//! and is followed as a chain of bounces. At each bounce its expected energy leaves, so a ray says where all of its light
-//! goes. The polygons stand in the order of the tree, in which neighbours have most of their way in common: samples from
+//! Each open beam is a polygon of the image whose rays have one direction. A ray starts at a random point of a random
+//! polygon and is followed as a chain of bounces. At each bounce its expected energy leaves, so one ray shows where
+//! all of its light goes. The polygons are sorted as in the tree, where neighbours share most of their paths. So
+//! samples from successive pieces of this order differ little, and their mean is close to the true one.
 //! successive pieces of that order differ little, and so does their mean from the true one.
 
 use super::beam::{Beams, Flight, Front, SummedBeams};
@@ -11,18 +12,18 @@ use crate::math::{Polytope, point_in_polygon};
 use crate::scene::Scope;
 use glam::{DVec2, DVec3};
 
-/// The share of a ray's light below which the ray goes on by chance alone, by Russian roulette.
+/// The share of a ray's light below which the ray goes on only by chance (Russian roulette).
 pub(super) const ROULETTE: f64 = 0.15;
 
-/// The share of the rays that are spread over the light. The others are spread over the area whose strongest exit is
-/// undecided, of which little light may be left.
+/// The share of the rays that are spread in proportion to the light. The others are spread over the area whose
+/// strongest exit is undecided, which may have little light left.
 const BY_LIGHT: f64 = 0.8;
 
-/// The least light that a beam must have left, as a part of the silhouette's light, for rays to go on from it. The
-/// reciprocal of far less would be infinite.
+/// The least light that a beam must have left, as a part of the silhouette's light, for rays to start from it. The
+/// reciprocal of a far smaller number would be infinite.
 const LEAST_LIGHT: f64 = 1e-30;
 
-/// The least light that all beams must have left to be estimated: less is below the rounding of figures.
+/// The least light, in all beams together, that is worth an estimate; less is below the rounding of figures.
 const LEAST: f64 = 1e-15;
 
 /// The light that exact beams have left, ready to be sampled.
@@ -31,56 +32,55 @@ pub struct Tail<'a> {
     scope: &'a Scope,
     tracer: StoneTracer,
     sources: Vec<TailSource<'a>>,
-    /// The part of the silhouette's light that was left.
+    /// The part of the silhouette's light that the beams have left.
     light: f64,
     /// The part of the silhouette's area whose strongest exit is undecided.
     undecided: f64,
 }
 
-/// The end of one beam, from which rays go on.
+/// The end of one beam, from which rays start.
 struct TailSource<'a> {
     front: &'a Front,
-    /// Where its part of all places ends, 0 to 1.
+    /// The end of the beam's interval of places, 0 to 1.
     until: f64,
-    /// Its part of the places, above 0.
+    /// The length of that interval, above 0.
     density: f64,
-    /// Its part of the silhouette's light, and of the area that is undecided.
+    /// The beam's part of the silhouette's light; `undecided` is its part of the area that is undecided.
     light: f64,
     undecided: f64,
-    /// Weight of the strongest exit so far, and its band.
+    /// The weight of the strongest exit so far, and its band.
     strongest: (f64, Option<usize>),
 }
 
 /// Light of a ray that leaves the stone.
 #[derive(Debug, Clone, Copy)]
 pub struct TailExit {
-    /// Unit direction in which it leaves.
+    /// The unit direction in which the light leaves.
     pub direction: DVec3,
-    /// The band of the scope that it comes from.
+    /// The band of the scope from which the light comes.
     pub band: usize,
-    /// Its share of the ray's light.
+    /// The share of the ray's light that leaves here.
     pub share: f64,
 }
 
-/// What one ray says of the light that was left.
+/// The light of one ray, as a sample of all light that was left.
 #[derive(Debug, Clone, Copy)]
 pub struct TailRay {
-    /// The part of all light that the ray stands for, as a part of the silhouette's light. All shares of the ray are to be
-    /// multiplied by it.
+    /// The light that the ray represents, as a part of the silhouette's light. All shares of the ray are parts of it.
     pub light: f64,
-    /// The part of the silhouette's undecided area that the ray stands for.
+    /// The part of the silhouette's undecided area that the ray represents.
     pub area: f64,
     /// The share of the ray's light that is absorbed.
     pub absorbed: f64,
     /// The share of the ray's light that was not followed to its end.
     pub unresolved: f64,
-    /// The band of the strongest exit seen through the ray's point; `None` where light that was not followed may outshine it,
-    /// or none has left.
+    /// The band of the strongest exit that is seen through the ray's point; `None` where light that was not followed
+    /// may be stronger, or where no light has left.
     pub strongest: Option<usize>,
 }
 
 impl<'a> Tail<'a> {
-    /// Prepares what beams in this stone have left; `None` where nothing is left.
+    /// Prepares the light that beams have left in this stone; `None` where nothing is left.
     pub fn new(polytope: &Polytope, summed: &'a SummedBeams) -> Option<Self> {
         let beams = &summed.open;
         let share = f64::from(beams.symmetry.order()) / beams.silhouette_area;
@@ -97,7 +97,7 @@ impl<'a> Tail<'a> {
         };
         let mut sources: Vec<TailSource<'a>> =
             summed.fronts.iter().map(source).filter(|s| s.light > LEAST_LIGHT).collect();
-        // Neighbours in the tree have most of their way in common.
+        // Neighbours in the tree share most of their paths.
         sources.sort_by_key(|source| source.front.node);
         let sum = |part: fn(&TailSource) -> f64| sources.iter().map(part).sum::<f64>();
         let (light, undecided) = (sum(|s| s.light), sum(|s| s.undecided));
@@ -127,16 +127,16 @@ impl<'a> Tail<'a> {
         self.undecided
     }
 
-    /// Returns the most light and the most undecided area that one ray can stand for, as parts of the silhouette.
+    /// Returns the most light and the most undecided area that one ray can represent, as parts of the silhouette.
     pub fn most_of_a_ray(&self) -> [f64; 2] {
         [self.light / BY_LIGHT, self.undecided / (1.0 - BY_LIGHT)]
     }
 
     /// Follows one ray, and calls `leave` for each exit.
     ///
-    /// `place` says among all beams where the ray starts, `spot` where in the outline of its beam, and `luck` how long it is
-    /// followed; all are from 0 to below 1. Where they are spread evenly, the mean of the light of all rays is the light that
-    /// was left.
+    /// `place` chooses the beam from which the ray starts, `spot` the place in the beam's outline, and `luck` how
+    /// long the ray is followed; all are from 0 to below 1. Where they are spread evenly, the mean of the light of
+    /// all rays is the light that was left.
     pub fn follow(&self, place: f64, spot: DVec2, luck: f64, mut leave: impl FnMut(TailExit)) -> TailRay {
         let k = self.sources.partition_point(|source| source.until <= place).min(self.sources.len() - 1);
         let source = &self.sources[k];
@@ -144,7 +144,7 @@ impl<'a> Tail<'a> {
         let beam = self.beams.get(front.node);
         let point = point_in_polygon(beam.outline, beam.area, spot);
         let path = beam.path.at(point);
-        // The light of the ray is 1 in the mean over the outline.
+        // The mean of the ray's light over the outline is 1.
         let light = self.light_of(&front.flight, beam.onward);
         let ray = (front.flight.ray.start(point), front.flight.ray.direction);
         let (mut strongest, mut exit) = source.strongest;
@@ -200,8 +200,8 @@ mod tests {
             .unwrap()
     }
 
-    /// Returns the exits of a point that lie on the way of light through these beams, each as direction and weight, and the
-    /// beam that was not split further there.
+    /// Returns the exits, each as direction and weight, on the path of light that runs through a point of the image,
+    /// and the last beam at that point, which was not split further.
     fn way(beams: &Beams, point: DVec2) -> (Vec<(DVec3, f64)>, u32) {
         let on_the_way: Vec<_> = beams.iter().filter(|beam| contains(beam.outline, point, 0.0)).collect();
         let exits = on_the_way.iter().filter(|beam| !beam.is_surface() && beam.weight > 0.0);
@@ -235,7 +235,7 @@ mod tests {
                 let (before, last) = way(&coarse, point);
                 assert_eq!(coarse.get(last).outline, beam.outline);
                 let mut exits = vec![];
-                // Without luck the ray is followed to the end; what is less likely than certain counts for more.
+                // Without luck the ray is followed to the end, and light that goes on only by chance counts for more.
                 let ray = tail.follow(place, spot, 0.0, |exit| exits.push((exit.direction, exit.share)));
                 let (beyond, _) = way(&finer, point);
                 let mut left = medium.transmittance(beam.path.at(point)) / beam.transmittance;
@@ -243,7 +243,7 @@ mod tests {
                     let share = share / (ROULETTE / left).max(1.0);
                     let expected = weight / beam.onward;
                     assert!((*direction - *exit).length() < 1e-9, "{direction} is not {exit}");
-                    // Beams know the mean over their outline of what absorption leaves, a ray what it leaves at its point.
+                    // Beams use the mean of absorption over their outline, and a ray uses its value at its point.
                     let slack = if medium.is_clear() { 1e-9 } else { 0.2 * expected };
                     assert!((share - expected).abs() < slack, "{share} of the light leaves, not {expected}");
                     left -= share;

@@ -291,14 +291,14 @@ fn what_a_row_means_is_told_over_its_words_beside_the_panel_and_not_while_someth
     assert!(meaning.right() <= row.left() + 1.0, "{meaning:?} covers {row:?}");
     let name = bench.harness.get_by_role_and_label(Role::Label, "Crown angle").rect();
     hover(&mut bench, name.center());
-    let meaning = bench.harness.get_by_label_contains("How steep the bezels").rect();
+    let meaning = bench.harness.get_by_label_contains("The angle between the bezels").rect();
     let field = bench.field(Role::SpinButton, "Crown height").rect();
     assert!(meaning.left() >= field.right(), "{meaning:?} covers {field:?}");
     let field = bench.field(Role::SpinButton, "Crown height").rect();
     bench.click_at(field.center());
     hover(&mut bench, name.center());
     assert!(
-        bench.harness.query_by_label_contains("How steep the bezels").is_none(),
+        bench.harness.query_by_label_contains("The angle between the bezels").is_none(),
         "a number is being typed"
     );
 }

@@ -1,10 +1,10 @@
-//! Rows of equal facets, each row turned by half a step against the one before, whose corners all meet in points.
+//! Rows of equal facets. Each row is turned by half a step against the row before, and all corners meet in points.
 //!
-//! Corners lie on rings around the axis, from the girdle's corners to those of the last ring. The rings' radii shrink by one
-//! ratio q. A facet of the first row stands on a side of the girdle. Each further one is a kite, whose lower corner, side
-//! corners and tip lie on three rings in turn. A kite is flat where these corners lie on one line seen from the side. This
-//! fixes all heights but one factor, by which they may be scaled together. With c the cosine of half a
-//! step, the tangents of the slopes shrink by (c - q) / (1 - q c) from row to row. The construction is this program's own;
+//! Corners lie on rings around the axis, from the girdle's corners to those of the last ring. The rings' radii shrink
+//! by one ratio q. A facet of the first row stands on a side of the girdle. Each further facet is a kite, whose lower
+//! corner, side corners and tip lie on three successive rings. A kite is flat where these corners lie on one line as
+//! seen from the side. This fixes all heights except for one common factor. With c the cosine of half a step, the
+//! tangents of the slopes shrink by (c - q) / (1 - q c) from row to row. The construction is this program's own;
 //! printed Portuguese cuts (PC 01.028A, B, C) have rings whose ratios differ by a few percent.
 
 use super::super::facet_net::FacetNet;
@@ -37,21 +37,21 @@ pub struct AlternatingRows {
     pub facets: usize,
     /// The number of rows, at least 2.
     pub count: usize,
-    /// The radius of the last ring, where the last row but one has its tips.
+    /// The radius of the last ring, on which the tips of the last row but one lie.
     pub inner: f64,
 }
 
 /// The half of a stone on one side of the girdle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StoneHalf {
-    /// Above the girdle.
+    /// The half above the girdle.
     Crown,
-    /// Below it.
+    /// The half below the girdle.
     Pavilion,
 }
 
 impl AlternatingRows {
-    /// Returns half a step between neighbouring facets, radians.
+    /// Returns half a step between neighbouring facets, in radians.
     fn half_step(&self) -> f64 {
         PI / self.facets as f64
     }
@@ -110,7 +110,8 @@ impl AlternatingRows {
         };
         for (row, tier) in tiers.iter().take(self.count).enumerate() {
             let tangent = slope * self.flattening(row);
-            // The facet's lower end at its own azimuth: the middle of a girdle's side, or a corner of a ring.
+            // The point is the lower end of the facet at the facet's own azimuth: the middle of a girdle's side, or a
+            // corner of a ring.
             let (radius, height) = match row {
                 0 => (self.radius(0) * self.half_step().cos(), 0.0),
                 row => (self.radius(row - 1), slope * self.height(row - 1)),
@@ -133,11 +134,11 @@ pub fn add_girdle(net: &mut FacetNet, facets: usize) {
     }
 }
 
-/// Returns the direction of a place among `count` equal steps. Place 0 lies along y, so that the stone is the mirror image of
-/// itself across the plane of y and z for any count.
+/// Returns the direction at a number of `count` equal steps. Step 0 lies along y, so that the stone is its own mirror
+/// image in the plane of y and z for any count.
 pub fn direction(count: usize, place: f64) -> DVec2 {
     let quarters = 4.0 * place / count as f64;
-    // Quarters are exact, so that extents are.
+    // Quarters are exact, so that the extents of stones are exact.
     match quarters.rem_euclid(4.0) {
         0.0 => DVec2::Y,
         1.0 => DVec2::NEG_X,
@@ -147,8 +148,8 @@ pub fn direction(count: usize, place: f64) -> DVec2 {
     }
 }
 
-/// Returns the radius of the corners of a regular polygon whose [diameter](crate::cut::Outline::diameter) is 2: 1 where it is
-/// round by that definition; otherwise its width is 2.
+/// Returns the radius of the corners of a regular polygon whose [diameter](crate::cut::Outline::diameter) is 2: it is
+/// 1 where the polygon counts as round, and otherwise gives the polygon a width of 2.
 pub fn corner_radius(sides: usize) -> f64 {
     let inner = (PI / sides as f64).cos();
     let width = if sides.is_multiple_of(2) { 2.0 * inner } else { 1.0 + inner };
@@ -160,8 +161,8 @@ mod tests {
     use super::*;
     use crate::math::Polytope;
 
-    /// The angles of PC 01.028A in degrees, row by row from the girdle, and the size of its last ring; then which angle is
-    /// given to the rows here.
+    /// The angles of PC 01.028A in degrees, row by row from the girdle, and the radius of its last ring: those of the
+    /// pavilion, then those of the crown.
     const PRINTED: [(&[f64], f64); 2] =
         [(&[60.0, 56.0, 52.0, 48.0, 44.0, 40.0], 0.264), (&[52.0, 45.0, 40.0, 35.0, 30.0], 0.4585)];
 
@@ -185,7 +186,7 @@ mod tests {
             rows.add_to(&mut net, StoneHalf::Pavilion, 0.0, 0.5);
             let planes: Vec<_> = net.named().into_iter().map(|(_, plane)| plane).collect();
             let stone = Polytope::from_planes(&planes).unwrap();
-            // The girdle's ring belongs to both sides; two points end the stone.
+            // The girdle's ring belongs to both sides, and the stone ends in two points.
             assert_eq!(stone.vertices().len(), facets * (2 * count - 1) + 2, "{facets} by {count}");
             for ring in 0..count {
                 let out = direction(facets, 0.5 * ((ring + 1) % 2) as f64);
@@ -202,7 +203,7 @@ mod tests {
         {
             assert!((corner_radius(sides) - radius).abs() < 1e-12, "{sides}");
         }
-        // A triangle is as wide as its height.
+        // The least width of a triangle is its height.
         assert!((corner_radius(3) * 1.5 - 2.0).abs() < 1e-12);
         assert_eq!([7, 9, 10, 16].map(corner_radius), [1.0; 4]);
     }

@@ -1,8 +1,9 @@
 //! The Asscher cut, or square emerald cut: steps on a square with wide corners, a high crown and a small table.
 //!
-//! Ranges: L/W 1 (amorejewelry.com, which also names the high crown, the small table and the wide corners), up to what still
-//! looks square. No figures of the crown are published; those here are chosen: corners almost as wide as those of a regular octagon, so
-//! that the corners' rows form the windmill, and the pavilion of an emerald cut (diamondcuttersintl.com).
+//! Ranges: L/W from 1 (amorejewelry.com, which also names the high crown, the small table and the wide corners) up to
+//! outlines that still look square. No figures are published for the crown. The figures here are chosen: corners
+//! almost as wide as those of a regular octagon, so that the rows of the corners form the windmill, and the pavilion
+//! of an emerald cut (diamondcuttersintl.com).
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::Family;

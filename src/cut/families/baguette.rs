@@ -1,7 +1,7 @@
-//! The baguette: steps on a slim rectangle with its corners.
+//! The baguette: steps on a slim rectangle with sharp corners.
 //!
-//! Ranges: a design of 17 facets and four girdle facets has L/W 2.0, one crown row at 35 degrees and two pavilion rows at 51
-//! and 41 (GemCad's library, PC 12.001); table and lengths around it are chosen.
+//! Ranges: a design of 17 facets, of which four are on the girdle, has L/W 2.0, one crown row at 35 degrees and two
+//! pavilion rows at 51 and 41 (GemCad's library, PC 12.001); table and lengths are chosen around it.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::Family;

@@ -50,27 +50,27 @@ pub static BARION: Family = Family {
     ],
 };
 
-/// How steep the half-moons stand.
+/// Returns the row for the angle of the half-moons.
 pub(super) const fn half_moons<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How steep the half-moons stand, the facets that run along the sides below the girdle.",
+        meaning: "The angle between the half-moons, the facets that run along the sides below the girdle, and the girdle plane.",
         ..rows::slope::<PLACE>("half_moon_angle", "Half-moons", [62.0, 82.0])
     }
 }
 
-/// How steep the brilliant pavilion is.
+/// Returns the row for the angle of the brilliant pavilion.
 pub(super) const fn pavilion<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How steep the mains below the sides stand, those of the brilliant pavilion.",
+        meaning: "The angle between those mains of the brilliant pavilion that lie below the sides and the girdle plane.",
         ..rows::slope::<PLACE>("pavilion_angle", "Pavilion angle", [38.0, 44.0])
     }
 }
 
-/// How far the halves of the brilliant pavilion reach.
+/// Returns the row for the reach of the lower halves of the brilliant pavilion.
 pub(super) const fn lower_halves<const PLACE: usize>() -> Proportion {
     let of = "of the way from the girdle to the middle";
     Proportion {
-        meaning: "How far the lower halves reach from the girdle to the middle, seen from below.",
+        meaning: "The reach of the lower halves from the girdle to the middle, seen from below.",
         ..rows::part::<PLACE>("lower_half_length", "Lower halves", of, [60.0, 85.0])
     }
 }
@@ -111,13 +111,13 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
 struct Cone {
     /// The inverse squares of its half-axes at the height of the girdle.
     inverse: DVec2,
-    /// How far its point lies below the girdle.
+    /// The depth of the cone's point below the girdle.
     depth: f64,
 }
 
 impl Cone {
-    /// Returns the cone through two points of the girdle in its first quarter and their mirror images; `slope` is its tangent
-    /// along the width.
+    /// Returns the cone through two points of the girdle in its first quarter and their mirror images. `slope` is the
+    /// tangent of the cone's angle along the width.
     fn through([a, b]: [DVec2; 2], slope: f64) -> Self {
         let (a, b) = (a * a, b * b);
         let inverse = DVec2::new(a.y - b.y, b.x - a.x) / (b.x * a.y - a.x * b.y);
@@ -130,18 +130,19 @@ impl Cone {
 pub(super) struct BarionPavilion {
     cone: Cone,
     thickness: f64,
-    /// Both ends of the girdle's edge at the corner of the first quarter, on the cone; the first is the one toward the end of the
-    /// length.
+    /// Both ends of the girdle's edge at the corner of the first quarter, on the cone. The first end is the one
+    /// nearer to the end of the length.
     corner: [DVec2; 2],
     /// The cotangent of the half-moons' angle.
     pub cotangent: f64,
-    /// The part of the way from the middle to the girdle at which the halves' tips lie.
+    /// The part of the way from the middle to the girdle at which the tips of the halves lie.
     reach: f64,
 }
 
 impl BarionPavilion {
-    /// Takes pavilion angle, half-moons' angle, length of the halves and girdle from four places of a table. `corner` holds both
-    /// ends of the girdle's edge at the corner of the first quarter, the one nearer to +y first.
+    /// Returns the pavilion for pavilion angle, half-moons' angle, length of the halves and girdle from four places
+    /// of a table. `corner` holds both ends of the girdle's edge at the corner of the first quarter, the one nearer
+    /// to +y first.
     pub fn of(cut: &FamilyCut, [slope, half_moon, half, girdle]: [usize; 4], corner: [DVec2; 2]) -> Self {
         Self {
             cone: Cone::through(corner, cut[slope].to_radians().tan()),
@@ -152,22 +153,22 @@ impl BarionPavilion {
         }
     }
 
-    /// Takes the same numbers for a round cone through a point of the girdle in the first quarter and its mirror image across x =
-    /// 0.
+    /// Returns the pavilion for the same numbers on a round cone through a point of the girdle in the first quarter
+    /// and its mirror image across x = 0.
     pub fn round(cut: &FamilyCut, [slope, half_moon, half, girdle]: [usize; 4], end: DVec2) -> Self {
         let ends = [end * DVec2::new(-1.0, 1.0), end];
         let (inverse, tangent) = (DVec2::splat(1.0 / end.length_squared()), cut[slope].to_radians().tan());
         let cone = Cone { inverse, depth: tangent * end.length() };
-        // A cone through one point is none through two.
+        // The cone is set here, because `of` would need two points in the quarter.
         Self { cone, ..Self::of(cut, [slope, half_moon, half, girdle], ends) }
     }
 
-    /// Returns the height of pavilion and girdle, with a culet of this size, a part of the pavilion's depth in percent.
+    /// Returns the height of pavilion and girdle together, for a culet of this percentage of the pavilion's depth.
     pub fn depth(&self, culet: f64) -> f64 {
         self.thickness + self.cone.depth * (1.0 - culet / 100.0)
     }
 
-    /// Returns the culet's point.
+    /// Returns the point of the cone, in which the pavilion ends without a culet.
     pub fn point(&self) -> DVec3 {
         DVec3::NEG_Z * (self.thickness + self.cone.depth)
     }
@@ -177,8 +178,8 @@ impl BarionPavilion {
         at.extend(-self.thickness)
     }
 
-    /// Returns the point where a line from the girdle's lower edge, which moves inward by `inward` for each unit that it goes
-    /// down, meets the cone; `None` where it does not.
+    /// Returns the point where a line from the girdle's lower edge meets the cone; `None` where it does not. The line
+    /// moves by `inward` for each unit that it goes down.
     pub fn down(&self, from: DVec2, inward: DVec2) -> Option<DVec3> {
         let Cone { inverse, depth } = self.cone;
         // (1 - z/D)² = p x² + q y² at from + z inward, for the depth z.
@@ -190,16 +191,17 @@ impl BarionPavilion {
         z.is_finite().then_some(self.on_girdle(from + inward * z) - DVec3::Z * z)
     }
 
-    /// Adds the half-moon in the middle of the side toward `way`, +x or +y; `size` are half of width and length.
+    /// Adds the half-moon in the middle of the side toward `way`, which is +x or +y. `size` is half of width and
+    /// length.
     pub fn add_half_moon(&self, net: &mut Quarters<'_>, way: DVec2, size: DVec2) {
         net.pair("half_moon", way.extend(-self.cotangent), self.on_girdle(way * way.dot(size)));
     }
 
-    /// Adds the main below the middle of the side toward `way`, +x or +y, and the halves beside it. The halves meet the cone in the
-    /// middle of the side, in the point `between` and at the end of the side.
+    /// Adds the main below the middle of the side toward `way`, which is +x or +y, and the halves beside it. The
+    /// halves meet the cone in the middle of the side, in the point `between` and at the end of the side.
     ///
     /// # Errors
-    /// The tier that has no room.
+    /// Fails with the tier that has no room.
     pub fn add_brilliant_side(
         &self,
         net: &mut Quarters<'_>,
@@ -216,25 +218,26 @@ impl BarionPavilion {
         self.add_halves(net, [main, a.cross(b)], [middle, between, end])
     }
 
-    /// Returns the normal of the main that touches the cone in a point of it.
+    /// Returns the normal of the main that touches the cone at a point of it.
     pub fn main_at(&self, at: DVec3) -> DVec3 {
         let Cone { inverse, depth } = self.cone;
         let left = 1.0 + (at.z + self.thickness) / depth;
         (inverse * at.truncate()).extend(-left / depth)
     }
 
-    /// Adds the two halves between a main and the next, which are given by their normals. The halves share a tip on the line in
-    /// which both mains meet, and meet the cone in three points: at the one main, between them, at the other.
+    /// Adds the two halves between a main and the next, which are given by their normals. The halves share a tip on
+    /// the line in which both mains meet. They meet the cone in three points: at the first main, between the mains,
+    /// and at the second.
     ///
     /// # Errors
-    /// The tier that has no room.
+    /// Fails with the tier that has no room.
     pub fn add_halves(
         &self,
         net: &mut Quarters<'_>,
         mains: [DVec3; 2],
         [from, between, to]: [DVec3; 3],
     ) -> Result<(), NoRoom> {
-        // Upward from the culet.
+        // The line runs upward from the culet.
         let line = mains[0].cross(mains[1]);
         let line = line * line.z.signum();
         let way = self.reach * between.truncate().length() / line.truncate().length();
@@ -249,13 +252,13 @@ impl BarionPavilion {
     /// Adds the mains of the corners: each runs from the culet to the girdle's edge at a corner.
     ///
     /// # Errors
-    /// The tier that has no room.
+    /// Fails with the tier that has no room.
     pub fn add_corner_main(&self, net: &mut Quarters<'_>) -> Result<(), NoRoom> {
         let [a, b] = self.corner.map(|at| self.on_girdle(at));
         net.through("main", [a, b, self.point()])
     }
 
-    /// Adds the culet, if it has a size: a part of the pavilion's depth, in percent.
+    /// Adds the culet where its size is above 0: a percentage of the pavilion's depth.
     pub fn add_culet(&self, net: &mut FacetNet, percent: f64) {
         if percent > 0.0 {
             net.plane("culet", DVec3::NEG_Z, DVec3::NEG_Z * self.depth(percent));

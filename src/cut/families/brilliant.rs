@@ -1,30 +1,32 @@
 //! The brilliant on any convex outline: mains, stars and halves whose corners meet in points.
 //!
-//! At each main station, a bezel touches the outline: its level lines run along the tangent there. The table's corner of
-//! this bezel lies on the way from the station to the axis of the stone, so that the table is the outline made smaller, and all
-//! bezels rise to it. Mains below run to the culet's point in the same way. Two neighbours meet in a line; the tip of a star, or
-//! of two lower halves, is a point of that line. Stars go through a star tip and two corners of the table, halves through a
-//! tip and two neighbouring stations. All facets meet in points for every convex outline, and the stone is convex: tangents
-//! of a convex curve meet outside it. The construction is this program's own; on a circle it is the round brilliant of
-//! docs/optics.md.
+//! At each main station, a bezel touches the outline: its level lines run along the tangent there. The bezel's corner
+//! of the table lies on the way from the station to the axis of the stone, so the table is the outline made smaller,
+//! and all bezels rise to it. Mains below run to the culet's point in the same way. Two neighbours meet in a line;
+//! the tip of a star, or of two lower halves, is a point of that line. Stars go through a star tip and two corners of
+//! the table, halves through a tip and two neighbouring stations. All facets meet in points for every convex outline.
+//! The stone is convex, because tangents of a convex curve meet outside it. The construction is this program's own;
+//! on a circle it is the round brilliant of docs/optics.md.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family_cut::FamilyCut;
 use super::girdle::{Girdle, GirdlePlace};
 use glam::{DVec2, DVec3};
 
-/// The numbers of a brilliant on an outline. Lengths are in girdle radii, heights are above the girdle's upper edge.
+/// The numbers of a brilliant on an outline. Lengths are in girdle radii, and heights are above the girdle's upper
+/// edge.
 pub struct Brilliant<'a> {
     pub girdle: &'a Girdle,
     /// The point, seen from above, to which table and culet are centred.
     pub middle: DVec2,
-    /// The table's part of the outline's size.
+    /// The size of the table as a part of the outline's size.
     pub table: f64,
     /// The height of the table.
     pub crown_height: f64,
     /// The part of the way from the table's edge to the outline that the stars reach, seen from above.
     pub star: f64,
-    /// Whether that way begins where the stars would lie flat with the table, so that any part of it makes stars.
+    /// True where that way begins at the place where the stars would lie flat with the table, so that any part of it
+    /// makes stars.
     pub is_star_free: bool,
     /// The girdle's thickness at the mains.
     pub thickness: f64,
@@ -32,13 +34,14 @@ pub struct Brilliant<'a> {
     pub pavilion_depth: f64,
     /// The part of the way from the outline to the middle that the lower halves reach, seen from above.
     pub lower_half: f64,
-    /// The culet's part of the outline's size; 0 is a point.
+    /// The size of the culet as a part of the outline's size; 0 is a point.
     pub culet: f64,
 }
 
 impl<'a> Brilliant<'a> {
-    /// Takes the numbers of a cut whose seven rows from `place` on are those of [`brilliant_rows`](super::brilliant_rows). Both
-    /// angles are those of facets at a distance of `reach` from the middle.
+    /// Returns the numbers of a cut whose seven rows from `place` on are those of
+    /// [`brilliant_rows`](super::brilliant_rows). Both angles are those of facets at a distance of `reach` from the
+    /// middle.
     pub fn of(cut: &FamilyCut, place: usize, girdle: &'a Girdle, middle: DVec2, reach: f64) -> Self {
         let [table, crown, pavilion, star, lower_half, thickness, culet] =
             std::array::from_fn(|row| cut[place + row]);
@@ -69,17 +72,17 @@ impl<'a> Brilliant<'a> {
     /// Makes all facets.
     ///
     /// # Errors
-    /// The tier whose points give no plane.
+    /// Fails with the tier whose points give no plane.
     pub fn net(&self) -> Result<FacetNet, NoRoom> {
         let mut net = self.without_pavilion()?;
         self.add_pavilion(&mut net)?;
         Ok(net)
     }
 
-    /// Makes table, crown, girdle and culet, for a pavilion of another kind that reaches as deep.
+    /// Makes table, crown, girdle and culet, for a pavilion of another kind with the same depth.
     ///
     /// # Errors
-    /// The tier whose points give no plane.
+    /// Fails with the tier whose points give no plane.
     pub fn without_pavilion(&self) -> Result<FacetNet, NoRoom> {
         let mut net = self.girdle.empty_net();
         net.plane("table", DVec3::Z, DVec3::Z * self.crown_height);
@@ -120,7 +123,7 @@ impl<'a> Brilliant<'a> {
     fn add_pavilion(&self, net: &mut FacetNet) -> Result<(), NoRoom> {
         let point = self.middle.extend(-self.thickness - self.pavilion_depth);
         let tips = self.girdle.gaps().map(|main| {
-            // The line from the culet's point to where the tangents of both mains meet.
+            // This is the end of the line that begins at the culet's point; the tangents of both mains meet there.
             let outer = self.tangents_meet(main, 1.0)?.extend(-self.thickness);
             let reach = self.reach_of_halves(main, outer.truncate())?;
             Some(point + (outer - point) * reach)
@@ -153,12 +156,13 @@ impl<'a> Brilliant<'a> {
         Ok(())
     }
 
-    /// Returns the tip of the star between a main and the next: the point of the line in which both bezels meet that lies
-    /// the star's part of the way from the table's edge to the outline. `None` where the bezels have no such line.
+    /// Returns the tip of the star between a main and the next. It is a point of the line in which both bezels meet,
+    /// and lies at the part `star` of the way from the table's edge to the outline. `None` where the bezels have no
+    /// such line.
     fn star_tip(&self, main: usize) -> Option<DVec3> {
         let (outer, inner) = (self.tangents_meet(main, 1.0)?, self.tangents_meet(main, self.table)?);
         let edge = [main, main + 1].map(|main| self.toward_middle(main, self.table));
-        // Both ends of the way lie on the line from the middle to where the tangents meet.
+        // Both ends of the way lie on the line from the middle to the point where the tangents meet.
         let near = if self.is_star_free { self.table } else { self.crossing(outer, edge) };
         let reached = near + self.star * (self.to_girdle(main, outer) - near);
         let rise = (1.0 - reached) / (1.0 - self.table);
@@ -166,32 +170,34 @@ impl<'a> Brilliant<'a> {
         Some(at.extend(self.crown_height * rise))
     }
 
-    /// Returns how far the lower halves' tip lies from the culet's point, as a part of the way to where the tangents meet.
+    /// Returns the distance of the lower halves' tip from the culet's point, as a part of the way to the point where
+    /// the tangents meet.
     fn reach_of_halves(&self, main: usize, outer: DVec2) -> Option<f64> {
         Some((1.0 - self.lower_half) * self.to_girdle(main, outer)).filter(|reach| *reach > 0.0)
     }
 
-    /// Returns where the way from the middle to a point beyond the outline crosses the line through two points, as a part of
-    /// that way.
+    /// Returns the place where the way from the middle to a point beyond the outline crosses the line through two
+    /// points, as a part of that way.
     fn crossing(&self, outer: DVec2, [a, b]: [DVec2; 2]) -> f64 {
         let across = b - a;
         across.perp_dot(a - self.middle) / across.perp_dot(outer - self.middle)
     }
 
-    /// Returns where the way from the middle to where the tangents of a main and the next meet crosses the nearer of the
-    /// lines from both to the point between them, as a part of that way.
+    /// Returns the place where the way from the middle to the meeting point of the tangents of a main and the next
+    /// crosses the outline, as a part of that way. The outline is here the nearer of the lines from the two stations
+    /// to the point between them.
     fn to_girdle(&self, main: usize, outer: DVec2) -> f64 {
         let between = self.girdle.between(main);
         let side = |main| self.crossing(outer, [self.girdle.main(main).at, between]);
         side(main).min(side(main + 1))
     }
 
-    /// Returns the point on the way from a main's station to the middle at a part of the outline's size.
+    /// Returns the point on the way from the middle to a main's station, at the part `size` of that way.
     fn toward_middle(&self, main: usize, size: f64) -> DVec2 {
         self.middle + (self.girdle.main(main).at - self.middle) * size
     }
 
-    /// Returns the point where the tangents of a main and of the next meet, in the outline of a part of its size.
+    /// Returns the point where the tangents of a main and of the next meet, in the outline scaled by `size`.
     pub fn tangents_meet(&self, main: usize, size: f64) -> Option<DVec2> {
         let [a, b] = [main, main + 1].map(|main| self.girdle.main(main));
         let [da, db] = [a, b].map(|station| station.normal.dot(station.at - self.middle) * size);

@@ -1,31 +1,31 @@
-//! Rows that the tables of all brilliants on an outline have, after their table: crown angle, pavilion angle, star length,
-//! lower halves. Girdle thickness and culet follow. `PLACE` is the place of the number in the table.
+//! Rows that the tables of all brilliants on an outline have after their table: crown angle, pavilion angle, star
+//! length and lower halves. Girdle thickness and culet follow. `PLACE` is the place of the number in the table.
 
 use super::super::family::BoundAt::Fixed;
 use super::super::family::{Bound, Proportion, Unit};
 use super::super::family_cut::number;
 use super::rows;
 
-/// The slope of the bezels at the sides.
+/// Returns the row for the angle of the bezels at the sides.
 pub const fn crown_angle<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     Proportion {
-        meaning: "How steep the bezels at the sides stand on the girdle plane. Those farther from the middle are flatter.",
+        meaning: "The angle between the bezels at the sides and the girdle plane. Bezels farther from the middle are flatter.",
         ..rows::slope::<PLACE>("crown_angle", "Crown angle", usual)
     }
 }
 
-/// The slope of the mains at the sides.
+/// Returns the row for the angle of the mains at the sides.
 pub const fn pavilion_angle<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     Proportion {
-        meaning: "How steep the mains at the sides stand on the girdle plane. Those farther from the middle are flatter.",
+        meaning: "The angle between the mains at the sides and the girdle plane. Mains farther from the middle are flatter.",
         ..rows::slope::<PLACE>("pavilion_angle", "Pavilion angle", usual)
     }
 }
 
-/// The reach of the stars.
+/// Returns the row for the reach of the stars.
 pub const fn star_length<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How far the stars reach from the table's edge to the girdle, seen from above.",
+        meaning: "The reach of the stars from the table's edge to the girdle, seen from above.",
         ..rows::part::<PLACE>(
             "star_length",
             "Star length",
@@ -35,10 +35,10 @@ pub const fn star_length<const PLACE: usize>() -> Proportion {
     }
 }
 
-/// The reach of the lower halves.
+/// Returns the row for the reach of the lower halves.
 pub const fn lower_half_length<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How far the lower halves reach from the girdle to the middle, seen from below.",
+        meaning: "The reach of the lower halves from the girdle to the middle, seen from below.",
         ..rows::part::<PLACE>(
             "lower_half_length",
             "Lower halves",
@@ -48,7 +48,8 @@ pub const fn lower_half_length<const PLACE: usize>() -> Proportion {
     }
 }
 
-/// The number of mains, by quarters of the outline, so that the stone is symmetric about both axes.
+/// Returns the row for the number of mains in a quarter of the outline, so that the stone is symmetric about both
+/// axes.
 pub const fn mains_per_quarter<const PLACE: usize>() -> Proportion {
     Proportion {
         key: "mains_per_quarter",
@@ -66,13 +67,13 @@ pub const fn mains_per_quarter<const PLACE: usize>() -> Proportion {
     }
 }
 
-/// How full the curves are that run to a point.
+/// Returns the row for the fullness of the curves that run to a point.
 pub const fn fullness<const PLACE: usize>() -> Proportion {
     Proportion {
         key: "fullness",
         name: "Fullness",
         of: "of the fullness of arcs of a circle",
-        meaning: "How full the sides are between the widest place and the point: 100 makes arcs of a circle, less is slimmer.",
+        meaning: "The fullness of the sides between the widest place and the point: 100 makes arcs of a circle, and less is slimmer.",
         usual: [85.0, 115.0],
         least: Bound::at(Fixed(40.0), "where the sides are nearly straight"),
         most: Bound::at(Fixed(180.0), "where the point is nearly flat"),

@@ -1,8 +1,8 @@
-//! The briolette: a drop without table and girdle, with rows of facets that alternate by half a step above and below its
+//! The briolette: a drop without table and girdle. Its rows of facets alternate by half a step, above and below its
 //! widest place.
 //!
-//! The rows are those of PC 01.386 in kind: 16 facets a row, five rows below and four above. Its shape is a barrel; the
-//! drop here, its length and the sizes of the rosettes are estimates of what is worn as an earring.
+//! The kind of its rows is that of PC 01.386: 16 facets a row, five rows below and four above. That stone is a
+//! barrel. The drop here, its length and the sizes of the rosettes are estimates of the shape of earrings.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::{Family, Proportion};
@@ -35,7 +35,7 @@ pub static BRIOLETTE: Family = Family {
             ..rows::length_to_width::<LENGTH>([1.2, 3.0])
         },
         Proportion {
-            meaning: "How much of the length lies above the widest place, on the side by which the drop hangs.",
+            meaning: "The part of the length that lies above the widest place, on the side by which the drop hangs.",
             ..rows::part::<DROP>("drop", "Drop", "of the length", [45.0, 75.0])
         },
         rows::rosette::<UPPER_ROSETTE>("upper_rosette", "Upper rosette", [15.0, 40.0]),

@@ -1,9 +1,9 @@
 //! Square and rectangular brilliants: a crown with stars, and a pavilion of chevrons.
 //!
-//! **Crown.** A first row has a facet on each side of the outline. From the corners of its upper edge, triangles rise to the
-//! table's corners, which stand above the middles of the sides and above the outline's corners, and stars fill the gaps
-//! below the table's edges. With table, angles and the stars' azimuth, no more is free (after Harding's description of the
-//! princess crown: two mains of equal width a side, stars, corners).
+//! **Crown.** A first row has a facet on each side of the outline. From the corners of its upper edge, triangles rise
+//! to the table's corners, which lie above the middles of the sides and above the outline's corners; stars fill the
+//! gaps below the table's edges. Table, angles and the stars' azimuth determine everything (after Harding's
+//! description of the princess crown: two mains of equal width a side, stars, corners).
 //!
 //! **Pavilion.** In the plane through the middle of a side and the axis, the profile is a convex line of straight pieces,
 //! from the girdle down to the shoulder of the mains, and on to the culet. Each piece and a corner of the girdle give a
@@ -40,7 +40,8 @@ impl Rectangle {
     }
 }
 
-/// A stone's facets that are made in its first quarter and repeat in all four. `inside` is the height of a point inside.
+/// Facets that are made in the first quarter of a stone and repeat in all four. `inside` is the height of a point
+/// inside the stone.
 #[derive(Debug)]
 pub struct Quarters<'a> {
     pub net: &'a mut FacetNet,
@@ -51,7 +52,7 @@ impl Quarters<'_> {
     /// Adds the facet through three points, and its mirror images.
     ///
     /// # Errors
-    /// The tier, if the points give no plane.
+    /// Fails with the tier where the points give no plane.
     pub fn through(&mut self, tier: &'static str, points: [DVec3; 3]) -> Result<(), NoRoom> {
         for sign in QUARTERS {
             let image = points.map(|point| point * sign.extend(1.0));
@@ -60,7 +61,7 @@ impl Quarters<'_> {
         Ok(())
     }
 
-    /// Adds the facet through a point that leans along +x or +y, and its mirror image.
+    /// Adds the facet through a point whose normal leans along +x or +y, and its mirror image.
     pub fn pair(&mut self, tier: &'static str, normal: DVec3, through: DVec3) {
         for sign in [QUARTERS[0], QUARTERS[2]] {
             self.net.plane(tier, normal * sign.extend(1.0), through * sign.extend(1.0));
@@ -71,13 +72,13 @@ impl Quarters<'_> {
 /// A crown with stars.
 #[derive(Debug, Clone, Copy)]
 pub struct StarCrown {
-    /// The table's part of the width, between its corners above the middles of the sides.
+    /// The table's part of the width, measured between its corners above the middles of the sides.
     pub table: f64,
     /// The tangents of the angles of the first and of the second main of a side.
     pub mains: [f64; 2],
-    /// How far the stars turn away from the sides, in radians, on a square.
+    /// The angle by which the stars turn away from the sides, in radians, on a square.
     pub star_azimuth: f64,
-    /// Whether the facets of the corners are divided like those of the sides.
+    /// True where the facets of the corners are divided like those of the sides.
     pub divided_corners: bool,
 }
 
@@ -85,13 +86,13 @@ impl StarCrown {
     /// Adds the table and all facets of the crown.
     ///
     /// # Errors
-    /// The tier whose points give no plane.
+    /// Fails with the tier whose points give no plane.
     pub fn add_to(&self, net: &mut FacetNet, outline: &Rectangle, inside: f64) -> Result<(), NoRoom> {
         let width = 0.5 * (1.0 - self.table);
         let [break_height, rise] = self.mains.map(|tangent| tangent * width);
         let height = break_height + rise;
         let (length, table) = (outline.length, self.table);
-        // The table's corner above the corner of the outline.
+        // The table's corner lies above the corner of the outline.
         let (sin, cos) = self.star_azimuth.sin_cos();
         let tip = DVec2::splat(table * cos / (cos + sin)) + DVec2::new(0.0, length - 1.0);
         let [far, near] = [outline.corner_distance(), FRAC_1_SQRT_2 * (tip.x + tip.y)];
@@ -125,17 +126,17 @@ impl StarCrown {
 /// A pavilion of chevrons.
 #[derive(Debug, Clone, Copy)]
 pub struct Chevrons {
-    /// How many rows of chevrons there are, 2 to 4.
+    /// The number of rows of chevrons, 2 to 4.
     pub count: usize,
     /// The depth of the mains' point below the girdle.
     pub depth: f64,
-    /// How many degrees each piece of the profile is steeper than the next.
+    /// The angle by which each piece of the profile is steeper than the next, in degrees.
     pub step: f64,
     /// The part of the way from the middle to the girdle, along the middle of a side, to which the mains reach.
     pub shoulder: f64,
     /// How many degrees the facets at the corners are steeper than the mains; `None` where mains reach the corners.
     pub corner_step: Option<f64>,
-    /// The culet's part of the way at which the mains end; 0 is a point.
+    /// The part of the mains' way to their point at which the culet cuts them off; 0 is a point.
     pub culet: f64,
 }
 
@@ -143,7 +144,7 @@ impl Chevrons {
     /// Adds all facets below a girdle of this thickness.
     ///
     /// # Errors
-    /// The tier that has no room.
+    /// Adds all facets below a girdle of this thickness.
     pub fn add_to(&self, net: &mut FacetNet, outline: &Rectangle, thickness: f64) -> Result<(), NoRoom> {
         let mut quarters = Quarters { net, inside: -0.5 * thickness };
         let below = |depth: f64| -thickness - depth;

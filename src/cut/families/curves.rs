@@ -1,10 +1,10 @@
-//! Convex curves of which outlines are made, as places on them. Lengths are in girdle radii.
+//! The convex curves of outlines, as places along the curves. Lengths are in girdle radii.
 
 use super::girdle::GirdlePlace;
 use glam::DVec2;
 
-/// Returns the place at a part of the way around an outline that is symmetric about both axes, from +x. `quarter` takes a
-/// part of the way from +x to +y to its place.
+/// Returns the place at a part of the way around an outline that is symmetric about both axes, from +x. `quarter`
+/// returns the place at a part of the way from +x to +y.
 pub fn around(way: f64, quarter: impl Fn(f64) -> GirdlePlace) -> GirdlePlace {
     let (number, part) = ((4.0 * way).floor(), (4.0 * way).fract());
     let flipped =
@@ -25,14 +25,14 @@ pub struct Wing {
 }
 
 impl Wing {
-    /// Makes the curve whose end tangents meet `fullness` times as high as those of an arc of a circle, which is an arc at 1;
-    /// `None` where it would not be convex.
+    /// Makes the curve whose end tangents meet `fullness` times as high as those of an arc of a circle. It is an arc
+    /// at 1; `None` where it would not be convex.
     pub fn new(length: f64, fullness: f64) -> Option<Self> {
         let tangents_meet = fullness * (length * length + 1.0) / (2.0 * length);
         (tangents_meet > 0.0 && tangents_meet < length).then_some(Self { length, tangents_meet })
     }
 
-    /// Returns the place at a part of the way from the side to the point. The point's normal is +y.
+    /// Returns the place at a part of the way from the side to the point. At the point, the normal is +y.
     ///
     /// The curve is a conic section, written as a rational Bézier curve of degree 2 (Farin, Curves and Surfaces for CAGD); the
     /// weight of its middle point is the cosine of half the angle by which it turns, as for an arc.
@@ -60,14 +60,14 @@ pub struct RoundedQuarter {
 }
 
 impl RoundedQuarter {
-    /// Makes the quarter of an outline that is 2 wide and `2 * length` long. `bulge` is how far the sides bulge between the
-    /// corners that they would have without rounding, `corner` the radius of the corners. `None` where the arcs do not
-    /// follow one another.
+    /// Makes the quarter of an outline that is 2 wide and `2 * length` long. `bulge` is the bulge of the sides
+    /// between the corners that they would have without rounding, and `corner` is the radius of the corners. `None`
+    /// where the arcs do not follow one another.
     pub fn new(length: f64, bulge: f64, corner: f64) -> Option<Self> {
         let radius = |half: f64| (half * half + bulge * bulge) / (2.0 * bulge);
         let (right, upper) = (radius(length), radius(1.0));
         let (a, b) = (DVec2::new(1.0 - right, 0.0), DVec2::new(0.0, length - upper));
-        // The corner's centre is as far from both sides.
+        // The corner's centre has the same distance from both sides.
         let ([to_a, to_b], between) = ([right - corner, upper - corner], b - a);
         let apart = between.length();
         let along = (to_a * to_a - to_b * to_b + apart * apart) / (2.0 * apart);

@@ -43,17 +43,17 @@ pub static CUSHION: Family = Family {
     ],
 };
 
-/// How far the sides bulge.
+/// Returns the row for the bulge of the sides.
 pub(super) const fn bulge<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How far the sides bulge out between corners that are not rounded.",
+        meaning: "The distance by which the sides would bulge out between corners that are not rounded.",
         least: Bound::at(Fixed(0.1), "where the sides are straight"),
         most: Bound::at(Fixed(40.0), "where the outline is nearly round"),
         ..rows::of_width::<PLACE>("bulge", "Bulge of the sides", [4.0, 10.0])
     }
 }
 
-/// The radius of the corners.
+/// Returns the row for the radius of the corners.
 pub(super) const fn corner<const PLACE: usize>() -> Proportion {
     Proportion {
         key: "corner_radius",
@@ -70,7 +70,7 @@ pub(super) const fn corner<const PLACE: usize>() -> Proportion {
 /// Returns the curve of a cushion's outline, as a function of the part of the way from +x to +y.
 ///
 /// # Errors
-/// The sides and corners do not follow one another.
+/// Fails where the sides and corners do not follow one another.
 pub(super) fn quarter(length: f64, bulge: f64, corner: f64) -> Result<RoundedQuarter, NoRoom> {
     RoundedQuarter::new(length, bulge / 50.0, corner / 50.0).ok_or(NoRoom { tier: "girdle" })
 }

@@ -1,11 +1,12 @@
 //! The cushion barion: the outline of a cushion, a step crown, and half-moons that carry a round brilliant's pavilion.
 //!
-//! The outline has 16 sides, as cutters' square barion cushions have (PC 09.046, Long and Steele, Facet Design 6, 1987): in each
-//! quarter one that touches the curve in the middle of a side, one that closes the rounded corner, and one between them. The
-//! cone of the [barion] runs through the ends of the corners' sides. Each of the three sides between two corners has
-//! a half-moon; where two of them meet, a crease runs from the girdle down to the cone, and two halves meet in its end. So every
-//! facet ends in points. The construction is this program's own; facets: 49 in the crown with three rows, 36 in the pavilion, 16
-//! in the girdle. Ranges are those of the cushion's outline and of the barion's angles.
+//! The outline has 16 sides, as cutters' square barion cushions have (PC 09.046, Long and Steele, Facet Design 6,
+//! 1987). In each quarter, one side touches the curve in the middle of a side of the cushion, one closes the rounded
+//! corner, and one lies between these. The cone of the [barion] runs through the ends of the corners' sides. Each of
+//! the three sides between two corners has a half-moon; where two of them meet, a crease runs from the girdle down to
+//! the cone, and two halves meet in its end. So every facet ends in points. The construction is this program's own.
+//! The facets are 49 in the crown with three rows, 36 in the pavilion and 16 in the girdle. Ranges are those of the
+//! cushion's outline and of the barion's angles.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::Family;
@@ -30,11 +31,11 @@ const LOWER_HALF: usize = 9;
 const GIRDLE: usize = 10;
 const CULET: usize = 11;
 
-/// Where the side beside that in the middle touches the curve, as a part of the way from the middle of one side of the cushion to
-/// that of the next.
+/// The place where the side beside the middle one touches the curve, as a part of the way from the middle of one side
+/// of the cushion to the middle of the next.
 const BESIDE: f64 = 0.2;
 
-/// Where the corner's side begins on the curve, as a part of that way.
+/// The place where the corner's side begins on the curve, as a part of that way.
 const CORNER_FROM: f64 = 0.4;
 
 /// The family of the cushion barion.
@@ -64,7 +65,7 @@ pub static CUSHION_BARION: Family = Family {
     ],
 };
 
-/// The sides of the outline in the first quarter, from +x to +y: each by its normal and a point.
+/// The sides of the outline in the first quarter, from +x to +y, each given by its normal and a point.
 struct Outline {
     sides: [(DVec2, DVec2); 5],
     /// Both ends of the corner's side.
@@ -111,7 +112,7 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     for (way, beside, end) in [(DVec2::X, sides[1], a), (DVec2::Y, sides[3], b)] {
         pavilion.add_half_moon(&mut quarters, way, size);
         let (normal, at) = (beside.0.normalize_or(way), beside.1);
-        // The corner of the girdle between both half-moons, and the way of their crease.
+        // The corner of the girdle between both half-moons, and the direction of their crease.
         let normals = DMat2::from_cols(way, normal).transpose().inverse();
         let from = normals * DVec2::new(way.dot(size), normal.dot(at));
         let between = pavilion.down(from, normals * DVec2::splat(-pavilion.cotangent));

@@ -1,9 +1,10 @@
-//! A pavilion of chevrons on a bulged outline: on each side rows of facets in pairs, which run from near a corner to the middle
-//! of the side and down toward the culet like a V, and one main at each corner. The four mains form an X.
+//! A pavilion of chevrons on a bulged outline. On each side, rows of facets in pairs run from near a corner to the
+//! middle of the side and down toward the culet like a V, and each corner has one main. The four mains form an X.
 //!
-//! The rows of half a side share one point, the tip, on the edge of the corner's main. Each of them goes through the tip and
-//! two points of the line down the middle of the side, so that all rows meet in points. Between the tip and the girdle, the
-//! first row and the half facet of the corner part at the place between two stations. The construction is this program's own.
+//! The rows of half a side share one point, the tip, on the edge of the corner's main. Each row goes through the tip
+//! and two points of the line down the middle of the side, so that all rows meet in points. Between the tip and the
+//! girdle, the first row adjoins the half facet of the corner at the place between two stations. The construction is
+//! this program's own.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::girdle::{Girdle, GirdlePlace};
@@ -18,8 +19,8 @@ pub struct CushionChevrons<'a> {
     pub girdle: &'a Girdle,
     /// The girdle's thickness.
     pub thickness: f64,
-    /// The slopes of the lines down the middles of the sides, from the girdle to the culet, at sides as far as half the width
-    /// from the axis: tangents of angles, one for each row.
+    /// The slopes of the lines down the middles of the sides, from the girdle to the culet: tangents of angles, one
+    /// for each row, at sides whose distance from the axis is half the width.
     pub slopes: Vec<f64>,
     /// The depth of the tips, as a part of the pavilion's depth.
     pub tip: f64,
@@ -37,7 +38,7 @@ struct HalfSide {
 }
 
 impl CushionChevrons<'_> {
-    /// Returns the depth of the pavilion. Its rows are equally wide, seen from below.
+    /// Returns the depth of the pavilion, whose rows are equally wide as seen from below.
     pub fn depth(&self) -> f64 {
         self.slopes.iter().sum::<f64>() / self.slopes.len().max(1) as f64
     }
@@ -83,7 +84,7 @@ impl CushionChevrons<'_> {
         [edge, edge + normal.perp().extend(0.0), DVec3::NEG_Z * (self.thickness + self.depth())]
     }
 
-    /// Returns the half of a side toward a corner, with the girdle's place in the gap between both.
+    /// Returns the half of a side toward a corner. `gap` is the number of the gap between side and corner.
     fn half_side(&self, side: usize, corner: usize, gap: usize) -> Result<HalfSide, NoRoom> {
         let (edge, rows) = (self.edge(side), self.slopes.len().max(1) as f64);
         let mut middles = vec![edge];
@@ -99,7 +100,7 @@ impl CushionChevrons<'_> {
         Ok(HalfSide { middles, between, corner: self.edge(corner), tip })
     }
 
-    /// Returns the point at the tips' depth where two planes through three points each meet.
+    /// Returns the point at the tips' depth where two planes meet, each given by three points.
     fn tip(&self, row: [DVec3; 3], main: [DVec3; 3]) -> Option<DVec3> {
         let normal = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).normalize_or_zero();
         let (row_normal, main_normal) = (normal(row), normal(main));

@@ -1,4 +1,5 @@
-//! Keeps docs/families.md current: the tables of all families whose facets a function makes, and what their first cuts weigh.
+//! Keeps docs/families.md current: the tables of all families whose facets a function makes, and the weights of their
+//! first cuts.
 //!
 //! `BRILLIANTEER_RECORD=1 cargo test --lib documented` writes the file.
 
@@ -13,36 +14,39 @@ const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/families.md");
 const BEGINNING: &str = "\
 # Families of cuts
 
-A cut file shapes a stone of a family by the table that bears the family's key, such as `[oval]`. This page is made of the
+A cut file gives the numbers of a family in a table with the family's key, such as `[oval]`. This page is generated from the
 tables in `src/cut/families`, and a test keeps it current. [Formats](formats.md#cut-files) describes the rest of a cut file
 and `[round_brilliant]`.
 
-W is the [diameter](formats.md#diameter-length-and-width): of a round outline that of the circle through its corners, otherwise
-the shorter extent of the outline along x and y. Lengths are percent of W where nothing else is said, and angles are degrees
-from the girdle plane. The length is measured along y, which is up in pictures. \"Usual\" is the
-range of the editor's slider, with its source: \"published\" is a page or a cutter's design that was read, \"ours\" what no source\ngives; \"possible\" is what the program takes if the facets still have room. All keys are required but those
-that have a default, and `total_depth`. That follows from the others and can be set all the same: the numbers that it moves change by
-one factor, angles by that of their tangents (the tangent ratio), until the stone is as deep. A file gives either `total_depth` or the numbers that it
-moves, which then keep the ratios that they have in the cut's own file in `cuts/`. Where no such stone is possible, the message says
-how deep it can be.
+W is the [diameter](formats.md#diameter-length-and-width): of a round outline, that of the circle through its corners; of any
+other, the shorter extent of the outline along x and y. Lengths are in percent of W unless the unit is named, and angles are
+in degrees from the girdle plane. The length is measured along y, which is up in pictures. \"Usual\" is the range of the
+editor's slider, with its source: \"published\" means that a page or a cutter's design gives it, \"ours\" that no source does.
+\"Possible\" is the range that the program accepts, as long as the facets have room.
+
+All keys are required, except those that have a default and `total_depth`. The total depth follows from the other numbers, but
+it can be set: the numbers that it moves then change by one factor (angles by that of their tangents, the tangent ratio) until
+the stone has this depth. A file gives either `total_depth` or the numbers that it moves; with `total_depth`, these keep the
+ratios of the cut's own file in `cuts/`. Where no stone has the depth, the message names the possible depths.
 
 ![All families of this page: facets, ASET, and a render under the studio light](images/contact-sheet.png)
 
-Each family's first cut, in the order of the tables below, in diamond: its facets seen from above, its ASET, and a render under
-the light `studio`. [`contact-sheet.sh`](images/contact-sheet.sh) makes the picture by the program's own commands.
+The picture shows each family's first cut, in the order of the tables below, in diamond: its facets seen from above, its ASET,
+and a render under the light `studio`. [`contact-sheet.sh`](images/contact-sheet.sh) makes it by the program's own commands.
 
 ## What the families weigh
 
-The trade estimates the weight of a set diamond from its dimensions: carats = length · width · depth · k, in mm. Diamond has
-0.017575 carats per cubic millimetre, so k / 0.017575 is the share of the box around the stone that is filled: length by
-width by depth. The
-trade's k are for thin to medium girdles; thick girdles, high shoulders and bulging pavilions add up to 10 % each.
+The trade estimates the weight of a set diamond from its dimensions in mm: carats = length · width · depth · k. Diamond has
+0.017575 carats per cubic millimetre, so k / 0.017575 is the filled share of the box around the stone, whose sides are length,
+width and depth. The trade's k are for thin to medium girdles; thick girdles, high shoulders and bulging pavilions add up to
+10 % each.
 
 | family | facets without the girdle | length to width | depth, % of W | volume / (L W D) | the trade's | why it differs |
 |---|---|---|---|---|---|---|
 ";
 
-/// The trade's factor k of a family at the length to width of its first cut, its source, and why the first cut differs.
+/// The trade's factor k of a family at the length to width of its first cut, its source, and the reason why the first
+/// cut differs.
 const TRADE: [(&str, f64, &str, &str); 9] = [
     (
         "oval",
@@ -62,7 +66,7 @@ const TRADE: [(&str, f64, &str, &str); 9] = [
         "pear",
         0.00594,
         "esslinger.com",
-        "as of the marquise; a girdle of 5 makes 0.333, fuller shoulders (110) 0.325",
+        "the same as for the marquise; a girdle of 5 makes 0.333, fuller shoulders (110) 0.325",
     ),
     ("heart", 0.0059, "esslinger.com", ""),
     (
@@ -72,18 +76,20 @@ const TRADE: [(&str, f64, &str, &str); 9] = [
         "corners far from the culet are shallow; a bulge of 12 makes 0.311, a girdle of 6 0.312",
     ),
     ("emerald", 0.0086 + 0.8 * (0.009_26 - 0.0086), GEMWEST, ""),
-    ("asscher", 0.0080, GEMWEST, "the trade's is of square emerald cuts"),
-    ("baguette", 0.0100, GEMWEST, "the trade's is of emerald cuts of the same length to width"),
+    ("asscher", 0.0080, GEMWEST, "the trade's number is for square emerald cuts"),
+    ("baguette", 0.0100, GEMWEST, "the trade's number is for emerald cuts of the same length to width"),
     ("radiant", 0.0081 + 0.4 * (0.0084 - 0.0081), GEMWEST, ""),
 ];
 
-/// The source of the factors of long cuts, which are given at a few lengths to width; between these they are interpolated.
+/// The source of the factors of long cuts. It gives them at a few lengths to width; between these they are
+/// interpolated.
 const GEMWEST: &str = "dnaldoog/Gemwest";
 
 /// The carats of a cubic millimetre of diamond.
 const CARATS: f64 = 0.017_575;
 
-/// Returns the number of facets but the girdle's and the row of weights of a family's first cut.
+/// Returns the number of facets without the girdle, and the other figures of the row of weights, for a family's first
+/// cut.
 fn weight(family: &Family) -> String {
     let solid = Solid::of(&family.first).expect("the first cut is a stone");
     let size = solid.size;
@@ -104,7 +110,7 @@ fn weight(family: &Family) -> String {
     )
 }
 
-/// Writes a bound with what happens there.
+/// Writes a bound and the reason for it.
 fn bound(word: [&str; 2], bound: Option<Bound>) -> Option<String> {
     let Bound { at, inclusive, reason } = bound?;
     let BoundAt::Fixed(at) = at else { return Some(format!("a limit that depends on other keys: {reason}")) };
@@ -119,17 +125,17 @@ fn row(family: &Family, row: &Proportion) -> String {
     let bounds = [bound(["from", "above"], row.least), bound(["to", "below"], row.most)];
     let bounds = match row.moves.is_empty() {
         true => bounds.into_iter().flatten().collect::<Vec<_>>().join(", "),
-        false => "what the numbers that it moves can be".to_owned(),
+        false => "limits that depend on the numbers that it moves".to_owned(),
     };
     let moved: Vec<String> = row.moves.iter().map(|key| format!("`{key}`")).collect();
     let moved = match moved.as_slice() {
         [] => String::new(),
-        [moved] => format!(" Moves {moved}, and may stand in a file in its place."),
-        moved => format!(" Moves {}, and may stand in a file in their place.", moved.join(" and ")),
+        [moved] => format!(" Setting it moves {moved}; a file may give it in its place."),
+        moved => format!(" Setting it moves {}; a file may give it in their place.", moved.join(" and ")),
     };
     let default = row.default.map_or(String::new(), |value| format!(" Default {value}."));
     let [least, most] = row.usual;
-    // Derived numbers have more digits than the reader wants.
+    // Derived numbers have more digits than a reader needs.
     let value = (1e4 * (row.get)(&family.first)).round() / 1e4;
     let source = range_source(family, row).unwrap_or_default();
     format!(
@@ -180,7 +186,7 @@ fn every_usual_range_has_a_source() {
         rows.map(|row| (family.key, row.key))
     });
     assert_eq!(missing.collect::<Vec<_>>(), []);
-    // A name that no family has finds nothing.
+    // The search finds nothing for a name that no family has.
     let (oval, table) =
         (Family::of_key("oval").unwrap(), Family::of_key("oval").unwrap().proportion("table").unwrap());
     let unknown = Proportion { key: "no_such_number", ..Proportion::BLANK };
@@ -196,7 +202,7 @@ fn the_total_depth_is_that_of_the_stone_and_can_be_set() {
         // In girdle radii.
         let miss = |wanted: f64, solid: &Solid| (wanted / 50.0 - solid.size.z).abs();
         prop_assert!(miss(depth, &solid) < 1e-9, "{}: {depth}, off by {}", family.key, miss(depth, &solid));
-        // Flatter and back it is the same stone.
+        // Setting a flatter stone and setting it back gives the same stone.
         let mut set = cut.clone();
         row.set(&mut set, 0.98 * depth);
         if let Some(flat) = Solid::of(&set) {

@@ -1,4 +1,4 @@
-//! What holds for every facet of a family's stones: it is no sliver, its plane is used, and facets meet in points.
+//! Tests for every facet of a family's stones: no facet is a sliver, every plane is used, and facets meet in points.
 
 use super::tests::{made, on_random_cuts, stone};
 use super::*;
@@ -42,7 +42,7 @@ impl Solid {
         self.solid.facet_area(facet) * if is_cut { 2.0 } else { 1.0 }
     }
 
-    /// Returns whether a facet is a thin sliver. An upright one may be as low as the girdle is thin, and then as short.
+    /// Returns whether a facet is a sliver. An upright facet may be as low as the girdle is thin, and then as short.
     fn is_thin(&self, facet: &Facet) -> bool {
         let least = 2.0 * LEAST;
         if self.zones.zone(facet) != TierZone::Girdle {
@@ -55,7 +55,7 @@ impl Solid {
         extent(facet.plane.normal.cross(DVec3::Z)) < least.min(extent(DVec3::Z))
     }
 
-    /// Returns what is wrong with the facets: each with its tier and a figure in percent.
+    /// Returns the faults of the facets, each with its tier and a figure in percent.
     fn faults(&self) -> Vec<(&'static str, &'static str, f64)> {
         let mut faults = vec![];
         let mut areas: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
@@ -69,7 +69,7 @@ impl Solid {
             if area < LEAST {
                 faults.push(("small", tier, 100.0 * area));
             }
-            // A culet is as small as it is asked for.
+            // A culet may be as small as its proportion asks.
             if tier != "culet" && self.is_thin(facet) {
                 faults.push(("thin", tier, 50.0 * self.solid.facet_width(facet)));
             }
@@ -144,7 +144,7 @@ fn facets_meet_in_points() {
 fn a_brilliant_has_the_facets_that_its_mains_make() {
     let counted = on_random_cuts(|family, cut| {
         let count = |key: &str| family.proportion(key).map_or(0.0, |row| (row.get)(cut)) as usize;
-        // A heart has a main more than gaps between mains.
+        // A heart has one main more than gaps between mains.
         let (gaps, extra) = match family.key {
             "oval" | "marquise" | "pear" | "cushion" => (4 * count("mains_per_quarter"), 0),
             "trillion" => (3 * count("mains_per_side"), 0),

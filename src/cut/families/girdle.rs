@@ -1,4 +1,4 @@
-//! The girdle's outline of a fancy cut: a convex curve, divided where facets meet on it.
+//! The girdle's outline of a fancy cut: a convex curve, which is divided where facets meet on it.
 
 use super::super::facet_net::FacetNet;
 use glam::DVec2;
@@ -9,40 +9,42 @@ use std::ops::Range;
 pub struct GirdlePlace {
     /// The point of the outline.
     pub at: DVec2,
-    /// The unit normal of the outline there, outward. Where the outline has a corner, it lies between those of both sides.
+    /// The outward unit normal of the outline there. At a corner of the outline, it lies between the normals of both
+    /// sides.
     pub normal: DVec2,
-    /// Whether the outline has a corner there.
+    /// True where the outline has a corner.
     pub is_corner: bool,
 }
 
-/// How many upright facets lie between a corner of the outline and the next station. Beside a main that touches the outline,
-/// half of one belongs to it.
+/// The number of upright facets between a corner of the outline and the next station. Where a main touches the outline,
+/// three and a half take their place: half of the facet at the main, and three more.
 const UPRIGHT: usize = 4;
 
-/// An outline, counter-clockwise, with a main facet at every second station: closed, or the half on the side of +x of an
-/// outline that its mirror image completes.
+/// An outline, counter-clockwise, with a main at every second station. It is closed, or it is the half on the side of
+/// +x of an outline that its mirror image completes.
 ///
-/// Stations alternate between those where a main touches the outline and those where two half facets part. Between two
-/// stations the girdle has a number of upright facets. One touches the curve where a main does, so that length and width are
-/// the distances of opposite facets. Where halves part, and where the outline has a corner, two meet in a point of the curve:
-/// all facets that come together there end in one point. The others meet in points of the curve as well.
+/// Stations alternate between those where a main touches the outline and those where two half facets part. Between
+/// two stations the girdle has several upright facets. At a main, one of them touches the curve, so that length and
+/// width are the distances of opposite facets. Where halves part, and where the outline has a corner, two upright
+/// facets meet in a point of the curve, in which all facets there end. The other upright facets meet in points of the
+/// curve as well.
 pub struct Girdle {
     stations: Vec<GirdlePlace>,
     /// The upright facets, each by a point and its normal.
     upright: Vec<(DVec2, DVec2)>,
-    /// Whether the outline is one half, whose first and last stations lie at x = 0.
+    /// True where the outline is one half, whose first and last stations lie at x = 0.
     is_half: bool,
 }
 
 impl Girdle {
-    /// Divides a curve into stations. `curve` takes the way around, from 0 to 1, to a place; equal parts of this way lie
-    /// between the stations of `mains` main facets.
+    /// Divides a curve into stations. `curve` returns the place at a part of the way around, from 0 to 1; equal parts
+    /// of this way lie between the stations of `mains` main facets.
     pub fn new(mains: usize, curve: impl Fn(f64) -> GirdlePlace) -> Self {
         Self::divided(2 * mains.max(2), false, curve)
     }
 
-    /// Divides one half of an outline, on the side of +x: `curve` begins and ends at x = 0, with a main at both ends, and
-    /// this leaves `gaps` gaps between mains. The outline has a corner at both ends.
+    /// Divides one half of an outline, on the side of +x, with `gaps` gaps between mains. `curve` begins and ends at
+    /// x = 0, with a main at both ends. The outline has a corner at both ends.
     pub fn half(gaps: usize, curve: impl Fn(f64) -> GirdlePlace) -> Self {
         Self::divided(2 * gaps.max(2), true, curve)
     }
@@ -71,17 +73,17 @@ impl Girdle {
         if self.is_half { FacetNet::half() } else { FacetNet::default() }
     }
 
-    /// Returns the places of the mains.
+    /// Returns the numbers of the mains.
     pub fn mains(&self) -> Range<usize> {
         0..self.stations.len().div_ceil(2)
     }
 
-    /// Returns the places between a main and the next, each by the number of the first.
+    /// Returns the numbers of the gaps between a main and the next; a gap has the number of its first main.
     pub fn gaps(&self) -> Range<usize> {
         0..self.stations.len() / 2
     }
 
-    /// Returns the station of a main; numbers run on around the outline.
+    /// Returns the station of a main; numbers continue around the outline.
     pub fn main(&self, number: usize) -> GirdlePlace {
         self.stations[2 * number % self.stations.len()]
     }
@@ -99,9 +101,9 @@ impl Girdle {
     }
 }
 
-/// Returns where upright facets meet on the curve, as parts of the way from a main to the next place where halves part. At a main
-/// that touches the outline the first lies half a facet away, because one facet touches the curve at the main itself. The last is
-/// the place where halves part.
+/// Returns the places where upright facets meet on the curve, as parts of the way from a main to the next place where
+/// halves part. At a main that touches the outline, the first place is half a facet away, because one facet touches
+/// the curve at the main itself. The last place is the one where halves part.
 fn corner_ways(main: GirdlePlace) -> impl Iterator<Item = f64> {
     let (count, first) = if main.is_corner { (UPRIGHT, 0.0) } else { (UPRIGHT - 1, 0.5) };
     (0..=count).map(move |number| (first + number as f64) / (first + count as f64))

@@ -1,7 +1,8 @@
-//! The heart: a brilliant with two lobes, a cleft and a point, 59 facets. It is not convex at its cleft.
+//! The heart: a brilliant with two lobes, a cleft and a point, of 58 facets, or 60 with a culet. It is not convex at
+//! its cleft.
 //!
-//! Both halves are convex brilliants, made alike, and meet in the plane x = 0. Each half has a bezel and a main of its own at
-//! the cleft.
+//! Both halves are convex brilliants of the same construction, and meet in the plane x = 0. Each half has a bezel and
+//! a main of its own at the cleft.
 //!
 //! Ranges: L/W 0.90 to 1.10 (yourjewel.com), library of cutters' designs 1.00 to 1.06; cleft, lobes and fullness are chosen to
 //! look like the trade's pictures.
@@ -26,12 +27,13 @@ const MIDDLE: usize = 4;
 const TABLE: usize = 5;
 const MAINS: usize = 12;
 
-/// The stations from the point to the widest place, as parts of the way from there to the point, of a heart with four gaps in
-/// each half. Mains and places between them alternate; the first is a main. With more gaps, stations are spread alike.
+/// The stations from the point to the widest place, as parts of the way from the widest place to the point, for a
+/// heart with four gaps in each half. Mains and the places between them alternate; the first is a main. With more
+/// gaps, stations are spread in the same way.
 const SIDE: [f64; 4] = [1.0, 0.68, 0.34, 0.0];
 
-/// The stations from the widest place to the top of the lobe, as parts of the quarter by which the outline turns. Widest place
-/// and top are stations, so that length and width are exact.
+/// The stations from the widest place to the top of the lobe, as parts of the quarter by which the outline turns. The
+/// widest place and the top are stations, so that length and width are exact.
 const OUTER_LOBE: [f64; 4] = [0.0, 0.4, 0.7, 1.0];
 
 /// The family of the heart.
@@ -47,38 +49,38 @@ pub static HEART: Family = Family {
     proportions: &[
         rows::length_to_width::<LENGTH>([0.9, 1.1]),
         Proportion {
-            meaning: "How deep the cleft is below the lobes.",
+            meaning: "The depth of the cleft below the tops of the lobes.",
             least: Bound::at(Fixed(0.5), "where the lobes are one"),
             most: Bound::before(Of(lobe), "where both lobes are half circles or ellipses"),
             ..rows::of_width::<CLEFT>("cleft", "Cleft", [8.0, 20.0])
         },
         Proportion {
-            meaning: "How far the lobes rise above the widest place.",
+            meaning: "The height of the lobes above the widest place.",
             least: Bound::at(Fixed(5.0), "the flattest lobes allowed"),
             most: Bound::at(Fixed(70.0), "the highest lobes allowed"),
             ..rows::of_width::<LOBE>("lobe_height", "Lobe height", [25.0, 35.0])
         },
         brilliant_rows::fullness::<FULLNESS>(),
         Proportion {
-            meaning: "How far the culet and the middle of the table lie from the widest place toward the point.",
+            meaning: "The distance of the culet and the middle of the table from the widest place toward the point.",
             least: Bound::at(Fixed(-30.0), "the highest middle allowed"),
             most: Bound::at(Fixed(60.0), "the lowest middle allowed"),
             ..rows::of_width::<MIDDLE>("middle", "Middle", [0.0, 15.0])
         },
         rows::table::<TABLE>([50.0, 66.0]),
         Proportion {
-            meaning: "How steep bezels at half the width from the middle stand on the girdle plane. Those farther away are \
+            meaning: "The angle between the girdle plane and a bezel at half the width from the middle. Bezels farther away are \
                       flatter.",
             ..brilliant_rows::crown_angle::<6>([28.0, 40.0])
         },
         Proportion {
-            meaning: "How steep mains at half the width from the middle stand on the girdle plane. Those farther away are \
+            meaning: "The angle between the girdle plane and a main at half the width from the middle. Mains farther away are \
                       flatter.",
             ..brilliant_rows::pavilion_angle::<7>([38.0, 46.0])
         },
         Proportion {
             of: "of the way from where they would lie flat to the girdle",
-            meaning: "How far the stars reach toward the girdle, from where they would lie flat with the table.",
+            meaning: "The reach of the stars toward the girdle, from the place where they would lie flat with the table.",
             usual: [20.0, 50.0],
             ..brilliant_rows::star_length::<8>()
         },
@@ -90,7 +92,7 @@ pub static HEART: Family = Family {
             name: "Mains per half",
             unit: Unit::Count,
             of: "in half of the outline",
-            meaning: "The number of mains, and of bezels, in each half of the outline beside that at the point: 4 make nine mains.",
+            meaning: "The number of mains, and of bezels, in each half of the outline, besides the one at the point; 4 make nine bezels.",
             usual: [4.0, 6.0],
             step: 1.0,
             speed: 0.02,
@@ -103,7 +105,7 @@ pub static HEART: Family = Family {
     ],
 };
 
-/// Returns the height of the lobes, percent of the width.
+/// Returns the height of the lobes, in percent of the width.
 fn lobe(cut: &Cut) -> f64 {
     match cut {
         Cut::Family(cut) => cut[LOBE],
@@ -111,13 +113,14 @@ fn lobe(cut: &Cut) -> f64 {
     }
 }
 
-/// Returns half of the width in halves of the shorter extent, the girdle radius.
+/// Returns half of the width in girdle radii, of which one is half of the shorter extent.
 fn scale(cut: &FamilyCut) -> f64 {
     1.0 / cut[LENGTH].min(1.0)
 }
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
-    // Numbers are percent of the shorter extent, half of which is 1 in the end; the curve is made with half the width as 1.
+    // Numbers are percent of the shorter extent, whose half is 1 in the result; the curve is made with half the width
+    // as 1.
     let (length, scale) = (cut[LENGTH], scale(cut));
     let lobe = cut[LOBE] / 50.0 / scale;
     let point = 2.0 * length - lobe;
@@ -144,7 +147,7 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
         let at = DVec2::new(1.0 - across + across * cos / size, lobe * sin / size);
         place(at, normal, false)
     };
-    // The angle of the normal at the cleft.
+    // This is the angle of the normal at the cleft.
     let cleft = (sine * across).atan2(-(1.0 - sine * sine).sqrt() * lobe);
     let gaps = cut[MAINS] as usize;
     let (sides, outer) = (gaps - 1, gaps.div_ceil(2) + 1);
@@ -169,7 +172,7 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     Brilliant { is_star_free: true, ..Brilliant::of(cut, TABLE, &girdle, middle, scale) }.net()
 }
 
-/// Returns the number at a part of the way along a list, between two of its numbers in proportion.
+/// Returns the number at a part of the way along a list, interpolated between two of its numbers.
 fn station(list: &[f64], way: f64) -> f64 {
     let place = way * (list.len() - 1) as f64;
     let from = (place as usize).min(list.len() - 2);

@@ -65,7 +65,7 @@ fn profile(cut: &FamilyCut) -> StepProfile {
 
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let (length, keel) = (cut[LENGTH], cut[KEEL] / 100.0);
-    // How far a point reaches beyond the ends of the straight sides.
+    // This is the length of a point beyond the ends of the straight sides.
     let point = 1.0 / (0.5 * cut[POINT]).to_radians().tan();
     if point >= length {
         return Err(NoRoom { tier: "girdle" });

@@ -31,7 +31,7 @@ pub static KITE: Family = Family {
     proportions: &[
         rows::length_to_width::<LENGTH>([1.3, 2.0]),
         Proportion {
-            meaning: "How far from the sharper end the stone is widest.",
+            meaning: "The distance of the widest place from the sharper end.",
             ..rows::part::<SHOULDER>(
                 "shoulder",
                 "Shoulder",
@@ -51,8 +51,8 @@ pub static KITE: Family = Family {
     ],
 };
 
-/// Returns the middle of the circle that touches all four sides, as its height above the middle of the length, and its radius. It
-/// lies on the axis, at the same distance from long and short sides.
+/// Returns the centre of the circle that touches all four sides, as its height above the middle of the length, and
+/// its radius. The centre lies on the axis, at the same distance from long and short sides.
 fn circle(cut: &FamilyCut) -> (f64, f64) {
     let (length, widest) = (cut[LENGTH], widest(cut));
     let [short, long] = [length - widest, length + widest].map(|reach| reach.hypot(1.0));
@@ -60,7 +60,7 @@ fn circle(cut: &FamilyCut) -> (f64, f64) {
     (middle, (length - middle) / short)
 }
 
-/// Returns how far the widest place lies above the middle of the length.
+/// Returns the height of the widest place above the middle of the length.
 fn widest(cut: &FamilyCut) -> f64 {
     cut[LENGTH] * (2.0 * cut[SHOULDER] / 100.0 - 1.0)
 }

@@ -1,4 +1,4 @@
-//! All families of cuts, and which of them a cut belongs to.
+//! All families of cuts, and the search for the family of a cut.
 
 mod alternating;
 mod asscher;
@@ -103,7 +103,7 @@ pub static FAMILIES: [&Family; 27] = [
     &PLATE,
 ];
 
-/// What stands for cuts without a family among [`GROUPS`].
+/// The key that stands for cuts without a family among [`GROUPS`].
 pub const BY_TIERS: &str = "tiers";
 
 /// The families as the trade groups them: the name of each group, and the keys of its families.
@@ -153,7 +153,7 @@ impl Cut {
         given.map(|row| (row, (row.get)(self)))
     }
 
-    /// Returns the proportion that a part of the profile changes.
+    /// Returns the proportion that a handle of the profile changes.
     pub fn handled_by(&self, handle: ProfileHandle) -> Option<&'static Proportion> {
         self.proportions().iter().find(|row| row.handles.contains(&handle))
     }

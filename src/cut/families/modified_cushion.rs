@@ -1,7 +1,8 @@
 //! The modified cushion: the crown of a brilliant on a pavilion of chevrons, 61 to 77 facets.
 //!
-//! CushionChevrons instead of pavilion mains, 2 to 4 rows (caratwire.com); L/W, table and depth as of the cushion with mains. No
-//! source gives angles of the rows: they are chosen so that the depth is 61 to 68 (gemmology.dev).
+//! Chevrons replace the mains of the pavilion, in 2 to 4 rows (caratwire.com). L/W, table and depth are those of the
+//! cushion with mains. No source gives angles of the rows: they are chosen so that the depth is 61 to 68
+//! (gemmology.dev).
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::{Fixed, Of};
@@ -45,17 +46,17 @@ pub static MODIFIED_CUSHION: Family = Family {
         rows::table::<TABLE>([50.0, 70.0]),
         brilliant_rows::crown_angle::<CROWN>([28.0, 40.0]),
         Proportion {
-            meaning: "How steep the first row of chevrons, at the girdle, is along the middle of a long side.",
+            meaning: "The angle of the first row of chevrons, at the girdle, along the middle of a long side.",
             least: Bound::before(Of(lower), "where the rows would be one"),
             ..rows::slope::<UPPER>("upper_angle", "Angle of the first row", [47.0, 58.0])
         },
         Proportion {
-            meaning: "How steep the last row of chevrons, at the culet, is along the middle of a long side. Rows between lie between both.",
+            meaning: "The angle of the last row of chevrons, at the culet, along the middle of a long side. The angles of the other rows lie in between.",
             ..rows::slope::<LOWER>("lower_angle", "Angle of the last row", [33.0, 42.0])
         },
         brilliant_rows::star_length::<STAR>(),
         Proportion {
-            meaning: "How deep the tips lie from which the rows of half a side run out.",
+            meaning: "The depth of the tips, each the point that all rows of half a side share.",
             ..rows::part::<TIP>("tip_depth", "Depth of the tips", "of the pavilion's depth", [18.0, 32.0])
         },
         rows::girdle_thickness::<GIRDLE>(),
@@ -65,7 +66,7 @@ pub static MODIFIED_CUSHION: Family = Family {
             name: "Rows",
             unit: Unit::Count,
             of: "on each side of the pavilion",
-            meaning: "The number of rows of chevrons on each side of the pavilion: few make broad flashes, many small ones.",
+            meaning: "The number of rows of chevrons on each side of the pavilion: few rows make broad flashes, many rows make small ones.",
             usual: [2.0, 4.0],
             step: 1.0,
             speed: 0.02,
@@ -77,7 +78,7 @@ pub static MODIFIED_CUSHION: Family = Family {
     ],
 };
 
-/// Returns the angle of the last row, degrees.
+/// Returns the angle of the last row, in degrees.
 fn lower(cut: &Cut) -> f64 {
     match cut {
         Cut::Family(cut) => cut[LOWER],

@@ -32,7 +32,7 @@ pub static OVAL: Family = Family {
             name: "Fullness",
             unit: Unit::Ratio,
             of: "the exponent of the superellipse",
-            meaning: "How full the outline is between its ends and sides: 2 is an ellipse, more is nearer to a rectangle.",
+            meaning: "The fullness of the outline between its ends and sides: 2 is an ellipse, and more is nearer to a rectangle.",
             usual: [2.0, 2.6],
             step: 0.05,
             speed: 0.005,

@@ -1,10 +1,11 @@
 //! The oval barion: an oval outline of sixteen sides, a step crown, and half-moons that carry a round pavilion.
 //!
-//! The cone of the [barion] is round here, and runs through the ends of the sides at both ends of the stone. Along the
-//! long sides it lies outside of the outline, so that each other side has a moon. Where two moons meet, a crease runs down to the cone.
-//! Eight mains touch the cone: in the middle of a long side, at the crease in the middle of a quarter, and at the ends. Two halves between
-//! neighbouring mains meet in a tip. So every facet ends in points. The construction is this program's own; facets: 49 in the
-//! crown with three rows, 38 in the pavilion, 16 in the girdle.
+//! The cone of the [barion] is round here, and runs through the ends of the sides at both ends of the stone. Along
+//! the long sides it lies outside the outline, so that every side but those two has a moon. Where two moons meet, a
+//! crease runs down to the cone. Eight mains touch the cone: in the middle of a long side, at the crease in the
+//! middle of a quarter, and at the ends. Two halves between neighbouring mains meet in a tip. So every facet ends in
+//! points. The construction is this program's own. The facets are 49 in the crown with three rows, 38 in the pavilion
+//! and 16 in the girdle.
 //!
 //! Source of the kind: PC 02.094 (Long and Steele, Facet Design 6, 1987): 16 sides, moons at 71, 64 and 58 degrees along each long
 //! side and none at the ends, eight mains at 43 and 44, L/W 1.40, table .55, P/W .63, C/W .20.
@@ -30,8 +31,8 @@ const LOWER_HALF: usize = 7;
 const GIRDLE: usize = 8;
 const CULET: usize = 9;
 
-/// Where the sides between those in the middle of a long side and at the end of the stone meet the ellipse, as parts of the way of a
-/// quarter from there to here.
+/// The places where the sides between the middle of a long side and the end of the stone meet the ellipse, as parts
+/// of the way along the quarter from that middle to that end.
 const ON_ELLIPSE: [f64; 4] = [0.12, 0.36, 0.6, 0.86];
 
 /// The tiers of the moons, from the middle of a long side to the end.
@@ -59,7 +60,7 @@ pub static OVAL_BARION: Family = Family {
     ],
 };
 
-/// The sides of the outline in the first quarter, from +x to +y: each by its unit normal and a point.
+/// The sides of the outline in the first quarter, from +x to +y, each given by its unit normal and a point.
 struct Outline {
     sides: [(DVec2, DVec2); 5],
     size: DVec2,
@@ -74,7 +75,8 @@ impl Outline {
         Self { sides, size }
     }
 
-    /// Returns where a side of the quarter meets the next, and the way that this corner moves when both move inward by 1.
+    /// Returns the corner between a side of the quarter and the next, and the displacement of this corner when both
+    /// sides move inward by 1.
     fn corner(&self, place: usize) -> (DVec2, DVec2) {
         let [(a, on_a), (b, on_b)] = [self.sides[place], self.sides[place + 1]];
         let normals = DMat2::from_cols(a, b).transpose().inverse();
@@ -99,7 +101,7 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     steps::add_girdle(&mut net, &steps, thickness);
     let mut quarters = Quarters { net: &mut net, inside: -0.5 * thickness };
     let moon = NoRoom { tier: MOONS[0] };
-    // From the middle of the long side over the feet of the creases to the girdle at the end.
+    // The list runs from the middle of the long side over the feet of the creases to the girdle at the end.
     let mut feet = vec![pavilion.down(DVec2::X, DVec2::NEG_X * pavilion.cotangent).ok_or(moon)?];
     pavilion.add_half_moon(&mut quarters, DVec2::X, outline.size);
     for place in 0..3 {

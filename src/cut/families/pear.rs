@@ -35,7 +35,7 @@ pub static PEAR: Family = Family {
             key: "head",
             name: "Head",
             of: "of half the width",
-            meaning: "How far the head reaches from the widest place: 100 is a half circle.",
+            meaning: "The length of the head from the widest place; 100 is a half circle.",
             usual: [85.0, 110.0],
             least: Bound::at(Fixed(40.0), "the flattest head allowed"),
             most: Bound::at(Fixed(200.0), "the longest head allowed"),
@@ -44,7 +44,7 @@ pub static PEAR: Family = Family {
         Proportion {
             key: "middle",
             name: "Middle",
-            meaning: "How far the culet and the middle of the table lie from the widest place toward the point.",
+            meaning: "The distance of the culet and the middle of the table from the widest place toward the point.",
             least: Bound::at(Fixed(-30.0), "the lowest middle allowed"),
             most: Bound::at(Fixed(60.0), "the highest middle allowed"),
             ..rows::of_width::<MIDDLE>("middle", "Middle", [-5.0, 12.0])
@@ -65,7 +65,7 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let head = cut[HEAD] / 100.0;
     let point = 2.0 * cut[LENGTH] - head;
     let wing = Wing::new(point, cut[FULLNESS] / 100.0).ok_or(NoRoom { tier: "girdle" })?;
-    // The widest place lies this far from the middle of the length.
+    // The widest place has this distance from the middle of the length.
     let widest = DVec2::new(0.0, head - cut[LENGTH]);
     let curve = |way: f64| {
         let place = around(way, |part| match way < 0.5 {

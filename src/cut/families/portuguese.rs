@@ -1,7 +1,9 @@
-//! The Portuguese cut: equal rows of facets, each turned by half a step against the one before, on crown and pavilion.
+//! The Portuguese cut: equal rows of facets on crown and pavilion, each row turned by half a step against the row
+//! before.
 //!
-//! Source of the first cut: PC 01.028A, 16 facets a row, crown 52/45/40/35/30, pavilion 60/56/52/48/44/40, table .45. The trade
-//! quotes 161 to 193 facets. Ranges of angles and sizes: PC 01.028A, B and C, widened by an estimate.
+//! The first cut has the numbers of PC 01.028A: 16 facets a row, crown 52/45/40/35/30, pavilion 60/56/52/48/44/40,
+//! table .45. The trade quotes 161 to 193 facets. Ranges of angles and sizes are those of PC 01.028A, B and C,
+//! widened by an estimate.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
@@ -33,16 +35,16 @@ pub static PORTUGUESE: Family = Family {
         rows::row_count::<CROWN_ROWS>("crown_rows", "Crown rows", [2.0, 5.0]),
         rows::row_count::<PAVILION_ROWS>("pavilion_rows", "Pavilion rows", [2.0, 6.0]),
         Proportion {
-            meaning: "The flat facet on top, corner to opposite corner. The last row of the crown touches it with its \
+            meaning: "The width of the flat facet on top, from corner to opposite corner. The last row of the crown touches it with its \
                       tips.",
             ..rows::table::<TABLE>([35.0, 60.0])
         },
         Proportion {
-            meaning: "How steep the row at the girdle stands on the girdle plane. Each row above it is flatter.",
+            meaning: "The angle between the row at the girdle and the girdle plane. Each row above it is flatter.",
             ..rows::slope::<CROWN>("crown_angle", "Crown angle", [35.0, 55.0])
         },
         Proportion {
-            meaning: "How steep the row at the culet stands on the girdle plane. Each row above it is steeper.",
+            meaning: "The angle between the row at the culet and the girdle plane. Each row above it is steeper.",
             ..rows::slope::<PAVILION>("pavilion_angle", "Pavilion angle", [37.0, 44.0])
         },
         rows::rosette::<ROSETTE>("rosette", "Rosette", [25.0, 45.0]),
@@ -50,7 +52,7 @@ pub static PORTUGUESE: Family = Family {
         Proportion {
             key: "table_row_angle",
             name: "Row at the table",
-            meaning: "How steep the crown's row at the table is.",
+            meaning: "The angle between the crown's row at the table and the girdle plane.",
             least: Bound::at(Fixed(2.0), "the flattest facet allowed"),
             get: |cut| angle(cut, |cut| crown(cut).last_flattening() * tangent(cut, CROWN)),
             ..ANGLE
@@ -58,7 +60,7 @@ pub static PORTUGUESE: Family = Family {
         Proportion {
             key: "girdle_row_angle",
             name: "Row at the girdle",
-            meaning: "How steep the pavilion's row at the girdle is.",
+            meaning: "The angle between the pavilion's row at the girdle and the girdle plane.",
             most: Bound::at(Fixed(88.0), "the steepest facet allowed"),
             get: |cut| angle(cut, |cut| tangent(cut, PAVILION) / pavilion(cut).last_flattening()),
             ..ANGLE
@@ -67,10 +69,10 @@ pub static PORTUGUESE: Family = Family {
     ],
 };
 
-/// What the rows of derived angles have in common.
+/// The common part of the rows of derived angles.
 const ANGLE: Proportion = Proportion { give: None, ..rows::slope::<FACETS>("", "", [0.0, 90.0]) };
 
-/// Returns the angle of a tangent that follows from the numbers, degrees.
+/// Returns the angle, in degrees, of a tangent that follows from the numbers.
 fn angle(cut: &Cut, tangent: fn(&FamilyCut) -> f64) -> f64 {
     match cut {
         Cut::Family(cut) => tangent(cut).atan().to_degrees(),

@@ -1,9 +1,10 @@
-//! The princess cut: a square brilliant with bevelled corners, whose pavilion has mains in an X and rows of chevrons.
+//! The princess cut: a square brilliant with bevelled corners. Its pavilion has mains in an X and rows of chevrons.
 //!
-//! Ranges: crown with two mains a side, stars at an azimuth of 6 degrees, equal widths at mid-side (B. Harding, on the AGS's
-//! model); 2, 3 or 4 rows of chevrons (briangavindiamonds.com); table 60 to 80, total depth 65 to 80 percent (brilliancelab).
-//! No figures are published of the mains' angles; those here give crowns 8 to 15 percent high. Beside its chevrons, each side
-//! has one facet along the girdle: a level girdle allows no two.
+//! Ranges: the crown has two mains a side, stars at an azimuth of 6 degrees and equal widths at mid-side (B. Harding,
+//! on the AGS's model); 2, 3 or 4 rows of chevrons (briangavindiamonds.com); table 60 to 80, total depth 65 to 80
+//! percent (brilliancelab). No figures are published for the mains' angles; those here give crowns 8 to 15 percent
+//! high. In addition to its chevrons, each side has one facet along the girdle, because a level girdle does not allow
+//! two.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
@@ -38,11 +39,11 @@ pub static PRINCESS: Family = Family {
         step_rows::corner::<CORNER>([1.0, 5.0]),
         rows::table::<TABLE>([60.0, 80.0]),
         Proportion {
-            meaning: "How steep the mains of the sides stand that begin at the girdle.",
+            meaning: "The angle between the girdle plane and those mains of the sides that begin at the girdle.",
             ..rows::slope::<MAIN_1>("main_1_angle", "First mains", [32.0, 46.0])
         },
         Proportion {
-            meaning: "How steep the mains of the sides stand that reach the table.",
+            meaning: "The angle between the girdle plane and those mains of the sides that reach the table.",
             ..rows::slope::<MAIN_2>("main_2_angle", "Second mains", [18.0, 30.0])
         },
         star_azimuth::<STAR_AZIMUTH>([4.0, 9.0]),
@@ -56,14 +57,14 @@ pub static PRINCESS: Family = Family {
     ],
 };
 
-/// The azimuth of the stars.
+/// Returns the row for the azimuth of the stars.
 pub(super) const fn star_azimuth<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     Proportion {
         key: "star_azimuth",
         name: "Star azimuth",
         unit: Unit::Degrees,
         of: "from the direction of the end of the stone",
-        meaning: "How far the two stars of an end turn away from each other: 0 would be a table with straight sides.",
+        meaning: "The angle by which each of the two stars of an end turns away from the direction of the end; 0 would be a table with straight sides.",
         usual,
         least: Bound::before(Fixed(0.0), "where both stars of a side would be one"),
         most: Bound::before(Fixed(45.0), "where the table's corners would vanish"),
@@ -71,20 +72,20 @@ pub(super) const fn star_azimuth<const PLACE: usize>(usual: [f64; 2]) -> Proport
     }
 }
 
-/// The number of rows of chevrons.
+/// Returns the row for the number of rows of chevrons.
 pub(super) const fn chevrons<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How many rows of chevrons, pairs of facets that form a V, each side of the pavilion has.",
+        meaning: "The number of rows of chevrons, pairs of facets that form a V, on each side of the pavilion.",
         ..step_rows::count::<PLACE>(
             "chevrons",
             "Chevrons",
             [2.0, 4.0],
-            ["fewer than which no such cut has", "more than which no such cut has"],
+            ["the fewest rows of any such cut", "the most rows of any such cut"],
         )
     }
 }
 
-/// The depth of the pavilion.
+/// Returns the row for the depth of the pavilion.
 pub(super) const fn pavilion_depth<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     Proportion {
         meaning: "The depth of the mains' point below the girdle, in percent of the width of the stone.",
@@ -94,18 +95,18 @@ pub(super) const fn pavilion_depth<const PLACE: usize>(usual: [f64; 2]) -> Propo
     }
 }
 
-/// The angle between neighbouring chevrons.
+/// Returns the row for the angle between neighbouring chevrons.
 pub(super) const fn chevron_step<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How much steeper the pavilion is in each row than in the next inner one, along the middle of a side.",
+        meaning: "The angle by which each row of the pavilion is steeper than the next inner row, along the middle of a side.",
         ..step_rows::step::<PLACE>("chevron_step", "Chevron step", [4.0, 9.0])
     }
 }
 
-/// How wide the mains are.
+/// Returns the row for the width of the mains.
 pub(super) const fn shoulder<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How far from the middle, along the middle of a side, neighbouring mains touch and the chevrons begin.",
+        meaning: "The distance from the middle at which neighbouring mains touch and the chevrons begin, along the middle of a side.",
         ..rows::part::<PLACE>(
             "shoulder",
             "Main shoulders",

@@ -42,13 +42,13 @@ pub static RADIANT: Family = Family {
         step_rows::corner::<CORNER>([12.0, 24.0]),
         rows::table::<TABLE>([55.0, 75.0]),
         Proportion {
-            meaning: "How many rows of steps the crown has; 0 is a brilliant crown: a row, a row of triangles, and stars.",
+            meaning: "The number of rows of steps in the crown; 0 is a brilliant crown, with a first row, a row of triangles, and stars.",
             nothing: Some("brilliant"),
             ..step_rows::count::<CROWN_ROWS>(
                 "crown_rows",
                 "Crown rows",
                 [0.0, 4.0],
-                ["a brilliant crown", "more than which no radiant has"],
+                ["a brilliant crown", "the most rows of any radiant"],
             )
         },
         step_rows::crown::<CROWN>([28.0, 40.0]),

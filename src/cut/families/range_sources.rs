@@ -1,14 +1,15 @@
-//! Where the usual range of each number comes from, for docs/families.md.
+//! The sources of the usual range of each number, for docs/families.md.
 //!
-//! "Published" is a page or a table that was read; GemCad's library and other designs of cutters are counted as published too. A
-//! range around a published one says so. What nobody publishes is "ours", with the reason.
+//! "Published" means a page or a table that was read; GemCad's library and other designs of cutters count as
+//! published too. A range that is only near a published one says so. "Ours" means that no source publishes the range;
+//! the reason for it follows.
 
 use crate::cut::{Family, Proportion, Unit};
 
 const GIRDLE: &str = "ours: from a very thin girdle to a thick one; no source gives percents";
 const CULET: &str = "ours: from a point to a culet that shows through the table";
 const ROWS: &str = "all that is possible; the trade cuts two or three";
-const STEP: &str = "ours: from rows that are just told apart to the steepest that look stepped";
+const STEP: &str = "ours: from rows that can just be distinguished to the steepest that look stepped";
 const STARS: &str = "ours, around the 45 to 55 of round brilliants";
 const HALVES: &str = "ours, around the 70 to 85 of round brilliants";
 const MAINS: &str = "all that is possible; the trade cuts two a quarter";
@@ -18,7 +19,7 @@ const EMERALD_SLOPE: &str = "wider than published for emerald cuts (diamondcutte
 const EMERALD_CROWN: &str = "wider than published for emerald cuts (diamondcuttersintl.com: 32 to 35)";
 const EMERALD_TABLE: &str = "published for emerald cuts: 55 to 75 (gemmology.dev), from 50 on";
 
-/// Returns where the usual range of a number comes from; `None` where this file does not say it.
+/// Returns the source of the usual range of a number; `None` where this file does not give it.
 pub(super) fn range_source(family: &Family, row: &Proportion) -> Option<&'static str> {
     let own = own(family.key, row.key);
     own.or(match row.key {
@@ -49,10 +50,10 @@ fn step_cut(family: &str, key: &str) -> Option<&'static str> {
     is_step.then_some(source)
 }
 
-/// Sources of ranges: the families (none for all), the keys of the numbers (none for all), and the source. The first row that fits
-/// counts.
+/// Sources of ranges: the families (an empty list stands for all), the keys of the numbers (likewise), and the
+/// source. The first row that fits counts.
 const OWN: &[(&[&str], &[&str], &str)] = &[
-    (&["rose", "briolette"], &["total_depth"], "ours: what the usual heights and lengths make"),
+    (&["rose", "briolette"], &["total_depth"], "ours: the depths that follow from usual heights and lengths"),
     (&["oval"], &["total_depth"], "published: 56 to 70 (gemmology.dev)"),
     (&["marquise", "pear"], &["total_depth"], "wider than published (diamondcuttersintl.com: 56 to 61)"),
     (
@@ -80,7 +81,7 @@ const OWN: &[(&[&str], &[&str], &str)] = &[
         &["crown_angle", "pavilion_angle"],
         "wider than PC 01.028A (52 at the girdle, 40 at the culet)",
     ),
-    (&["portuguese"], &["rosette"], "ours: what leaves all rows room"),
+    (&["portuguese"], &["rosette"], "ours: the range that leaves room for all rows"),
     (&["rose"], &["sides"], "all that is possible; the trade counts triangles in threes"),
     (&["rose"], &["rows"], "all that is possible: pyramid and Dutch rose"),
     (&["rose"], &["height"], "around PC 45.063 (32) and the half that is quoted from memory"),
@@ -90,7 +91,7 @@ const OWN: &[(&[&str], &[&str], &str)] = &[
         &["facets", "upper_rows", "lower_rows"],
         "all that is possible; PC 01.386 has 16 facets in 4 and 5 rows",
     ),
-    (&["briolette"], &[], "ours: what is worn as an earring"),
+    (&["briolette"], &[], "ours: the shapes of earrings"),
     (&["oval"], &["length_to_width"], "wider than published (yourjewel.com: 1.30 to 1.65)"),
     (&["oval"], &["fullness"], "ours: from the ellipse to fuller shoulders"),
     (&["oval"], &["table"], "published: 50 to 68 (gemmology.dev)"),
@@ -144,7 +145,7 @@ const OWN: &[(&[&str], &[&str], &str)] = &[
         &["upper_angle", "lower_angle"],
         "ours: depths of about 61 to 68 (gemmology.dev); no source gives angles of rows",
     ),
-    (&["modified_cushion"], &["tip_depth"], "ours: what leaves all rows room"),
+    (&["modified_cushion"], &["tip_depth"], "ours: the range that leaves room for all rows"),
     (&["modified_cushion"], &["rows"], "published: 2 to 4 (caratwire.com)"),
     (&["trillion"], &["table"], "within GemCad's library (30 to 59), and as of other brilliants"),
     (
@@ -166,7 +167,7 @@ const OWN: &[(&[&str], &[&str], &str)] = &[
         &["length_to_width", "point_angle"],
         "ours, around the regular hexagon (1.155, 120 degrees)",
     ),
-    (&["princess"], &["length_to_width"], "ours: from the square to what is sold as rectangular"),
+    (&["princess"], &["length_to_width"], "ours: from the square to the stones that are sold as rectangular"),
     (&["princess"], &["corner"], "ours: bevels that keep a corner from chipping"),
     (&["princess"], &["table"], "published: 60 to 80 (brilliancelab)"),
     (
@@ -177,7 +178,11 @@ const OWN: &[(&[&str], &[&str], &str)] = &[
     (&["princess"], &["star_azimuth"], "around published ones (B. Harding on the AGS's model: 6)"),
     (&["princess", "radiant"], &["chevrons"], "published: 2 to 4 (briangavindiamonds.com, caratwire.com)"),
     (&["princess"], &["pavilion_depth"], "ours: total depths of 65 to 80 (brilliancelab)"),
-    (&["princess", "radiant"], &["chevron_step", "shoulder"], "ours: what leaves all rows room"),
+    (
+        &["princess", "radiant"],
+        &["chevron_step", "shoulder"],
+        "ours: the range that leaves room for all rows",
+    ),
     (&["radiant"], &["length_to_width"], "published: 1.0 to 1.5, the range of weight tables (Gemwest)"),
     (&["radiant"], &["table"], "around GemCad's library (54 to 69)"),
     (

@@ -1,9 +1,10 @@
 //! The rose cut: a flat base and a dome of triangles.
 //!
-//! With one row the dome is a pyramid. With two, a star of triangles around the point stands on a ring; below each of its sides hangs
-//! a triangle with its tip on the girdle, and two more fill each gap. Six sides make the Dutch rose of 24 = 6 + 18.
-//! Triangles in threes, 3, 6, 12, 24: the trade's count. The first cut has the angles of PC 45.063 (Double Holland Rose, 36.5,
-//! 34, 30), whose height is 32 percent of the width; the trade also quotes about half.
+//! With one row the dome is a pyramid. With two rows, a star of triangles around the point stands on a ring; below
+//! each of its sides hangs a triangle with its tip on the girdle, and two more triangles fill each gap. Six sides
+//! make the Dutch rose of 24 = 6 + 18. The trade counts triangles in threes: 3, 6, 12, 24. The first cut has the
+//! angles of PC 45.063 (Double Holland Rose, 36.5, 34, 30), whose height is 32 percent of the width; the trade also
+//! quotes about half of the width.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::{Fixed, Of};
@@ -31,7 +32,7 @@ pub static ROSE: Family = Family {
     depth: Some(depth),
     proportions: &[
         Proportion {
-            meaning: "How many triangles meet in the point: 3 and 6 are usual.",
+            meaning: "The number of triangles that meet in the point; 3 and 6 are usual.",
             ..rows::count::<SIDES>(
                 "sides",
                 "Sides",
@@ -40,7 +41,7 @@ pub static ROSE: Family = Family {
             )
         },
         Proportion {
-            meaning: "1 is a pyramid of triangles; 2 is a star of triangles with three below each: 12 for 3 sides, 24 for 6.",
+            meaning: "The number of rows: 1 is a pyramid of triangles; 2 is a star of triangles with three below each, which makes 12 for 3 sides and 24 for 6.",
             ..rows::count::<ROWS>(
                 "rows",
                 "Rows",
@@ -49,19 +50,19 @@ pub static ROSE: Family = Family {
             )
         },
         Proportion {
-            meaning: "From the girdle's upper edge to the point.",
+            meaning: "The height of the dome from the girdle's upper edge to the point.",
             least: Bound::at(Fixed(2.0), "the flattest dome allowed"),
             most: Bound::at(Fixed(300.0), "the highest dome allowed"),
             ..rows::of_width::<HEIGHT>("height", "Height", [25.0, 60.0])
         },
         Proportion {
-            meaning: "The star around the point, corner to opposite corner. A pyramid has none.",
+            meaning: "The width of the star around the point, from corner to opposite corner. A pyramid has no star.",
             least: Bound::at(Fixed(5.0), "the smallest star allowed"),
             most: Bound::at(Fixed(90.0), "the largest star allowed"),
             ..rows::of_width::<STAR>("star", "Star", [25.0, 70.0])
         },
         Proportion {
-            meaning: "How steep the star's triangles stand on the girdle plane. A pyramid has none.",
+            meaning: "The angle between the star's triangles and the girdle plane. A pyramid has no star.",
             most: Bound::before(Of(steepest_star), "where the dome would be a pyramid"),
             ..rows::slope::<STAR_ANGLE>("star_angle", "Star angle", [10.0, 30.0])
         },
@@ -74,7 +75,8 @@ pub static ROSE: Family = Family {
     ],
 };
 
-/// Returns the slope of a cone as high as the dome that stands on the girdle's corners, degrees: steeper stars would be no dome.
+/// Returns the slope, in degrees, of a cone as high as the dome that stands on the girdle's corners. Steeper stars
+/// would leave no dome.
 fn steepest_star(cut: &Cut) -> f64 {
     match cut {
         Cut::Family(cut) if cut[ROWS] > 1.0 => {
@@ -126,7 +128,7 @@ fn depth(cut: &FamilyCut) -> f64 {
 fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let dome = RoseCorners::of(cut);
     let thickness = cut[GIRDLE] / 50.0;
-    // The middle of the dome.
+    // The point is inside the dome, at a quarter of its height.
     let inside = dome.point * 0.25;
     let mut net = FacetNet::default();
     for side in 0..dome.sides {

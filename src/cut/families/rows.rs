@@ -5,7 +5,7 @@ use super::super::family::BoundAt::Fixed;
 use super::super::family::{Bound, Proportion, Unit};
 use super::super::family_cut::number;
 
-/// The length of the stone to its width. A square or round outline has 1.
+/// Returns the row for the ratio of the stone's length to its width, which is 1 for a square or round outline.
 pub const fn length_to_width<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     Proportion {
         key: "length_to_width",
@@ -22,7 +22,7 @@ pub const fn length_to_width<const PLACE: usize>(usual: [f64; 2]) -> Proportion 
     }
 }
 
-/// A length in percent of the stone's width.
+/// Returns a row for a length in percent of the stone's width.
 pub const fn of_width<const PLACE: usize>(
     key: &'static str,
     name: &'static str,
@@ -31,7 +31,7 @@ pub const fn of_width<const PLACE: usize>(
     Proportion { key, name, of: "of the width", usual, ..number::<PLACE>() }
 }
 
-/// An angle from the girdle plane, 2 to 88 degrees.
+/// Returns a row for an angle from the girdle plane, 2 to 88 degrees.
 pub const fn slope<const PLACE: usize>(key: &'static str, name: &'static str, usual: [f64; 2]) -> Proportion {
     Proportion {
         key,
@@ -45,7 +45,7 @@ pub const fn slope<const PLACE: usize>(key: &'static str, name: &'static str, us
     }
 }
 
-/// The table's width.
+/// Returns the row for the table's width.
 pub const fn table<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     Proportion {
         meaning: "The width of the flat facet on top, in percent of the width of the stone.",
@@ -55,7 +55,8 @@ pub const fn table<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     }
 }
 
-/// The depth of the whole stone. It follows from the other numbers, and moves those of the pavilion when it is set.
+/// Returns the row for the depth of the whole stone. The depth follows from the other numbers; setting it changes
+/// those of the pavilion.
 pub const fn total_depth(usual: [f64; 2], moves: &'static [&'static str]) -> Proportion {
     Proportion {
         key: "total_depth",
@@ -74,7 +75,7 @@ pub const fn total_depth(usual: [f64; 2], moves: &'static [&'static str]) -> Pro
     }
 }
 
-/// The depth of a step cut.
+/// Returns the row for the depth of a step cut.
 pub const fn step_depth(usual: [f64; 2]) -> Proportion {
     Proportion {
         meaning: "The height of the whole stone. Setting it changes the slope of the pavilion as a whole; the steps between \
@@ -83,7 +84,7 @@ pub const fn step_depth(usual: [f64; 2]) -> Proportion {
     }
 }
 
-/// The depth of a cut whose pavilion is given by its depth.
+/// Returns the row for the depth of a cut whose pavilion is given by its depth.
 pub const fn chevron_depth(usual: [f64; 2]) -> Proportion {
     Proportion {
         meaning: "The height of the whole stone. Setting it changes the depth of the pavilion; the steps between its rows, \
@@ -92,7 +93,7 @@ pub const fn chevron_depth(usual: [f64; 2]) -> Proportion {
     }
 }
 
-/// The girdle's thickness.
+/// Returns the row for the girdle's thickness.
 pub const fn girdle_thickness<const PLACE: usize>() -> Proportion {
     Proportion {
         meaning: "The thickness of the girdle where it is greatest, in percent of the width of the stone.",
@@ -102,10 +103,10 @@ pub const fn girdle_thickness<const PLACE: usize>() -> Proportion {
     }
 }
 
-/// The culet's size.
+/// Returns the row for the culet's size.
 pub const fn culet<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "The size of the culet, the small facet at the bottom, as a part of the stone's own; 0 is a point.",
+        meaning: "The size of the culet, the small facet at the bottom, as a part of the stone's size; 0 is a point.",
         least: Bound::at(Fixed(0.0), "a point"),
         most: Bound::at(Fixed(60.0), "the largest culet allowed"),
         nothing: Some("a point"),
@@ -113,7 +114,7 @@ pub const fn culet<const PLACE: usize>() -> Proportion {
     }
 }
 
-/// A part of a way, in percent.
+/// Returns a row for a part of a way, in percent.
 pub const fn part<const PLACE: usize>(
     key: &'static str,
     name: &'static str,
@@ -128,7 +129,7 @@ pub const fn part<const PLACE: usize>(
     }
 }
 
-/// A count, which has the same range everywhere; `ends` says what its least and its greatest value are.
+/// Returns a row for a count, whose range is fixed. `ends` are the reasons for its least and its greatest value.
 pub const fn count<const PLACE: usize>(
     key: &'static str,
     name: &'static str,
@@ -147,10 +148,10 @@ pub const fn count<const PLACE: usize>(
     }
 }
 
-/// The number of facets in each row of a cut whose rows alternate by half a step.
+/// Returns the row for the number of facets in each row of a cut whose rows alternate by half a step.
 pub const fn facets_per_row<const PLACE: usize>(range: [f64; 2]) -> Proportion {
     Proportion {
-        meaning: "How many facets each row has. The next row has as many, turned by half a step.",
+        meaning: "The number of facets in each row. Each row is turned by half a step against the next.",
         ..count::<PLACE>(
             "facets",
             "Facets a row",
@@ -160,19 +161,19 @@ pub const fn facets_per_row<const PLACE: usize>(range: [f64; 2]) -> Proportion {
     }
 }
 
-/// The number of rows of one side.
+/// Returns the row for the number of rows on one side of the girdle.
 pub const fn row_count<const PLACE: usize>(
     key: &'static str,
     name: &'static str,
     range: [f64; 2],
 ) -> Proportion {
     Proportion {
-        meaning: "How many rows of equal facets lie between the girdle and the end of this side.",
+        meaning: "The number of rows of equal facets between the girdle and the end of this side.",
         ..count::<PLACE>(key, name, range, ["the fewest rows", "the most rows allowed"])
     }
 }
 
-/// The size of the last row's star around the point in which a side ends.
+/// Returns the row for the size of the star that the last row forms around the point in which a side ends.
 pub const fn rosette<const PLACE: usize>(
     key: &'static str,
     name: &'static str,

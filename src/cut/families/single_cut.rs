@@ -1,7 +1,8 @@
-//! The single cut, or eight cut: an octagonal table, eight mains above and eight below on a round girdle; no stars, no halves.
+//! The single cut, or eight cut: an octagonal table, eight mains above and eight below, on a round girdle. It has no
+//! stars and no halves.
 //!
-//! Its 17 facets, 18 with a culet, are the trade's (visualdictionaryonline.com). No numbers are published for it; the ranges
-//! are those of round brilliants, with the larger tables and flatter crowns of small stones as an estimate.
+//! The trade counts 17 facets, or 18 with a culet (visualdictionaryonline.com). No numbers are published for it. The
+//! ranges are those of round brilliants, with the larger tables and flatter crowns of small stones as an estimate.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::{Family, Proportion};
@@ -16,10 +17,10 @@ const PAVILION: usize = 2;
 const GIRDLE: usize = 3;
 const CULET: usize = 4;
 
-/// The facets around the table, and those below.
+/// The number of mains around the table, and of those below.
 const MAINS: u32 = 8;
 
-/// The upright facets of the girdle: eight beside each main, so that corners lie where mains meet.
+/// The number of upright facets of the girdle: eight for each main, so that corners lie where mains meet.
 const UPRIGHT: u32 = 64;
 
 /// The family of the single cut.
@@ -31,15 +32,15 @@ pub static SINGLE_CUT: Family = Family {
     depth: Some(depth),
     proportions: &[
         Proportion {
-            meaning: "The flat facet on top, corner to opposite corner.",
+            meaning: "The width of the flat facet on top, from corner to opposite corner.",
             ..rows::table::<TABLE>([40.0, 70.0])
         },
         Proportion {
-            meaning: "How steep the eight facets around the table stand on the girdle plane.",
+            meaning: "The angle between the eight facets around the table and the girdle plane.",
             ..rows::slope::<CROWN>("crown_angle", "Crown angle", [25.0, 42.0])
         },
         Proportion {
-            meaning: "How steep the eight facets below stand on the girdle plane.",
+            meaning: "The angle between the eight facets of the pavilion and the girdle plane.",
             ..rows::slope::<PAVILION>("pavilion_angle", "Pavilion angle", [38.0, 44.0])
         },
         Proportion {
@@ -73,7 +74,8 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
         net.plane("bezel", (out * crown).extend(1.0), out.extend(0.0));
     }
     if thickness > 0.0 {
-        // Two meet in a corner wherever two mains do. The corners lie on the circle by which a round stone is measured.
+        // Two upright facets meet in a corner wherever two mains meet. The corners lie on the circle by which a round
+        // stone is measured.
         let apart = (PI / f64::from(UPRIGHT)).cos();
         around(UPRIGHT, 0.5).for_each(|out| net.plane("girdle", out.extend(0.0), (out * apart).extend(0.0)));
     }

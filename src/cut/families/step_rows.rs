@@ -5,7 +5,7 @@ use super::super::family::{Bound, Proportion, Unit};
 use super::super::family_cut::number;
 use super::rows;
 
-/// How many rows, chevrons or styles; all that is possible is usual.
+/// Returns a row for a number of rows, chevrons or styles, whose whole possible range is usual.
 pub const fn count<const PLACE: usize>(
     key: &'static str,
     name: &'static str,
@@ -25,25 +25,25 @@ pub const fn count<const PLACE: usize>(
     }
 }
 
-/// How much of a corner of the outline is cut away.
+/// Returns the row for the length that a corner cuts off each side of the outline.
 pub const fn corner<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     Proportion {
-        meaning: "How much of each side is cut away at a corner, in percent of the width of the stone.",
+        meaning: "The length that a corner cuts off each side, in percent of the width of the stone.",
         least: Bound::before(Fixed(0.0), "where the corner would be sharp"),
         most: Bound::before(Fixed(50.0), "where no side would be left between two corners"),
         ..rows::of_width::<PLACE>("corner", "Corner", usual)
     }
 }
 
-/// The number of rows of the crown.
+/// Returns the row for the number of rows of the crown.
 pub const fn crown_rows<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How many rows of facets run around the crown, from the girdle to the table.",
+        meaning: "The number of rows of facets around the crown, from the girdle to the table.",
         ..count::<PLACE>("crown_rows", "Crown rows", [1.0, 5.0], ROWS)
     }
 }
 
-/// The slope of the crown as a whole.
+/// Returns the row for the slope of the crown as a whole.
 pub const fn crown<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     Proportion {
         meaning: "The slope of the crown as a whole, from the girdle's to the table's edge in the middle of a side.",
@@ -51,23 +51,23 @@ pub const fn crown<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     }
 }
 
-/// The angle between rows of the crown.
+/// Returns the row for the angle between neighbouring rows of the crown.
 pub const fn crown_step<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How much steeper each row of the crown is than the next above it.",
+        meaning: "The angle by which each row of the crown is steeper than the next row above it.",
         ..step::<PLACE>("crown_step", "Crown step", [3.0, 15.0])
     }
 }
 
-/// The number of rows of the pavilion.
+/// Returns the row for the number of rows of the pavilion.
 pub const fn pavilion_rows<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How many rows of facets run around the pavilion, from the girdle to its lowest line or point.",
+        meaning: "The number of rows of facets around the pavilion, from the girdle to its lowest line or point.",
         ..count::<PLACE>("pavilion_rows", "Pavilion rows", [1.0, 5.0], ROWS)
     }
 }
 
-/// The slope of the pavilion as a whole.
+/// Returns the row for the slope of the pavilion as a whole.
 pub const fn pavilion<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     Proportion {
         meaning: "The slope of the pavilion as a whole, from the girdle to its lowest line or point, in the middle of a side.",
@@ -75,15 +75,15 @@ pub const fn pavilion<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     }
 }
 
-/// The angle between rows of the pavilion.
+/// Returns the row for the angle between neighbouring rows of the pavilion.
 pub const fn pavilion_step<const PLACE: usize>() -> Proportion {
     Proportion {
-        meaning: "How much steeper each row of the pavilion is than the next below it.",
+        meaning: "The angle by which each row of the pavilion is steeper than the next row below it.",
         ..step::<PLACE>("pavilion_step", "Pavilion step", [3.0, 12.0])
     }
 }
 
-/// The length of the pavilion's lowest line.
+/// Returns the row for the length of the keel, the pavilion's lowest line.
 pub const fn keel<const PLACE: usize>() -> Proportion {
     Proportion {
         of: "of the length of a keel between ends as steep as the sides",
@@ -96,7 +96,7 @@ pub const fn keel<const PLACE: usize>() -> Proportion {
     }
 }
 
-/// The angle between neighbouring rows, in degrees.
+/// Returns a row for the angle between neighbouring rows, in degrees.
 pub const fn step<const PLACE: usize>(key: &'static str, name: &'static str, usual: [f64; 2]) -> Proportion {
     Proportion {
         key,
@@ -110,4 +110,4 @@ pub const fn step<const PLACE: usize>(key: &'static str, name: &'static str, usu
     }
 }
 
-const ROWS: [&str; 2] = ["a single row", "more than which no step cut has"];
+const ROWS: [&str; 2] = ["a single row", "the most rows of any step cut"];

@@ -1,4 +1,4 @@
-//! What holds for step cuts and chevron cuts: how many facets their counts make, and the shape of their rows.
+//! Tests for step cuts and chevron cuts: the number of facets that their counts make, and the shape of their rows.
 
 use super::tests::{made, on_random_cuts, stone, tiers};
 use super::*;
@@ -24,7 +24,7 @@ fn sides(family: &Family) -> Option<usize> {
     SIDES.into_iter().find(|(key, _)| *key == family.key).map(|(_, sides)| sides)
 }
 
-/// Returns how many facets the crown with its table, the girdle, and the pavilion without a culet have.
+/// Returns the numbers of facets of the crown with its table, of the girdle, and of the pavilion without a culet.
 fn expected(family: &Family, cut: &Cut) -> Option<[usize; 3]> {
     let sides = sides(family)?;
     let value = |key: &str| family.proportion(key).map_or(f64::NAN, |row| (row.get)(cut));
@@ -60,14 +60,15 @@ fn every_count_makes_its_facets() {
 
 #[test]
 fn the_facets_of_the_trade_are_those_of_first_cuts() {
-    // Facets with table and girdle, without a culet but the radiant's: see the sources of the families.
+    // Numbers of facets with table and girdle, without a culet except for the radiant; the sources are those of the
+    // families.
     let trade = [
         ("emerald", 49 + 8),
         ("baguette", 17),
         ("princess", 57 + 4),
         ("radiant", 70),
         ("barion", 61),
-        // As many as PC 09.083, a barion cushion of 20 sides, has.
+        // This is the number of facets of PC 09.083, a barion cushion of 20 sides.
         ("cushion_barion", 101),
     ];
     for (key, facets) in trade {
@@ -162,7 +163,7 @@ fn both_ends_of_a_stone_are_alike_but_for_kites_and_tapered_baguettes() {
 
 #[test]
 fn facets_between_points_have_no_other_corners() {
-    // A facet that another one cuts where it should only touch would have a corner more.
+    // A facet that another facet cuts, where it should only touch it, would have one corner more.
     let corners = [
         ("star", 3),
         ("main_2", 3),

@@ -1,10 +1,11 @@
 //! Step cuts on an outline of straight sides: rows of facets whose edges run level, parallel to the girdle.
 //!
-//! Between one level line and the next, each side moves inward at a steady rate of its own. With rates that bring all sides
-//! to one line or point together, the level lines shrink evenly: the edges between the sides run straight from the girdle's
-//! corners to the ends of this line, seen from above, and every row has a facet on every side. The rates follow from the
-//! outline and this line (the keel): a side at the distance d with the normal n moves by d minus the keel's reach along n.
-//! The profile is convex because each row is flatter than the one before. The construction is this program's own.
+//! Between one level line and the next, each side moves inward at a steady rate of its own. With rates that bring all
+//! sides to one line or point together, the level lines shrink evenly. The edges between the sides then run straight
+//! from the girdle's corners to the ends of this line, as seen from above, and every row has a facet on every side.
+//! The rates follow from the outline and this line (the keel): a side at the distance d with the normal n moves by d
+//! minus the keel's reach along n. The profile is convex because each row is flatter than the row before. The
+//! construction is this program's own.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family_cut::FamilyCut;
@@ -20,9 +21,9 @@ pub struct StepSide {
     pub normal: DVec2,
     /// The distance from the origin.
     pub distance: f64,
-    /// How far the side moves inward in the crown while a side of rate 1 moves by 1.
+    /// The distance by which the side moves inward in the crown while a side of rate 1 moves by 1.
     pub crown_rate: f64,
-    /// The same for the pavilion.
+    /// The same distance in the pavilion.
     pub pavilion_rate: f64,
 }
 
@@ -38,8 +39,8 @@ impl StepSide {
 }
 
 impl StepSide {
-    /// Returns all sides of an outline by those in its first quarter, each by its normal and a point: they and their mirror images,
-    /// whose level lines shrink evenly. `size` are half of width and length.
+    /// Returns all sides of an outline whose level lines shrink evenly. `quarter` holds those of the first quarter,
+    /// each by its normal and a point; their mirror images are added. `size` is half of width and length.
     pub fn around(quarter: &[(DVec2, DVec2)], size: DVec2) -> Vec<Self> {
         let even = size - size.min_element();
         let mut all: Vec<Self> = vec![];
@@ -58,24 +59,24 @@ impl StepSide {
 /// The rows of a crown or of a pavilion, equally wide seen from above.
 #[derive(Debug, Clone, Copy)]
 pub struct StepRows {
-    /// How many rows there are, 1 to 5.
+    /// The number of rows, 1 to 5.
     pub count: usize,
     /// The slope of all rows together, in degrees.
     pub slope: f64,
-    /// How many degrees each row is steeper than the next.
+    /// The angle by which each row is steeper than the next, in degrees.
     pub step: f64,
-    /// How far a side of rate 1 moves inward in all rows.
+    /// The distance by which a side of rate 1 moves inward over all rows.
     pub reach: f64,
 }
 
 impl StepRows {
-    /// Takes count, slope and step from three places of a table.
+    /// Returns the rows for count, slope and step from three places of a table.
     pub fn of(cut: &FamilyCut, [count, slope, step]: [usize; 3], reach: f64) -> Self {
         Self { count: cut[count] as usize, slope: cut[slope], step: cut[step], reach }
     }
 
-    /// Returns the tangents of the rows' angles, the steepest first, whose mean is the tangent of the slope as a whole;
-    /// `None` where the steps leave no room between level and upright.
+    /// Returns the tangents of the rows' angles, the steepest first. Their mean is the tangent of the slope as a
+    /// whole. `None` where the steps leave no room between level and upright.
     pub fn tangents(&self) -> Option<Vec<f64>> {
         let count = self.count.max(1);
         let spread = 0.5 * self.step * (count - 1) as f64;
@@ -88,7 +89,8 @@ impl StepRows {
         if count == 1 {
             return Some(vec![wanted]);
         }
-        // The mean tangent rises with the middle angle, from the last row's being level to the first row's being upright.
+        // The mean tangent rises with the middle angle, which lies between those at which the last row is level and
+        // the first row is upright.
         let (mut low, mut high) = (spread, 90.0 - spread);
         if low >= high || excess(low) >= 0.0 {
             return None;
@@ -102,17 +104,19 @@ impl StepRows {
         }
     }
 
-    /// Returns how high the rows rise in all, in girdle radii.
+    /// Returns the height of all rows together, in girdle radii.
     pub fn height(&self) -> f64 {
         self.reach * self.slope.to_radians().tan()
     }
 
-    /// Returns the tangent of the last row's angle. Where the steps leave no room, that row would lie level, and it is 0.
+    /// Returns the tangent of the last row's angle; 0 where the steps leave no room, because that row would lie
+    /// level.
     fn last_tangent(&self) -> f64 {
         self.tangents().and_then(|rows| rows.last().copied()).unwrap_or(0.0)
     }
 
-    /// Adds a facet of each row on each side. The rows begin at the height `from`; `up` is 1 for a crown, -1 for a pavilion.
+    /// Adds a facet of each row on each side. The rows begin at the height `from`; `up` is 1 for a crown and -1 for a
+    /// pavilion.
     fn add_to(
         &self,
         net: &mut FacetNet,
@@ -142,7 +146,7 @@ impl StepRows {
     /// Adds the table and the rows of a crown.
     ///
     /// # Errors
-    /// The tier of the row that has no room.
+    /// Fails with the tier of the row that has no room.
     pub fn add_crown(&self, net: &mut FacetNet, sides: &[StepSide]) -> Result<(), NoRoom> {
         net.plane("table", DVec3::Z, DVec3::Z * self.height());
         self.add_to(net, CROWN, sides, 0.0, 1.0)
@@ -151,7 +155,7 @@ impl StepRows {
     /// Adds the rows of a pavilion below a girdle of this thickness.
     ///
     /// # Errors
-    /// The tier of the row that has no room.
+    /// Fails with the tier of the row that has no room.
     pub fn add_pavilion(&self, net: &mut FacetNet, sides: &[StepSide], thickness: f64) -> Result<(), NoRoom> {
         self.add_to(net, PAVILION, sides, -thickness, -1.0)
     }
@@ -166,14 +170,15 @@ pub fn add_girdle(net: &mut FacetNet, sides: &[StepSide], thickness: f64) {
     }
 }
 
-/// What a step cut is like seen from the side. Lengths are in girdle radii.
+/// The profile of a step cut, seen from the side. Lengths are in girdle radii.
 #[derive(Debug, Clone, Copy)]
 pub struct StepProfile {
     pub crown: StepRows,
     /// The girdle's thickness.
     pub thickness: f64,
     pub pavilion: StepRows,
-    /// How far a side of rate 1 still moves inward below the rows of the pavilion, where the last one goes on.
+    /// The distance by which a side of rate 1 still moves inward below the rows of the pavilion, where the last row
+    /// continues.
     pub below: f64,
 }
 
@@ -189,7 +194,7 @@ impl StepProfile {
 /// Makes all facets of a step cut.
 ///
 /// # Errors
-/// The tier that has no room.
+/// Fails with the tier that has no room.
 pub fn net(sides: &[StepSide], profile: StepProfile) -> Result<FacetNet, NoRoom> {
     let StepProfile { crown, thickness, pavilion, .. } = profile;
     let mut net = FacetNet::default();
@@ -204,14 +209,14 @@ pub fn net(sides: &[StepSide], profile: StepProfile) -> Result<FacetNet, NoRoom>
 pub struct Rectangle {
     /// Half of the length.
     pub length: f64,
-    /// How much of each side a corner takes away; 0 leaves the corners.
+    /// The length that a corner cuts off each side; 0 leaves sharp corners.
     pub corner: f64,
-    /// The keel's length as a part of that between ends as steep as the sides.
+    /// The keel's length as a part of the length of a keel between ends as steep as the sides.
     pub keel: f64,
 }
 
 impl Rectangle {
-    /// Returns the half of the shorter side, which is how far sides move inward until they meet.
+    /// Returns half of the shorter side, which is the distance that sides move inward until they meet.
     pub fn reach(&self) -> f64 {
         self.length.min(1.0)
     }

@@ -1,7 +1,8 @@
 //! The tapered baguette: steps on a slim outline with one end narrower than the other.
 //!
-//! Ranges are chosen around those of the straight baguette (GemCad's library, PC 12.001: L/W 2.0, crown 35 degrees, pavilion
-//! 51 and 41). All rows are as steep on each side, so the keel rises toward the narrow end, where the stone is less deep.
+//! Ranges are chosen around those of the straight baguette (GemCad's library, PC 12.001: L/W 2.0, crown 35 degrees,
+//! pavilion 51 and 41). All rows have the same slope on every side, so the keel rises toward the narrow end, where
+//! the stone is less deep.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
@@ -52,7 +53,7 @@ pub static TAPERED_BAGUETTE: Family = Family {
     ],
 };
 
-/// Returns how much a long side leans toward the narrow end: the tangent of its angle with the length.
+/// Returns the tangent of the angle between a long side and the length.
 fn lean(cut: &FamilyCut) -> f64 {
     0.5 * (1.0 - cut[NARROW] / 100.0) / cut[LENGTH]
 }
@@ -60,8 +61,8 @@ fn lean(cut: &FamilyCut) -> f64 {
 /// Returns the rows of crown and pavilion, and the girdle between them.
 fn profile(cut: &FamilyCut) -> StepProfile {
     let (lean, narrow) = (lean(cut), cut[NARROW] / 100.0);
-    // Where both long sides and the narrow end meet: the first end of the keel. Below it, the last row goes on to where they meet
-    // the wide end.
+    // `reach` leads to the point where both long sides and the narrow end meet, the first end of the keel. Below it,
+    // the last row continues to the point where the long sides meet the wide end.
     let [reach, end] = [narrow / (lean.hypot(1.0) - lean), 1.0 / (lean.hypot(1.0) + lean)];
     let inset = 0.5 * (1.0 + narrow) * (1.0 - cut[TABLE] / 100.0) / lean.hypot(1.0);
     let crown = StepRows::of(cut, [CROWN_ROWS, CROWN, CROWN_STEP], inset);

@@ -1,4 +1,4 @@
-//! What holds for every family whose facets a function makes: stones at random numbers, and what their limits say.
+//! Tests for every family whose facets a function makes: random numbers make stones, and errors name limits.
 
 use super::super::outline::diameter;
 use super::*;
@@ -27,8 +27,8 @@ fn at(family: &'static Family, parts: &[f64]) -> Cut {
     cut
 }
 
-/// Runs a check on 300 cuts of each family at random numbers inside their usual ranges; returns for each family how many make
-/// a stone.
+/// Runs a check on 300 cuts of each family at random numbers inside their usual ranges. Returns, for each family, the
+/// number of cuts that make a stone.
 pub(super) fn on_random_cuts(
     check: impl Fn(&'static Family, &Cut) -> Result<bool, TestCaseError>,
 ) -> Vec<(&'static str, u32)> {
@@ -48,7 +48,7 @@ pub(super) fn on_random_cuts(
     counts
 }
 
-/// What the laws look at of a stone, whether it is convex or not.
+/// The properties of a stone that the tests use, whether it is convex or not.
 pub(super) struct Solid {
     pub vertices: Vec<DVec3>,
     /// The planes of the facets, with their names.
@@ -81,7 +81,7 @@ impl Solid {
         Some(Self { vertices, facets, tiers, volume, size: high - low })
     }
 
-    /// Returns the number of facets of each tier but girdle and culet.
+    /// Returns the number of facets of each tier except girdle and culet.
     fn lasting_tiers(&self) -> Vec<(&str, usize)> {
         let tiers = self.tiers.iter().map(|(tier, count)| (tier.as_str(), *count));
         tiers.filter(|(tier, _)| !["girdle", "culet"].contains(tier)).collect()
@@ -97,7 +97,7 @@ pub(super) fn stone(cut: &Cut) -> Option<(Polytope, Vec<String>)> {
     Some((stone, names))
 }
 
-/// Counts the facets of each tier but the girdle.
+/// Counts the facets of each tier except the girdle.
 pub(super) fn tiers(names: &[String]) -> BTreeMap<&str, usize> {
     let mut tiers = BTreeMap::new();
     for name in names.iter().map(|name| tier_stem(name)).filter(|name| *name != "girdle") {
@@ -106,8 +106,8 @@ pub(super) fn tiers(names: &[String]) -> BTreeMap<&str, usize> {
     tiers
 }
 
-/// Returns the number of facets without girdle and culet that the counts of a cut ask for; `None` for families whose own tests
-/// know it.
+/// Returns the number of facets without girdle and culet that the counts of a cut require; `None` for families that
+/// have their own tests of it.
 fn counted(family: &Family, cut: &Cut) -> Option<f64> {
     let count = |key: &str| family.proportion(key).map_or(f64::NAN, |row| (row.get)(cut));
     match family.key {
@@ -132,7 +132,7 @@ fn at_random_numbers_a_family_makes_a_stone_or_names_its_limit() {
             Ok(false)
         }
     });
-    // Usual ranges are those that a designer meets: most of them must fit together.
+    // Usual ranges are those that designers use, so most of them must fit together.
     assert!(made.iter().all(|(_, count)| *count >= 240), "{made:?}");
 }
 
@@ -142,11 +142,11 @@ fn length_to_width_is_as_given_and_half_the_diameter_is_one() {
         let Some(Solid { size, vertices, .. }) = Solid::of(cut) else { return Ok(false) };
         let expected = family.proportion("length_to_width").map_or(f64::NAN, |row| (row.get)(cut));
         if !expected.is_nan() {
-            // A drop is long along its axis and as wide as its diameter.
+            // A drop is long along its axis, and its width is its diameter.
             let found = if family.key == "briolette" { size.z / 2.0 } else { size.y / size.x };
             prop_assert!((found - expected).abs() < 1e-9, "{found} for {expected}");
         }
-        // A stone that is read from another format is measured so, and must have the same size.
+        // A stone that is read from another format is measured by its hull, and must have the same size.
         let outline = hull(vertices.iter().map(|corner| corner.truncate()).collect());
         let Some(Calipers { width, middle, .. }) = Calipers::along_mirror(&outline) else { return Ok(false) };
         let diameter = diameter(&outline, middle, width);

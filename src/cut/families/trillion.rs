@@ -33,7 +33,7 @@ pub static TRILLION: Family = Family {
             key: "bulge",
             name: "Bulge of the sides",
             of: "of the distance between two corners",
-            meaning: "How far the sides bulge out between the corners.",
+            meaning: "The distance by which the sides bulge out between the corners.",
             usual: [3.0, 12.0],
             least: Bound::at(Fixed(0.5), "where the sides are straight"),
             most: Bound::at(Fixed(13.3), "where the stone is as wide in all directions"),
@@ -50,7 +50,7 @@ pub static TRILLION: Family = Family {
             key: "mains_per_side",
             name: "Mains per side",
             of: "in a third of the outline",
-            meaning: "The number of mains, and of bezels, in a third of the outline, with that at a corner: 2 make six mains.",
+            meaning: "The number of mains, and of bezels, in a third of the outline, including the one at a corner; 2 make six mains.",
             usual: [2.0, 3.0],
             most: Bound::at(Fixed(3.0), "the most mains allowed"),
             ..brilliant_rows::mains_per_quarter::<MAINS>()
@@ -81,7 +81,7 @@ fn bulge(cut: &FamilyCut) -> f64 {
     cut[BULGE] / 50.0
 }
 
-/// Returns how far the middle of a side lies from the axis, in girdle radii.
+/// Returns the distance of the middle of a side from the axis, in girdle radii.
 fn reach(cut: &FamilyCut) -> f64 {
     (INNER + bulge(cut)) / length(cut)
 }
@@ -90,7 +90,7 @@ fn net(cut: &FamilyCut) -> Result<FacetNet, NoRoom> {
     let (bulge, length) = (bulge(cut), length(cut));
     let radius = (1.0 + bulge * bulge) / (2.0 * bulge);
     let widest = (1.0 / radius).asin();
-    // The length is shorter than the width, so that half of it is 1.
+    // The length is shorter than the width, so half of the length is 1.
     let centre = DVec2::Y * ((INNER + bulge) / length - 1.0);
     let place = |at: DVec2, normal: f64, is_corner: bool| GirdlePlace {
         at: centre + at / length,

@@ -7,10 +7,10 @@ use super::names::TierNames;
 use super::solve::{Bench, TierOutcome, cutting_order};
 use glam::DVec3;
 
-/// The most corners that are tried of those that fit the same names.
+/// The most corners that are tried for the same names.
 const MOST_REACHED: usize = 8;
 
-/// The most meets that are followed through the whole design before a corner counts as one that no meet names.
+/// The most meets that are followed through the whole design before a corner counts as one to which no meet leads.
 pub(super) const MOST_FOLLOWED: usize = 12;
 
 /// A corner of the stone to which a facet of a tier can be cut.
@@ -24,7 +24,7 @@ pub struct TierCorner {
     pub facet: usize,
     /// The outward normals of the planes that meet at the corner.
     pub normals: Vec<DVec3>,
-    /// The places of these planes on the bench without the tier.
+    /// The places of these planes on the bench, without those of the tier.
     pub(super) planes: Vec<usize>,
 }
 

@@ -1,14 +1,14 @@
-//! Laws of the corners that a tier can be moved to, on a brilliant that is cut by meets.
+//! Tests of the corners that a tier can be moved to, on a brilliant that is cut by meets.
 
 use super::super::tier_change::TierChange;
 use super::super::tiers::Tiers;
 use super::tests::{assert_near, brilliant};
 use super::*;
 
-/// The tolerance of what meets give, in lengths of the largest distance: how near a tier passes to a point that is found.
+/// The tolerance of meets, in lengths of the largest distance: how near a tier passes to a point that its meet finds.
 const NEAR: f64 = 2e-5;
 
-/// Returns how far the facet of a corner, at the distance of its tier, is from the corner.
+/// Returns the distance from a corner of the facet that is cut to it.
 fn miss(tiers: &Tiers, place: usize, corner: &TierCorner) -> f64 {
     let tier = &tiers.tiers[place];
     tiers.plane(tier, tier.facets[corner.facet].index).distance(corner.at).abs()

@@ -1,8 +1,8 @@
-//! What is wrong with a meet.
+//! The faults of a meet.
 
 use super::meet::MeetPoint;
 
-/// Why the meet of a tier gives no distance.
+/// The error of a meet that gives its tier no distance.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("tier {tier}{}: {fault}", if .name.is_empty() { String::new() } else { format!(" '{:.40}'", .name) })]
 pub struct MeetError {
@@ -10,11 +10,11 @@ pub struct MeetError {
     pub tier: usize,
     /// The tier's name; empty where it has none.
     pub name: String,
-    /// What is wrong.
+    /// The fault of the meet.
     pub fault: MeetFault,
 }
 
-/// What is missing for a meet, or ambiguous in it.
+/// A fault of a meet: something that it needs is missing or ambiguous.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MeetFault {
     /// A name that no tier has.
@@ -23,34 +23,34 @@ pub enum MeetFault {
         /// The name.
         name: String,
     },
-    /// A name of tiers none of which is cut before.
+    /// The name of tiers, none of which is cut before this tier.
     #[error("{name} is not cut yet; move its tier up, or name another")]
     NotCutYet {
         /// The name.
         name: String,
     },
-    /// Facets that do not meet.
+    /// The facets of the meet do not meet in a point.
     #[error("{} on the stone so far", no_point(.point))]
     NoPoint {
-        /// The point that is not there.
+        /// The point that does not exist.
         point: MeetPoint,
     },
-    /// A level girdle before there is a girdle line.
+    /// The meet names a level girdle before there is a girdle line.
     #[error("no girdle facet meets another facet in a level line so far; give the distance")]
     NoGirdleLine,
-    /// A centre point of an upright facet.
+    /// The meet names the centre point for an upright facet.
     #[error("an upright facet passes through no centre point; give another meet")]
     Upright,
-    /// A centre-point angle of a facet that is not upright.
+    /// The meet gives a centre-point angle for a facet that is not upright.
     #[error("a centre-point angle is for girdle facets; give another meet")]
     NotUpright,
-    /// A centre-point angle so flat that the facet lies far outside the stone.
+    /// The centre-point angle is so flat that the facet lies far outside the stone.
     #[error("CAM {angle}° puts the facet far outside the stone; give a steeper angle")]
     TooFar {
-        /// The angle, degrees.
+        /// The angle, in degrees.
         angle: f64,
     },
-    /// Facets of the tier whose points differ.
+    /// The facets of the tier would need different distances or angles.
     #[error(
         "the facets at {first} and {other} would need distances that differ by {by:.2e}; split the tier, or name other facets"
     )]
@@ -59,13 +59,13 @@ pub enum MeetFault {
         first: f64,
         /// The index of the other facet, in teeth.
         other: f64,
-        /// How far the distances lie apart, or, in degrees, the angles.
+        /// The difference of the distances in the design's unit or, for angles, in degrees.
         by: f64,
     },
-    /// Points in one place or on one line.
+    /// The points of the meet are one point or lie on one line.
     #[error("the points lie on one line, so they give no plane; name other facets")]
     OneLine,
-    /// A plane on the other side of the origin, where a tier cannot be.
+    /// The plane would lie on the other side of the origin, where no tier can be.
     #[error("the point lies beyond the axis, so no facet at this angle and index passes through it")]
     BeyondAxis,
 }

@@ -1,29 +1,30 @@
-//! Finds meets in the geometry of a finished design: which corners of the stone so far does each tier pass through?
+//! Finds meets in the geometry of a finished design: the corners of the stone so far through which each tier passes.
 
 use super::super::tiers::{Tier, Tiers};
 use super::meet::{Meet, MeetPoint};
 use super::solve::{Bench, TierOutcome, cutting_order};
 use super::stone::StoneCorner;
 
-/// A tier passes through a point that is this near to it, in lengths of the largest distance: half of the fifth digit that
-/// most files carry, and what comes of it where facets lean.
+/// A tier passes through a point whose distance from it is at most this, in lengths of the largest distance. It is
+/// half of the fifth digit that most files have, enlarged by the lean of facets.
 pub(super) const PASSES: f64 = 2e-5;
 
-/// Directions this near to one another are one; machines are set to about 1e-3.
+/// The largest difference between directions that count as one; machines are set to about 1e-3.
 const SAME_WAY: f64 = 1e-6;
 
-/// The fewest and the most names of a corner.
+/// The fewest and the most names of a corner in a meet.
 pub(super) const NAMES: std::ops::RangeInclusive<usize> = 3..=6;
 
 /// The most lists of names that are tried for one corner.
 const MOST_LISTS: usize = 60;
 
 impl Tiers {
-    /// Returns the design with meets that its geometry shows, for tiers without one: points through which the tier passes, and
-    /// by which [`solved`](Self::solved) finds its distance again. All numbers stay.
+    /// Returns the design with meets that its geometry shows, for tiers without one. They are points through which
+    /// the tier passes, and by which [`solved`](Self::solved) finds its distance again. All numbers stay.
     ///
-    /// A meet that fits by itself may choose another corner once all are followed together, where more facets have been cut. Such
-    /// meets are dropped, so that following the design moves no tier by a meet that nobody stated.
+    /// A meet that fits alone may choose another corner once all meets are followed together, because more facets
+    /// have then been cut. Such meets are dropped, so that following the design moves no tier by a meet that nobody
+    /// stated.
     pub fn with_found_meets(&self) -> Self {
         let mut design = self.clone();
         let mut bench = Bench::of(self);
@@ -42,18 +43,19 @@ impl Tiers {
         design
     }
 
-    /// Returns the design with the meets that its instructions state and then those that its geometry shows, for tiers without
-    /// one. All numbers stay, also when the design is followed: see [`with_kept_stated_meets`](Self::with_kept_stated_meets).
+    /// Returns the design with the meets that its instructions state, and then those that its geometry shows, for
+    /// tiers without one. All numbers stay, even when the design is followed: see
+    /// [`with_kept_stated_meets`](Self::with_kept_stated_meets).
     pub fn with_own_meets(&self) -> Self {
         let mut design = self.with_kept_stated_meets().with_found_meets();
-        // A found meet moves its tier by less than can be told from rounding, but a stated one may pass such moves on, enlarged.
+        // A found meet moves its tier by no more than rounding, but a stated meet may pass such moves on, enlarged.
         let scale = Bench::of(self).stone().scale();
         while design.drop_a_moving_meet(self, scale) {}
         design
     }
 
-    /// Drops the first meet that `before` does not have and that fails or moves its tier when all are followed; returns whether
-    /// there was one.
+    /// Drops the first meet that `before` does not have and that fails or moves its tier when all meets are followed.
+    /// Returns whether there was such a meet.
     pub(super) fn drop_a_moving_meet(&mut self, before: &Self, scale: f64) -> bool {
         let solved = self.solved();
         let moves = |place: &usize| {
@@ -83,8 +85,8 @@ impl Bench<'_> {
         simple.find(|meet| self.gives(place, tier, meet))
     }
 
-    /// Returns whether the first facet of a tier meets one below or above it in a level line: one of them is upright, and they
-    /// face the same way.
+    /// Returns whether the first facet of a tier meets a facet below or above it in a level line, where one of them
+    /// is upright and both face the same way.
     fn is_beside_girdle(&self, tier: &Tier) -> bool {
         let Some(first) = tier.facets.first() else { return false };
         let normal = self.plane(tier, first.index).normal;
@@ -116,7 +118,8 @@ impl Bench<'_> {
         meets.into_iter().find(|meet| self.gives(place, tier, meet))
     }
 
-    /// Returns the corners through which the first facet of a tier passes, first the one beside its middle.
+    /// Returns the corners through which the first facet of a tier passes, beginning with the one nearest to the
+    /// facet's middle line.
     pub fn passed(&self, tier: &Tier) -> Vec<&StoneCorner> {
         let Some(first) = tier.facets.first() else { return vec![] };
         let plane = self.plane(tier, first.index);
@@ -129,7 +132,8 @@ impl Bench<'_> {
         corners
     }
 
-    /// Returns lists of so many names of facets that meet at a corner; `planes` are the places of the planes that meet there.
+    /// Returns lists of `count` names of facets that meet at a corner. `planes` are the places of the planes that
+    /// meet there.
     pub fn lists(&self, place: usize, planes: &[usize], count: usize) -> Vec<Vec<String>> {
         let mut tiers: Vec<usize> = planes.iter().map(|&plane| self.stone().plane(plane).tier).collect();
         tiers.sort_unstable();
@@ -141,7 +145,7 @@ impl Bench<'_> {
     }
 }
 
-/// Lists the ways to choose some members of a sorted list, up to [`MOST_LISTS`].
+/// Lists the ways to choose `count` members of a sorted list, up to [`MOST_LISTS`].
 fn choose(from: &[usize], count: usize, chosen: &mut Vec<usize>, lists: &mut Vec<Vec<usize>>) {
     if count == 0 {
         if !lists.contains(chosen) {

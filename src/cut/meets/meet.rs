@@ -1,61 +1,63 @@
-//! What a cutter's instruction says about where the facets of a tier go.
+//! Meets: the statements of cutters' instructions about the place of a tier's facets.
 
 use std::fmt;
 
-/// The word that stands for any girdle facet among the names of a corner.
+/// The word that stands for any girdle facet in the names of a corner.
 pub const ANY_GIRDLE: &str = "girdle";
 
-/// Where the facets of a tier go.
+/// The rule that gives the facets of a tier their place.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Meet {
-    /// The cutter chooses: the tier's own distance stands.
+    /// The cutter chooses the distance, so the tier's own distance stands.
     Given(GivenSize),
-    /// The centre-point angle method (CAM): an upright facet goes to where a facet below it, cut to the temporary centre point
-    /// at this angle from the girdle plane, degrees, would meet it on the level girdle line.
+    /// The centre-point angle method (CAM), with an angle from the girdle plane in degrees. An upright facet goes to
+    /// the place where a facet below it, cut at this angle to the temporary centre point, would meet it on the level
+    /// girdle line.
     CentreAngle(f64),
-    /// The facets pass through these points. One gives the distance; two the angle too, at the given index; three the index
-    /// too. There are one to three.
+    /// The facets pass through one to three points. One point gives the distance; two give the angle too, at the
+    /// given index; three give the index too.
     Points(Vec<MeetPoint>),
 }
 
-/// What a cutter chooses by the distance of a tier.
+/// The size that a cutter chooses by the distance of a tier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GivenSize {
     /// The size of the stone, its length or width, or that of a facet.
     Size,
     /// The thickness of the girdle.
     GirdleThickness,
-    /// How deep a new centre point lies, which cuts an older one away.
+    /// The depth of a new centre point, which cuts an older one away.
     CentrePoint,
 }
 
 /// A point through which a facet passes, on the stone as it is cut so far.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum MeetPoint {
-    /// The point where the axis leaves the stone, on the side of the tier.
+    /// The point where the axis leaves the stone on the side of the tier.
     Centre {
-        /// Whether later tiers will cut the point away.
+        /// True where later tiers will cut the point away.
         temporary: bool,
     },
-    /// The outline of the stone at the height where its girdle lies on the side of the tier.
+    /// The outline of the stone at the height of its girdle line on the side of the tier.
     LevelGirdle,
-    /// A corner of the girdle, on the side of the tier.
+    /// A corner of the girdle on the side of the tier.
     GirdlePoint,
-    /// The corner where facets of these tiers meet; a name that is given twice means two facets of its tier. The name `girdle` is
-    /// any upright facet. Where several corners fit, a facet goes to the first that it reaches as it is cut deeper.
+    /// The corner where facets of these tiers meet. A name that is given twice means two facets of its tier, and the
+    /// name `girdle` means any upright facet. Where several corners fit, a facet goes to the first that it reaches as
+    /// it is cut deeper.
     Corner(Vec<String>),
-    /// Of several corners that fit the same names, one that a facet reaches after others.
+    /// One of several corners that fit the same names: a facet reaches it after others.
     LaterCorner {
         /// The names, as in [`Corner`](Self::Corner).
         names: Vec<String>,
-        /// The corner's number in the order in which a facet reaches them as it is cut deeper, from 1. Corners at one depth
-        /// count once.
+        /// The corner's number, from 1, in the order in which a facet reaches the corners as it is cut deeper.
+        /// Corners at one depth count once.
         reached: usize,
     },
 }
 
 impl Meet {
-    /// Returns the names of tiers in the meet, to change them.
+    /// Returns the names of tiers in the meet, so that they can be changed.
     pub(in crate::cut) fn names_mut(&mut self) -> impl Iterator<Item = &mut String> {
         let points = match self {
             Self::Points(points) => points.as_mut_slice(),
@@ -67,8 +69,8 @@ impl Meet {
         })
     }
 
-    /// Returns the meet at the first of the points alone, which gives the distance and leaves the angle; `None` for a meet that
-    /// names no point.
+    /// Returns the meet at the first of the points alone, which gives the distance and keeps the angle; `None` for a
+    /// meet that names no point.
     pub fn first_point(&self) -> Option<Self> {
         match self {
             Self::Points(points) => Some(Self::Points(points.iter().take(1).cloned().collect())),
@@ -78,7 +80,8 @@ impl Meet {
 }
 
 impl MeetPoint {
-    /// Returns the names of a corner, and its number among the corners that fit them; `None` for another point.
+    /// Returns the names of a corner, and its number among the corners that fit them; `None` for a point of another
+    /// kind.
     pub fn named(&self) -> Option<(&[String], usize)> {
         match self {
             Self::Corner(names) => Some((names, 1)),
@@ -87,7 +90,7 @@ impl MeetPoint {
         }
     }
 
-    /// The points that are written in words, with their words.
+    /// The points that are written in fixed words, with these words.
     pub const IN_WORDS: [(&str, Self); 4] = [
         ("centre point", Self::Centre { temporary: false }),
         ("temporary centre point", Self::Centre { temporary: true }),
@@ -97,7 +100,7 @@ impl MeetPoint {
 }
 
 impl GivenSize {
-    /// The sizes with their words.
+    /// The sizes, with the words for them.
     pub const IN_WORDS: [(&str, Self); 3] = [
         ("size", Self::Size),
         ("girdle thickness", Self::GirdleThickness),

@@ -1,5 +1,6 @@
-//! Meets: where the facets of a tier go, as cutters say it. `meet` is what a tier keeps, `words` reads it from instructions,
-//! `stated` takes the reading that the design's numbers bear out, `found` finds it in the geometry, and `solve` follows it
+//! Meets, by which cutters say where the facets of a tier go. A tier stores a `meet`; `words` reads meets from
+//! instructions, `stated` chooses the reading that agrees with the design's numbers, `found` finds meets in the geometry,
+//! and `solve` follows them
 //! to the corners that a facet can `reach`. `corners` lists those that a tier of a finished stone can be moved to,
 //! and `picked` finds the meet through two or three of them.
 //!

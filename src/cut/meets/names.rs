@@ -1,4 +1,4 @@
-//! Which tiers a name in an instruction means.
+//! Finds the tiers that a name in an instruction means.
 
 use super::super::tiers::{TierZone, Tiers};
 use super::meet::ANY_GIRDLE;
@@ -11,11 +11,12 @@ pub(super) struct TierNames {
 
 #[derive(Debug, Clone)]
 struct NamedTier {
-    /// All names of its facets, in lower case, then the name by which it is called where it has none.
+    /// All names of the tier's facets, in lower case; then the name by which the tier is called, where it has no
+    /// name.
     names: Vec<String>,
-    /// The tier's own name, or an empty one.
+    /// The tier's own name; empty where it has none.
     name: String,
-    /// The name by which it is called.
+    /// The name by which the tier is called.
     called: String,
     zone: TierZone,
 }
@@ -35,11 +36,12 @@ impl TierNames {
         Self { tiers: named.collect() }
     }
 
-    /// Returns the places of the tiers that a name means in an instruction of the tier at `from`; none where nothing has the
-    /// name.
+    /// Returns the places of the tiers that a name means in an instruction of the tier at `from`; the list is empty
+    /// where no tier has the name.
     ///
-    /// A name is that of a tier; or, after the letter P, C or G, that of a pavilion, crown or girdle tier; or else the number of
-    /// a tier on that side, where all girdle tiers without names have each number. Where a pavilion and a crown tier share a name, that on the side of `from` is meant.
+    /// A name is that of a tier. After the letter P, C or G it may be that of a pavilion, crown or girdle tier, or
+    /// the number of a tier on that side, where all girdle tiers without names have every number. Where a pavilion
+    /// and a crown tier share a name, it means the one on the side of `from`.
     pub fn meant(&self, name: &str, from: usize) -> Vec<usize> {
         let name = name.to_lowercase();
         let with_name = |name: &str| -> Vec<usize> {
@@ -68,7 +70,7 @@ impl TierNames {
         if !named.is_empty() {
             return named;
         }
-        // Girdle tiers without names are numbered in another order than they are listed in as often as not.
+        // Girdle tiers without names are often numbered in another order than they are listed.
         if letter == "g" {
             let nameless: Vec<usize> =
                 self.on_side(is_girdle).filter(|&place| self.tiers[place].name.is_empty()).collect();
@@ -80,8 +82,9 @@ impl TierNames {
         number.and_then(|number| self.on_side(on_side).nth(number - 1)).into_iter().collect()
     }
 
-    /// Returns a name that begins with the letter of the other side than that of the tier at `from` with the letter of its own
-    /// side; `None` for other names, or where nothing is meant by it. Cutters who copy an instruction leave such letters.
+    /// Returns the name with the letter of the side of the tier at `from` in place of the letter of the other side.
+    /// `None` for names without such a letter, and where the result means no tier. Cutters who copy an instruction
+    /// leave such letters.
     pub fn on_own_side(&self, name: &str, from: usize) -> Option<String> {
         let (letter, rest) = name.split_at_checked(1)?;
         let own = match letter {
@@ -93,8 +96,8 @@ impl TierNames {
         (!rest.is_empty() && !self.meant(&name, from).is_empty()).then_some(name)
     }
 
-    /// Returns the name of a tier by which it is meant in a meet of the tier at `from`: its own, or else the one by which it is
-    /// called.
+    /// Returns the name that means a tier in a meet of the tier at `from`: the tier's own name, or else the one by
+    /// which it is called.
     pub fn written(&self, tier: usize, from: usize) -> String {
         let NamedTier { name, called, .. } = &self.tiers[tier];
         if !name.is_empty() && self.meant(name, from).contains(&tier) { name.clone() } else { called.clone() }
@@ -104,7 +107,7 @@ impl TierNames {
         (0..self.tiers.len()).filter(move |&place| side(self.tiers[place].zone))
     }
 
-    /// Returns of tiers that share a name those on the side of a tier, where there are any.
+    /// Returns, of tiers that share a name, those on the side of a tier, where there are any.
     fn beside(&self, places: Vec<usize>, from: usize) -> Vec<usize> {
         let is_crown_tier = is_crown(self.tiers[from].zone);
         let is_beside = |&place: &usize| {

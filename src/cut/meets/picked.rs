@@ -1,4 +1,5 @@
-//! The meet that leads a tier through two or three corners which were picked: its angle follows from two, its index too from three.
+//! Finds the meet that leads a tier through two or three picked corners. Two corners give the tier's angle, and three
+//! give its index too.
 
 use super::super::tiers::{Tier, Tiers};
 use super::corners::{MOST_FOLLOWED, TierCorner};
@@ -8,16 +9,17 @@ use super::solve::{Bench, TierOutcome};
 use crate::math::Plane;
 use glam::DVec3;
 
-/// The most corners that are tried of those that fit the same names.
+/// The most corners that are tried for the same names.
 const MOST_REACHED: usize = 8;
 
-/// The most ways to name a corner that are tried together with those of the others.
+/// The most names of a corner that are tried together with those of the others.
 const MOST_WAYS: usize = 4;
 
-/// The most facets of the tier that are tried: those whose side the corners lie on.
+/// The most facets of the tier that are tried; they are those that face the corners.
 const MOST_FACETS: usize = 4;
 
-/// A corner that names lead to is the one that was picked if it is this near, in lengths of the largest distance.
+/// The largest distance between a picked corner and the corner to which names lead, in lengths of the largest
+/// distance, at which both count as one.
 const SAME_CORNER: f64 = 1e-9;
 
 impl Tiers {
@@ -94,7 +96,7 @@ impl Bench<'_> {
         Some(self.planes_of(tier, facet, &solution))
     }
 
-    /// Returns the first points of meets that mean a corner beside a facet; `planes` are those of its tier.
+    /// Returns the first points of meets that mean a corner beside a facet. `planes` are those of the facet's tier.
     fn ways(&self, place: usize, planes: &[Plane], facet: usize, corner: &TierCorner) -> Vec<MeetPoint> {
         let lists: Vec<Vec<String>> =
             NAMES.flat_map(|count| self.lists(place, &corner.planes, count)).collect();
@@ -111,7 +113,7 @@ impl Bench<'_> {
     }
 }
 
-/// Returns all ways to take one of each list.
+/// Returns all ways to take one member of each list.
 fn combined(lists: &[Vec<MeetPoint>]) -> Vec<Vec<MeetPoint>> {
     lists.iter().fold(vec![vec![]], |before, list| {
         let longer = |start: &Vec<MeetPoint>| {
@@ -128,7 +130,7 @@ mod tests {
     use super::super::tests::brilliant;
     use super::*;
 
-    /// How near a tier passes to a point that was picked, in lengths of the largest distance.
+    /// The greatest distance of a tier from a picked point, in lengths of the largest distance.
     const NEAR: f64 = 2e-5;
 
     /// Looks for sets of corners through which meets lead tiers of a design. Follows up to `most` of them, and returns by how much each
@@ -163,7 +165,7 @@ mod tests {
         changes
     }
 
-    /// Returns all sets of so many numbers below `of`.
+    /// Returns all sets of `count` numbers below `of`.
     fn combinations(of: usize, count: usize) -> Vec<Vec<usize>> {
         let longer = |set: Vec<usize>| {
             let from = set.last().map_or(0, |last| last + 1);

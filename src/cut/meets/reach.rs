@@ -1,4 +1,4 @@
-//! Which corners of the stone so far a facet can be cut to, and in which order it reaches them.
+//! Finds the corners of the stone so far to which a facet can be cut, and the order in which it reaches them.
 
 use super::super::tiers::Tier;
 use super::meet::Meet;
@@ -18,7 +18,7 @@ impl Bench<'_> {
         sides().filter(Option::is_none).count() >= 2 && (side.is_none() || sides().any(|other| other == side))
     }
 
-    /// Returns whether facets of all these tiers meet at a corner, a facet for each.
+    /// Returns whether facets of all these tiers meet at a corner, with a different facet for each.
     pub fn is_corner_of(&self, corner: &StoneCorner, meant: &[Vec<usize>]) -> bool {
         let mut is_taken = vec![false; corner.planes.len()];
         meant.iter().all(|tiers| {
@@ -30,8 +30,9 @@ impl Bench<'_> {
         })
     }
 
-    /// Returns the corners that fit, in the order in which a facet reaches them as it is cut deeper, one for each depth. All
-    /// facets of the tier are cut as deep, and leave the corner on the stone.
+    /// Returns the corners that fit, in the order in which a facet reaches them as it is cut deeper, one for each
+    /// depth. When the facet reaches such a corner, the other facets of the tier, cut to the same distance, leave the
+    /// corner on the stone.
     pub fn reached(&self, planes: &[Plane], facet: usize, fits: impl Fn(&StoneCorner) -> bool) -> Vec<DVec3> {
         let normal = planes[facet].normal;
         let mut places: Vec<DVec3> =
@@ -41,7 +42,7 @@ impl Bench<'_> {
         places
     }
 
-    /// Returns all corners that fit, in the order in which a facet reaches them, as [`reached`](Self::reached) does.
+    /// Returns all corners that fit, in the order in which a facet reaches them; see [`reached`](Self::reached).
     pub fn reached_corners(
         &self,
         planes: &[Plane],
@@ -62,8 +63,8 @@ impl Bench<'_> {
         corners
     }
 
-    /// Returns the number of corners, at different depths, that fit the names of a meet beside the first facet of a tier; of several
-    /// points the largest, and 0 where the meet names no corner.
+    /// Returns the number of corners, at different depths, that fit the names of a meet for the first facet of a
+    /// tier. With several points it is the largest number, and it is 0 where the meet names no corner.
     pub fn choices(&self, place: usize, tier: &Tier, meet: &Meet) -> usize {
         let Meet::Points(points) = meet else { return 0 };
         let planes = self.planes(tier, tier.angle);

@@ -1,5 +1,5 @@
-//! Solves meets: goes through the tiers as they are cut, and gives each the distance (and angle, and indices) at which its
-//! facets pass through the points of its meet.
+//! Solves meets: goes through the tiers in the order in which they are cut, and gives each the distance (and angle,
+//! and indices) at which its facets pass through the points of its meet.
 
 use super::super::tiers::{Tier, TierZone, Tiers};
 use super::fault::{MeetError, MeetFault};
@@ -11,14 +11,14 @@ use crate::math::Plane;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// The largest difference between the facets of a tier, in lengths of the largest distance: files whose distances were found
-/// by hand leave so much.
+/// The largest difference between the facets of a tier, in lengths of the largest distance. Files whose distances
+/// were found by hand have such differences.
 pub(super) const AGREE: f64 = 1e-3;
 
-/// Depths this near to one another, in lengths of the largest distance, are one depth.
+/// The largest difference between depths that count as one, in lengths of the largest distance.
 pub(super) const SAME_DEPTH: f64 = 1e-4;
 
-/// How often the corners are chosen anew for an angle that follows from them.
+/// The most times that corners are chosen again for an angle that follows from them.
 const MOST_TRIES: usize = 8;
 
 /// A design whose meets were followed.
@@ -26,20 +26,21 @@ const MOST_TRIES: usize = 8;
 pub struct SolvedTiers {
     /// The design, with the numbers that follow from its meets. A tier whose meet fails keeps its numbers.
     pub tiers: Tiers,
-    /// What became of each tier, in their order.
+    /// The outcome for each tier, in their order.
     pub outcomes: Vec<TierOutcome>,
-    /// For each tier the number of corners, at different depths, that fit the names of its meet; 0 where its meet names none. Above
-    /// 1 the names alone are ambiguous.
+    /// For each tier, the number of corners, at different depths, that fit the names of its meet; 0 where its meet
+    /// names none. Where it is above 1, the names alone are ambiguous.
     pub choices: Vec<usize>,
 }
 
-/// What became of a tier.
+/// The outcome for a tier.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TierOutcome {
-    /// The tier keeps its numbers: it has no meet, a meet that the cutter chooses, or it is not cut.
+    /// The tier keeps its numbers, because it has no meet, because the cutter chooses its size, or because it is not
+    /// cut.
     Kept,
-    /// The tier keeps its distance, because it is the first to reach the point that it names: it sets the centre point, or the
-    /// girdle line.
+    /// The tier keeps its distance, because it is the first at the point that it names: it sets the centre point or
+    /// the girdle line.
     Sets,
     /// The meet gave the tier its numbers.
     Solved,
@@ -60,19 +61,21 @@ impl SolvedTiers {
 impl Tiers {
     /// Follows the meets of all tiers and returns the design with the numbers that they give.
     ///
-    /// Tiers are cut as they are listed, but a tier whose meet names one that is listed later is cut after it. Of several
-    /// corners that fit a meet, the facet goes to the first that it reaches as it is cut deeper.
+    /// Tiers are cut in the order in which they are listed, except that a tier whose meet names a later one is cut
+    /// after that. Of several corners that fit a meet, the facet goes to the first that it reaches as it is cut
+    /// deeper.
     pub fn solved(&self) -> SolvedTiers {
         self.followed(true)
     }
 
-    /// Follows the meet of each tier between the design's own planes, so that the meets before it move nothing: the difference
-    /// shows how well the design's numbers agree with each meet.
+    /// Follows the meet of each tier between the design's own planes, so that the meets before it move nothing. The
+    /// difference shows how well the design's numbers agree with each meet.
     pub fn checked_meets(&self) -> SolvedTiers {
         self.followed(false)
     }
 
-    /// Follows all meets, each on a stone whose tiers lie where their meets say, or where their own numbers say.
+    /// Follows all meets. Where `by_meets` is true, the tiers before each one lie where their meets place them;
+    /// otherwise they lie at their own numbers.
     fn followed(&self, by_meets: bool) -> SolvedTiers {
         let mut bench = Bench::of(self);
         let count = self.tiers.len();
@@ -112,24 +115,24 @@ pub(super) fn cutting_order(tiers: &Tiers) -> Vec<usize> {
         let is_ready = |(_, needs): &(usize, Vec<Vec<usize>>)| {
             needs.iter().all(|meant| meant.iter().any(|other| order.contains(other)))
         };
-        // Tiers that wait for one another are cut as they are listed.
+        // Tiers that wait for one another are cut in the order in which they are listed.
         let next = waiting.iter().position(is_ready).unwrap_or(0);
         order.push(waiting.remove(next).0);
     }
     order
 }
 
-/// The stone on the bench: what is cut of a design so far.
+/// The stone on the bench: the part of a design that is cut so far.
 pub(super) struct Bench<'a> {
     design: &'a Tiers,
     names: TierNames,
     stone: PartStone,
-    /// The height of the temporary centre point above the girdle line, by the first centre-point angle.
+    /// The height of the temporary centre point above the girdle line, from the first centre-point angle.
     centre_height: Option<f64>,
     is_done: Vec<bool>,
 }
 
-/// A plane through the points of a meet, and how a tier is set for it.
+/// A plane through the points of a meet, as the setting of a facet.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FacetSolution {
     angle: f64,
@@ -163,7 +166,7 @@ impl<'a> Bench<'a> {
         self.design.plane(tier, index)
     }
 
-    /// Cuts a tier at its numbers.
+    /// Cuts a tier with its own numbers.
     pub fn cut(&mut self, place: usize, tier: &Tier) {
         if let (Some(Meet::CentreAngle(angle)), None) = (&tier.meet, self.centre_height) {
             self.centre_height = Some(tier.distance.abs() * angle.to_radians().tan());
@@ -172,7 +175,7 @@ impl<'a> Bench<'a> {
         self.stone.cut(place, tier.facets.iter().map(|facet| self.design.plane(tier, facet.index)));
     }
 
-    /// Sets a tier to the numbers that a meet gives.
+    /// Gives a tier the numbers that follow from a meet.
     pub fn follow(&self, place: usize, tier: &mut Tier, meet: &Meet) -> Result<TierOutcome, MeetFault> {
         match meet {
             Meet::Given(_) => Ok(TierOutcome::Kept),
@@ -191,7 +194,8 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Returns whether a tier makes the one point that its meet names, because nothing on its side makes it yet.
+    /// Returns whether a tier itself makes the one point that its meet names, because nothing on its side makes it
+    /// yet.
     fn is_first(&self, tier: &Tier, points: &[MeetPoint]) -> bool {
         let Some(first) = tier.facets.first() else { return true };
         let side = StoneSide::of(self.design.plane(tier, first.index).normal);
@@ -203,7 +207,8 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Returns the height of the girdle line on a side; for an upright facet that below, or else above.
+    /// Returns the height of the girdle line on a side; for an upright facet, that below or, where there is none,
+    /// that above.
     fn girdle_height(&self, side: Option<StoneSide>) -> Option<f64> {
         let below = || self.stone.girdle_height(StoneSide::Below);
         side.map_or_else(
@@ -249,7 +254,7 @@ impl<'a> Bench<'a> {
         turned
     }
 
-    /// Returns how one facet of a tier is set to pass through points; `planes` are those of the tier.
+    /// Returns the setting at which one facet of a tier passes through points. `planes` are those of the tier.
     fn facet_through(
         &self,
         place: usize,
@@ -264,7 +269,7 @@ impl<'a> Bench<'a> {
         };
         let mut through = places(planes)?;
         let mut solution = self.through(tier, facet, planes[facet].normal, &through)?;
-        // With the angle other corners may be reached first.
+        // With the new angle, the facet may reach other corners first.
         for _ in 1..if points.len() > 1 { MOST_TRIES } else { 1 } {
             let turned = self.planes_of(tier, facet, &solution);
             let again = places(&turned)?;
@@ -277,7 +282,7 @@ impl<'a> Bench<'a> {
         Ok(solution)
     }
 
-    /// Returns the place of a point of a meet beside a facet; `planes` are those of its tier.
+    /// Returns the place of a point of a meet for a facet. `planes` are those of the facet's tier.
     pub fn point(
         &self,
         place: usize,
@@ -312,7 +317,7 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Returns for each name the tiers that it means, of which at least one is cut.
+    /// Returns, for each name, the tiers that it means, of which at least one is cut.
     pub fn meant(&self, place: usize, named: &[String]) -> Result<Vec<Vec<usize>>, MeetFault> {
         let of_name = |name: &String| {
             let meant = self.names.meant(name, place);
@@ -327,8 +332,8 @@ impl<'a> Bench<'a> {
         named.iter().map(of_name).collect()
     }
 
-    /// Returns the setting of a facet whose plane passes through one to three places. One keeps its angle and index, two keep
-    /// its index.
+    /// Returns the setting of a facet whose plane passes through one to three places. With one place, angle and index
+    /// stay; with two, the index stays.
     pub fn through(
         &self,
         tier: &Tier,
@@ -346,7 +351,7 @@ impl<'a> Bench<'a> {
                 let azimuth = self.azimuth(index);
                 let out = DVec3::new(azimuth.sin(), -azimuth.cos(), 0.0);
                 let (rise, run) = ((second.z - first.z) * normal.z.signum(), out.dot(first - *second));
-                // Points at one height and radius leave the angle open: it stays.
+                // Points with the same height and radius do not determine the angle, so it stays.
                 if rise.abs().max(run.abs()) <= same {
                     kept
                 } else {
@@ -379,7 +384,7 @@ impl<'a> Bench<'a> {
         let normal = across.normalize_or_zero();
         let normal = if normal.dot(before) < 0.0 { -normal } else { normal };
         let level = normal.truncate().length();
-        // Rounding has no side: of an upright facet the sign stays.
+        // A direction that is level except for rounding has no side, so an upright facet keeps its sign.
         let side = if normal.z.abs() < EXACT { tier.angle } else { normal.z };
         let angle = level.atan2(normal.z.abs()).to_degrees().copysign(side);
         let teeth = f64::from(self.design.gear);

@@ -1,4 +1,4 @@
-//! Takes of what an instruction may mean what the design's own numbers bear out.
+//! Chooses, among the possible meanings of an instruction, the one that agrees with the design's own numbers.
 
 use super::super::tiers::{Tier, Tiers};
 use super::found::PASSES;
@@ -8,16 +8,17 @@ use super::solve::{AGREE, Bench, SAME_DEPTH, TierOutcome, cutting_order};
 use super::stone::StoneCorner;
 use super::words;
 
-/// The most corners that are tried of those that fit the same names.
+/// The most corners that are tried for the same names.
 const MOST_REACHED: usize = 12;
 
 impl Tiers {
-    /// Returns the design with the meets that its instructions state. Tiers that have a meet keep it, and all numbers stay.
+    /// Returns the design with the meets that its instructions state. Tiers that have a meet keep it, and all numbers
+    /// stay.
     ///
-    /// Where words fit several points, the tier's own distance says which is meant: of several readings it is the first that
-    /// gives this distance; the facets that meet at a corner as well are added to its names; of several corners of the same
-    /// names, its number is kept ([`MeetPoint::LaterCorner`]). Where no reading comes near, what the words say by the letter
-    /// stands, unless they also leave a size to the cutter.
+    /// Where words fit several points, the tier's own distance decides. Of several readings, the first that gives
+    /// this distance is taken. Where other facets meet at the corner as well, they are added to its names. Of several
+    /// corners with the same names, the number of the right one is stored ([`MeetPoint::LaterCorner`]). Where no
+    /// reading comes near the distance, the literal reading stands, unless the words also leave a size to the cutter.
     pub fn with_stated_meets(&self) -> Self {
         let readings = words::stated(self);
         let mut design = self.clone();
@@ -39,15 +40,15 @@ impl Tiers {
         design
     }
 
-    /// Returns the design with those of the meets that its instructions state that its numbers bear out: followed together they
-    /// move no tier. Names are written as their tiers have them. Tiers that have a meet keep it, and all numbers stay.
+    /// Returns the design with those of the stated meets that agree with its numbers: followed together, they move no
+    /// tier. Names are written as in their tiers. Tiers that have a meet keep it, and all numbers stay.
     pub fn with_kept_stated_meets(&self) -> Self {
         let mut design = self.with_stated_meets();
         let names = TierNames::of(self);
         for (place, tier) in design.tiers.iter_mut().enumerate() {
             tier.meet.iter_mut().for_each(|meet| words::name_as_written(meet, &names, place));
         }
-        // Whether a tier that is not cut would move is not known before it is.
+        // Before a tier is cut, nothing shows whether its meet would move it.
         for (tier, own) in design.tiers.iter_mut().zip(&self.tiers).filter(|(tier, _)| !tier.is_cut) {
             tier.meet.clone_from(&own.meet);
         }
@@ -58,7 +59,7 @@ impl Tiers {
 }
 
 impl Bench<'_> {
-    /// Returns what an instruction means by the tier's own distance.
+    /// Returns the reading of an instruction that agrees with the tier's own distance, or else the literal reading.
     fn meant_by(&self, place: usize, tier: &Tier, readings: &[Meet]) -> Option<Meet> {
         let first = readings.first()?;
         if matches!(first, Meet::Given(_)) || self.miss(place, tier, first).is_some_and(|miss| miss <= PASSES)
@@ -84,8 +85,8 @@ impl Bench<'_> {
         near.map(|at| others[at].clone()).or_else(|| chosen.or(Some(first)).cloned())
     }
 
-    /// Returns how far a meet moves a tier from its own distance, in lengths of the largest distance; `None` for a size that the
-    /// cutter chooses, and where the meet cannot be followed.
+    /// Returns the distance by which a meet moves a tier, in lengths of the largest distance; `None` for a size that
+    /// the cutter chooses, and where the meet cannot be followed.
     fn miss(&self, place: usize, tier: &Tier, meet: &Meet) -> Option<f64> {
         let mut followed = tier.clone();
         match self.follow(place, &mut followed, meet) {
@@ -96,8 +97,8 @@ impl Bench<'_> {
         }
     }
 
-    /// Returns a meet of more names than these at a corner where they meet, which gives the tier the distance that it has;
-    /// `None` where no such corner is there.
+    /// Returns a meet with more names than these, for a corner where they meet, that gives the tier its distance;
+    /// `None` where there is no such corner.
     fn named_more(&self, place: usize, tier: &Tier, named: &[String]) -> Option<Meet> {
         let meet = |names: Vec<String>| Meet::Points(vec![MeetPoint::Corner(names)]);
         let meant = self.meant(place, named).ok()?;
@@ -113,7 +114,7 @@ impl Bench<'_> {
         })
     }
 
-    /// Returns the tiers of the facets that meet at a corner besides one for each name.
+    /// Returns the tiers of the facets that meet at a corner, without one facet for each name.
     fn beyond(&self, corner: &StoneCorner, meant: &[Vec<usize>]) -> Vec<usize> {
         let mut tiers: Vec<usize> =
             corner.planes.iter().map(|&plane| self.stone().plane(plane).tier).collect();

@@ -1,4 +1,4 @@
-//! Laws of instructions that may mean several points.
+//! Tests of instructions that may mean several points.
 
 use super::super::tiers::Tiers;
 use super::names::TierNames;
@@ -28,7 +28,8 @@ fn what_words_may_mean_begins_with_what_they_say() {
     }
 }
 
-/// Sixteen pavilion facets under two sides of a bar, whose ends meet two pavilion facets and a side at one of three places.
+/// Returns a design of sixteen pavilion facets under two sides of a bar. The ends of the bar meet two pavilion facets
+/// and a side at one of three places.
 fn bar(end: f64) -> Tiers {
     let tiers = vec![
         tier("1", -43.0, &every(6, 3.0), "Cut to TCP", 0.7),
@@ -128,11 +129,11 @@ fn stated_meets_that_the_numbers_bear_out_are_kept_and_others_dropped() {
     // Names are written as their tiers have them: the instruction says "meet b-C".
     let table = kept.tiers.last().unwrap().meet.as_ref().unwrap().to_string();
     assert!(table.contains('B') && !table.contains('b'), "{table}");
-    // A tier that is not cut gets none: whether it would move is not known.
+    // A tier that is not cut gets no meet, because nothing shows whether it would move.
     let mut muted = bare.clone();
     muted.tiers.last_mut().unwrap().is_cut = false;
     assert_eq!(muted.with_kept_stated_meets().tiers.last().unwrap().meet, None);
-    // A table that is cut deeper than its instruction says loses that meet alone, and nothing moves.
+    // A table that is cut deeper than its instruction states loses that meet alone, and nothing moves.
     bare.tiers.last_mut().unwrap().distance *= 0.9;
     let other = bare.with_kept_stated_meets();
     assert_eq!(other.tiers.last().unwrap().meet, None);

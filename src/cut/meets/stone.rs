@@ -1,31 +1,32 @@
-//! The stone as far as it is cut: its corners, its girdle lines, and where its axis leaves it.
+//! The stone as it is cut so far: its corners, its girdle lines, and the points where its axis leaves it.
 
 use crate::math::{Draft, DraftCut, Plane};
 use glam::DVec3;
 use std::cell::OnceCell;
 
-/// The half side of the block that is cut from, in lengths of the largest distance. What touches the block is no corner of
-/// the stone.
+/// The half side of the block from which the stone is cut, in lengths of the largest distance. A point on the surface
+/// of the block is no corner of the stone.
 const BLOCK_HALF: f64 = 20.0;
 
-/// The distance from the axis, in lengths of the largest distance, beyond which a section is that of the block.
+/// The distance from the axis, in lengths of the largest distance, beyond which a section of the stone is one of the
+/// block.
 pub(super) const FARTHEST: f64 = 10.0;
 
-/// A corner this near to a plane, relative to the block, lies on it: see `math::polytope_build`.
+/// The largest distance, relative to the block, of a corner that counts as on a plane; see `math::polytope_build`.
 const ON_PLANE: f64 = 1e-10;
 
-/// Corners this near to one another, in lengths of the largest distance, are one corner to a cutter, who sees no edge between
-/// them. Files whose distances were found by hand leave such edges.
+/// The largest distance between corners that are one corner to a cutter, in lengths of the largest distance. The
+/// cutter sees no edge between them. Files whose distances were found by hand have such edges.
 const SAME_CORNER: f64 = 1e-3;
 
-/// Heights this near to one another, in lengths of the largest distance, are one height.
+/// The largest difference between heights that count as one, in lengths of the largest distance.
 const SAME_HEIGHT: f64 = 1e-4;
 
 /// A corner of the stone so far.
 #[derive(Debug, Clone)]
 pub(super) struct StoneCorner {
     pub at: DVec3,
-    /// The planes that meet here or within [`SAME_CORNER`], by their places; first those that meet here.
+    /// The places of the planes that meet here or within [`SAME_CORNER`]; those that meet here come first.
     pub planes: Vec<usize>,
 }
 
@@ -37,7 +38,7 @@ pub(super) struct CutPlane {
     pub tier: usize,
 }
 
-/// The side of a girdle line.
+/// The side of the girdle, or of a girdle line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum StoneSide {
     Above,
@@ -59,14 +60,14 @@ impl StoneSide {
     }
 }
 
-/// The stone as far as it is cut.
+/// The stone as it is cut so far.
 #[derive(Debug, Clone)]
 pub(super) struct PartStone {
     /// The largest distance, the measure of all tolerances.
     scale: f64,
     draft: Draft,
     planes: Vec<CutPlane>,
-    /// The corners and the edges, once they are asked for.
+    /// The corners and the edges, once they are needed.
     found: OnceCell<Found>,
 }
 
@@ -81,7 +82,7 @@ struct Found {
 #[derive(Debug, Clone, Copy)]
 struct PartEdge {
     ends: [DVec3; 2],
-    /// The planes on both sides; `None` is a face of the block.
+    /// The planes on both sides; `None` stands for a face of the block.
     planes: [Option<usize>; 2],
 }
 
@@ -99,7 +100,7 @@ impl PartStone {
         &self.found().corners
     }
 
-    /// Returns all planes that were cut, in their order.
+    /// Returns all planes that were cut, in the order of the cuts.
     pub fn planes(&self) -> &[CutPlane] {
         &self.planes
     }
@@ -108,7 +109,7 @@ impl PartStone {
         &self.planes[place]
     }
 
-    /// Cuts the facets of a tier. A facet that cannot be cut (it would leave nothing) is left out.
+    /// Cuts the facets of a tier. A facet that would leave nothing of the stone is left out.
     pub fn cut(&mut self, tier: usize, planes: impl Iterator<Item = Plane>) {
         for plane in planes {
             self.planes.push(CutPlane { plane, tier });
@@ -121,8 +122,8 @@ impl PartStone {
         self.found = OnceCell::new();
     }
 
-    /// Cuts all planes from a new block with a smaller tolerance, which may close what a larger one could not. A plane that
-    /// closes with none is left out.
+    /// Cuts all planes from a new block with a smaller tolerance, which may close a surface that a larger one could
+    /// not. A plane that gives no closed surface at any tolerance is left out.
     fn cut_anew(&mut self) {
         let block = || Draft::cube(BLOCK_HALF * self.scale, self.planes.capacity());
         for finer in [1e-2, 1e-4] {
@@ -147,7 +148,8 @@ impl PartStone {
         self.draft = draft;
     }
 
-    /// Returns the corners and the edges. Most tiers need none, so that they are found when a meet asks for them.
+    /// Returns the corners and the edges. They are computed when a meet first needs them, because most tiers need
+    /// none.
     fn found(&self) -> &Found {
         self.found.get_or_init(|| {
             let touching = self.touching();
@@ -155,7 +157,7 @@ impl PartStone {
         })
     }
 
-    /// Returns for each corner of the draft the sources of the faces that touch it.
+    /// Returns, for each corner of the draft, the sources of the faces that touch it.
     fn touching(&self) -> Vec<Vec<usize>> {
         let mut touching: Vec<Vec<usize>> = vec![vec![]; self.draft.vertices.len()];
         for face in &self.draft.faces {
@@ -181,7 +183,8 @@ impl PartStone {
         edges
     }
 
-    /// Returns the corners of the stone; those that are one to a cutter have the planes of all.
+    /// Returns the corners of the stone; a corner that is several to the draft, and one to a cutter, has the planes
+    /// of all of them.
     fn joined_corners(&self, touching: Vec<Vec<usize>>) -> Vec<StoneCorner> {
         let count = self.planes.len();
         let live = touching.into_iter().zip(&self.draft.vertices);
@@ -212,8 +215,9 @@ impl PartStone {
         leaning.map(|cut| cut.plane.offset / cut.plane.normal.z.abs()).min_by(f64::total_cmp)
     }
 
-    /// Returns the height of the girdle line on a side: that of the level edges between upright facets and those of the side.
-    /// Of several heights it is that of the longest edges together; `None` where no such edge is level.
+    /// Returns the height of the girdle line on a side, which consists of the level edges between upright facets and
+    /// facets of that side. Of several heights it is the one with the greatest total length of edges; `None` where no
+    /// such edge is level.
     pub fn girdle_height(&self, side: StoneSide) -> Option<f64> {
         let normal = |plane: Option<usize>| plane.map(|plane| self.planes[plane].plane.normal);
         let near = SAME_HEIGHT * self.scale;
@@ -232,7 +236,7 @@ impl PartStone {
                 None => lengths.push((start.z, length)),
             }
         }
-        // Edges that are as long as others but for rounding must not change places: the outermost line counts.
+        // Rounding must not decide between lines of equal length, so the outermost of them counts.
         let longest = lengths.iter().map(|(_, length)| *length).fold(0.0, f64::max);
         let heights = lengths.iter().filter(|(_, length)| *length >= longest * (1.0 - 1e-3));
         heights.map(|(height, _)| *height).max_by(|a, b| (a * side.sign()).total_cmp(&(b * side.sign())))
@@ -261,7 +265,7 @@ impl PartStone {
     }
 }
 
-/// Gives two lists the members of both.
+/// Gives both lists the members of both.
 fn unite(a: &mut Vec<usize>, b: &mut Vec<usize>) {
     let missing: Vec<usize> = b.iter().copied().filter(|place| !a.contains(place)).collect();
     b.extend(a.iter().copied().filter(|place| !b.contains(place)).collect::<Vec<_>>());

@@ -1,10 +1,10 @@
-//! Laws of meets, on a brilliant that is cut by them.
+//! Tests of meets, on a brilliant that is cut by them.
 
 use super::super::tier_change::TierChange;
 use super::super::tiers::{Indexed, Tier, TierZone, Tiers};
 use super::*;
 
-/// The tolerance of a distance that follows from others by some steps of arithmetic, in lengths of about 1.
+/// The tolerance of a distance that follows from others by a few steps of arithmetic, in lengths of about 1.
 const EXACT: f64 = 1e-9;
 
 pub(super) fn tier(name: &str, angle: f64, indices: &[f64], instructions: &str, distance: f64) -> Tier {
@@ -26,7 +26,7 @@ pub(super) fn every(step: usize, first: f64) -> Vec<f64> {
     (0..96 / step).map(|k| (k * step) as f64 + first).collect()
 }
 
-/// A round brilliant as cutters write it, whose free sizes are right and whose other distances are not.
+/// Returns a round brilliant as cutters write it. Its free sizes are right, and its other distances are not.
 pub(super) fn written() -> Tiers {
     let wrong = 0.9;
     let tiers = vec![
@@ -42,7 +42,7 @@ pub(super) fn written() -> Tiers {
     design.with_stated_meets()
 }
 
-/// The same design, solved.
+/// Returns the same design with its meets solved.
 pub(super) fn brilliant() -> Tiers {
     let solved = written().solved();
     assert_eq!(solved.errors().collect::<Vec<_>>(), [] as [&MeetError; 0]);
@@ -59,8 +59,8 @@ pub(super) fn assert_near(found: &[f64], expected: &[f64]) {
     assert!(found.len() == expected.len() && apart < EXACT, "{found:?} is not {expected:?}");
 }
 
-/// How far the planes of these facets, each given by its tier and its place in it, are from having one point in common, by
-/// the first three.
+/// Returns the greatest distance of the other planes from the common point of the first three. Each facet is given by
+/// its tier and its place in the tier.
 fn apart(tiers: &Tiers, facets: &[(usize, usize)]) -> f64 {
     let planes: Vec<_> = facets
         .iter()
@@ -71,7 +71,8 @@ fn apart(tiers: &Tiers, facets: &[(usize, usize)]) -> f64 {
     planes.iter().map(|plane| plane.distance(point).abs()).fold(0.0, f64::max)
 }
 
-/// Facets that meet in the brilliant: mains with breaks and girdle, bezels likewise, stars with breaks and bezels.
+/// Sets of facets that meet in the brilliant: mains with breaks and girdle, bezels likewise, and stars with breaks
+/// and bezels.
 const MEETING: [&[(usize, usize)]; 3] = [
     &[(0, 0), (1, 0), (2, 0), (1, 15)],
     &[(3, 0), (1, 0), (4, 0), (1, 15)],
@@ -141,7 +142,7 @@ fn two_points_give_the_angle() {
     let mut design = brilliant();
     design.tiers.truncate(5);
     design.tiers.insert(4, tier("PC", 30.0, &every(12, 6.0), "", 0.6));
-    // The bezels go through the girdle's corners and the preform's centre point, whatever angle they had.
+    // The bezels go through the girdle's corners and the preform's centre point, whatever their angle was.
     for angle in [37.0, 20.0] {
         design.tiers[5].angle = angle;
         design.tiers[5].meet =
@@ -299,7 +300,7 @@ fn instructions_are_read_as_cutters_write_them() {
         let mut design = written();
         design.tiers.iter_mut().for_each(|tier| tier.meet = None);
         design.tiers[4].instructions = text.to_owned();
-        // Only the words are asked for here, not what the geometry adds.
+        // The test reads only the words, and not the meets that the geometry adds.
         words::stated(&design)[4].first().map(Meet::to_string)
     };
     for (text, expected) in [

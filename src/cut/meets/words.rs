@@ -1,12 +1,12 @@
-//! Reads cutters' instructions as meets.
+//! Reads the instructions of cutters as meets.
 //!
-//! Source: the wordings of some five thousand instructions in published designs.
+//! The words were collected from some five thousand instructions in published designs.
 
 use super::meet::{ANY_GIRDLE, GivenSize, Meet, MeetPoint};
 use super::names::TierNames;
 use crate::cut::tiers::{TierZone, Tiers};
 
-/// The most points that a meet has.
+/// The most points of a meet.
 const MOST_POINTS: usize = 3;
 
 /// Words for the point where the axis leaves the stone.
@@ -22,7 +22,7 @@ const CENTRE: [&str; 9] = [
     "at culet",
 ];
 
-/// Words for a point on the axis that is cut away later.
+/// Words for a point on the axis that later tiers cut away.
 const TEMPORARY: [&str; 2] = ["tcp", "temporary"];
 
 /// Words for a corner of the girdle.
@@ -41,7 +41,7 @@ const GIRDLE_POINT: [&str; 12] = [
     "to the girdle",
 ];
 
-/// Words for what a cutter chooses.
+/// Words for a size that the cutter chooses.
 const CHOSEN: [&str; 16] = [
     "set",
     "fix",
@@ -61,13 +61,14 @@ const CHOSEN: [&str; 16] = [
     "form girdle",
 ];
 
-/// Words after which the names of a corner come.
+/// Words that precede the names of a corner.
 const BEFORE_NAMES: [&str; 6] = ["meet", "meets", "mp", "to", "from", "with"];
 
-/// Words of a point that the tier makes, rather than meets.
+/// Words before a point that the tier makes and does not meet.
 const MADE: [&str; 4] = ["form", "make", "create", "new"];
 
-/// Returns for each tier what its instruction may mean, first what it says by the letter; none where it states no meet.
+/// Returns, for each tier, the meets that its instruction may mean, the literal one first; the list is empty where it
+/// states none.
 pub(super) fn stated(tiers: &Tiers) -> Vec<Vec<Meet>> {
     let names = TierNames::of(tiers);
     let mut meets: Vec<Vec<Meet>> = vec![];
@@ -79,7 +80,7 @@ pub(super) fn stated(tiers: &Tiers) -> Vec<Vec<Meet>> {
 }
 
 impl Tiers {
-    /// Reads what an instruction would mean for the tier at a place, from 0, by the letter; `None` where it states no meet.
+    /// Reads the literal meaning of an instruction for the tier at a place, from 0; `None` where it states no meet.
     pub fn meet_in_words(&self, place: usize, text: &str) -> Option<Meet> {
         let tier = self.tiers.get(place)?;
         let names = TierNames::of(self);
@@ -89,7 +90,8 @@ impl Tiers {
     }
 }
 
-/// Writes each name of a meet as its tier has it, where the letters differ only in their size; `place` is the tier of the meet.
+/// Writes each name in a meet as its tier has it, where they differ only in small and capital letters. `place` is the
+/// tier of the meet.
 pub(super) fn name_as_written(meet: &mut Meet, names: &TierNames, place: usize) {
     for name in meet.names_mut() {
         let mut meant = names.meant(name, place).into_iter().map(|tier| names.written(tier, place));
@@ -98,7 +100,7 @@ pub(super) fn name_as_written(meet: &mut Meet, names: &TierNames, place: usize) 
     }
 }
 
-/// Reads one instruction; `above` are the readings of the tier before, which a ditto mark repeats.
+/// Reads one instruction. `above` holds the readings of the tier before, which a ditto mark repeats.
 fn readings(text: &str, zone: TierZone, names: &TierNames, from: usize, above: Vec<Meet>) -> Vec<Meet> {
     let text = text.to_lowercase();
     if text.contains(['"', '“', '”']) && !text.contains(|c: char| c.is_alphanumeric() && c != 'g') {
@@ -138,8 +140,8 @@ fn readings(text: &str, zone: TierZone, names: &TierNames, from: usize, above: V
     points.into_iter().map(Meet::Points).chain(chosen.map(Meet::Given)).collect()
 }
 
-/// Returns what the names of corners may mean but by the letter: each of several corners alone, or tiers on the side of the
-/// tier where the names have the letter of the other side.
+/// Returns the meanings of the names of corners other than the literal one: each of several corners alone, or tiers
+/// on the side of the tier where the names have the letter of the other side.
 fn other_corners(corners: &[MeetPoint], names: &TierNames, from: usize) -> Vec<Vec<MeetPoint>> {
     let mut others: Vec<Vec<MeetPoint>> = vec![];
     if corners.len() > 1 {
@@ -154,7 +156,7 @@ fn other_corners(corners: &[MeetPoint], names: &TierNames, from: usize) -> Vec<V
     others
 }
 
-/// Returns whether a text holds these words, not as a part of longer ones.
+/// Returns whether a text contains these words, and not only as a part of longer words.
 fn has_words(text: &str, words: &str) -> bool {
     let is_letter = |c: Option<char>| c.is_some_and(char::is_alphabetic);
     text.match_indices(words).any(|(at, _)| {
@@ -162,10 +164,10 @@ fn has_words(text: &str, words: &str) -> bool {
     })
 }
 
-/// The centre-point angles that are taken, degrees. Flatter facets would meet far outside any stone.
+/// The centre-point angles that are accepted, in degrees. Flatter facets would meet far outside any stone.
 const CENTRE_ANGLES_DEG: std::ops::Range<f64> = 1.0..90.0;
 
-/// Returns the angle of the centre-point angle method, degrees.
+/// Returns the angle of the centre-point angle method, in degrees.
 fn centre_angle(text: &str) -> Option<f64> {
     let (before, after) = text.split_once("cam")?;
     if before.ends_with(char::is_alphanumeric) {
@@ -209,7 +211,7 @@ fn pieces(text: &str) -> Vec<Piece<'_>> {
     pieces
 }
 
-/// Returns whether a word may be the name of a tier: a letter or two, a number, or both.
+/// Returns whether a word may be the name of a tier: one or two letters, a number, or both.
 fn is_name(word: &str) -> bool {
     let letters = word.chars().take_while(|c| c.is_alphabetic()).count();
     let digits = word.chars().skip(letters).take_while(char::is_ascii_digit).count();
@@ -233,7 +235,7 @@ fn corners(text: &str, names: &TierNames, from: usize) -> (Vec<MeetPoint>, bool)
         }
         let (mut found, next, is_centre) = lists_from(&pieces, at + usize::from(is_begun), names, from);
         if !matches!(pieces[at], Piece::Word("meet" | "meets" | "mp")) {
-            // Other words may follow these too.
+            // Other words may follow these words too, so lists whose names mean no tier are dropped.
             found.retain(|list| list.iter().all(|name| !names.meant(name, from).is_empty()));
         }
         ends_at_centre |= is_centre;
@@ -261,7 +263,8 @@ fn known(word: &str, names: &TierNames, from: usize) -> bool {
     is_name(word) && !names.meant(word, from).is_empty()
 }
 
-/// Reads lists of names from a place on; returns them with the place behind them, and whether they end at the centre point.
+/// Reads lists of names from a place on. Returns the lists, the place after them, and whether they end at the centre
+/// point.
 fn lists_from(
     pieces: &[Piece<'_>],
     mut at: usize,
@@ -297,7 +300,7 @@ fn lists_from(
         }
         at += 1;
     }
-    // A single name is no corner of its own.
+    // A single name gives no corner, so it is joined to the list beside it.
     let mut joined: Vec<Vec<String>> = vec![];
     for list in lists.into_iter().filter(|list| !list.is_empty()) {
         match joined.last_mut() {

@@ -319,7 +319,7 @@ fn what_is_out_of_range_is_told_with_its_line() {
     );
     for (value, limit) in [
         (-5, "must be at least 16, one for each half facet; raise it by at least 21"),
-        (129, "must be at most 128, finer than which no girdle is faceted; lower it by at least 1"),
+        (129, "must be at most 128, the most facets of any girdle; lower it by at least 1"),
     ] {
         assert_message(
             &with("girdle_facets = 96", &format!("girdle_facets = {value}")),

@@ -20,33 +20,34 @@ use glam::{DAffine2, DMat2, DVec2, DVec3, DVec4};
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// The most by which sharing one beam may change a pixel, as a part of what light of radiance 1 gives.
+/// The most by which sharing one beam may change a pixel, as a part of the light of radiance 1.
 const MOST_CHANGE: f64 = 2e-3;
 
-/// The number of pixels of a stone's face above which beams are not shared less and tails not estimated more finely: such work
-/// grows with the pixels, and their errors are areas and mean colours that larger pictures show no worse.
+/// The number of pixels on a stone's face above which the sharing of beams and the estimates of tails become no
+/// finer. Finer work would grow with the number of pixels, and the errors are areas and mean colours, which are not
+/// more visible in larger pictures.
 const MOST_PIXELS: f64 = 1e6;
 
 /// The most by which painting a beam for several wavelengths at once may change a pixel at its edge.
 const MOST_AT_EDGE: f64 = 1e-3;
 
-/// The greatest weight, times the part of all wavelengths, of light that is looked up at once where no lamp is near.
+/// The greatest weight, times the part of all wavelengths, of light that is looked up together where no lamp is near.
 const MOST_AT_ONCE: f64 = 4e-3;
 
-/// The part of all wavelengths whose beams are followed as far as those of a single one would be.
+/// The part of all wavelengths for which a shared beam is followed as far as a beam of a single wavelength.
 const USUAL_PART: f64 = 1.0 / 32.0;
 
-/// The light for which one ray estimates where it goes, as a part of what light of radiance 1 gives in a pixel.
+/// The light whose directions one ray estimates, as a part of the light of radiance 1 in a pixel.
 const LEFT_AT_ONCE: f64 = 0.2;
 
 /// The most ends of beams that are estimated together.
 const MOST_ENDS: usize = 64;
 
-/// The side, in radians, of the square of directions over which the light of such a ray is averaged. Light that has gone so far
-/// comes from all sides.
+/// The side, in radians, of the square of directions over which the light of such a ray is averaged. After so many
+/// bounces, light comes from all sides.
 const SPREAD_OF_TAIL: f64 = 0.3;
 
-/// By how much of its length a fan of several wavelengths may miss a lamp that they see.
+/// The part of its length by which a fan of several wavelengths may miss a lamp that the wavelengths see.
 const BEND: f64 = 0.1;
 
 /// A picture of wavelengths that share beams.
@@ -54,15 +55,16 @@ pub(super) struct SharedPicture<'a> {
     subject: &'a Subject<'a>,
     /// The media, in the order of their indices.
     media: Vec<Medium>,
-    /// The response of all media before each, and of all.
+    /// Sums of responses: of all media before each medium, and of all media.
     responses: Vec<[DVec3; 4]>,
     /// The number of sample passes.
     passes: f64,
     is_clear: bool,
     tail: SharedTail,
-    /// The area of a pixel in the body's frame, but at least that of one of [`MOST_PIXELS`].
+    /// The area of a pixel in the body's frame, but at least that which gives the stone's face [`MOST_PIXELS`]
+    /// pixels.
     pixel: f64,
-    /// The energy of all wavelengths for which one ray estimates where it goes.
+    /// The energy, summed over wavelengths, whose directions one ray estimates.
     left_at_once: f64,
 }
 
@@ -73,22 +75,22 @@ pub(super) struct Lost {
     pub absorbed: f64,
 }
 
-/// What one piece of work has painted.
+/// The results of one piece of work.
 struct PaintedPiece<'a> {
     picture: &'a SharedPicture<'a>,
     view: SharedView,
     copies: Vec<(DMat2, DAffine2)>,
     patches: Patches,
-    /// As energies of one domain of the symmetry, summed over wavelengths.
+    /// The light that is not shown, as energies of one domain of the symmetry, summed over wavelengths.
     lost: Lost,
     seen: Vec<SeenLight>,
     polygon: Vec<DVec2>,
-    /// Ends of beams that are neighbours in the tree, and the energy of all their wavelengths.
+    /// The ends of beams that are neighbours in the tree; `left` is the energy of all their wavelengths.
     ends: Vec<BeamEnd>,
     left: f64,
 }
 
-/// The mean of what rays see from the ends of beams, per light that absorption has left there.
+/// The mean light that rays from the ends of beams find, per unit of the light that absorption has left there.
 #[derive(Debug, Clone, Copy, Default)]
 struct MeanLight {
     /// The light of the clearest wavelength, by channel.
@@ -97,7 +99,7 @@ struct MeanLight {
     colour: DVec3,
 }
 
-/// Light that was looked up at once for some wavelengths of a beam, by channel.
+/// Light that was looked up together for some wavelengths of a beam, by channel.
 struct SeenLight {
     waves: Range<usize>,
     light: DVec4,
@@ -107,8 +109,8 @@ impl<'a> SharedPicture<'a> {
     pub fn new(subject: &'a Subject<'a>, passes: &[SamplePass]) -> Self {
         let bands = passes.iter().flat_map(|pass| pass.media[0].iter().zip(&pass.responses));
         let mut waves: Vec<(Medium, [DVec3; 4])> = bands.map(|(m, r)| (*m, *r)).collect();
-        // From short wavelengths to long, so that fans that follow one another lie one behind the other.
-        // Media of one index are ordered by the rest, so that equal ones are neighbours.
+        // Media are sorted from short wavelengths to long, so that successive fans adjoin. Media with the same index
+        // are sorted by their other numbers, so that equal media are neighbours.
         let rest = |m: &Medium| [m.absorption[0], m.absorption[1], m.spread];
         waves.sort_by(|(a, _), (b, _)| {
             let others = rest(a).into_iter().zip(rest(b)).map(|(a, b)| a.total_cmp(&b));
@@ -171,8 +173,8 @@ impl<'a> SharedPicture<'a> {
         Ok(lost)
     }
 
-    /// Returns the mean response of some wavelengths whose light has run this far through the stone, where light of the clearest
-    /// medium has kept all: and the mean share that it has kept.
+    /// Returns the mean response of some wavelengths after a path of this length through the stone, and the mean
+    /// share of their light that is left. Both are relative to the share that is left in the clearest medium.
     fn response_after(&self, waves: &Range<usize>, clearest: &Medium, path: f64) -> ([DVec3; 4], f64) {
         let part = 1.0 / waves.len() as f64;
         if self.is_clear {
@@ -242,13 +244,13 @@ impl PaintedPiece<'_> {
         }
     }
 
-    /// Estimates by rays where the light of the ends goes, and paints all of them in its mean.
+    /// Estimates by rays the directions of the light at the ends, and paints every end in the mean of this light.
     fn estimate(&mut self) {
         let (picture, ends) = (self.picture, std::mem::take(&mut self.ends));
         let left = std::mem::take(&mut self.left);
         let Some(first) = ends.first() else { return };
         let rays = (left / picture.left_at_once).ceil().max(1.0) as u32;
-        // Rounded, so that the last digits of a stone's planes do not change what chance draws.
+        // The energy is rounded, so that the last digits of a stone's planes do not change the random numbers.
         let mut state = (first.energy.ln() * 1e6).round() as i64 as u64;
         let mut draw = || {
             state = state.wrapping_add(GAMMA);
@@ -282,13 +284,14 @@ impl PaintedPiece<'_> {
         }
     }
 
-    /// Follows one of several rays on from the end of a beam, and adds what it sees to the mean of each copy. Returns its part of
-    /// the light that is lost, per light that absorption has left at the end.
+    /// Follows one of `rays` rays from the end of a beam, and adds the light that it finds to the mean of each copy.
+    /// Returns its part of the light that is lost, per unit of the light that absorption has left at the end.
     fn follow(&self, end: &BeamEnd, luck: (DVec2, f64), rays: f64, means: &mut [MeanLight]) -> Lost {
         let picture = self.picture;
         let environment = &picture.subject.lit_scene.environment;
         let clearest = Medium::clearest(&picture.media[end.group.clone()]).unwrap_or(Medium::clear(1.0));
-        // Ends are drawn by the light that absorption has left, and shares are parts of the light without it.
+        // Ends are drawn in proportion to the light that absorption has left; shares are parts of the light without
+        // absorption.
         let scale = end.weight * end.area / (end.energy * rays);
         let mut seen = 0.0;
         let (loss, path) = picture.tail.follow(end, &clearest, luck, |exit| {
@@ -373,7 +376,7 @@ impl PaintedPiece<'_> {
         subject.lit_scene.environment.radiance(DVec3::ZERO, turned(direction), turned(fan))
     }
 
-    /// Paints the light in `seen`, as often as the drift of the beam demands.
+    /// Paints the light in `seen`, in as many parts as the drift of the beam requires.
     fn paint(&mut self, beam: &SharedBeam, inside: &Inside, copy: usize) {
         let (picture, group) = (self.picture, &beam.group);
         let of = |seen: &SeenLight| colour(&picture.response(&seen.waves), seen.light);
@@ -398,7 +401,7 @@ impl PaintedPiece<'_> {
         }
     }
 
-    /// Paints the light of some wavelengths, which `seen` holds from a place on.
+    /// Paints the light of some wavelengths, which begins in `seen` at the index `first`.
     fn paint_some(
         &mut self,
         beam: &SharedBeam,
@@ -422,7 +425,8 @@ impl PaintedPiece<'_> {
         let change = slant.slant - beam.slant.slant;
         self.polygon.clear();
         self.polygon.extend(beam.outline.iter().map(|corner| corner.after(change)));
-        // Where corners have passed by one another, other beams are too large by what this one is too small.
+        // Where corners have passed one another, the polygon is painted negatively, because other beams are too large
+        // by its area.
         let sign = if area(&self.polygon) < 0.0 { -1.0 } else { 1.0 };
         if sign < 0.0 {
             self.polygon.reverse();
@@ -435,7 +439,7 @@ impl PaintedPiece<'_> {
         self.paint_absorbed(copy, path, sign, (first, waves));
     }
 
-    /// Paints the polygon in the colour of light that is absorbed along its paths.
+    /// Paints the polygon in the colour of light that is absorbed along the paths to its points.
     fn paint_absorbed(
         &mut self,
         copy: usize,

@@ -1,11 +1,11 @@
-//! A list that never moves what is in it.
+//! A list whose items never move in memory as it grows.
 
 use std::ops::{Index, IndexMut};
 
 /// The number of items in a block.
 const BLOCK: usize = 1024;
 
-/// A list in blocks of one size, the last of which may not be full. It grows without a copy of what is there already.
+/// A list in blocks of one size, the last of which may not be full. It grows without copying the items that it has.
 #[derive(Debug, Clone)]
 pub(super) struct Blocks<T> {
     blocks: Vec<Vec<T>>,
@@ -30,7 +30,7 @@ impl<T: Copy> Blocks<T> {
         self.blocks.iter().flatten()
     }
 
-    /// Adds items to the end; those that are there stay where they are in memory.
+    /// Adds items to the end. The items before them stay at their places in memory.
     pub fn extend(&mut self, mut items: &[T]) {
         while !items.is_empty() {
             let room = self.blocks.len() * BLOCK - self.len();
@@ -44,7 +44,7 @@ impl<T: Copy> Blocks<T> {
         }
     }
 
-    /// Drops all items but those at these places, which ascend.
+    /// Drops all items except those at these places, which must ascend.
     pub fn keep(&mut self, places: &[u32]) {
         for (to, &from) in (0..).zip(places) {
             self[to] = self[from];

@@ -5,27 +5,28 @@ use super::tree::{Beam, Beams, ROOT};
 /// One cell of the map of strongest exits: the whole outline of one beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Cell {
-    /// The id of the beam whose outline the cell has.
+    /// The id of the beam whose outline is the cell.
     pub outline: u32,
-    /// The id of the beam with the strongest of all exits seen through the cell, the surface's glare left aside; the first
-    /// of equals. `None` where no light has left the stone yet.
+    /// The id of the beam with the strongest of all exits seen through the cell, without the surface's glare; the
+    /// first of equals. `None` where no light has left the stone yet.
     pub strongest: Option<u32>,
-    /// Whether a stronger exit may lie in the light that was left unresolved.
+    /// True where the light that was left unresolved may hold a stronger exit.
     pub undecided: bool,
 }
 
-/// The strongest of the exits on the way of a beam, from where it enters to its end.
+/// The strongest of the exits along the path of a beam, from its entry to its end.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::trace) struct StrongestExit<E> {
     pub weight: f64,
-    /// What is known of the exit; `None` where no light has left the stone yet.
+    /// The exit, in the form that the caller needs; `None` where no light has left the stone yet.
     pub exit: Option<E>,
-    /// Whether no light that is still inside can outshine it.
+    /// True where no light that is still inside can have a stronger exit.
     pub is_decided: bool,
 }
 
 impl<E: Copy> StrongestExit<E> {
-    /// Returns the strongest exit on the way of a beam, given that of its parent and what is to be known of its own exit.
+    /// Returns the strongest exit along the path of a beam from that of the beam's parent and the beam's own exit,
+    /// given in the caller's form.
     pub fn of(beam: &Beam, before: Option<&Self>, exit: Option<E>) -> Self {
         let mut best = match before {
             None => Self { weight: 0.0, exit: None, is_decided: false },
@@ -38,11 +39,11 @@ impl<E: Copy> StrongestExit<E> {
 }
 
 impl Beams {
-    /// Returns the map of strongest exits of one domain of the symmetry: at each point, the exit direction that lights it
-    /// most.
+    /// Returns the map of strongest exits of one domain of the symmetry: for each point, the exit that contributes
+    /// most to its light.
     ///
-    /// A cell is complete as soon as no light that is still inside can outshine the best exit so far. In a stone that
-    /// absorbs, weights are means over outlines, so that the map is exact only as far as absorption is even in each.
+    /// A cell is complete as soon as no light that is still inside can have a stronger exit. In a stone that absorbs,
+    /// weights are means over outlines, so the map is exact only as far as absorption is even in each outline.
     pub fn strongest_exits(&self) -> Vec<Cell> {
         let (best, parted) = (self.strongest_so_far(), self.parted());
         let open_above = |id: usize| match self.nodes[id as u32].parent {
@@ -55,7 +56,7 @@ impl Beams {
             .collect()
     }
 
-    /// Returns, for each beam, the strongest exit on its way, by the id of the beam that ends at it.
+    /// Returns, for each beam, the strongest exit along its path, by the id of the beam that ends there.
     fn strongest_so_far(&self) -> Vec<StrongestExit<u32>> {
         let mut best: Vec<StrongestExit<u32>> = Vec::with_capacity(self.len());
         for beam in self.iter() {
@@ -77,13 +78,13 @@ impl Beams {
     /// Returns the share of the silhouette's area in cells whose strongest exit is not certain, or that have none.
     pub fn undecided(&self, cells: &[Cell]) -> f64 {
         let open = cells.iter().filter(|c| c.undecided || c.strongest.is_none());
-        // Not `sum`, which makes -0 of nothing.
+        // `fold` starts at 0; `sum` would give -0 for no cells.
         let area = open.fold(0.0, |area, c| area + self.nodes[c.outline].area);
         area * f64::from(self.symmetry.order()) / self.silhouette_area
     }
 
-    /// Returns the ids of the beams that were not split further, in one domain: the finest subdivision of the image. The
-    /// light of a point is that of such a beam and of all beams that this one came from.
+    /// Returns the ids of the beams that were not split further, in one domain: the finest subdivision of the image.
+    /// The light of a point is the light of such a beam and of all its ancestors.
     pub fn leaves(&self) -> impl Iterator<Item = u32> {
         let parted = self.parted();
         (0..self.len() as u32).filter(move |&id| !parted[id as usize])

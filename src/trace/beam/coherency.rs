@@ -6,18 +6,18 @@ use num_complex::Complex64;
 /// The coherency matrix J J† / 2 of a beam with Jones matrix J (Born & Wolf, Principles of Optics, 7th ed., §10.9), along s
 /// (perpendicular to the plane of incidence) and p = direction × s. Its trace is the beam's weight.
 ///
-/// For light that begins unpolarised these four numbers say all that J does.
+/// For light that begins unpolarised, these four numbers describe everything that J describes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::trace) struct Coherency {
     ss: f64,
     pp: f64,
-    /// Real and imaginary part of the s p* element.
+    /// The real and imaginary part of the s p* element.
     re: f64,
     im: f64,
 }
 
 impl Coherency {
-    /// No light.
+    /// Light of weight 0.
     pub const NONE: Self = Self { ss: 0.0, pp: 0.0, re: 0.0, im: 0.0 };
 
     /// Returns unpolarised light of weight 1 after it has entered through a surface, and the weight that the surface
@@ -32,10 +32,10 @@ impl Coherency {
         self.ss + self.pp
     }
 
-    /// Returns two fields, each as its parts along s and p, that together are this light: the mean of their coherency
-    /// matrices is this matrix (its Cholesky decomposition).
+    /// Returns two fields, each given by its components along s and p, whose mean coherency matrix is this one (its
+    /// Cholesky decomposition).
     pub fn fields(&self) -> [[Complex64; 2]; 2] {
-        // Rounding may have left a little less than nothing.
+        // Rounding may have made the number slightly negative.
         let s = (2.0 * self.ss.max(0.0)).sqrt();
         let p = if s > 0.0 { Complex64::new(self.re, -self.im) * 2.0 / s } else { Complex64::ZERO };
         let p = p * (2.0 * self.pp.max(0.0) / p.norm_sqr()).sqrt().min(1.0);
@@ -49,7 +49,7 @@ impl Coherency {
         Self { ss: half, pp: half, re: 0.0, im: 0.0 }
     }
 
-    /// Returns the light in axes turned from s toward p by the angle whose cosine and sine are given.
+    /// Returns the light in axes that are turned from s toward p by the angle with this cosine and sine.
     pub fn turned(&self, cos: f64, sin: f64) -> Self {
         let (cc, ss, cs) = (cos * cos, sin * sin, cos * sin);
         Self {
@@ -73,8 +73,8 @@ impl Coherency {
         (reflected, self.ss * (1.0 - s) + self.pp * (1.0 - p))
     }
 
-    /// Returns the changes per number of the light (`ss`, `pp`, `re`, `im`), and per cosine and sine, from those per number of
-    /// the [`turned`](Self::turned) light.
+    /// Returns the derivatives of a sum by the light (`ss`, `pp`, `re`, `im`) and by cosine and sine, from its
+    /// derivatives by the [`turned`](Self::turned) light.
     pub fn pull_back_turned(&self, cos: f64, sin: f64, per: [f64; 4]) -> ([f64; 4], [f64; 2]) {
         let (cc, ss, cs) = (cos * cos, sin * sin, cos * sin);
         let [per_ss, per_pp, per_re, per_im] = per;
@@ -90,8 +90,9 @@ impl Coherency {
         (light, [2.0 * cos * per_cc + sin * per_cs, 2.0 * sin * per_sin_sq + cos * per_cs])
     }
 
-    /// Returns the changes per number of the light, and per reflectance of s and p and per r_s r_p* (real and imaginary
-    /// part), from those per number of the reflected light and per weight that passes. See [`split`](Self::split).
+    /// Returns the derivatives of a sum by the light, and by the reflectances of s and p and r_s r_p* (real and
+    /// imaginary part), from its derivatives by the reflected light and by the weight that passes. See
+    /// [`split`](Self::split).
     pub fn pull_back_split(&self, fresnel: &Fresnel, per: [f64; 4], per_weight: f64) -> ([f64; 4], [f64; 4]) {
         let (s, p) = (fresnel.reflectance_s(), fresnel.reflectance_p());
         let cross = fresnel.r_s * fresnel.r_p.conj();

@@ -11,7 +11,7 @@ impl Beams {
     pub fn exit_changes(&self, polytope: &Polytope) -> Vec<DVec3> {
         let (index, spread) = (self.medium.index, self.medium.spread);
         let mut exit_changes = vec![DVec3::ZERO; self.len()];
-        // For each beam, the direction of the light that goes on inside, and its change.
+        // For each beam, the direction of the light that goes on inside, and the change of this direction.
         let mut onward: Vec<(DVec3, DVec3)> = Vec::with_capacity(self.len());
         for beam in self.iter() {
             let normal = polytope.facets()[beam.facet as usize].plane.normal;

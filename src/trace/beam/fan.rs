@@ -1,4 +1,4 @@
-//! How far apart light of two wavelengths leaves a beam.
+//! The angles between the directions in which light of two wavelengths leaves each beam.
 
 use super::tree::{Beam, Beams};
 use crate::math::Polytope;
@@ -13,7 +13,7 @@ impl Beams {
     /// it, followed from the eye along the facets of the beam; π where light of one index leaves and that of the other is
     /// totally reflected. It is 0 for the surface's glare, and where the beam's own light does not leave.
     ///
-    /// Nothing is linearised. `polytope` must be the one that was traced.
+    /// The result is exact and not to first order. `polytope` must be the one that was traced.
     pub fn fans(&self, polytope: &Polytope, indices: [f64; 2]) -> Vec<f64> {
         let onward = self.onward_pairs(polytope, indices);
         let fan = |beam: Beam| {
@@ -38,7 +38,8 @@ impl Beams {
                 None => indices.map(|index| {
                     let (ray, eta) = (-self.view.toward, 1.0 / index);
                     let cos_i = -ray.dot(normal);
-                    // From outside, light always enters; at index 1 and grazing incidence rounding may say otherwise.
+                    // From outside, light always enters. At index 1 and grazing incidence, rounding may give no
+                    // cosine.
                     let cos_t = cos_transmitted(cos_i, eta).unwrap_or(0.0);
                     refract(ray, normal, eta, (cos_i, cos_t)).normalize_or_zero()
                 }),
@@ -49,7 +50,8 @@ impl Beams {
     }
 }
 
-/// Returns the directions in which light of two indices leaves through a facet; `None` of light that is totally reflected.
+/// Returns the directions in which light of two indices leaves through a facet; `None` for light that is totally
+/// reflected.
 pub(super) fn leaving(rays: Pair, normal: DVec3, indices: [f64; 2]) -> [Option<DVec3>; 2] {
     std::array::from_fn(|k| {
         let cos_i = rays[k].dot(normal);
@@ -89,7 +91,7 @@ mod tests {
         assert!(beams.fans(&stone, [2.4175; 2]).iter().all(|&fan| fan == 0.0));
     }
 
-    /// Returns planes of a brilliant without symmetry that meet by threes, so that each may move alone.
+    /// Returns planes of a brilliant without symmetry. They meet by threes, so that each may move alone.
     fn uneven_planes() -> Vec<Plane> {
         let mut state = 0.5;
         // Numbers spread evenly over -0.01 to 0.01 by the golden section.
@@ -116,7 +118,7 @@ mod tests {
             (beams.fans(&stone, [2.40 + by, 2.44 + by]), beams, stone)
         };
         let (fans, beams, stone) = of(&planes, 0.0);
-        // Neighbouring stones have the same beams in the same order; fans that are wide change too fast for differences.
+        // Neighbouring stones have the same beams in the same order. Wide fans change too fast for differences.
         let is_even = |fan: f64| fan > 1e-6 && fan < 0.2;
         let sum = |planes: &[Plane], by: f64| {
             let (other, ..) = of(planes, by);

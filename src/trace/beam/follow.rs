@@ -1,4 +1,4 @@
-//! Follows a few beams, and all that they split into, as long as they are strong enough.
+//! Follows a few beams, and all beams into which they split, as long as these are strong enough.
 
 use super::coherency::Coherency;
 use super::split::{BeamOutline, Facets, Landing, Ray, Splitter};
@@ -11,13 +11,14 @@ use glam::{DVec2, DVec3};
 /// Outlines with less than this share of the silhouette's area come from rounding and are dropped.
 pub(super) const SLIVER: f64 = 1e-15;
 
-/// The place of an outline that is not there.
+/// The range of corners of an outline that does not exist.
 const NOWHERE: (u32, u32) = (u32::MAX, 0);
 
-/// The sine of the angle between a beam and a facet's normal below which there is no plane of incidence, and none is needed.
+/// The sine of the angle between a beam and a facet's normal below which there is no plane of incidence; none is
+/// needed there.
 pub(super) const SQUARE_ON: f64 = 1e-9;
 
-/// A beam that is still to be followed from its last facet on. Those that wait are kept in boxes, as they are many.
+/// A beam that is still to be followed from its last facet on. Fronts that wait are boxed, because there are many.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::trace) struct Front<F = Box<Flight>> {
     pub node: u32,
@@ -27,7 +28,7 @@ pub(in crate::trace) struct Front<F = Box<Flight>> {
     pub flight: F,
 }
 
-/// How a beam goes on from a facet.
+/// The light that goes on from a facet.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::trace) struct Flight {
     pub ray: Ray,
@@ -45,18 +46,18 @@ impl Front {
     }
 }
 
-/// The beams that one piece of work has found. Its nodes are numbered on from the end of the existing tree.
+/// The beams that one piece of work has found. Their nodes are numbered from the end of the existing tree.
 #[derive(Default)]
 pub(super) struct Growth {
     pub beams: NewBeams,
-    /// Beams too weak to be followed.
+    /// The beams that are too weak to be followed.
     pub left: Vec<Front>,
-    /// Energy lost in slivers.
+    /// The energy lost in slivers.
     pub dropped: f64,
 }
 
 impl Growth {
-    /// Empties it for the next piece of work.
+    /// Removes everything, for the next piece of work.
     fn clear(&mut self) {
         self.beams.clear();
         self.left.clear();
@@ -74,9 +75,9 @@ pub(super) fn s_axis(direction: DVec3, normal: DVec3, otherwise: DVec3) -> DVec3
 /// Follows beams piece by piece.
 pub(super) struct Follower<'a> {
     splitter: Splitter<'a>,
-    /// What the last piece has found.
+    /// The beams that the last piece of work has found.
     pub growth: Growth,
-    /// The outline of the beam being split, and where it lies among all corners.
+    /// The outline of the beam that is split, and its range among all corners.
     outline: BeamOutline,
     outline_at: (u32, u32),
     stack: Vec<Front<Flight>>,
@@ -94,7 +95,8 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// Follows these fronts, and every beam that they split into, while the energy and the number of bounces are `strong`.
+    /// Follows these fronts, and every beam into which they split, while `strong` accepts the energy and the number
+    /// of bounces.
     pub fn follow(&mut self, before: &Beams, fronts: &[Front], strong: impl Fn(f64, u32) -> bool) {
         self.growth.clear();
         self.outline_at = NOWHERE;
@@ -113,7 +115,7 @@ impl<'a> Follower<'a> {
             None => before.nodes[front.node],
             Some(own) => beams.nodes[own as usize],
         };
-        // Most beams land as a whole, and the next to be followed is what became of them.
+        // Most beams land as a whole, and the next front is then the beam that has just landed.
         if *outline_at != parent.corners {
             let (start, all) = match parent.corners.0.checked_sub(base.corners) {
                 None => (parent.corners.0 as usize, &before.corners),
@@ -149,7 +151,8 @@ impl<'a> Follower<'a> {
 }
 
 impl NewBeams {
-    /// Adds what has landed of a beam with this id and these corners; returns its id.
+    /// Adds the part of a beam that has landed on a facet; returns the id of the new beam. `of` is the beam's id and
+    /// its range of corners.
     fn add(&mut self, of: (u32, (u32, u32)), landing: &Landing, landed: &Landed, base: TreeSize) -> u32 {
         let (parent, mut corners) = of;
         if !landing.is_whole {
@@ -174,13 +177,13 @@ impl NewBeams {
     }
 }
 
-/// What becomes of a beam's light at the facet on which it lands.
+/// The result of a beam's landing on a facet.
 struct Landed {
     path: Affine,
     exit: Option<BeamExit>,
-    /// `None` where nothing absorbs.
+    /// The light absorbed on the way; `None` where nothing absorbs.
     loss: Option<BeamLoss>,
-    /// The light that goes on, its axis s, and the integral of what absorption leaves: see [`Flight`].
+    /// The light that goes on, its axis s, and the integral of the share that absorption leaves; see [`Flight`].
     light: Coherency,
     s: DVec3,
     left: f64,
@@ -189,7 +192,7 @@ struct Landed {
 }
 
 impl Landed {
-    /// Returns how the light goes on that has landed with this ray.
+    /// Returns the light that goes on from this landing of a ray.
     #[inline(always)]
     fn flight(&self, ray: &Ray, landing: &Landing) -> Flight {
         let origin = ray.advanced(landing.distance);

@@ -1,8 +1,8 @@
-//! Grows the tree of beams, strongest first, until what is left unresolved is small enough.
+//! Grows the tree of beams, strongest first, until little enough light is unresolved.
 //!
-//! A beam never has more energy than the one that it came from. Following all beams above a level of energy, and
-//! lowering the level, is therefore following the best first; and within one level every beam can be followed on
-//! its own, in any order and on any core, with the same result.
+//! A beam never has more energy than its parent. So the strongest beams are followed first if all beams above a level
+//! of energy are followed and the level is then lowered. Within one level every beam can be followed on its own, in
+//! any order and on any core, with the same result.
 
 use super::blocks::Blocks;
 use super::coherency::Coherency;
@@ -20,16 +20,16 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-/// How far beams are followed, and what is taken into account.
+/// The limits up to which beams are followed, and the effects that are included.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct BeamOptions {
-    /// The share of the light, 0 to 1, that may stay unresolved: tracing goes on until no more is.
+    /// The share of the light, 0 to 1, that may stay unresolved. Tracing ends when no more than this is unresolved.
     pub unresolved: f64,
-    /// Whether polarisation is followed; without it, every surface meets unpolarised light.
+    /// True where polarisation is followed; otherwise every surface meets unpolarised light.
     pub polarised: bool,
-    /// The number of beams soon after which tracing stops; more light is then unresolved than was requested.
+    /// The number of beams soon after which tracing stops, even if more light is unresolved than requested.
     pub most_beams: usize,
-    /// Whether only one domain of the symmetry that stone, view and light share is traced.
+    /// True where only one domain of the symmetry that stone, view and light share is traced.
     pub symmetry: bool,
 }
 
@@ -39,37 +39,41 @@ impl Default for BeamOptions {
     }
 }
 
-/// The most reflections of a beam: after these it is given up, as total reflection can catch light for ever.
+/// The most reflections of a beam, which is given up after them, because total reflection can keep light inside for
+/// ever.
 pub(super) const MOST_BOUNCES: u32 = 1000;
 
-/// Beams followed as one piece of work. It does not depend on the number of cores, as the result must not.
+/// The number of beams in one piece of work. It does not depend on the number of cores, because the result must not.
 const PIECE: usize = 128;
 
-/// Pieces between two checks of `watch` and of the number of beams.
+/// The number of pieces between two checks of `watch` and of the number of beams.
 const AT_ONCE: usize = 64;
 
-/// Pieces that are found, for each thread, before they are added to the tree. With more, threads wait for each other less;
-/// with fewer, less memory is needed beside the tree.
+/// The number of pieces per thread that are computed before they are added to the tree. With more, threads wait less
+/// for each other; with fewer, less memory is needed beside the tree.
 const PIECES_A_THREAD: usize = 8;
 
-/// The least and the greatest factor by which the level of energy falls at a step: with a smaller one the last step might
-/// overshoot.
+/// The least and the greatest factor by which the level of energy falls in a step. With a smaller factor, the last
+/// step might overshoot.
 const STEPS: std::ops::RangeInclusive<f64> = 0.25..=0.8;
 
-/// Where beams are summed up, those that were split are dropped as soon as there are more of them than this, and than half
-/// as many as wait to be split.
+/// Where beams are summed up, beams that were split are dropped as soon as there are more of them than this, and more
+/// than half as many as wait to be split.
 const SPLIT_KEPT: usize = 1 << 14;
 
-/// The part of the light that is left in the end, for the progress of work whose end another rule decides.
+/// The part of the light that is assumed to be left in the end, for the display of progress where another rule ends
+/// the work.
 const FORESEEN: f64 = 1e-2;
 
-/// The factor by which the level of energy falls where more beams are worth their time.
+/// The factor by which the level of energy falls in a step where [`BeamEffort`] decides
+/// the end.
 const EFFORT_STEP: f64 = 0.6;
 
 /// Follows light from the eye into a stone until at most `options.unresolved` of it is left.
 ///
-/// Tracing ends earlier where there are too many beams, or where all that is left is caught for ever; [`Beams::unresolved`]
-/// says how much is left. Beams are of parallel rays: a perspective is traced as if its eye were far away.
+/// Tracing ends earlier where there are too many beams, or where total reflection keeps all remaining light inside;
+/// [`Beams::unresolved`] returns how much is left. Beams consist of parallel rays: a perspective is traced as if its
+/// eye were far away.
 ///
 /// # Errors
 /// [`Stopped`] when `watch` asks to stop.
@@ -89,7 +93,7 @@ pub fn trace(
     Ok(tracer.beams)
 }
 
-/// Returns the energy down to which beams have to be followed for what `options` ask for: the last level above which no more
+/// Returns the energy down to which beams must be followed to satisfy `options`: the last level above which no more
 /// than `most_beams` are followed.
 ///
 /// # Errors
@@ -107,7 +111,8 @@ pub(super) fn level_for(
     Ok(tracer.level)
 }
 
-/// Follows all light for this many reflections, however weak it is, so that stones that differ a little have the same beams.
+/// Follows all light for this many reflections, however weak it is, so that stones that differ slightly have the same
+/// beams.
 #[cfg(test)]
 pub(crate) fn trace_bounces(
     polytope: &Polytope,
@@ -123,27 +128,27 @@ pub(crate) fn trace_bounces(
     tracer.beams
 }
 
-/// What figures are made of beams that are not kept, and how exactly.
+/// The options for sums over beams that are not kept.
 #[derive(Debug, Clone, Copy)]
 pub struct SumOptions<'a> {
-    /// The scope by whose bands the light is summed up.
+    /// The scope whose bands the light is summed up by.
     pub scope: &'a Scope,
-    /// The standard error to which rays are to estimate what the beams leave; `None` where nothing is estimated. With it,
-    /// beams are followed until those rays take less time than more beams would.
+    /// The standard error that rays must reach in their estimate of the light that beams leave; `None` where nothing
+    /// is estimated. With it, beams are followed until those rays take less time than more beams would.
     pub standard_error: Option<f64>,
 }
 
-/// Beams that were summed up. Only those are kept that were not split further.
+/// The sums over all beams, and the beams that were not split further. No others are kept.
 pub struct SummedBeams {
-    /// What all beams sum up to.
+    /// The sums over all beams.
     pub sums: BeamSums,
-    /// The scope whose bands they were summed up by.
+    /// The scope whose bands the beams were summed up by.
     pub scope: Scope,
-    /// The beams that were too weak to be followed, in the order of the tree.
+    /// The beams that were too weak to be followed, as sorted in the tree.
     pub open: Beams,
-    /// How the light goes on from each of them.
+    /// The fronts of the open beams, from which their light goes on.
     pub(in crate::trace) fronts: Vec<Front>,
-    /// What is known so far of the strongest exit of each open beam.
+    /// The strongest exits known so far, one for each open beam.
     pub(in crate::trace) standings: Vec<Standing>,
 }
 
@@ -181,13 +186,13 @@ struct Tracer<'a> {
     facets: &'a Facets<'a>,
     beams: Beams,
     fronts: Vec<Front>,
-    /// The number of beams that were made, whether they are still kept or not.
+    /// The number of beams that were made, including those that are no longer kept.
     made: usize,
     /// The energy above which all beams have been followed.
     level: f64,
-    /// Adds the beams up, where they need not be kept.
+    /// The adder of the beams, where they need not be kept.
     adder: Option<&'a mut BeamAdder>,
-    /// Each follows one piece of work at a time.
+    /// The followers, each of which works on one piece at a time.
     followers: Vec<Follower<'a>>,
 }
 
@@ -299,7 +304,7 @@ impl<'a> Tracer<'a> {
         let mut before = (level, whole);
         loop {
             let left = self.fronts.iter().map(|f| f.energy).sum::<f64>() + self.beams.dropped;
-            // The light left falls about as a power of the level, so that its logarithm falls evenly.
+            // The light left falls about as a power of the level, so its logarithm falls evenly.
             let done = ((left / whole).ln() / options.unresolved.clamp(1e-12, FORESEEN).ln()).clamp(0.0, 1.0);
             if watch(done).is_break() {
                 return Err(Stopped);
@@ -321,7 +326,8 @@ impl<'a> Tracer<'a> {
         Ok(())
     }
 
-    /// Follows every beam with at least this energy, and all that it splits into, until there are too many beams.
+    /// Follows every beam with at least this energy, and all beams into which it splits, until there are too many
+    /// beams.
     fn follow_above(
         &mut self,
         level: f64,
@@ -346,7 +352,8 @@ impl<'a> Tracer<'a> {
         Ok(())
     }
 
-    /// Follows these beams, and all that they split into while the energy and the number of bounces are `strong`.
+    /// Follows these beams, and all beams into which they split, while `strong` accepts the energy and the number of
+    /// bounces.
     fn follow(&mut self, fronts: &[Front], strong: impl Fn(f64, u32) -> bool + Copy + Sync) {
         for part in fronts.chunks(rayon::current_num_threads() * PIECES_A_THREAD * PIECE) {
             let pieces = part.len().div_ceil(PIECE);
@@ -360,8 +367,8 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Adds the beams that the last pieces of work have found to the tree. The nodes of each are numbered on from the same
-    /// number; they are moved behind those of the pieces added before it.
+    /// Adds the beams that the last pieces of work have found to the tree. Each piece has numbered its nodes from the
+    /// end of the former tree; they are moved behind the nodes of the pieces that were added before it.
     fn take_in(&mut self, pieces: usize) {
         let base = self.beams.size();
         for follower in &mut self.followers[..pieces] {
@@ -377,12 +384,12 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Drops all beams but those of the fronts, to which `others` belong, and numbers these anew. It does so only where the
-    /// beams are added up.
+    /// Drops all beams except those of the fronts, which include `others`, and numbers them anew. It does so only
+    /// where the beams are added up.
     fn drop_split(&mut self, others: &mut [Front]) {
         let Some(adder) = &mut self.adder else { return };
         let mut fronts: Vec<&mut Front> = self.fronts.iter_mut().chain(others).collect();
-        // Both parts are in order, which this sort makes use of.
+        // Both parts are sorted already, which this sort exploits.
         fronts.sort_by_key(|front| front.node);
         let ids: Vec<u32> = fronts.iter().map(|front| front.node).collect();
         adder.keep(&ids, &self.beams);
@@ -391,8 +398,8 @@ impl<'a> Tracer<'a> {
     }
 }
 
-/// Returns the next level of energy to follow. The light left falls about as a power of the level; the power is taken from
-/// the last step, and the level is aimed a little below the goal.
+/// Returns the next level of energy. The light left falls about as a power of the level. The power is taken from the
+/// last step, and the level is chosen slightly below the goal.
 fn next_level(level: f64, left: f64, before: &mut (f64, f64), goal: f64) -> f64 {
     let (old_level, old_left) = std::mem::replace(before, (level, left));
     let power = ((old_left / left).ln() / (old_level / level).ln()).clamp(0.3, 2.0);
@@ -400,8 +407,8 @@ fn next_level(level: f64, left: f64, before: &mut (f64, f64), goal: f64) -> f64 
     level * (0.98 * goal / left).powf(1.0 / power).clamp(*STEPS.start(), *STEPS.end())
 }
 
-/// Returns the point of a plane behind each image point, as the point behind the image's origin and its changes along the
-/// image's axes.
+/// Returns the points of a plane that lie behind the points of the image: the point behind the image's origin, and
+/// its changes along the image's axes.
 pub(super) fn entry_points(view: &Basis, plane: &Plane) -> [DVec3; 3] {
     let per = view.toward / plane.normal.dot(view.toward);
     let behind = |axis: DVec3| axis - per * plane.normal.dot(axis);

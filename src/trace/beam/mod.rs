@@ -1,10 +1,10 @@
 //! Exact beams: light followed as convex polygons of the image, in f64, with a bound on the light that is not followed.
 //!
-//! In a convex stone under parallel rays every path from the eye splits the image into convex polygons (virtual facets),
-//! each with one direction at every depth. Within one polygon, where a ray starts and how far it goes are affine in the
-//! image's coordinates. So the facets that a beam lands on are the cells of the lower envelope of affine functions, and the
-//! whole tracing happens in two dimensions. Light is reversible: it is followed from the eye inward, and a beam's weight is
-//! the share of the light from its exit direction that reaches the eye.
+//! In a convex stone under parallel rays, every path from the eye splits the image into convex polygons (virtual
+//! facets), each with one direction at every depth. Within one polygon, the start of a ray and its length are affine
+//! in the image's coordinates. So the facets that a beam lands on are the cells of the lower envelope of affine
+//! functions, and all tracing happens in two dimensions. Light is reversible: it is followed from the eye inward, and
+//! a beam's weight is the share of the light from its exit direction that reaches the eye.
 
 mod adjoint;
 mod blocks;

@@ -1,33 +1,35 @@
-//! Finds the facets that a beam lands on next, and the part of its outline that lands on each.
+//! Finds the facets that a beam lands on next, and the part of its outline that lands on each facet.
 
 use super::whole::{Candidate, FacetNeighbours};
 use crate::math::{Affine, Polytope, centroid};
 use crate::trace::facet_guess::FacetGuess;
 use glam::{DVec2, DVec3};
 
-/// The cosine between a beam and a facet's normal up to which the beam cannot land on the facet: it runs along it.
+/// The cosine between a beam and a facet's normal up to which the beam counts as parallel to the facet and cannot
+/// land on it.
 pub(super) const GRAZING: f64 = 1e-12;
 
-/// Distances that differ by less than this share of their terms count as equal: some hundred roundings.
+/// Distances that differ by less than this part of their terms count as equal; it is some hundred roundings.
 pub(super) const SAME: f64 = 2e-14;
 
-/// The share of a beam's outline that may land nowhere: slivers are less. Where more is missing, all facets are tried.
+/// The part of a beam's outline that may land on no facet found; slivers are smaller. Where more is missing, all
+/// facets are tried.
 pub(super) const MISSED: f64 = 1e-10;
 
 /// The number that stands for no facet.
 pub(super) const NO_FACET: u32 = u32::MAX;
 
-/// A beam on its way from a facet: where the ray of each image point starts, and the one direction of all its rays.
+/// A beam on its way from a facet: the start of the ray of each image point, and the one direction of all its rays.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::trace) struct Ray {
     /// The start of the ray at the image's origin, and its changes along the image's axes.
     pub origin: [DVec3; 3],
-    /// Unit direction.
+    /// The unit direction.
     pub direction: DVec3,
 }
 
 impl Ray {
-    /// Returns where the ray of image point `p` starts.
+    /// Returns the start of the ray of image point `p`.
     pub fn start(&self, p: DVec2) -> DVec3 {
         let [o, u, v] = self.origin;
         o + u * p.x + v * p.y
@@ -50,7 +52,7 @@ pub(super) struct BeamOutline {
 }
 
 impl BeamOutline {
-    /// Replaces the outline by these corners, and works out its area and centre.
+    /// Replaces the outline by these corners, and computes its area and centre.
     pub fn load(&mut self, corners: &[DVec2]) {
         self.corners.clear();
         self.corners.extend_from_slice(corners);
@@ -61,17 +63,17 @@ impl BeamOutline {
 /// The part of one beam that lands on one facet.
 pub(super) struct Landing<'a> {
     pub facet: u32,
-    /// Outward unit normal.
+    /// The outward unit normal of the facet.
     pub normal: DVec3,
-    /// Distance from the beam's start, over the image.
+    /// The distance from the beam's start to the facet, over the image.
     pub distance: Affine,
     pub outline: &'a [DVec2],
     pub twice_area: f64,
-    /// Whether the outline is that of the whole beam.
+    /// True where the outline is that of the whole beam.
     pub is_whole: bool,
 }
 
-/// The facets of one polytope, ready to be looked up.
+/// The facets of one polytope, prepared for searches.
 pub(super) struct Facets<'a> {
     pub polytope: &'a Polytope,
     pub guess: FacetGuess,
@@ -88,7 +90,7 @@ impl<'a> Facets<'a> {
     }
 }
 
-/// The corners of an outline while it is cut, with what lies beyond each edge.
+/// The corners of an outline while it is cut, with the facet beyond each edge.
 #[derive(Default)]
 struct Corners {
     at: Vec<DVec2>,
@@ -113,11 +115,11 @@ pub(super) struct Splitter<'a> {
     facets: &'a Facets<'a>,
     /// For each facet, the distance to its plane, over the image.
     distance: Vec<Affine>,
-    /// For each facet, the number of the beam for which `distance` was last worked out.
+    /// For each facet, the number of the beam for which `distance` was last computed.
     known: Vec<u32>,
     /// For each facet, the number of the beam for which it was last put into the queue.
     visited: Vec<u32>,
-    /// The number of the present beam.
+    /// The number of the current beam.
     beam: u32,
     queue: Vec<u32>,
     outline: Corners,
@@ -143,8 +145,8 @@ impl<'a> Splitter<'a> {
 
     /// Calls `land` for each facet that the beam with this outline lands on.
     ///
-    /// The landings make up the outline but for slivers, whose area is returned. They are found by going from neighbour to
-    /// neighbour; should that have missed any, all facets are tried.
+    /// The landings make up the outline except for slivers, whose area is returned. The search goes from neighbour to
+    /// neighbour; if it has missed any facet, all facets are tried.
     pub fn split(&mut self, ray: &Ray, outline: &BeamOutline, mut land: impl FnMut(Landing)) -> f64 {
         self.beam += 1;
         let &BeamOutline { corners: ref outline, twice_area: whole, centre } = outline;
@@ -198,8 +200,8 @@ impl<'a> Splitter<'a> {
         covered
     }
 
-    /// Leaves in `self.outline` the part of the outline from which `facet` is met before its neighbours; returns false where
-    /// there is none.
+    /// Leaves in `self.outline` the part of the outline whose rays meet `facet` before its neighbours; returns false
+    /// where there is no such part.
     fn cell(&mut self, ray: &Ray, outline: &[DVec2], facet: u32) -> bool {
         self.outline.clear();
         self.outline.at.extend_from_slice(outline);
@@ -219,7 +221,8 @@ impl<'a> Splitter<'a> {
         true
     }
 
-    /// Works out the distance to a facet's plane, once for each beam; returns false where the beam does not run toward it.
+    /// Computes the distance to a facet's plane, once for each beam; returns false where the beam does not run toward
+    /// the plane.
     #[inline]
     fn is_ahead(&mut self, ray: &Ray, facet: u32) -> bool {
         let k = facet as usize;
@@ -234,7 +237,7 @@ impl<'a> Splitter<'a> {
         self.distance[k].constant.is_finite()
     }
 
-    /// Returns the facet that the ray of image point `p` meets, found by walking from `at` to ever nearer neighbours.
+    /// Returns the facet that the ray of image point `p` meets. The search walks from `at` to ever nearer neighbours.
     fn first(&mut self, ray: &Ray, p: DVec2, mut at: u32) -> Option<u32> {
         if !self.is_ahead(ray, at) {
             at = (0..self.known.len() as u32).find(|&k| self.is_ahead(ray, k))?;

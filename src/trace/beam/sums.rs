@@ -1,23 +1,23 @@
-//! What beams sum up to by the bands of a scope. A beam that is summed up and split need not be kept.
+//! The sums of beams by the bands of a scope. A beam that is summed up and split need not be kept.
 
 use super::cells::StrongestExit;
 use super::tree::Beams;
 use crate::scene::Scope;
 
-/// The shares that the light of beams takes, as fractions of the silhouette, by the bands of a scope.
+/// The light of beams as parts of the silhouette, by the bands of a scope.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamSums {
-    /// Glare of the outer surface, by the band whose light it reflects.
+    /// The glare of the outer surface, by the band whose light it reflects.
     pub surface: Vec<f64>,
-    /// Light that has been inside the stone, by the band that it comes from.
+    /// The light that has been inside the stone, by the band from which it comes.
     pub transmitted: Vec<f64>,
     /// The part of the silhouette whose strongest exit lies in each band.
     pub strongest_exit_area: Vec<f64>,
-    /// The part of the silhouette whose strongest exit is not certain, or that has none.
+    /// The part of the silhouette whose strongest exit is not certain, or that has no exit.
     pub undecided: f64,
-    /// Light that is absorbed.
+    /// The light that is absorbed.
     pub absorbed: f64,
-    /// Light that was not followed to its end.
+    /// The light that was not followed to its end.
     pub unresolved: f64,
     /// The number of beams.
     pub beams: usize,
@@ -32,29 +32,29 @@ impl BeamSums {
     }
 }
 
-/// What is known of the strongest exit on the way to a beam, and whether the beam was split.
+/// The strongest exit known so far along the path of a beam, and whether the beam was split.
 #[derive(Clone, Copy)]
 pub(in crate::trace) struct Standing {
-    /// The strongest exit on its way, as a band of the scope.
+    /// The strongest exit along the path, as a band of the scope.
     pub strongest: StrongestExit<u32>,
-    /// Whether the beam was split further.
+    /// True where the beam was split further.
     is_parted: bool,
 }
 
 /// Adds up beams in the order of their ids, as the tree grows.
 pub(super) struct BeamAdder {
     scope: Scope,
-    /// The part of the silhouette that a unit of area in one domain of the symmetry stands for.
+    /// The part of the silhouette that a unit of area in one domain of the symmetry represents.
     share: f64,
-    /// Area in one domain whose strongest exit will never be known.
+    /// The area in one domain whose strongest exit will never be known.
     undecided: f64,
     sums: BeamSums,
-    /// One for each beam that has been taken in and is still in the tree.
+    /// The standings of the beams that have been added and are still in the tree.
     standings: Vec<Standing>,
 }
 
 impl BeamAdder {
-    /// Makes an adder that has taken in no beam of this view yet.
+    /// Returns an adder for a view, to which no beam has been added yet.
     pub fn new(beams: &Beams, scope: &Scope) -> Self {
         let zeros = vec![0.0; scope.bands.len()];
         let sums = BeamSums {
@@ -70,7 +70,7 @@ impl BeamAdder {
         Self { scope: scope.clone(), share, undecided: 0.0, sums, standings: vec![] }
     }
 
-    /// Adds the beams that have come to the tree since the last call.
+    /// Adds the beams that the tree has gained since the last call.
     pub fn take_in(&mut self, beams: &Beams) {
         let Self { scope, share, undecided, sums, standings } = self;
         let new = standings.len() as u32..beams.len() as u32;
@@ -99,8 +99,8 @@ impl BeamAdder {
         }
     }
 
-    /// Forgets all beams but these, whose ids ascend and become the numbers 0, 1, 2 and so on. The others must not be split
-    /// any more.
+    /// Forgets all beams except these, whose ids ascend and become the numbers 0, 1, 2 and so on. The other beams
+    /// must not be split any more.
     pub fn keep(&mut self, ids: &[u32], beams: &Beams) {
         let mut kept = ids.iter().peekable();
         for (id, standing) in (0..).zip(&self.standings) {
@@ -114,21 +114,22 @@ impl BeamAdder {
         self.standings.truncate(ids.len());
     }
 
-    /// Returns the sums, now that the tree does not grow any more.
+    /// Returns the sums. The tree must not grow any more.
     pub fn finish(&self, beams: &Beams) -> BeamSums {
         let left = (0..).zip(&self.standings).filter(|(_, standing)| standing.is_left_undecided());
         let undecided = left.fold(self.undecided, |area, (id, _)| area + beams.get(id).area);
         BeamSums { undecided: undecided * self.share, unresolved: beams.unresolved(), ..self.sums.clone() }
     }
 
-    /// Returns how the beams stand that were kept.
+    /// Returns the standings of the beams that were kept.
     pub fn into_standings(self) -> Vec<Standing> {
         self.standings
     }
 }
 
 impl Standing {
-    /// Whether the strongest exit seen through the whole beam is not certain and no later beam says more.
+    /// Returns whether the strongest exit seen through the whole beam is not certain and no later beam will decide
+    /// it.
     fn is_left_undecided(&self) -> bool {
         !self.strongest.is_decided && !self.is_parted
     }

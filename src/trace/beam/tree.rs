@@ -16,51 +16,51 @@ pub(super) const NO_EXIT: u32 = u32::MAX;
 pub(super) struct BeamNode {
     pub parent: u32,
     pub facet: u32,
-    /// The index of the first corner in [`Beams::corners`], and the number of corners. A beam that lands as a whole shares
-    /// them with the one that it came from.
+    /// The index of the first corner in [`Beams::corners`], and the number of corners. A beam that lands as a whole
+    /// shares its corners with its parent.
     pub corners: (u32, u32),
     /// The outline's area.
     pub area: f64,
-    /// Weight of the light that goes on, without absorption.
+    /// The weight of the light that goes on, without absorption.
     pub onward: f64,
-    /// Length of the path inside the stone up to here, over the image.
+    /// The length of the path inside the stone up to here, over the image.
     pub path: Affine,
     /// The index in [`Beams::exits`], or [`NO_EXIT`].
     pub exit: u32,
-    /// Whether the light that goes on was left unresolved.
+    /// True where the light that goes on was left unresolved.
     pub open: bool,
 }
 
 /// The light that leaves where a beam ends.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BeamExit {
-    /// Unit direction.
+    /// The unit direction.
     pub direction: DVec3,
-    /// Weight without absorption.
+    /// The weight without absorption.
     pub weight: f64,
 }
 
-/// What absorption takes from a beam.
+/// The light that absorption takes from a beam.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BeamLoss {
-    /// The share that absorption has left up to here, mean over the outline.
+    /// The share that absorption has left up to here, as the mean over the outline.
     pub transmittance: f64,
-    /// Energy (weight times image area) absorbed between the facet before and this one.
+    /// The energy (weight times image area) absorbed between the facet before and this one.
     pub absorbed: f64,
 }
 
 impl BeamLoss {
-    /// The loss of all beams where nothing absorbs.
+    /// The loss of a beam where nothing absorbs.
     pub const NONE: Self = Self { transmittance: 1.0, absorbed: 0.0 };
 }
 
-/// Beams that are to be added to a tree. All numbers go on from those of that tree.
+/// Beams that are to be added to a tree. Their numbers continue those of the tree.
 #[derive(Default)]
 pub(super) struct NewBeams {
     pub nodes: Vec<BeamNode>,
     pub corners: Vec<DVec2>,
     pub exits: Vec<BeamExit>,
-    /// One for each node, or none where nothing absorbs.
+    /// One loss for each node; empty where nothing absorbs.
     pub losses: Vec<BeamLoss>,
 }
 
@@ -88,16 +88,16 @@ pub struct Beams {
     pub symmetry: Symmetry,
     /// The stone's medium.
     pub medium: Medium,
-    /// Whether polarisation was followed.
+    /// True where polarisation was followed.
     pub polarised: bool,
-    /// Area of the whole silhouette.
+    /// The area of the whole silhouette.
     pub silhouette_area: f64,
-    /// Energy of one domain lost in slivers too small to follow; it counts as unresolved.
+    /// The energy of one domain lost in slivers that are too small to follow; it counts as unresolved.
     pub(super) dropped: f64,
     pub(super) nodes: Blocks<BeamNode>,
     pub(super) corners: Vec<DVec2>,
     pub(super) exits: Vec<BeamExit>,
-    /// One for each node, or none where nothing absorbs.
+    /// One loss for each node; empty where nothing absorbs.
     pub(super) losses: Blocks<BeamLoss>,
 }
 
@@ -118,29 +118,30 @@ pub struct Beam<'a> {
     pub parent: Option<u32>,
     /// The facet on which the beam ends; for a beam that enters, the facet by which it enters.
     pub facet: u32,
-    /// Outline in the image, convex, counter-clockwise.
+    /// The outline in the image, convex and counter-clockwise.
     pub outline: &'a [DVec2],
     /// The outline's area.
     pub area: f64,
-    /// Unit direction, in the stone's frame, of the light that leaves here, followed from the eye; for a beam that enters,
-    /// of the surface's glare. Zero under total reflection.
+    /// The unit direction, in the stone's frame, of the light that leaves here, followed from the eye; for a beam
+    /// that enters, that of the surface's glare. It is zero under total reflection.
     pub exit: DVec3,
-    /// The share of the light from the exit direction that reaches the eye, mean over the outline; 0 under total reflection.
+    /// The share of the light from the exit direction that reaches the eye, as the mean over the outline; 0 under
+    /// total reflection.
     pub weight: f64,
-    /// The share of the light that goes on inside from here, mean over the outline.
+    /// The share of the light that goes on inside from here, as the mean over the outline.
     pub onward: f64,
-    /// Whether the light that goes on was left unresolved.
+    /// True where the light that goes on was left unresolved.
     pub open: bool,
-    /// Length of the path inside the stone up to here, in girdle radii, over the image.
+    /// The length of the path inside the stone up to here, in girdle radii, over the image.
     pub path: Affine,
-    /// The share that absorption has left up to here, mean over the outline; `weight` and `onward` contain it.
+    /// The share that absorption has left up to here, as the mean over the outline; `weight` and `onward` include it.
     pub transmittance: f64,
-    /// Energy absorbed between the facet before and this one.
+    /// The energy absorbed between the facet before and this one.
     pub absorbed: f64,
 }
 
 impl Beam<'_> {
-    /// Whether light enters the stone here; then `weight` is the glare of the surface.
+    /// Returns whether light enters the stone here; `weight` is then the glare of the surface.
     pub fn is_surface(&self) -> bool {
         self.parent.is_none()
     }
@@ -152,7 +153,7 @@ impl Beams {
         self.nodes.len()
     }
 
-    /// Whether there are no beams, which never happens with a stone.
+    /// Returns whether there are no beams, which never happens with a stone.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
@@ -191,8 +192,8 @@ impl Beams {
         if self.losses.is_empty() { BeamLoss::NONE } else { self.losses[id] }
     }
 
-    /// Adds beams whose numbers go on from a former state of this tree, when it had as many beams, corners and exits as
-    /// `base` says. Returns by how much the ids of the beams have changed.
+    /// Adds beams whose numbers continue those of a former state of this tree; `base` holds the numbers of beams,
+    /// corners and exits in that state. Returns the difference between the new ids and those numbers.
     pub(super) fn extend(&mut self, new: &mut NewBeams, base: TreeSize) -> u32 {
         let (old, moved) = (self.size(), |number: &mut u32, base: u32, now: u32| {
             *number += if *number >= base && *number != u32::MAX { now - base } else { 0 };
@@ -209,8 +210,8 @@ impl Beams {
         old.nodes - base.nodes
     }
 
-    /// Drops all beams but these, which have not been followed, and numbers them anew. Their ids ascend. They have no parent
-    /// and no exit any more.
+    /// Drops all beams except these, which have not been followed, and numbers them anew. Their ids must ascend. They
+    /// lose their parents and exits.
     pub(super) fn keep(&mut self, ids: &[u32]) {
         self.nodes.keep(ids);
         if !self.losses.is_empty() {

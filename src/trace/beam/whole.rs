@@ -1,8 +1,9 @@
-//! Tells whether a beam lands as a whole on one facet: most do. All neighbours of the facet are tried side by side.
+//! Decides whether a beam lands as a whole on one facet, as most beams do. All neighbours of the facet are tried side
+//! by side.
 //!
-//! What the processor can do is found out when the program runs. Closures would not be compiled for it, so there are none;
-//! with them this took twice as long as corner by corner. Sums are not fused, so that the answer does not depend on
-//! the processor.
+//! The processor's abilities are detected when the program runs. The code has no closures, because closures would not
+//! be compiled for the wider instructions; with them it took twice as long as a search corner by corner. Sums are not
+//! fused, so that the result does not depend on the processor.
 
 use super::split::{GRAZING, Ray, SAME};
 use crate::math::{Affine, Plane, Polytope};
@@ -13,13 +14,13 @@ use pulp::{Arch, Simd, WithSimd};
 /// The most planes that any processor tries at once.
 const WIDEST: usize = 8;
 
-/// The planes around each facet, coordinate by coordinate, filled up to whole rows with the zero normal, toward which no
-/// ray runs.
+/// The planes around each facet, coordinate by coordinate. Whole rows are filled up with zero normals, toward which
+/// no ray runs.
 #[derive(Debug, Clone)]
 pub(super) struct FacetNeighbours {
     normal: [Vec<f64>; 3],
     offset: Vec<f64>,
-    /// For each facet, the first of the planes around it, and their number.
+    /// For each facet, the place of the first of the planes around it, and their number.
     of: Vec<(usize, usize)>,
     arch: Arch,
 }
@@ -32,7 +33,7 @@ pub(super) struct Candidate<'a> {
     /// The centre of the outline, in the image.
     pub centre: DVec2,
     pub facet: u32,
-    /// Distance to the facet, over the image.
+    /// The distance to the facet, over the image.
     pub distance: Affine,
     /// Half the extent of the largest image of the stone.
     pub extent: f64,
@@ -56,7 +57,7 @@ impl FacetNeighbours {
         }
     }
 
-    /// Whether the facet is the nearest at the beam's centre, and no neighbour of it is nearer at any corner.
+    /// Returns whether the facet is the nearest at the beam's centre, and no neighbour of it is nearer at any corner.
     pub fn hold(&self, candidate: Candidate) -> bool {
         self.arch.dispatch(Hold { around: self, candidate })
     }
@@ -134,7 +135,7 @@ fn range<S: Simd>(simd: S, functions: Vec3s<S>, points: &[DVec2]) -> (S::f64s, S
     (least, most)
 }
 
-/// Does what [`Affine::magnitude`] does to several functions at once.
+/// Computes [`Affine::magnitude`] for several functions at once.
 #[inline(always)]
 fn magnitudes<S: Simd>(simd: S, [constant, x, y]: Vec3s<S>, extent: S::f64s) -> S::f64s {
     let slope = simd.add_f64s(simd.abs_f64s(x), simd.abs_f64s(y));

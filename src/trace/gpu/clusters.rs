@@ -14,8 +14,8 @@ pub(super) fn clusters(planes: &[Plane]) -> (Vec<u32>, Vec<Cluster>) {
     (order, clusters)
 }
 
-/// Halves planes at the median of a coordinate, until a cluster is small. The coordinate, of normal and offset, is the one
-/// that spreads most.
+/// Halves planes at the median of one number until a cluster is small. The number is the coordinate of the normal, or
+/// the offset, that spreads most.
 fn gather(planes: &[Plane], order: &mut [u32], first: usize, clusters: &mut Vec<Cluster>) {
     let place = |k: u32| {
         let Plane { normal, offset } = planes[k as usize];
@@ -44,7 +44,7 @@ fn cluster(planes: &[Plane], order: &[u32], first: usize) -> Cluster {
     let offset = own().map(|p| p.offset).sum::<f64>() / count;
     let spread = own().map(|p| p.normal.distance(normal)).fold(0.0, f64::max);
     let depth = own().map(|p| (p.offset - offset).abs()).fold(0.0, f64::max);
-    // Widened a little, as bounds must hold in f32 too.
+    // Bounds are widened slightly, because they must hold in f32 too.
     let wide = |x: f64| (x * (1.0 + 1e-6) + 1e-6) as f32;
     Cluster {
         middle: [normal.x as f32, normal.y as f32, normal.z as f32, offset as f32],

@@ -1,16 +1,16 @@
-//! Opens a graphics card, and says what can go wrong with one.
+//! Opens a graphics card, and defines the errors of one.
 
 use super::shaders::{Pipelines, ShaderTask};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
-/// Why the graphics card cannot do the work; point rays on the processor can do it instead.
+/// The reason why the graphics card cannot do the work; point rays on the processor can do it instead.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum GpuError {
     /// There is no card, or no driver that can compute.
     #[error("no graphics card that can compute was found ({0}); its Vulkan driver may be missing")]
     NoAdapter(String),
-    /// The driver refuses a device with the least limits that are needed.
+    /// The driver refuses a device with the least limits that the program needs.
     #[error("{name} is too old or its driver too limited ({why})")]
     TooLimited {
         /// The card's name.
@@ -35,7 +35,7 @@ pub enum GpuError {
         why: String,
     },
     /// There are more stones than the card has room for.
-    #[error("the scene has {count} stones, the graphics card takes {most}")]
+    #[error("the scene has {count} stones, but the graphics card takes at most {most}")]
     TooManyStones {
         /// The number of stones.
         count: usize,
@@ -44,7 +44,7 @@ pub enum GpuError {
     },
     /// There are more triangles than the card has room for.
     #[error(
-        "stones and metal have {count} triangles (of metal, each counts twice), the graphics card takes {most}"
+        "stones and metal have {count} triangles (those of metal count twice), but the graphics card takes at most {most}"
     )]
     TooManyTriangles {
         /// The number of triangles.
@@ -53,7 +53,7 @@ pub enum GpuError {
         most: usize,
     },
     /// There are more bodies of metal than the card has room for.
-    #[error("the scene has {count} bodies of metal, the graphics card takes {most}")]
+    #[error("the scene has {count} bodies of metal, but the graphics card takes at most {most}")]
     TooManyMetals {
         /// The number of bodies of metal.
         count: usize,
@@ -61,7 +61,7 @@ pub enum GpuError {
         most: usize,
     },
     /// The metal has more kinds of roughness than the card has room for.
-    #[error("the metal has {count} kinds of roughness, the graphics card takes {most}")]
+    #[error("the metal has {count} kinds of roughness, but the graphics card takes at most {most}")]
     TooManyRoughnesses {
         /// The number of kinds.
         count: usize,
@@ -69,7 +69,9 @@ pub enum GpuError {
         most: usize,
     },
     /// Smooth solids stand beside others in one picture.
-    #[error("the scene has glass beside stones, the graphics card takes one kind at a time")]
+    #[error(
+        "the scene has glass shapes beside stones, but the graphics card takes only one of these kinds at a time"
+    )]
     MixedKinds,
     /// A software driver would follow too few bounces.
     #[error("{name} follows only {bounces} bounces of light in a scene of so many facets (stones: {stones})")]
@@ -82,10 +84,10 @@ pub enum GpuError {
         stones: usize,
     },
     /// There is no stone and no metal.
-    #[error("the scene has no stone and no metal, the graphics card takes one or more")]
+    #[error("the scene has no stone and no metal, but the graphics card needs at least one")]
     NoStones,
     /// A sample pass has no wavelength, or more than the card has room for.
-    #[error("a pass has {count} wavelengths, the graphics card takes 1 to {most}")]
+    #[error("a pass has {count} wavelengths, but the graphics card takes 1 to {most}")]
     Wavelengths {
         /// The number of wavelengths.
         count: usize,
@@ -93,7 +95,7 @@ pub enum GpuError {
         most: usize,
     },
     /// The light has more lamps than the card has room for.
-    #[error("the light has {count} lamps, the graphics card takes {most}")]
+    #[error("the light has {count} lamps, but the graphics card takes at most {most}")]
     TooManyLamps {
         /// The number of lamps.
         count: usize,
@@ -101,7 +103,9 @@ pub enum GpuError {
         most: usize,
     },
     /// The picture behind the stones, or the map of the light, has more pixels each way than the card takes.
-    #[error("a picture around the stones is {width} by {height} pixels large, {name} takes {most} each way")]
+    #[error(
+        "a picture around the stones has {width} by {height} pixels, but {name} takes at most {most} each way"
+    )]
     PictureTooLarge {
         /// The card's name.
         name: String,
@@ -113,7 +117,7 @@ pub enum GpuError {
         most: u32,
     },
     /// The scope has more bands than a pixel has room for.
-    #[error("the scope has {count} bands, the graphics card takes {most}")]
+    #[error("the scope has {count} bands, but the graphics card takes at most {most}")]
     TooManyBands {
         /// The number of the scope's bands.
         count: usize,
@@ -122,7 +126,7 @@ pub enum GpuError {
     },
 }
 
-/// The interface that is not used: OpenGL draws windows where there is nothing better, but its compute shaders are not
+/// The interface that is not used. OpenGL draws windows where nothing better exists, but its compute shaders are not
 /// relied on.
 const UNTRUSTED: wgpu::Backends = wgpu::Backends::GL;
 
@@ -140,20 +144,20 @@ pub struct Gpu {
     fault: Arc<Mutex<Option<Fault>>>,
 }
 
-/// What a card has done since these totals were last taken.
+/// The work that a card has done since these totals were last taken.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DispatchTotals {
     /// The number of dispatches.
     pub count: u32,
-    /// The time of all dispatches, each from its submission to its end, seconds.
+    /// The sum of the times of all dispatches, each from its submission to its end, in seconds.
     pub seconds: f64,
-    /// The time of the longest dispatch, seconds.
+    /// The time of the longest dispatch, in seconds.
     pub longest_s: f64,
-    /// The bytes of pixels that were read and written.
+    /// The number of bytes of pixels that were read and written.
     pub pixel_bytes: u64,
 }
 
-/// What has gone wrong with a card.
+/// A fault of a card.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Fault {
     /// The card's memory ran out; the text is the driver's message.
@@ -173,7 +177,7 @@ impl From<wgpu::Error> for Fault {
 }
 
 impl GpuError {
-    /// Whether the card is lost for all work to come, rather than too small for one piece of work.
+    /// Returns whether the card is lost for all further work, and not only too small for one piece of work.
     pub fn is_lost(&self) -> bool {
         matches!(self, Self::NoAdapter(_) | Self::TooLimited { .. } | Self::Failed { .. })
     }
@@ -183,7 +187,7 @@ impl Gpu {
     /// Opens the strongest card, or a driver that computes in software where there is no card.
     ///
     /// # Errors
-    /// Where there is neither, or it is too limited.
+    /// Fails where neither is found, or where its limits are too low.
     pub fn open() -> Result<Self, GpuError> {
         pollster::block_on(Self::opened())
     }
@@ -205,7 +209,8 @@ impl Gpu {
         Self::of(device, queue, &info)
     }
 
-    /// Returns the description with which to request a device on this adapter, so that it is of use here.
+    /// Returns the description with which a device on this adapter must be requested, so that [`of`](Self::of) can
+    /// use it.
     pub fn wanted(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
         wgpu::DeviceDescriptor {
             label: Some("brillianteer"),
@@ -215,10 +220,10 @@ impl Gpu {
         }
     }
 
-    /// Shares a device that is open already and was requested as [`wanted`](Self::wanted) says.
+    /// Shares a device that is already open and was requested with the description of [`wanted`](Self::wanted).
     ///
     /// # Errors
-    /// Where the interface that drives the device does not compute, or something has gone wrong with the device.
+    /// Fails where the interface that drives the device does not compute, or where the device has already failed.
     pub fn of(device: wgpu::Device, queue: wgpu::Queue, info: &wgpu::AdapterInfo) -> Result<Self, GpuError> {
         if UNTRUSTED.contains(wgpu::Backends::from(info.backend)) {
             let why = format!("{} does not compute", info.backend);
@@ -252,14 +257,15 @@ impl Gpu {
         &self.name
     }
 
-    /// Whether this is a driver that computes on the processor and not a card; point rays in f64 are quicker than that.
+    /// Returns whether this is a driver that computes on the processor and not a card. Point rays in f64 are quicker
+    /// than such a driver.
     pub fn is_software(&self) -> bool {
         self.is_software
     }
 
     /// Creates a buffer with these contents, whose length is a multiple of four bytes.
     pub(super) fn buffer(&self, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
-        // `create_buffer_init` of wgpu would panic where the card's memory has run out.
+        // `create_buffer_init` of wgpu would panic where the card has no memory left.
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
             size: contents.len() as u64,
@@ -270,12 +276,12 @@ impl Gpu {
         buffer
     }
 
-    /// Returns how many invocations at most run in step.
+    /// Returns the greatest number of invocations that run in step.
     pub fn lanes(&self) -> u32 {
         self.lanes
     }
 
-    /// Returns what the card has done since the last call, and begins anew.
+    /// Returns the totals of the card's work since the last call, and resets them.
     pub fn take_totals(&self) -> DispatchTotals {
         std::mem::take(&mut *self.dispatches.lock().unwrap_or_else(PoisonError::into_inner))
     }
@@ -314,12 +320,12 @@ impl Gpu {
     }
 }
 
-/// Keeps the first fault, because later ones are its consequences.
+/// Records the first fault only, because later ones follow from it.
 fn note(noted: &Mutex<Option<Fault>>, fault: Fault) {
     noted.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(fault);
 }
 
-/// Returns a driver's message, which may have several lines, in one.
+/// Returns a driver's message, which may have several lines, in one line.
 fn in_one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -328,7 +334,7 @@ fn in_one_line(text: &str) -> String {
 mod tests {
     use super::*;
 
-    /// A card whose memory runs out at its next piece of work, or whose driver fails.
+    /// Returns a card that runs out of memory at its next piece of work, or whose driver fails there.
     fn faulty(error: impl Fn(wgpu::ErrorSource) -> wgpu::Error) -> Option<Gpu> {
         let gpu = match Gpu::open() {
             Ok(gpu) => gpu,

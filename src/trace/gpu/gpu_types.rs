@@ -2,8 +2,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// Declares a struct, and the text that declares it in WGSL. Its fields are all one number wide or all four numbers wide, so
-/// that Rust and WGSL lay it out alike.
+/// Declares a struct, and the text that declares it in WGSL. Its fields are either all one number wide or all four
+/// numbers wide, so that Rust and WGSL lay them out alike.
 macro_rules! both_sides {
     ($(#[$meta:meta])* $name:ident, $wgsl:ident { $($(#[$doc:meta])* $field:ident: $kind:ident,)* }) => {
         $(#[$meta])*
@@ -28,30 +28,33 @@ macro_rules! both_sides {
 both_sides! {
     /// The parameters of a dispatch, for scopes and for light.
     Frame, FRAME_WGSL {
-        /// x: loop turns that a ray may take where it counts them; y: number of the sample pass; z: number of bodies of metal; w: sixteenths
-        /// of a turn for which one plane counts. It comes first because Mesa's software driver (22.3) writes the first number of a uniform into the shader, and
-        /// compiles that anew at each dispatch where it then has more operations than before, as with a tilted axis.
+        /// x: the most loop turns of a ray, where rays count them; y: the number of the sample pass; z: the number of
+        /// bodies of metal; w: the sixteenths of a turn that one plane counts for. The field comes first because
+        /// Mesa's software driver (22.3) writes the first number of a uniform into the shader, and compiles the
+        /// shader anew at each dispatch where that number allows more operations than before, as with a tilted axis.
         most: vec4u,
-        /// xyz: the image's x axis; w: how far the stones reach from the origin.
+        /// xyz: the image's x axis; w: the reach of the stones from the origin.
         right: vec4f,
         /// xyz: the image's y axis; w: the side of a pixel.
         up: vec4f,
         /// xyz: the axis to the eye; w: the eye's distance, 0 for parallel rays.
         toward: vec4f,
-        /// x: the least weight that is followed; y: beside metal, the weight below which light goes on to another body by chance; zw: where the ray stands in its pixel, or in its cell of the pixel's grid.
+        /// x: the least weight that is followed; y: beside metal, the weight below which light goes on to another
+        /// body by chance; zw: the place of the ray in its pixel, or in its cell of the pixel's grid.
         limits: vec4f,
-        /// x: number of stones; y: number of wavelengths; z: most bounces; w: 1 for polarised light.
+        /// x: the number of stones; y: the number of wavelengths; z: the most bounces; w: 1 for polarised light.
         counts: vec4u,
-        /// x: pixels across; y: pixels down; z: first row of the strip that the buffer holds; w: number of its rows.
+        /// x: pixels across; y: pixels down; z: the first row of the strip that the buffer holds; w: the number of
+        /// its rows.
         film: vec4u,
-        /// x: in scopes the number of the cell in the pixel's grid; y: the cells along each side of a pixel; z: first
-        /// wavelength; w: the one after the last.
+        /// x: in scopes, the number of the cell in the pixel's grid; y: the cells along each side of a pixel; z: the
+        /// first wavelength; w: the one after the last.
         turn: vec4u,
-        /// The strip's tiles of 8 by 8 pixels. x: the first of this dispatch; y: how many it takes; z: the stride by which
-        /// their order goes through the strip; w: the number of all.
+        /// The strip's tiles of 8 by 8 pixels. x: the first tile of this dispatch; y: the number of its tiles; z: the
+        /// stride of their order through the strip; w: the number of all tiles.
         tiles: vec4u,
-        /// x: the share of refraction's turning of light that is followed, 1 for physics; yz: the stretch of a pixel that a ray
-        /// stands for, in image coordinates; w is unused.
+        /// x: the share of refraction's change of direction that is followed, 1 for physics; yz: the stretch of a
+        /// pixel that a ray represents, in image coordinates; w is unused.
         sample: vec4f,
     }
 }
@@ -61,21 +64,22 @@ both_sides! {
     Bands, BANDS_WGSL {
         /// xyz: the scope's axis.
         zenith: vec4f,
-        /// Sines of the elevations at which the four bands after the first begin; 2 where there is none.
+        /// The sines of the elevations at which the four bands after the first begin; 2 where there is none.
         borders_low: vec4f,
-        /// The same of the next four.
+        /// The same for the next four bands.
         borders_high: vec4f,
     }
 }
 
 both_sides! {
-    /// One stone, or body of metal: the ball around it, where its surface is kept, and its pose.
+    /// One stone, or body of metal: the ball around it, the place of its surface in the buffers, and its pose.
     Body, BODY_WGSL {
-        /// xyz: middle in the world of a ball around the stone; w: its radius there.
+        /// xyz: the middle, in the world, of a ball around the stone; w: the ball's radius there.
         middle: vec4f,
-        /// Of planes: the first, the one after the last, the first cluster, the one after the last. Of triangles: the first
-        /// box, and the bits of how far they reach from the frame's origin; of metal also how many triangles after a triangle its
-        /// smooth normals stand, and the number of its finish. Of a glass shape: x is its index among the shapes.
+        /// For planes: the first plane, the one after the last, the first cluster, the one after the last. For
+        /// triangles: the first box, and the bits of the triangles' reach from the frame's origin; for metal also the
+        /// number of triangles between a triangle and its smooth normals, and the number of the finish. For a glass
+        /// shape: x is its index among the shapes.
         range: vec4u,
         /// The unit quaternion that rotates the body's frame into the world.
         turn: vec4f,
@@ -85,15 +89,15 @@ both_sides! {
 }
 
 both_sides! {
-    /// The medium of a stone at one wavelength, as [`crate::scene::Medium`].
+    /// The medium of a stone at one wavelength, as in [`crate::scene::Medium`].
     Medium, MEDIUM_WGSL {
-        /// Refractive index.
+        /// The refractive index.
         index: f32,
-        /// Change of the index over the wavelengths that are taken for one.
+        /// The change of the index over the wavelengths that this one represents.
         spread: f32,
-        /// Absorption coefficient of the ordinary polarisation, per unit of the body's frame.
+        /// The absorption coefficient of the ordinary polarisation, per unit of the body's frame.
         absorption_o: f32,
-        /// Absorption coefficient of the extraordinary polarisation.
+        /// The absorption coefficient of the extraordinary polarisation.
         absorption_e: f32,
     }
 }
@@ -101,14 +105,14 @@ both_sides! {
 both_sides! {
     /// The environment around the stones.
     Environment, ENVIRONMENT_WGSL {
-        /// xyz: the light's x axis; w: side of its map, in texels.
+        /// xyz: the light's x axis; w: the side of its map, in texels.
         right: vec4f,
-        /// xyz: the light's y axis; w: number of lamps.
+        /// xyz: the light's y axis; w: the number of lamps.
         up: vec4f,
-        /// xyz: the light's axis; w: number of the map's last level.
+        /// xyz: the light's axis; w: the number of the map's last level.
         zenith: vec4f,
-        /// x: the backplate's distance behind the origin; y: its width, 0 for none; z: cosine of the half angle of the
-        /// observer's head, above 1 for none; w: least width of the edge of its shadow.
+        /// x: the backplate's distance behind the origin; y: its width, 0 for none; z: the cosine of the half angle
+        /// of the observer's head, above 1 for none; w: the least width of the edge of the head's shadow.
         photo: vec4f,
         /// x: 1 where rays that miss the stones see the environment.
         backdrop: vec4f,
@@ -118,9 +122,9 @@ both_sides! {
 both_sides! {
     /// A small disc of even light.
     Lamp, LAMP_WGSL {
-        /// xyz: unit direction to its middle; w: square of the chord from there to its edge.
+        /// xyz: the unit direction to the lamp's middle; w: the square of the chord from there to its edge.
         toward: vec4f,
-        /// Radiance by channel.
+        /// The radiance by channel.
         radiance: vec4f,
     }
 }
@@ -150,15 +154,16 @@ both_sides! {
 }
 
 both_sides! {
-    /// What a scope records of one pixel: means over its rays. Arrays are by band, in the scope's order.
+    /// The light of one pixel in a scope: means over its rays. Arrays are by band, in the scope's order.
     ScopePixel, SCOPE_PIXEL_WGSL {
-        /// Light from inside the stone.
+        /// The light from inside the stone.
         transmitted: two_vec4f,
-        /// Glare of the outer surface.
+        /// The glare of the outer surface.
         surface: two_vec4f,
-        /// Share of rays whose strongest exit lies in the band.
+        /// The share of rays whose strongest exit lies in the band.
         strongest: two_vec4f,
-        /// x: absorbed; y: unresolved; z: share of rays that hit; w: share of rays with no certain strongest exit.
+        /// x: absorbed; y: unresolved; z: the share of rays that hit the stone; w: the share of rays without a
+        /// certain strongest exit.
         rest: vec4f,
     }
 }
@@ -166,15 +171,17 @@ both_sides! {
 both_sides! {
     /// A cluster: planes of similar normals and offsets.
     Cluster, CLUSTER_WGSL {
-        /// xyz: mean normal; w: mean offset.
+        /// xyz: the mean normal; w: the mean offset.
         middle: vec4f,
-        /// x, y: how far its normals and its offsets lie from these at most; z: first plane; w: number of planes.
+        /// x, y: the largest deviation of its normals and of its offsets from these; z: the first plane; w: the
+        /// number of planes.
         spread: vec4f,
     }
 }
 
 both_sides! {
-    /// A triangle; the fourth numbers of its corners are the normal of its facet. Smooth normals take the places of corners.
+    /// A triangle. The fourth numbers of its corners are the normal of its facet. An entry of smooth normals holds
+    /// them in place of the corners.
     Triangle, TRIANGLE_WGSL {
         /// xyz: first corner; w: the normal's x.
         a: vec4f,
@@ -188,15 +195,16 @@ both_sides! {
 both_sides! {
     /// A glass shape: [`crate::math::ImplicitSurface`] in units of its reach.
     ImplicitSurface, IMPLICIT_SURFACE_WGSL {
-        /// x: half the length of the core; y: radius of the ball that is rolled around it; z: how far the body without its
-        /// wave reaches; w is unused.
+        /// x: half the length of the core; y: the radius of the ball that is rolled around it; z: the reach of the
+        /// body without its wave; w is unused.
         size: vec4f,
-        /// A rectangle's half sides, the radius of the disc rolled around it, and 0; or a triangle's corner at +y, z of its
-        /// apex, and 1.
+        /// For a rectangle: its half sides, the radius of the disc rolled around it, and 0. For a triangle: its
+        /// corner at +y, the z of its apex, and 1.
         outline: vec4f,
-        /// xy: outward unit normal of a triangle's flank at +y; z: the flank's length; w: 1 where there is a wave.
+        /// xy: the outward unit normal of a triangle's flank at +y; z: the flank's length; w: 1 where there is a
+        /// wave.
         flank: vec4f,
-        /// x: the wave's amplitude; y: its waves per unit of length; z: its phase in turns; w is unused.
+        /// x: the wave's amplitude; y: the number of waves per unit of length; z: the phase in turns; w is unused.
         wave: vec4f,
     }
 }
@@ -206,17 +214,18 @@ both_sides! {
     PaneData, PANE_DATA_WGSL {
         /// x, y: pixels across and down; z: samples of the frost, 0 where there is no pane; w: 1 over the background, 0 alone.
         size: vec4u,
-        /// xy: the pane's middle in pixels; z: its shorter side; w is unused.
+        /// xy: the pane's middle in pixels; z: its shorter side in pixels; w is unused.
         place: vec4f,
-        /// xy: half the sides in units of the shorter one; zw: where the rim begins.
+        /// xy: half the sides in units of the shorter one; zw: the places where the rim begins.
         half_level: vec4f,
-        /// xy: the share of the square in the ramps; z: how far the ramps exclude each other; w is unused.
+        /// xy: the share of the square in the ramps; z: the degree to which the ramps exclude each other; w is
+        /// unused.
         round_corner: vec4f,
         /// x: refraction, 0 to 1; y: thickness; z: dispersion, 0 to 1; w: frost, 0 to 1.
         strengths: vec4f,
         /// xyz: unit direction toward the light.
         toward: vec4f,
-        /// xyz: unit direction between those toward the light and the eye.
+        /// xyz: the unit direction half-way between those toward the light and toward the eye.
         between: vec4f,
         /// xyz: the colour of the light.
         colour: vec4f,
@@ -226,10 +235,10 @@ both_sides! {
 both_sides! {
     /// A box around triangles, as [`crate::math::BvhNode`].
     BvhNode, BVH_NODE_WGSL {
-        /// xyz: least coordinates; w: of a box of boxes, how many nodes after it its second half stands; of a box of
+        /// xyz: the least coordinates; w: for a box of boxes, the distance in nodes to its second half; for a box of
         /// triangles, its first triangle.
         low: vec4f,
-        /// xyz: greatest coordinates; w: how many triangles stand directly in it, 0 for a box of boxes.
+        /// xyz: the greatest coordinates; w: the number of triangles directly in the box, 0 for a box of boxes.
         high: vec4f,
     }
 }

@@ -33,17 +33,17 @@ pub struct ByCard<'a> {
 }
 
 impl<'a> ByCard<'a> {
-    /// Returns the most rows that may be prepared at once of a film this many pixels across.
+    /// Returns the most rows that may be prepared at once of a film with this many pixels across.
     pub fn most_rows(across: u32) -> u32 {
-        // They fill a buffer of 64 MiB.
+        // So many rows fill a buffer of 64 MiB.
         ((1 << 21) / across).max(1)
     }
 
-    /// Prepares some rows of a picture, at most [`most_rows`](Self::most_rows), for sample passes of `wavelengths` bands, at
-    /// most [`MOST_WAVELENGTHS`]; `around` is the environment of `lit_scene`.
+    /// Prepares some rows of a picture, at most [`most_rows`](Self::most_rows), for sample passes of `wavelengths`
+    /// bands. There may be at most [`MOST_WAVELENGTHS`] bands; `around` is the environment of `lit_scene`.
     ///
     /// # Errors
-    /// [`GpuError`], where the card has failed or the scene is beyond it.
+    /// Fails with a [`GpuError`] where the card has failed or the scene exceeds its limits.
     pub fn new(
         gpu: &'a Gpu,
         lit_scene: &LitScene,
@@ -63,7 +63,7 @@ impl<'a> ByCard<'a> {
         let finishes = solids.metals.as_ref().map_or(0, GpuMetals::finish_count);
         let bytes = size_of::<gpu_types::Medium>() * wavelengths * (stones.len() + finishes);
         let media = copied("media", bytes, wgpu::BufferUsages::STORAGE);
-        // After the bands comes the response of all of them together.
+        // The response of all bands together follows those of the single bands.
         let bytes = size_of::<Response>() * (MOST_WAVELENGTHS + 1);
         let responses = copied("responses", bytes, wgpu::BufferUsages::UNIFORM);
         let mut entries = solids.entries(&media);
@@ -145,7 +145,7 @@ impl<E: From<Stopped> + From<GpuError>> ProgressiveImage<E> for ByCard<'_> {
     }
 }
 
-/// The environment of a picture in a card's memory: the same for all of its rows.
+/// The environment of a picture in a card's memory. It is the same for all rows of the picture.
 pub struct GpuEnvironment {
     environment: wgpu::Buffer,
     lamps: wgpu::Buffer,
@@ -157,7 +157,7 @@ impl GpuEnvironment {
     /// Copies an environment to the card's memory.
     ///
     /// # Errors
-    /// [`GpuError`], where there are more lamps, or a larger picture, than the card takes.
+    /// Fails with a [`GpuError`] where there are more lamps, or a larger picture, than the card takes.
     pub fn new(gpu: &Gpu, environment: &Environment) -> Result<Self, GpuError> {
         let count = environment.map.lamps.len();
         if count > MOST_LAMPS {
@@ -209,7 +209,7 @@ impl GpuEnvironment {
 
 fn environment_uniform(environment: &Environment, lamps: usize) -> gpu_types::Environment {
     let Environment { map: sky, basis, head, backplate: behind, backdrop, .. } = environment;
-    // Without a head: no direction has so large a cosine.
+    // A cosine of 3 stands for no head, because no direction has so large a cosine.
     let cos_head = if *head > 0.0 { head.cos() } else { 3.0 };
     let (distance, width) = behind.map_or((0.0, 0.0), |b| (b.distance, b.width));
     gpu_types::Environment {
@@ -221,7 +221,7 @@ fn environment_uniform(environment: &Environment, lamps: usize) -> gpu_types::En
     }
 }
 
-/// Creates a texture of four numbers a pixel, with its coarser levels.
+/// Creates a texture with four numbers per pixel, with its coarser levels.
 fn texture(
     gpu: &Gpu,
     (width, height): (u32, u32),

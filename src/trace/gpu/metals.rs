@@ -1,4 +1,5 @@
-//! Packs bodies of metal for the graphics card: where they are, how rough they are, and what each wavelength meets there.
+//! Packs bodies of metal for the graphics card: their places, their roughness, and their reflectance at each
+//! wavelength.
 
 use super::device::{Gpu, GpuError};
 use super::gpu_types::Body;
@@ -13,7 +14,7 @@ use std::sync::Arc;
 
 /// The metal of a picture in a card's memory, without its triangles.
 pub(super) struct GpuMetals {
-    /// The bodies: where their triangles and their finishes are kept, and their poses.
+    /// The bodies: the places of their triangles and finishes in the buffers, and their poses.
     bodies: wgpu::Buffer,
     /// The tables of all kinds of roughness.
     roughnesses: wgpu::Buffer,
@@ -21,11 +22,11 @@ pub(super) struct GpuMetals {
     finishes: Vec<Finish>,
 }
 
-/// A metal of one roughness.
+/// A metal with one roughness.
 struct Finish {
     metal: Metal,
     surface: Arc<Roughness>,
-    /// The number of the table of its roughness.
+    /// The number of the table for its roughness.
     table: usize,
     /// The number of one of the bodies that have this finish.
     body: usize,
@@ -45,7 +46,7 @@ pub(super) fn meshes(metals: &[MetalInstance]) -> (Vec<&ShadedMesh>, Vec<usize>)
 }
 
 impl GpuMetals {
-    /// Packs bodies of metal; `ranges` says where the triangles of each are kept, as in [`Body`].
+    /// Packs bodies of metal. `ranges` are the places of each body's triangles in the buffers, as in [`Body`].
     pub fn new(gpu: &Gpu, metals: &[MetalInstance], ranges: &[[u32; 4]]) -> Result<Self, GpuError> {
         if metals.len() > MOST_METALS {
             return Err(GpuError::TooManyMetals { count: metals.len(), most: MOST_METALS });
@@ -81,13 +82,14 @@ impl GpuMetals {
         self.count
     }
 
-    /// Returns the number of metals of one roughness.
+    /// Returns the number of finishes.
     pub fn finish_count(&self) -> usize {
         self.finishes.len()
     }
 
-    /// Returns what each wavelength meets at each finish, one finish after the other, as `sample_metal` in shaders/microfacets.wgsl
-    /// takes it; `indices` are those of the bodies, band by band.
+    /// Returns the numbers of each finish at each wavelength, one finish after the other, in the form that
+    /// `sample_metal` in shaders/microfacets.wgsl takes. `indices` are the complex indices of the bodies, band by
+    /// band.
     pub fn finishes(&self, indices: &[Vec<Complex64>]) -> impl Iterator<Item = [f32; 4]> {
         self.finishes.iter().flat_map(|Finish { surface, table, body, .. }| {
             let of_band = |&index: &Complex64| {
@@ -105,7 +107,7 @@ impl GpuMetals {
     }
 }
 
-/// Returns each metal of one roughness once, and the place of each body's among them.
+/// Returns each finish once, and the place of each body's finish among them.
 fn finishes(metals: &[MetalInstance]) -> (Vec<Finish>, Vec<usize>) {
     let mut finishes: Vec<Finish> = vec![];
     let mut tables: Vec<u64> = vec![];

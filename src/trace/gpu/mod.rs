@@ -1,7 +1,7 @@
 //! Point rays on a graphics card: the chain of bounces of [`ray`](super::ray) in WGSL, quick and in f32.
 //!
-//! Everything that can be edited (facets, medium, view, scope) is data in a buffer: each shader is compiled once, when it is
-//! first used.
+//! Everything that can be edited (facets, medium, view, scope) is data in a buffer, so each shader is compiled only
+//! once, when it is first used.
 
 mod clusters;
 mod device;

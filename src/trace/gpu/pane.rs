@@ -1,4 +1,4 @@
-//! Draws panes of liquid glass on a graphics card: no ray is traced.
+//! Draws panes of liquid glass on a graphics card. No ray is traced.
 
 use super::device::{Gpu, GpuError};
 use super::gpu_types::{PANE_DATA_WGSL, PaneData};
@@ -8,7 +8,8 @@ use wgpu::BufferUsages;
 /// Side of the square of pixels that one workgroup draws.
 const TILE: u32 = 8;
 
-/// A background in a card's memory, and room for pictures of panes in front of it. The shader is compiled once for all.
+/// A background in a card's memory, and a buffer for pictures of panes in front of it. The shader is compiled once
+/// for all panes.
 pub struct PaneStage<'a> {
     gpu: &'a Gpu,
     size: [u32; 2],
@@ -24,10 +25,10 @@ pub(super) fn pane_source() -> String {
 }
 
 impl<'a> PaneStage<'a> {
-    /// Copies a background of this size to the card; pixels that are missing count as dark.
+    /// Copies a background of this size to the card; pixels missing from the list count as dark.
     ///
     /// # Errors
-    /// [`GpuError`], where the picture is too large for the card, or the card has failed.
+    /// Fails with a [`GpuError`] where the picture is too large for the card, or the card has failed.
     pub fn new(gpu: &'a Gpu, size: [u32; 2], background: &[[f32; 3]]) -> Result<Self, GpuError> {
         let [width, height] = size;
         let bytes = 16 * u64::from(width) * u64::from(height);
@@ -66,10 +67,10 @@ impl<'a> PaneStage<'a> {
         Ok(Self { gpu, size, data, drawn, back, bound })
     }
 
-    /// Draws a pane and waits until it is drawn. The picture stays on the card.
+    /// Draws a pane and waits until the card has finished. The picture stays on the card.
     ///
     /// # Errors
-    /// [`GpuError`], where the card has failed.
+    /// Fails with a [`GpuError`] where the card has failed.
     pub fn draw(&self, pane: &PaneData) -> Result<(), GpuError> {
         let pipeline = self.gpu.panes.get_or_init(|| compiled(&self.gpu.device, pane_source()));
         let [width, height] = self.size;
@@ -86,10 +87,10 @@ impl<'a> PaneStage<'a> {
         self.gpu.wait()
     }
 
-    /// Reads the picture that was drawn last: red, green, blue and cover, premultiplied, row by row.
+    /// Reads the picture that was drawn last: red, green, blue and cover of each pixel, premultiplied, row by row.
     ///
     /// # Errors
-    /// [`GpuError`], where the card has failed.
+    /// Fails with a [`GpuError`] where the card has failed.
     pub fn read(&self) -> Result<Vec<[f32; 4]>, GpuError> {
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         encoder.copy_buffer_to_buffer(&self.drawn, 0, &self.back, 0, self.back.size());

@@ -1,5 +1,5 @@
-//! Tests of the shaders against their twins in Rust: without a card, that they are valid; with one, that both give the same
-//! numbers.
+//! Tests of the shaders against their twins in Rust. Without a card, they check that the shaders are valid; with one,
+//! that both give the same numbers.
 
 mod glass;
 mod lamps;
@@ -73,16 +73,16 @@ fn the_shaders_that_measure_a_card_or_draw_panes_are_valid() {
 fn a_cards_peak_is_beyond_what_a_tenth_of_a_core_does() {
     let Some(gpu) = card("a_cards_peak_is_beyond_what_a_tenth_of_a_core_does") else { return };
     let peak = gpu.peak().unwrap();
-    // Above these bounds a compiler has left the work out.
+    // Above these bounds, a compiler has optimised the work away.
     assert!((1e8..1e15).contains(&peak.flops), "{peak:?}");
     assert!((1e7..1e14).contains(&peak.bytes_per_second), "{peak:?}");
     assert!(peak.launch_s > 0.0 && peak.launch_s < 1.0, "{peak:?}");
-    // Nothing of this is a picture.
+    // No dispatch of these measurements belongs to a picture.
     assert_eq!(gpu.take_totals().count, 0);
 }
 
-/// A shader that takes rays which meet a surface, as (cos_i, eta, turn of the axes, unused), and returns all that the optics
-/// make of each.
+/// A shader that takes rays at a surface, as (cos_i, eta, turn of the axes, unused), and returns all results of the
+/// optics for each.
 const MEETING_WGSL: &str = "
 @group(0) @binding(0) var<storage, read> given: array<vec4f>;
 @group(0) @binding(1) var<storage, read_write> found: array<array<vec4f, 7>>;
@@ -114,7 +114,7 @@ fn meeting(@builtin(global_invocation_id) id: vec3u) {
 }
 ";
 
-/// Computes the same in f64, with the coherency matrix as J J† of fields, written out anew.
+/// Computes the same in f64, with the coherency matrix as J J† of fields, written out independently.
 fn meeting(cos_i: f64, eta: f64, turn: f64) -> [[f64; 4]; 7] {
     let f = fresnel(cos_i, eta);
     let (d, n) = (DVec3::new((1.0 - cos_i * cos_i).max(0.0).sqrt(), 0.0, -cos_i), DVec3::Z);
@@ -153,15 +153,15 @@ fn the_shaders_optics_are_those_of_the_library() {
         (0..6000).map(|k| [(k / 6) as f32 / 999.0, etas[k % 6], 0.001 * k as f32, 0.0]).collect();
     let text = include_str!("../../../shaders/optics.wgsl").to_owned() + MEETING_WGSL;
     let found = run(&gpu, text, &given, None);
-    // The tolerance is what the root of 1e-3 loses in f32.
+    // The tolerance is the error of the root of 1e-3 in f32.
     let (count, largest) = compared(&given, &found, 1.0);
     assert!(count > 5900 && largest < 5e-5, "{count} compared, off by {largest:e}");
     let mutant = compared(&given, &found, 1.001).1;
     assert!(mutant > 1e-3, "another index makes only {mutant:e}");
 }
 
-/// Compares the card's results with the exact ones at `factor` times the index: returns how many were compared, and the
-/// largest difference.
+/// Compares the card's results with the exact ones at `factor` times the index. Returns the number of comparisons and
+/// the largest difference.
 fn compared(given: &[[f32; 4]], found: &[[[f32; 4]; 7]], factor: f64) -> (u32, f64) {
     let (mut compared, mut largest) = (0, 0.0_f64);
     for (given, found) in given.iter().zip(found) {
@@ -174,7 +174,7 @@ fn compared(given: &[[f32; 4]], found: &[[[f32; 4]; 7]], factor: f64) -> (u32, f
         }
         let exact = meeting(cos_i, eta, turn);
         let both = found.iter().flatten().zip(exact.iter().flatten()).enumerate();
-        // Where reflection is total no ray is refracted, and the numbers in its place mean nothing.
+        // Where reflection is total no ray is refracted, and the numbers for one are undefined.
         let meant = both.filter(|(k, _)| squared > 0.0 || !((8..11).contains(k) || (20..23).contains(k)));
         largest = meant.map(|(_, (a, b))| (f64::from(*a) - b).abs()).fold(largest, f64::max);
         compared += 1;
@@ -182,7 +182,7 @@ fn compared(given: &[[f32; 4]], found: &[[[f32; 4]; 7]], factor: f64) -> (u32, f
     (compared, largest)
 }
 
-/// Opens the card. Where there is none it reports that the test is skipped, or panics where a card is required.
+/// Opens the card. Where there is none, it reports that the test is skipped, or panics if a card is required.
 pub(super) fn card(test: &str) -> Option<Gpu> {
     match Gpu::open() {
         Ok(gpu) => Some(gpu),
@@ -194,7 +194,8 @@ pub(super) fn card(test: &str) -> Option<Gpu> {
     }
 }
 
-/// Runs a shader of one entry point on each four numbers, with other data where it needs some, and returns its results.
+/// Runs a shader with one entry point on each set of four numbers, with other data where it needs them, and returns
+/// its results.
 fn run<T: bytemuck::Pod>(gpu: &Gpu, text: String, given: &[[f32; 4]], other: Option<&[u8]>) -> Vec<T> {
     let device = &gpu.device;
     let pipeline = compiled(device, text);

@@ -1,31 +1,31 @@
-//! Measures what a graphics card computes and reads at most, which `bench` compares its pictures with.
+//! Measures the peak computing and reading speeds of a graphics card, with which `bench` compares its pictures.
 
 use super::device::{Gpu, GpuError};
 use super::shaders::compiled;
 use std::time::Instant;
 
-/// The time that a dispatch should take to be measured well, seconds.
+/// The time that a dispatch should take to be measured well, in seconds.
 const LONG_ENOUGH_S: f64 = 0.02;
 
-/// The number of dispatches of which the quickest counts.
+/// The number of dispatches, of which the quickest counts.
 const TRIES: usize = 5;
 
-/// The invocations of a workgroup.
+/// The number of invocations in a workgroup.
 const GROUP: u32 = 64;
 
-/// The turns of the loop that computes; software drivers end loops after 65,535.
+/// The number of turns of the loop that computes; software drivers end loops after 65,535 turns.
 const TURNS: f32 = 2048.0;
 
-/// The operations of f32 in a turn, where a fused multiply-add is two.
+/// The number of f32 operations in a turn, where a fused multiply-add counts as two.
 const FLOPS_PER_TURN: f64 = 128.0;
 
-/// The most workgroups that compute or read, and the most turns that read.
+/// The most workgroups that compute, the number of workgroups that read, and the most turns that read.
 const MOST_GROUPS: u32 = 1 << 14;
 const MEMORY_GROUPS: u32 = 1 << 12;
 const MOST_MEMORY_TURNS: u32 = 1 << 8;
 
-/// The reads of a turn in `peak_memory.wgsl`, 16 bytes each: all invocations together read 112 MiB, which is less than the
-/// 128 MiB that all cards take.
+/// The number of reads in a turn of `peak_memory.wgsl`, 16 bytes each. All invocations together read 112 MiB, which
+/// is less than the 128 MiB that all cards take.
 const READS: u64 = 28;
 
 /// The text of the shader that computes.
@@ -34,14 +34,14 @@ pub(super) const ARITHMETIC_WGSL: &str = include_str!("../../../shaders/peak_ari
 /// The text of the shader that reads.
 pub(super) const MEMORY_WGSL: &str = include_str!("../../../shaders/peak_memory.wgsl");
 
-/// What a card does at most, as measured.
+/// The measured peak speeds of a card.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CardPeak {
-    /// Operations of f32 per second, where a fused multiply-add is two.
+    /// The number of f32 operations per second, where a fused multiply-add counts as two.
     pub flops: f64,
-    /// Bytes read from the card's memory per second.
+    /// The number of bytes read from the card's memory per second.
     pub bytes_per_second: f64,
-    /// The time of a dispatch with hardly any work, from its submission to its end, seconds.
+    /// The time of a dispatch with hardly any work, from its submission to its end, in seconds.
     pub launch_s: f64,
 }
 
@@ -57,7 +57,7 @@ impl Gpu {
     /// Measures the card, in less than a second.
     ///
     /// # Errors
-    /// [`GpuError`], where the card has failed or its memory is too small.
+    /// Fails with a [`GpuError`] where the card has failed or its memory is too small.
     pub fn peak(&self) -> Result<CardPeak, GpuError> {
         let arithmetic = Bout::new(self, ARITHMETIC_WGSL, MOST_GROUPS, None)?;
         let launch_s = arithmetic.quickest(1, 1.0)?;
@@ -81,7 +81,7 @@ impl Gpu {
 }
 
 impl<'a> Bout<'a> {
-    /// Compiles a shader, for up to `groups` workgroups that read a buffer of so many bytes.
+    /// Compiles a shader for up to `groups` workgroups, which read a buffer of `bytes` bytes where it is given.
     fn new(gpu: &'a Gpu, text: &str, groups: u32, bytes: Option<u64>) -> Result<Self, GpuError> {
         let pipeline = compiled(&gpu.device, text.to_owned());
         let buffer = |size| {
@@ -133,7 +133,7 @@ impl<'a> Bout<'a> {
         Ok(start.elapsed().as_secs_f64().max(1e-9))
     }
 
-    /// Runs the shader some times and returns the shortest time.
+    /// Runs the shader several times and returns the shortest time.
     fn quickest(&self, groups: u32, turns: f32) -> Result<f64, GpuError> {
         (0..TRIES).try_fold(f64::INFINITY, |least, _| Ok(self.seconds(groups, turns)?.min(least)))
     }

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-/// The number of tiles that fill any card; only what a dispatch may take beyond them goes into more wavelengths.
+/// The number of tiles that occupy any card fully. A dispatch that may take more work takes more wavelengths only
+/// beyond that number.
 const FULL: u64 = 4096;
 
 /// The work of one dispatch: some tiles of pixels, in some bands of wavelengths each.
@@ -12,7 +13,7 @@ pub(super) struct Piece {
     pub bands: Range<u32>,
 }
 
-/// The work that is left of a strip. Each tile gets its bands in rising order, however the work is divided.
+/// The work that is left of a strip. Each tile gets its bands in ascending order, however the work is divided.
 pub(super) struct Pieces {
     waiting: Vec<Piece>,
     bands_at_once: u32,
@@ -27,7 +28,8 @@ impl Pieces {
         }
     }
 
-    /// Takes the next piece, of at most `most` times one tile in one band, but at least that; `None` when all is done.
+    /// Takes the next piece. Its size is at most `most`, counted in tiles times bands, but at least 1. `None` when
+    /// all work is done.
     pub fn next(&mut self, most: f64) -> Option<Piece> {
         let Piece { tiles, bands } = self.waiting.pop().filter(|all| all.size() > 0)?;
         let (most, all) = ((most as u64).max(1), u64::from(tiles.end - tiles.start));
@@ -58,9 +60,9 @@ fn even(all: u64, most: u64) -> u32 {
     all.div_ceil(all.div_ceil(most)) as u32
 }
 
-/// Returns a number that shares no divisor with `count` and is, where the product of the two fits into 32 bits, about 0.618
-/// of it. Its multiples, modulo `count`, are all numbers below `count`, and any row of them is spread evenly: so each dispatch
-/// takes tiles from everywhere in the strip and is as heavy as the one before.
+/// Returns a number that shares no divisor with `count` and is about 0.618 of it, where the product of both fits into
+/// 32 bits. Its multiples, modulo `count`, are all numbers below `count`, and successive ones are spread evenly. So
+/// each dispatch takes tiles from everywhere in the strip and is about as heavy as the one before.
 pub(super) fn stride(count: u32) -> u32 {
     let most = f64::from(u32::MAX) / f64::from(count.max(1));
     let golden = (0.618_034 * f64::from(count)).min(most) as u32;

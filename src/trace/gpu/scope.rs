@@ -9,15 +9,15 @@ use crate::math::{Pose, PosedSolid};
 use crate::trace::{ScopeShot, Stopped, Watch};
 use glam::DVec2;
 
-/// The pixels that a strip holds at most, in a buffer of less than the 128 MiB that all cards take.
+/// The most pixels in a strip, whose buffer is smaller than the 128 MiB that all cards take.
 const PIXELS_AT_ONCE: u32 = 1 << 20;
 
 impl Gpu {
-    /// Takes a picture, some rows at a time, from the top: calls `each` with the first row's number and the pixels of whole
-    /// rows.
+    /// Traces a picture some rows at a time, from the top, and calls `each` with the first row's number and the
+    /// pixels of whole rows.
     ///
     /// # Errors
-    /// The error of `each`; [`Stopped`] or a [`GpuError`], turned into the same kind of error.
+    /// Fails with the error of `each`, or with a [`Stopped`] or a [`GpuError`] converted to its type.
     pub fn scope<E: From<Stopped> + From<GpuError>>(
         &self,
         shot: &ScopeShot,
@@ -45,7 +45,7 @@ impl Gpu {
     }
 }
 
-/// Returns the place of a ray in its cell, shifted to the film's centre, and how far the centre's shift is in pixels.
+/// Returns the place of a ray in its cell, shifted to the film's centre, and the shift of that centre in pixels.
 fn shifts(shot: &ScopeShot) -> (DVec2, DVec2) {
     let origin = shot.film.shift();
     (shot.shift + origin * f64::from(shot.per_side), origin)

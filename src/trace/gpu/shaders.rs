@@ -1,4 +1,4 @@
-//! The shaders: put together as text, and each compiled when first used.
+//! The shaders, which are put together as text and compiled when first used.
 
 use super::gpu_types;
 use super::limits::{
@@ -31,13 +31,13 @@ impl ShaderSurface {
     /// All variants.
     pub const ALL: [Self; 5] = [Self::Few, Self::Many, Self::Triangles, Self::Smooth, Self::Wavy];
 
-    /// Whether rays count the turns of their loops, so that a limit ends them.
+    /// Returns whether rays count the turns of their loops, so that a limit ends them.
     pub fn count_turns(self) -> bool {
         matches!(self, Self::Triangles | Self::Smooth | Self::Wavy)
     }
 }
 
-/// What a shader records of each pixel.
+/// The quantity that a shader records for each pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ShaderTask {
     /// Energy by the bands of a scope.
@@ -52,7 +52,7 @@ pub(super) struct Pipelines {
     by_facets: [[OnceLock<Kernel>; 2]; ShaderSurface::ALL.len()],
 }
 
-/// A compiled shader, and what was learnt of how much work it does in a time.
+/// A compiled shader, and its measured speed.
 pub(super) struct Kernel {
     pub pipeline: wgpu::ComputePipeline,
     throttle: Mutex<Throttle>,
@@ -68,15 +68,15 @@ impl Kernel {
 const BVH: [&str; 3] =
     [gpu_types::TRIANGLE_WGSL, gpu_types::BVH_NODE_WGSL, include_str!("../../../shaders/bvh.wgsl")];
 
-/// What metal under light needs besides [`BVH`].
+/// The parts that metal under light needs in addition to [`BVH`].
 const METAL: [&str; 3] = [
     include_str!("../../../shaders/random.wgsl"),
     include_str!("../../../shaders/microfacets.wgsl"),
     include_str!("../../../shaders/metal.wgsl"),
 ];
 
-/// Returns a shader's text, with its structs and constants in front; `has_metal` says whether metal stands beside the stones, which
-/// only pictures under light know.
+/// Returns a shader's text, with its structs and constants in front. `has_metal` is true where metal stands beside
+/// the stones, which only pictures under light allow.
 pub(super) fn source(facets: ShaderSurface, reading: ShaderTask, has_metal: bool) -> String {
     let constants = constants(has_metal || facets.count_turns());
     let mut parts = vec![
@@ -120,7 +120,7 @@ pub(super) fn source(facets: ShaderSurface, reading: ShaderTask, has_metal: bool
     parts.concat()
 }
 
-/// Returns the constants of the shaders; `counts_turns` says whether rays count the turns of all their loops.
+/// Returns the constants of the shaders. `counts_turns` is true where rays count the turns of all their loops.
 fn constants(counts_turns: bool) -> String {
     format!(
         "const MOST_PLANES: u32 = {MOST_UNIFORM}u;\nconst MOST_BODIES: u32 = {MOST_BODIES}u;\n\
@@ -135,7 +135,7 @@ fn constants(counts_turns: bool) -> String {
     )
 }
 
-/// Returns the texts that know a kind of surface, and where light goes that leaves it.
+/// Returns the texts for a kind of surface, and for the light that leaves it.
 fn surface(facets: ShaderSurface) -> Vec<&'static str> {
     let leaving = include_str!("../../../shaders/leaving.wgsl");
     let flat = include_str!("../../../shaders/flat.wgsl");

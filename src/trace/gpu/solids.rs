@@ -18,27 +18,27 @@ use glam::DVec3;
 /// The number of planes in a stone above which clusters are quicker than trying all planes one after the other.
 const FEW: usize = 192;
 
-/// Loop turns that one ray's search stays below on a software driver: such drivers end a shader's loops after 65,535 turns,
-/// whatever they have done by then.
+/// The limit of the loop turns of one ray's search on a software driver. Such drivers end a shader's loops after
+/// 65,535 turns, even when the work is not complete.
 const MOST_TURNS_IN_SOFTWARE: usize = 60_000;
 
-/// Loop turns after which, on a card, the light of a ray in one wavelength is unresolved where they are counted: some 20 ms
-/// if each waits for memory, so that even the least dispatch is short.
+/// The number of loop turns after which, on a card, the light of a ray in one wavelength counts as unresolved, where
+/// turns are counted. It takes some 20 ms if each turn waits for memory, so that even the smallest dispatch is short.
 const MOST_TURNS: u32 = 1 << 16;
 
-/// The same on a software driver; turns that are not counted fit into the rest.
+/// The same number on a software driver. Turns that are not counted fit into the difference.
 const MOST_COUNTED_IN_SOFTWARE: u32 = 48_000;
 
-/// The cost of looking for the next facet where it is not known by the number of planes, in plane tests.
+/// The cost of a search for the next facet, in plane tests, where the number of planes does not give it.
 const SEARCH: usize = 256;
 
-/// Returns the loop turns that one ray may take in one wavelength where it counts them.
+/// Returns the most loop turns that one ray may take in one wavelength, where it counts them.
 pub(super) fn most_turns(gpu: &Gpu) -> u32 {
     if gpu.is_software() { MOST_COUNTED_IN_SOFTWARE } else { MOST_TURNS }
 }
 
-/// Returns for how many sixteenths of a turn one plane counts, where turns are counted: a software driver counts it as a whole one, and a
-/// card tries many planes while one step among boxes waits for memory.
+/// Returns the sixteenths of a turn that one plane counts for, where turns are counted. A software driver counts each
+/// plane as a whole turn; a card tries many planes in the time in which one step among boxes waits for memory.
 pub(super) fn plane_sixteenths(gpu: &Gpu) -> u32 {
     if gpu.is_software() { 16 } else { 1 }
 }
@@ -52,11 +52,11 @@ pub(super) struct Solids {
     bodies: wgpu::Buffer,
     /// The unit of length in which the shader traces each stone, in units of the stone's body.
     pub units: Vec<f64>,
-    /// `None` where there is no metal.
+    /// The metal; `None` where there is none.
     pub metals: Option<GpuMetals>,
 }
 
-/// The surfaces of bodies, each once however many stones are made of it.
+/// The surfaces of bodies. Each is stored once, however many stones have it.
 pub(super) struct Surfaces {
     pub facets: ShaderSurface,
     /// Planes, or glass shapes; `None` for triangles.
@@ -65,9 +65,9 @@ pub(super) struct Surfaces {
     clusters: Option<wgpu::Buffer>,
     /// The triangles of stones and of metal, and the boxes around them.
     triangles: Option<[wgpu::Buffer; 2]>,
-    /// Where the surface of each body is kept, as in [`Body`].
+    /// The places of each body's surface in these buffers, as in [`Body`].
     ranges: Vec<[u32; 4]>,
-    /// The same of each mesh of metal.
+    /// The places of each mesh of metal, in the same form.
     of_metals: Vec<[u32; 4]>,
     /// The number of planes and clusters of the largest body.
     largest: usize,
@@ -87,21 +87,21 @@ impl Surfaces {
         let surfaces = if let Some(fields) = smooth.collect::<Option<Vec<_>>>().filter(|f| !f.is_empty()) {
             Some(Self::of_fields(gpu, &fields))
         } else {
-            // Clusters and the triangles of metal would need more storage buffers than every card has.
+            // Clusters and the triangles of metal together would need more storage buffers than every card has.
             let convex = solids.iter().map(planes).collect::<Option<Vec<Vec<Plane>>>>();
             convex.filter(|stones| metals.is_empty() || are_few(stones)).map(|s| Self::of_planes(gpu, &s))
         };
         match surfaces {
             Some(surfaces) if metals.is_empty() => Ok(surfaces),
             Some(surfaces) => surfaces.with_triangles(gpu, GpuTriangles::new(&[], metals)?),
-            // All bodies are packed as triangles, convex ones as well.
+            // All bodies are packed as triangles, including convex ones.
             None => {
                 Self::bare(ShaderSurface::Triangles).with_triangles(gpu, GpuTriangles::new(solids, metals)?)
             }
         }
     }
 
-    /// Returns surfaces of a kind without any.
+    /// Returns surfaces of a kind, with empty buffers.
     fn bare(facets: ShaderSurface) -> Self {
         let (ranges, of_metals) = (vec![], vec![]);
         Self { facets, planes: None, clusters: None, triangles: None, ranges, of_metals, largest: 0 }
@@ -156,7 +156,7 @@ impl Surfaces {
     }
 }
 
-/// Whether planes are so few that they fit into the uniform array, and clusters would be slower.
+/// Returns whether there are so few planes that they fit into the uniform array and clusters would be slower.
 fn are_few(stones: &[Vec<Plane>]) -> bool {
     stones.iter().map(Vec::len).sum::<usize>() <= MOST_UNIFORM && stones.iter().all(|s| s.len() <= FEW)
 }
@@ -205,19 +205,19 @@ impl Solids {
         self.metals.as_ref().map_or(0, GpuMetals::count)
     }
 
-    /// Whether rays count the turns of their loops, so that a limit ends them.
+    /// Returns whether rays count the turns of their loops, so that a limit ends them.
     pub fn count_turns(&self) -> bool {
         self.surfaces.facets.count_turns() || self.metals.is_some()
     }
 
-    /// Returns an estimate of the most that a ray through the stones costs in one wavelength, in plane tests.
+    /// Returns an estimate of the greatest cost of a ray through the stones in one wavelength, in plane tests.
     pub fn cost(&self, bounces: u32) -> f64 {
         let search = if self.surfaces.largest > 0 { self.surfaces.largest } else { SEARCH };
         let of_metal = if self.metals.is_some() { SEARCH } else { 0 };
         (1.0 + f64::from(bounces)) * (search * self.count() + of_metal) as f64
     }
 
-    /// Returns how many of the wanted bounces the card can follow.
+    /// Returns the number of bounces that the card can follow, at most `wanted`.
     pub fn bounces(&self, gpu: &Gpu, wanted: u32) -> u32 {
         if !gpu.is_software() || self.count_turns() {
             return wanted;
@@ -225,12 +225,12 @@ impl Solids {
         if self.count() == 1 {
             return wanted.min((MOST_TURNS_IN_SOFTWARE / self.surfaces.largest) as u32);
         }
-        // Every ray that waits is followed like the first, and each exit is looked for in all stones.
+        // Every ray that waits is followed like the first, and each exit is searched for in all stones.
         let turns = MOST_TURNS_IN_SOFTWARE / (1 + MOST_WAITING);
         wanted.min((turns / (self.surfaces.largest * (1 + self.count()))) as u32)
     }
 
-    /// Checks that so many bounces are enough for a picture that wants `wanted` of them.
+    /// Checks that this many bounces are enough for a picture that wants `wanted` of them.
     pub fn enough(&self, gpu: &Gpu, bounces: u32, wanted: u32) -> Result<(), GpuError> {
         if bounces >= LEAST_BOUNCES.min(wanted) || !gpu.is_software() {
             return Ok(());
@@ -255,8 +255,8 @@ impl Solids {
     }
 }
 
-/// Packs what the shader knows of a body: the ball around it, where its surface is kept, and its pose; it is traced in a unit of
-/// `unit` units of its frame.
+/// Packs the data of a body for the shader: the ball around it, the place of its surface in the buffers, and its
+/// pose. The body is traced in a unit of `unit` units of its frame.
 pub(super) fn body((middle, radius): (DVec3, f64), range: [u32; 4], pose: &Pose, unit: f64) -> Body {
     Body {
         middle: with(middle, radius),

@@ -1,4 +1,4 @@
-//! Tests that a picture is the same to the bit however its work is divided into dispatches.
+//! Tests that a picture is the same to the bit, however its work is divided into dispatches.
 
 use super::gpu_types::RadiancePixel;
 use super::parity::card;
@@ -25,8 +25,8 @@ const PASSES: u32 = 2;
 /// The ways to divide work: the throttle that a picture begins with, and the most bands of a dispatch.
 fn divisions() -> [(Throttle, u32); 5] {
     [
-        // All at once; tile by tile and band by band; twice as much each time, with two sets of bands; a part, then tile by
-        // tile.
+        // The ways are: all work at once; tile by tile and band by band; twice as much each time, with two sets of
+        // bands; one part, and then tile by tile.
         (Throttle::new(f64::INFINITY, 1e18), BANDS),
         (Throttle::new(0.0, 1.0), 1),
         (Throttle::new(f64::INFINITY, 1.0), BANDS),
@@ -60,8 +60,8 @@ fn options() -> RayOptions {
     RayOptions { polarised: true, most_bounces: 6, least_weight: 1e-4 }
 }
 
-/// Takes a picture under light, divided in a way, with the first pass at this place in its pixels; returns the bits of its
-/// pixels and the number of dispatches.
+/// Traces a picture under light, divided in one way, with the first pass at this place in its pixels. Returns the
+/// bits of its pixels and the number of dispatches.
 fn lit(
     gpu: &Gpu,
     (scene, surface, map): (&Scene, ShaderSurface, &EnvironmentMap),

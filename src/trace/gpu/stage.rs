@@ -14,17 +14,17 @@ use glam::DVec2;
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-/// Side of a tile, which one workgroup traces, in pixels.
+/// The side of a tile, which one workgroup traces, in pixels.
 const TILE: u32 = 8;
 
-/// What a ray costs that passes the stones by, in plane tests.
+/// The cost of a ray that misses all stones, in plane tests.
 const BESIDE: f64 = 8.0;
 
-/// The view and the film of a picture, and how far its rays are followed.
+/// The view and the film of a picture, and the limits up to which its rays are followed.
 pub(super) struct GpuCamera<'a> {
     pub view: &'a View,
     pub film: Film,
-    /// How far the stones reach from the origin.
+    /// The reach of the stones from the origin.
     pub reach: f64,
     pub options: RayOptions,
 }
@@ -58,7 +58,7 @@ impl GpuCamera<'_> {
 pub(super) struct StripLayer {
     /// The ray's place in its pixel, or in its cell of the pixel's grid.
     pub shift: DVec2,
-    /// How far a film around the origin is shifted to become the picture's, in pixels.
+    /// The shift, in pixels, of the picture's film from a film around the origin.
     pub origin: DVec2,
     /// The number of the cell in the pixel's grid, and the cells along each side of a pixel.
     pub cell: [u32; 2],
@@ -71,7 +71,7 @@ pub(super) struct Stage<'a> {
     pub gpu: &'a Gpu,
     kernel: &'a Kernel,
     pub frame: Frame,
-    /// The most that a ray through the stones costs in one band, in plane tests.
+    /// The greatest cost of a ray through the stones in one band, in plane tests.
     cost: f64,
     /// The most bands of one dispatch.
     pub bands_at_once: u32,
@@ -79,14 +79,14 @@ pub(super) struct Stage<'a> {
     seen: wgpu::Buffer,
     back: wgpu::Buffer,
     bound: wgpu::BindGroup,
-    /// Bytes per pixel.
+    /// The number of bytes per pixel.
     width: u64,
 }
 
 impl<'a> Stage<'a> {
-    /// Creates a stage for up to `rows` rows of the frame's film. `cost` is what a ray through the stones costs at most in
-    /// one band, in plane tests, of which a dispatch takes `bands_at_once`; `entries` are what the shader needs besides frame
-    /// and pixels.
+    /// Creates a stage for up to `rows` rows of the frame's film. `cost` is the greatest cost of a ray through the
+    /// stones in one band, in plane tests, and the most bands of a dispatch. `entries` are the bind group entries of
+    /// the shader besides frame and pixels.
     pub fn new<T: Pod>(
         gpu: &'a Gpu,
         kernel: &'a Kernel,
@@ -119,13 +119,15 @@ impl<'a> Stage<'a> {
             entries: &all,
         });
         let stage = Self { gpu, kernel, frame, cost, bands_at_once, frame_buffer, seen, back, bound, width };
-        // A dispatch without tiles: what was copied arrives, and drivers that compile late do so, before times are measured.
+        // A dispatch without tiles runs first, so that copied data arrive, and drivers that compile late do so,
+        // before times are measured.
         stage.submit(&Frame { tiles: [0, 0, 1, 1], ..frame }, 1)?;
         Ok(stage)
     }
 
-    /// Traces one ray of each pixel in a strip of the film's rows and adds it to the pixels, as many at once as the card was
-    /// measured to trace in a short time. Pixels and bands add up to the same bits however the work is divided.
+    /// Traces one ray of each pixel in a strip of the film's rows and adds it to the pixels. Each dispatch takes as
+    /// much work as the card was measured to do in a short time. The bits of the sums do not depend on how the work
+    /// is divided.
     pub fn trace<E>(&self, strip: &Range<u32>, layer: &StripLayer, watch: Watch) -> Result<(), E>
     where
         E: From<Stopped> + From<GpuError>,
@@ -152,7 +154,7 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// Does one piece of work, of this cost a tile and band.
+    /// Dispatches one piece of work with this cost per tile and band.
     fn dispatch(&self, frame: &Frame, piece: &Piece, cost: f64) -> Result<(), GpuError> {
         let took = self.submit(frame, piece.tiles.len() as u32)?;
         self.kernel.throttle().note(cost * piece.size() as f64, took);
@@ -161,8 +163,8 @@ impl<'a> Stage<'a> {
         Ok(())
     }
 
-    /// Dispatches this many workgroups and returns the time until they end. It waits for that: dispatches that were queued up
-    /// would go on after the watch has asked to stop.
+    /// Dispatches this many workgroups, waits for them and returns their time. It waits because queued dispatches
+    /// would run on after the watch has asked to stop.
     fn submit(&self, frame: &Frame, count: u32) -> Result<Duration, GpuError> {
         self.gpu.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(frame));
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -194,15 +196,15 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// Returns which part of a strip's pixels the ball around all stones covers, about; `origin` is how far the film is shifted,
-/// in pixels.
+/// Returns the approximate part of a strip's pixels that the ball around all stones covers. `origin` is the shift of
+/// the film, in pixels.
 fn covered(frame: &Frame, strip: &Range<u32>, origin: DVec2) -> f64 {
     const LINES: u32 = 64;
     let [across, down] = [frame.film[0], frame.film[1]].map(f64::from);
     let middle = DVec2::new(across, down) / 2.0 - origin;
     let (reach, distance) = (f64::from(frame.right[3]), f64::from(frame.toward[3]));
     let nearness = if distance > 0.0 { (1.0 - (reach / distance).powi(2)).sqrt() } else { 1.0 };
-    // An eye within the ball has it everywhere; then the root is no number.
+    // For an eye inside the ball, the ball is everywhere; the root is then NaN.
     let radius = reach / f64::from(frame.up[3]) / nearness;
     if !radius.is_finite() {
         return 1.0;

@@ -1,25 +1,25 @@
-//! How much work a graphics card is given at once: as much as it was measured to do in a short time. A dispatch that takes
-//! long stops the whole screen, and drivers end one that takes a second or two.
+//! Limits the work of each dispatch to what a graphics card was measured to do in a short time. A long dispatch stops
+//! the whole screen, and drivers end one that takes a second or two.
 
 use std::time::Duration;
 
-/// The time that a dispatch may take before the next is made smaller, seconds. Work that is twice as heavy as the work before
-/// it still ends within a tenth of a second.
+/// The time that a dispatch may take before the next one is made smaller, in seconds. A dispatch of work twice as
+/// heavy as before still ends within a tenth of a second.
 const BUDGET_S: f64 = 0.05;
 
-/// The cost of the first dispatch that a card is ever given, in plane tests: a weak card does 1e9 of them in a second, and
-/// llvmpipe 2e8 on two cores.
+/// The cost of the first dispatch that a card is ever given, in plane tests. A weak card does 1e9 of them in a
+/// second, and llvmpipe 2e8 on two cores.
 const FIRST: f64 = 16e6;
 
 /// The cost below which no dispatch is worth dividing, in plane tests.
 const LEAST: f64 = 1.0;
 
-/// The part of the budget that a picture's first dispatch is meant to take: the picture may be several times as heavy as its
-/// estimate says.
+/// The part of the budget that a picture's first dispatch is meant to take, because the picture may be several times
+/// as heavy as estimated.
 const OPENING: f64 = 0.25;
 
-/// The limit of the work of one dispatch, by the times that dispatches were measured to take. Work is counted in estimated
-/// plane tests: only their proportion from one dispatch to another matters.
+/// The limit of the work of one dispatch, from the measured times of earlier dispatches. Work is counted in estimated
+/// plane tests; only the ratio between dispatches matters.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Throttle {
     budget_s: f64,
@@ -45,18 +45,18 @@ impl Throttle {
         self.most
     }
 
-    /// Begins another picture, or another part of one: it starts from what was learnt, with some care.
+    /// Begins another picture, or another part of one, with a cautious first dispatch by the speed measured so far.
     pub fn open(&mut self) {
         self.most = self.most.min(self.speed * self.budget_s * OPENING).max(LEAST);
     }
 
-    /// Takes in that a dispatch of this much work took this long.
+    /// Records that a dispatch of this much work took this long.
     pub fn note(&mut self, work: f64, took: Duration) {
         let took_s = took.as_secs_f64().max(1e-9);
         self.speed = work / took_s;
         let fits = self.budget_s / took_s;
         if fits < 1.0 {
-            // Half the budget is aimed at, so at least half of the work is left out.
+            // The aim is half the budget, so at least half of the work is left out.
             self.most = self.most.min(work * 0.5 * fits).max(LEAST);
         } else if fits > 2.0 {
             self.most = self.most.max(work * (0.75 * fits).min(2.0));
@@ -69,8 +69,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Gives a device dispatches as large as the throttle allows; `seconds` says how long a dispatch of some work takes.
-    /// Returns the times of the dispatches.
+    /// Dispatches as much work as the throttle allows, `count` times; `seconds` gives the time of a dispatch of some
+    /// work. Returns the times of the dispatches.
     fn times(throttle: &mut Throttle, count: usize, seconds: impl Fn(f64) -> f64) -> Vec<f64> {
         let once = |_| {
             let work = throttle.most();

@@ -43,7 +43,7 @@ impl GpuTriangles {
         Ok(all)
     }
 
-    /// Adds the boxes around triangles that are about to be added, and returns the place of the outermost.
+    /// Adds the boxes around triangles that will be added next, and returns the place of the outermost box.
     fn add_boxes(&mut self, tree: &Bvh) -> u32 {
         let (root, first) = (self.nodes.len() as u32, self.triangles.len());
         self.nodes.extend(tree.nodes().iter().map(|n| node(n, first)));
@@ -79,7 +79,7 @@ fn smooth_normals(mesh: &ShadedMesh, k: u32) -> Triangle {
 
 fn node(node: &math::BvhNode, first_triangle: usize) -> BvhNode {
     let start = node.start as usize + if node.count > 0 { first_triangle } else { 0 };
-    // A box's corners are rounded like the triangles' own, so that no triangle lies outside.
+    // A box's corners are rounded like the corners of its triangles, so that no triangle lies outside.
     BvhNode { low: with(node.low, start as f64), high: with(node.high, f64::from(node.count)) }
 }
 

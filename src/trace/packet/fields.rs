@@ -1,10 +1,11 @@
-//! Glass shapes that packets of rays meet. It is the twin of `math/implicit/roots.rs` in f32, in the same frame and
+//! The glass shapes that packets of rays meet: the twin of `math/implicit/roots.rs` in f32, in the same frame and
 //! unit.
 //!
-//! Along a line the function of a convex shape is convex. Wherever the surface is a plane, a cylinder or a sphere,
-//! the square of the function plus the right radius is a quadratic. The root of this quadratic is tried first. Where
-//! it leads past the surface, into another piece of it, a step along the tangent leads nearer without passing the
-//! surface. A ray leaves where the opposite ray enters, so no ray finds its own start.
+//! Along a line, the function of a convex shape is convex. Where the surface is a plane, a cylinder or a sphere, the
+//! square of the function's value plus its radius is a quadratic function of the distance. The root of that function
+//! is tried first. Where it leads past the surface, into another piece of it, a step along the tangent is taken
+//! instead, which comes nearer without passing the surface. A ray leaves where the opposite ray enters, so no ray
+//! meets its own start.
 //!
 //! A plate with waves is entered as in `roots.rs`. The exit is first sought as if the plate's edges were sharp: its
 //! sides are planes, and the distance of its upper and lower face is a function of one variable with a bounded second

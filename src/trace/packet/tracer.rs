@@ -62,8 +62,8 @@ impl<'a> PacketTracer<'a> {
     /// The number of rays, over all bands, that fit in a processor's cache.
     pub const RAYS_AT_ONCE: usize = 1024;
 
-    /// Prepares the bodies of a scene; `None` where one of them has triangles or frosted facets, or is of
-    /// metal.
+    /// Prepares the bodies of a scene; `None` where one of them has triangles or frosted facets, is of metal, or is
+    /// too far away for single precision.
     pub fn new(lit_scene: LitScene<'a>) -> Option<Self> {
         if !lit_scene.scene.metals.is_empty() || lit_scene.scene.is_frosted() {
             return None;

@@ -5,13 +5,13 @@ use crate::scene::{Projection, View};
 use crate::trace::DispersedRay;
 use glam::{DVec2, DVec3};
 
-/// The camera of a view: says for each image point where its ray begins and in which direction it goes.
+/// The camera of a view, which gives the ray that belongs to each point of the image plane.
 #[derive(Debug, Clone, Copy)]
 pub struct Camera {
     basis: Basis,
-    /// Distance of the eye from the origin; infinite for parallel rays.
+    /// The distance of the eye from the origin; infinite for parallel rays.
     distance: f64,
-    /// How far the stone reaches from the origin.
+    /// The reach of the stone: the distance of its farthest point from the origin.
     reach: f64,
 }
 
@@ -21,7 +21,7 @@ impl Camera {
         Self::reaching(view, solid.into().reach())
     }
 
-    /// Creates the camera of a view of anything that reaches this far from the origin.
+    /// Creates the camera of a view of a body whose farthest point is at this distance from the origin.
     pub fn reaching(view: &View, reach: f64) -> Self {
         let distance = match view.projection {
             Projection::Orthographic => f64::INFINITY,
@@ -30,14 +30,14 @@ impl Camera {
         Self { basis: view.basis(), distance, reach }
     }
 
-    /// Returns half the side of the smallest square around the image's origin that holds the whole stone; `None` where the
-    /// eye is not in front of all of it.
+    /// Returns half the side of the smallest square around the image's origin that holds the whole stone; `None`
+    /// where a part of the stone is not in front of the eye.
     pub fn reach<'a>(&self, solid: impl Into<SolidRef<'a>>) -> Option<f64> {
         self.extent(solid.into().vertices().iter().copied()).map(DVec2::max_element)
     }
 
-    /// Returns half the width and half the height of the smallest rectangle around the image's origin that holds all points;
-    /// `None` where the eye is not in front of all of them.
+    /// Returns half the width and half the height of the smallest rectangle around the image's origin that holds all
+    /// points; `None` where one of them is not in front of the eye.
     pub fn extent(&self, mut points: impl Iterator<Item = DVec3>) -> Option<DVec2> {
         points.try_fold(DVec2::ZERO, |extent, v| {
             let nearness = 1.0 - self.basis.toward.dot(v) / self.distance;
@@ -54,13 +54,14 @@ impl Camera {
             let ray = at - toward * self.distance;
             (ray / ray.length(), ray.length())
         };
-        // The ray begins near the stone: a long way from a far eye would cost the digits of the point where it meets the
-        // stone.
+        // The ray begins near the stone. If it began at a far eye, rounding would take digits of the point where it
+        // meets the stone.
         (at - direction * from_eye.min(2.0 * self.reach + at.length()), direction)
     }
 
-    /// Returns the ray through a point of the image plane as [`ray`](Self::ray) does, with its change where that point moves by
-    /// `by`: to first order, as ray differentials have it (H. Igehy, *Tracing Ray Differentials*, SIGGRAPH 1999).
+    /// Returns the ray through a point of the image plane as [`ray`](Self::ray) does, with its change, to first
+    /// order, when that point moves by `by` (ray differentials: H. Igehy, *Tracing Ray Differentials*, SIGGRAPH
+    /// 1999).
     pub fn ray_along(&self, p: DVec2, by: DVec2) -> DispersedRay {
         let (origin, direction) = self.ray(p);
         let (at, moved) = (self.basis.lift(p), self.basis.lift(by));
@@ -69,12 +70,12 @@ impl Camera {
         }
         let from_eye = (at - self.basis.toward * self.distance).length();
         let fan = (moved - direction * moved.dot(direction)) / from_eye;
-        // The point in the image plane moves by `moved`, the ray's beginning lies before it.
+        // The point in the image plane moves by `moved`; the ray begins before that plane.
         DispersedRay { origin, direction, fan, shift: moved + fan * (origin - at).dot(direction) }
     }
 
-    /// Returns where in the image plane a point is seen, and how much larger things at the point look than things in the
-    /// image plane, which is 1 for parallel rays. `None` where the point is not in front of the eye.
+    /// Returns the image point at which a point is seen, and the magnification there relative to the image plane,
+    /// which is 1 for parallel rays. `None` where the point is not in front of the eye.
     pub fn project(&self, v: DVec3) -> Option<(DVec2, f64)> {
         let nearness = 1.0 - self.basis.toward.dot(v) / self.distance;
         (nearness > 0.0).then(|| (self.basis.project(v) / nearness, 1.0 / nearness))
@@ -89,7 +90,7 @@ impl Camera {
         way / way.length()
     }
 
-    /// Whether the eye is on a plane's outer side.
+    /// Returns whether the eye is on the outer side of a plane.
     pub fn sees(&self, plane: &Plane) -> bool {
         let speed = plane.normal.dot(self.basis.toward);
         // Both sides are divided by the distance, which may be infinite.

@@ -1,11 +1,11 @@
-//! The point where a ray meets a facet, and how that point moves over what the ray stands for.
+//! The point where a ray meets a facet, and the displacement of that point over the range that the ray represents.
 
 use super::facets::FacetSearch;
 use crate::optics::{reflect, reflected_change, refract, refracted_change};
 use crate::trace::DispersedRay;
 use glam::DVec3;
 
-/// The point where a ray meets a facet, and how it changes over what the ray stands for.
+/// The point where a ray meets a facet, with its change over the range that the ray represents.
 pub(super) struct Arrival {
     pub point: DVec3,
     /// The facet's unit outward normal at the point.
@@ -17,7 +17,7 @@ pub(super) struct Arrival {
 }
 
 impl DispersedRay {
-    /// Returns the point where the ray meets a facet that is this far away.
+    /// Returns the point where the ray meets a facet at this distance.
     #[inline]
     pub(super) fn arrival<F: FacetSearch>(&self, facets: &F, facet: usize, distance: f64) -> Arrival {
         let point = self.origin + self.direction * distance;
@@ -29,8 +29,8 @@ impl DispersedRay {
         Arrival { point, normal, shift, of_normal: facets.turned(point, shift) }
     }
 
-    /// Returns the ray that a facet reflects back inside. `cos_i` is the cosine of the angle between the ray and the outward
-    /// normal. Without `is_fanned` the ray stays without a fan.
+    /// Returns the ray that a facet reflects back inside. `cos_i` is the cosine of the angle between the ray and the
+    /// outward normal. Where `is_fanned` is false, the ray stays without a fan.
     #[inline]
     pub(super) fn reflected_inside(&self, arrival: &Arrival, cos_i: f64, is_fanned: bool) -> Self {
         let &Arrival { point, normal, shift, of_normal } = arrival;
@@ -42,9 +42,9 @@ impl DispersedRay {
         Self { origin: point, direction, fan, shift }
     }
 
-    /// Returns the direction and the fan of light that a facet lets out of a body of this index. `cosines` are those of the angles
-    /// inside and outside; `spread` is the change of the index over the band of wavelengths, and `None` leaves the light without
-    /// a fan.
+    /// Returns the direction and the fan of light that leaves a body of this index through a facet. `cosines` are
+    /// those of the angles inside and outside. `spread` is the change of the index over the band of wavelengths; with
+    /// `None` the light stays without a fan.
     #[inline]
     pub(super) fn refracted_outside(
         &self,

@@ -1,7 +1,8 @@
-//! The surfaces that rays meet: a convex stone's planes, the triangles of any solid, or a smooth surface.
+//! The surfaces that rays meet: the planes of a convex stone, the triangles of any solid, or a smooth surface.
 //!
-//! Whether a ray is inside or outside is known from its way so far, never asked of the solid. Outside it meets only what it
-//! runs into, inside only what it runs out of; so it cannot meet the facet again from which it starts.
+//! The tracer knows from the ray's path so far whether the ray is inside or outside, and never asks the solid. From
+//! outside, a ray meets only facets that it runs into; from inside, only facets that it runs out of. So it never
+//! meets the facet again from which it starts.
 
 use super::search::Search;
 use crate::math::{FromSide, ImplicitSurface, Plane, Polytope, SolidRef, TriangleMesh};
@@ -10,12 +11,12 @@ use glam::DVec3;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// A solid's facets, as the tracer searches them.
+/// A search for the facets of a solid that rays meet.
 pub(super) trait FacetSearch {
     /// Returns the unit outward normal at a point of a facet.
     fn normal(&self, facet: usize, point: DVec3) -> DVec3;
 
-    /// Returns the change of that normal where the point moves along the surface.
+    /// Returns the change of that normal when the point moves along the surface by `by`.
     #[inline]
     fn turned(&self, _point: DVec3, _by: DVec3) -> DVec3 {
         DVec3::ZERO
@@ -25,7 +26,8 @@ pub(super) trait FacetSearch {
     /// where it misses.
     fn entry(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)>;
 
-    /// Returns the facet and the distance at which light that leaves by a facet, at this point of it, enters again.
+    /// Returns the facet and the distance at which light that leaves by a facet, at this point of it, enters the
+    /// solid again.
     fn again(&self, _facet: usize, point: DVec3, direction: DVec3) -> Option<(usize, f64)> {
         self.entry(point, direction)
     }
@@ -58,9 +60,9 @@ pub(super) struct Planes {
     planes: Vec<Plane>,
     guess: FacetGuess,
     search: Search,
-    /// The planes of the facets around each facet, one facet after the other.
+    /// The planes that adjoin each facet, one facet's after the other's.
     neighbours: Vec<Plane>,
-    /// For each facet, where its neighbours are.
+    /// For each facet, the range of its neighbours in that list.
     of: Vec<Range<usize>>,
 }
 
@@ -68,16 +70,17 @@ pub(super) struct Planes {
 #[derive(Debug, Clone)]
 pub(super) struct TriangleFacets {
     mesh: Arc<TriangleMesh>,
-    /// The distance beyond which a ray may meet a triangle: negative, so that it may lie a little behind the ray's start.
+    /// The distance from which on a ray may meet a triangle. It is negative, because rounding may put a triangle a
+    /// little behind the ray's start.
     behind: f64,
 }
 
-/// How far rounding may put the start of a ray beyond the triangle that it is about to meet, as a share of how far the solid
-/// reaches from the origin: some thousand roundings, and far below any edge meant.
+/// The farthest that rounding may put the start of a ray beyond the triangle that it is about to meet, as a part of
+/// the solid's reach from the origin. It is some thousand roundings, and far below any edge that a designer wants.
 const BEHIND: f64 = 1e-12;
 
-/// The distance before a point of the surface within which everything counts as the facets at that point, as a share of how
-/// far the solid reaches: less than a pixel of any picture.
+/// The distance before a point of the surface within which all facets count as the facets at that point, as a part of
+/// the solid's reach. It is less than a pixel of any picture.
 const CLOSE: f64 = 1e-6;
 
 impl SolidFacets {
@@ -98,7 +101,7 @@ impl SolidFacets {
         }
     }
 
-    /// Returns the distance after which light that leaves by a facet, at this point of it, enters again.
+    /// Returns the distance at which light that leaves by a facet, at this point of it, enters the solid again.
     pub fn again(&self, facet: usize, point: DVec3, direction: DVec3) -> Option<f64> {
         match self {
             Self::Planes(_) | Self::Smooth(_) => None,
@@ -123,8 +126,8 @@ impl Planes {
         Self { planes, guess, search, neighbours, of }
     }
 
-    /// Returns the distance after which a ray from inside leaves by this facet; `None` where it leaves by another one: where
-    /// it meets the plane of the facet beyond that of a neighbour.
+    /// Returns the distance at which a ray from inside leaves by this facet; `None` where it leaves by another one,
+    /// because it meets the plane of a neighbour first.
     #[inline]
     fn leaves_by(&self, facet: usize, point: DVec3, direction: DVec3) -> Option<f64> {
         let plane = &self.planes[facet];
@@ -174,20 +177,21 @@ impl TriangleFacets {
 }
 
 impl TriangleFacets {
-    /// Whether the solid hides a point of its surface from an eye in this direction.
+    /// Returns whether the solid hides a point of its surface from an eye in this direction.
     pub fn hides(&self, (origin, direction): (DVec3, DVec3)) -> bool {
-        // The ray starts away from the facets that meet in the point.
+        // The ray starts at a distance from the facets that meet in the point.
         let away = -self.behind / BEHIND * CLOSE;
         self.entry(origin + direction * away, direction).is_some()
     }
 }
 
 impl Wavy {
-    /// Whether the solid hides a point of its surface, or of one of the lines drawn on it, from an eye in this direction.
+    /// Returns whether the solid hides a point of its surface, or of a line drawn on it, from an eye in this
+    /// direction.
     pub fn hides(&self, (origin, direction): (DVec3, DVec3)) -> bool {
         let jet = self.0.jet(origin);
         let steep = jet.gradient.length();
-        // The ray starts from the surface above the point, and a little farther out.
+        // The ray starts on the surface above the point, and a little farther out.
         let lift = ((-jet.value).max(0.0) / steep + CLOSE * self.0.reach()) / steep;
         self.0.entry(origin + jet.gradient * lift, direction).is_some()
     }

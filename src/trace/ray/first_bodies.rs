@@ -1,4 +1,4 @@
-//! Which body is seen first at many points of a picture.
+//! Finds the body that is seen first at each of many points of a picture.
 
 use super::sight::SceneProbe;
 use crate::trace::DispersedRay;
@@ -8,7 +8,7 @@ use crate::trace::sampling::LitScene;
 use glam::DVec2;
 use rayon::prelude::*;
 
-/// How many points are looked at together.
+/// The number of points that are searched together.
 const AT_ONCE: usize = 1024;
 
 /// Finds the bodies that are seen first.
@@ -19,7 +19,7 @@ pub struct FirstBodies<'a> {
     rays: ProbingRays<'a>,
 }
 
-/// The rays that look for bodies.
+/// The rays that search for bodies.
 enum ProbingRays<'a> {
     /// Packets in single precision, which are quicker.
     Packets(Box<PacketTracer<'a>>),
@@ -38,8 +38,8 @@ impl<'a> FirstBodies<'a> {
         Self { lit_scene: *lit_scene, camera, rays }
     }
 
-    /// Returns the index of the body that is seen first at each point, `None` where none is. Points are in pixels to the right of
-    /// the picture's left border and below its upper one.
+    /// Returns, for each point, the index of the body that is seen there first; `None` where there is no body. Points
+    /// are in pixels to the right of the picture's left border and below its upper one.
     pub fn at(&self, points: &[DVec2]) -> Vec<Option<u32>> {
         let packets = match &self.rays {
             ProbingRays::Packets(packets) => packets,

@@ -1,4 +1,4 @@
-//! The frosted facets of a stone, and where chance sends light from them.
+//! The frosted facets of a stone, and the scattering of light at them by chance.
 
 use super::light::PathLight;
 use super::lobe_luck::LobeLuck;
@@ -18,20 +18,20 @@ pub(super) struct Arriving {
     /// The facet's unit outward normal.
     pub normal: DVec3,
     pub direction: DVec3,
-    /// As in [`SurfaceEvent`](super::path::SurfaceEvent).
+    /// The length of the path, as in [`SurfaceEvent`](super::path::SurfaceEvent).
     pub path: f64,
-    /// As in [`SurfaceEvent`](super::path::SurfaceEvent).
+    /// The share that has not been absorbed, as in [`SurfaceEvent`](super::path::SurfaceEvent).
     pub left: f64,
     pub light: PathLight,
 }
 
-/// Where light goes on from a frosted facet.
+/// The way on which light goes on from a frosted facet.
 pub(super) enum Struck {
-    /// Inside, as this ray with this light.
+    /// The light goes on inside, along this ray.
     Inward(DispersedRay, PathLight),
-    /// Outside; it was reported.
+    /// The light went on outside, and has been reported.
     Outward,
-    /// It is not followed.
+    /// The light is not followed.
     Unresolved,
 }
 
@@ -49,7 +49,8 @@ impl FrostedFacets {
     }
 }
 
-/// Scatters light, and moves the luck on; `None` without luck, and where the walk among the microscopic facets does not end.
+/// Scatters light and draws the next random numbers; `None` without them, and where the walk among the microscopic
+/// facets does not end.
 pub(super) fn scatter(
     surface: FrostedSurface,
     (arriving, normal): (DVec3, DVec3),

@@ -1,5 +1,5 @@
-//! Light at the frosted facets of a stone: all of it goes on in one direction that chance decides, and no longer polarised. So
-//! frosted facets neither add nor lose light, and a ray stays one chain of bounces.
+//! Light at the frosted facets of a stone. All of it goes on in one direction, which chance decides, and is
+//! unpolarised from there on. So frosted facets neither add nor lose light, and a ray stays one chain of bounces.
 
 use super::facets::FacetSearch;
 use super::frosted_facets::{Arriving, Struck, scatter};
@@ -12,17 +12,18 @@ use crate::trace::DispersedRay;
 use glam::DVec3;
 
 impl StoneTracer {
-    /// Whether the stone has frosted facets.
+    /// Returns whether the stone has frosted facets.
     pub(super) fn is_frosted(&self) -> bool {
         self.frosted.is_some()
     }
 
-    /// Returns light that a frosted facet has scattered in a direction: as strong, and not polarised.
+    /// Returns light that a frosted facet has scattered in a direction; it has the same weight and no polarisation.
     pub(super) fn scattered(&self, light: &PathLight, direction: DVec3) -> PathLight {
         PathLight::of_eye(direction, light.weight(), self.options.polarised)
     }
 
-    /// Follows light that meets a frosted facet from outside, through the stone where it passes.
+    /// Follows light that meets a frosted facet from outside, and goes on through the stone with the light that
+    /// passes the facet.
     pub(super) fn enter_frosted<F: FacetSearch>(
         &self,
         (facets, surface): (&F, FrostedSurface),
@@ -90,7 +91,8 @@ impl StoneTracer {
     }
 }
 
-/// Returns scattered light that leaves. Its change over a band of wavelengths is small beside the lobe, and left out.
+/// Returns scattered light that leaves. Its change over a band of wavelengths is left out, because it is small beside
+/// the width of the lobe.
 fn exit_light(direction: DVec3, weight: f64, surface: FrostedSurface) -> ExitLight {
     ExitLight { direction, fan: DVec3::ZERO, shift: DVec3::ZERO, weight, spread: surface.spread() }
 }

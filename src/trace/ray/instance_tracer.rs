@@ -1,5 +1,5 @@
-//! Follows rays through one stone in its place: they are carried into the frame of its body, and what they find is carried
-//! back.
+//! Follows rays through one stone at its place in the world. Rays are carried into the frame of the stone's body, and
+//! the light that leaves is carried back.
 
 use super::{Exit, Loss, MeetingRay, RayOptions, StoneTracer};
 use crate::math::{Ball, Pose};
@@ -11,7 +11,8 @@ use glam::DVec3;
 #[derive(Debug, Clone)]
 pub struct InstanceTracer {
     tracer: StoneTracer,
-    /// `None` where the body lies in the world as it was built: its rays are not carried, so that no digit changes.
+    /// The pose; `None` where the body lies in the world as it was built. Its rays are then not carried, so that no
+    /// digit changes.
     pose: Option<Pose>,
     /// A ball around the stone, in the world.
     ball: Ball,
@@ -43,23 +44,23 @@ impl InstanceTracer {
         Self { tracer: self.tracer.made_of(medium), ..self.clone() }
     }
 
-    /// Whether light that has left never meets the stone again; see [`StoneTracer::is_convex`].
+    /// Returns whether light that has left never meets the stone again; see [`StoneTracer::is_convex`].
     pub fn is_convex(&self) -> bool {
         self.tracer.is_convex()
     }
 
-    /// Whether the stone has frosted facets, at which chance decides where light goes on.
+    /// Returns whether the stone has frosted facets, at which chance decides the direction of the light.
     pub(super) fn is_frosted(&self) -> bool {
         self.tracer.is_frosted()
     }
 
-    /// Whether a ray runs through the ball around the stone.
+    /// Returns whether a ray runs through the ball around the stone.
     pub(super) fn is_near(&self, (origin, direction): (DVec3, DVec3)) -> bool {
         self.ball.is_met(origin, direction)
     }
 
-    /// Whether a part of the stone hides a point of its surface from the eye; `way` is that point and the unit direction to
-    /// the eye.
+    /// Returns whether a part of the stone hides a point of its surface from the eye. `way` is that point and the
+    /// unit direction to the eye.
     pub fn hides_itself(&self, way: (DVec3, DVec3)) -> bool {
         self.tracer.hides_itself(self.arriving(way))
     }
@@ -71,7 +72,7 @@ impl InstanceTracer {
         Some((facet, distance * self.unit()))
     }
 
-    /// Follows a ray through the stone as [`StoneTracer::follow_from`] does; all is in the world.
+    /// Follows a ray through the stone as [`StoneTracer::follow_from`] does; all rays and exits are in the world.
     pub fn follow_from(
         &self,
         ray: &MeetingRay,
@@ -96,7 +97,7 @@ impl InstanceTracer {
         (pose.unplace(origin), pose.turn.inverse() * direction)
     }
 
-    /// Carries a ray, with how it changes, into the frame of the body.
+    /// Carries a ray, with its fan and its shift, into the frame of the body.
     fn own(&self, ray: &DispersedRay) -> DispersedRay {
         let Some(pose) = &self.pose else { return *ray };
         let (origin, direction) = self.arriving((ray.origin, ray.direction));

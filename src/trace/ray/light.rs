@@ -4,20 +4,21 @@ use crate::optics::{fresnel, reflectance};
 use glam::DVec3;
 use num_complex::Complex64;
 
-/// The light of a ray between two facets: a weight, or the fields that the eye's two polarisations have become.
+/// The light of a ray between two facets: a weight, or the two fields into which the eye's two polarisations have
+/// turned.
 #[derive(Clone, Copy)]
 pub(in crate::trace) enum PathLight {
     Unpolarised(f64),
     Fields(ElectricFields),
 }
 
-/// Two complex electric fields, each by its parts along two axes: s, and p = s × the ray's direction.
+/// Two complex electric fields, each given by its components along two axes: s, and p = s × the ray's direction.
 #[derive(Clone, Copy)]
 pub(in crate::trace) struct ElectricFields {
     /// A unit vector perpendicular to the ray.
     s: DVec3,
     parts: [[Complex64; 2]; 2],
-    /// The mean power of both.
+    /// The mean power of both fields.
     weight: f64,
 }
 
@@ -28,7 +29,7 @@ pub(in crate::trace) struct SplitLight {
 }
 
 impl PathLight {
-    /// Returns the light of a ray from the eye: all polarisations alike.
+    /// Returns the light of a ray from the eye, with equal parts of all polarisations.
     pub fn of_eye(direction: DVec3, weight: f64, is_polarised: bool) -> Self {
         if !is_polarised {
             return Self::Unpolarised(weight);
@@ -38,7 +39,7 @@ impl PathLight {
         Self::Fields(ElectricFields { s, parts, weight })
     }
 
-    /// Returns light of two fields, each given by its parts along s and along the ray's direction × s.
+    /// Returns light of two fields, each given by its components along s and along the ray's direction × s.
     pub fn of_fields(fields: [[Complex64; 2]; 2], s: DVec3) -> Self {
         let parts = fields.map(|[s, p]| [s, -p]);
         let [of_s, of_p] = powers(&parts);
@@ -53,7 +54,8 @@ impl PathLight {
         }
     }
 
-    /// Splits light at a surface. It is always inlined, so that what passes is computed only where it is used.
+    /// Splits light at a surface. The function is always inlined, so that the light that passes is computed only
+    /// where it is used.
     #[inline(always)]
     pub fn split(&self, ray: DVec3, normal: DVec3, eta: f64) -> SplitLight {
         let cos_i = ray.dot(normal).abs();
@@ -82,12 +84,12 @@ impl PathLight {
     }
 }
 
-/// The sine of the angle between a ray and a facet's normal below which the ray counts as square to the facet: the cross
-/// product there is mostly rounding.
+/// The sine of the angle between a ray and a facet's normal below which the ray counts as perpendicular to the facet,
+/// because the cross product there is mostly rounding.
 const SQUARE_ON: f64 = 1e-9;
 
 impl ElectricFields {
-    /// Returns the same fields with s perpendicular to a facet's normal, too.
+    /// Returns the same fields with an axis s that is also perpendicular to a facet's normal.
     #[inline(always)]
     fn turned(&self, ray: DVec3, normal: DVec3) -> Self {
         let across = ray.cross(normal);
@@ -101,7 +103,7 @@ impl ElectricFields {
         Self { s, parts, ..*self }
     }
 
-    /// Splits fields at a surface to which s belongs.
+    /// Splits fields at a surface. Their axis s is perpendicular to the surface's normal.
     #[inline(always)]
     fn split(&self, cos_i: f64, eta: f64) -> SplitLight {
         let surface = fresnel(cos_i, eta);

@@ -1,5 +1,5 @@
-//! The numbers that decide by which of its microscopic mirrors a metal reflects a ray, and a frosted facet scatters it: the same in all bands of wavelengths, so
-//! that chance makes no colours.
+//! The random numbers that decide by which microscopic mirror a metal reflects a ray, and how a frosted facet
+//! scatters it. They are the same in all bands of wavelengths, so that chance adds no colours.
 
 use crate::math::random_bits::{mixed, unit};
 
@@ -10,35 +10,36 @@ const STEPS: [u64; 3] = [0xa54f_f53a_5f1d_36f1, 0x7311_c281_2425_cfa0, 0xca91_d7
 /// A constant that keeps the numbers here independent of the roulette's, which are made of the same pixels.
 const SALT: u64 = 0x6d65_7461_6c6c_7563;
 
-/// The luck of one path.
+/// The random numbers of one path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct LobeLuck {
-    /// The seed of the numbers, another for each pixel and for each way that the light takes from it.
+    /// The seed of the numbers. It differs for each pixel, and for each path that the light takes from the pixel.
     seed: u64,
     /// The number of the sample pass.
     number: u64,
-    /// Whether numbers of the path have been drawn before: then numbers are drawn at random, else spread evenly over the passes.
+    /// True where numbers of the path have been drawn before. Further numbers are drawn at random; the first are
+    /// spread evenly over the passes.
     is_later: bool,
 }
 
 impl LobeLuck {
-    /// Returns the luck of a pixel's ray in a sample pass.
+    /// Returns the random numbers of a pixel's ray in a sample pass.
     pub fn new([x, y]: [u32; 2], number: u32) -> Self {
         let pixel = mixed(u64::from(x) << 32 | u64::from(y));
         Self { seed: mixed(pixel ^ SALT), number: number.into(), is_later: false }
     }
 
-    /// Returns the luck of light that leaves a stone by its exit of this number.
+    /// Returns the random numbers of light that leaves a stone by the exit with this number.
     pub fn beyond(&self, exit: u64) -> Self {
         Self { seed: mixed(self.seed ^ mixed(exit)), ..*self }
     }
 
-    /// Returns the luck of a path of which some numbers have been drawn by another copy of this luck.
+    /// Returns the random numbers of a path that has already drawn some numbers through another copy.
     pub fn later(&self) -> Self {
         Self { is_later: true, ..*self }
     }
 
-    /// Returns as many numbers as are wanted, from 0 to below 1, at random and independent of those of [`draw`](Self::draw).
+    /// Returns an endless supply of random numbers from 0 to below 1, independent of those of [`draw`](Self::draw).
     pub fn numbers(&self) -> impl FnMut() -> f64 + use<> {
         let Self { seed, number, .. } = *self;
         let mut place = STEPS.len() as u64;
@@ -48,7 +49,7 @@ impl LobeLuck {
         }
     }
 
-    /// Returns three numbers from 0 to below 1, and the luck after them.
+    /// Returns three numbers from 0 to below 1, and the state after them.
     pub fn draw(&self) -> ([f64; 3], Self) {
         let number = |k: usize| {
             let own = mixed(self.seed.wrapping_add(k as u64));
@@ -69,7 +70,7 @@ mod tests {
     #[test]
     fn the_first_numbers_of_a_pixel_fill_the_cube_evenly_and_later_ones_at_random() {
         let rays = 512;
-        // The number of the eight halves' boxes: evenly filled, each box holds 64.
+        // The cube is divided into four by four by four boxes; numbers that are spread evenly put 8 of 512 into each.
         let boxes = |later: bool| {
             let mut counts = [0_i32; 64];
             for number in 0..rays {
@@ -81,7 +82,7 @@ mod tests {
             let mean = rays as i32 / 64;
             counts.iter().map(|count| (count - mean).pow(2)).sum::<i32>()
         };
-        // At random, each count is off by its root.
+        // At random, each count differs from the mean by about the root of the mean.
         assert!(boxes(false) < 200 && boxes(true) > 250, "{} {}", boxes(false), boxes(true));
     }
 }

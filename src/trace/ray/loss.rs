@@ -1,4 +1,4 @@
-//! What becomes of a ray's light that does not leave.
+//! The part of a ray's light that does not leave the stone.
 
 /// The part of a ray's light that did not leave the stone.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -7,7 +7,7 @@ pub struct Loss {
     pub absorbed: f64,
     /// Share of the light that was not followed to its end.
     pub unresolved: f64,
-    /// Number of bounces inside the stone, on the longest way where there are several.
+    /// The number of bounces inside the stone, along the longest path where there are several.
     pub bounces: u32,
 }
 

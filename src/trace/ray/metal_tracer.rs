@@ -8,18 +8,18 @@ use glam::DVec3;
 use num_complex::Complex64;
 use std::sync::Arc;
 
-/// The share of its steepness above the surface, and the greatest sine, to which a mirror image is lifted that smooth normals
-/// would send below the surface.
+/// The lift of mirror images that smooth normals would send below the surface: a share of the outgoing direction's
+/// sine above the surface, and the greatest sine.
 const LIFT: (f64, f64) = (0.9, 0.01);
 
 /// The least sine at which light leaves the true surface.
 const LEAST_SINE: f64 = 1e-6;
 
-/// The number of equal parts of what is reflected, of which one look-up of the environment stands for one: the usual number
-/// of passes. It widens a highlight by less than a percent.
+/// The number of equal parts into which reflected light is divided; one look-up of the environment represents one
+/// part. It is the usual number of passes. It widens a highlight by less than a percent.
 const PARTS: f64 = 64.0;
 
-/// A body of metal, and what a band of wavelengths meets there.
+/// A body of metal, and its reflectance in a band of wavelengths.
 #[derive(Debug, Clone)]
 pub(super) struct MetalTracer {
     mesh: Arc<ShadedMesh>,
@@ -27,11 +27,11 @@ pub(super) struct MetalTracer {
     /// A ball around the body, in the world.
     ball: Ball,
     roughness: f64,
-    /// What a band of wavelengths meets; `None` before the body has an index.
+    /// The rough surface with the index of the band; `None` before the body has an index.
     finish: Option<RoughMetal>,
 }
 
-/// The body of metal that a ray meets, the triangle, and the distance.
+/// The place where a ray meets a body of metal: the body, the triangle and the distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct MetalHit {
     pub metal: usize,
@@ -42,11 +42,12 @@ pub(super) struct MetalHit {
 /// A ray that metal has reflected.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct MetalReflection {
-    /// It changes as at a plane mirror: how the surface bends is left out, which is little beside `spread`.
+    /// The reflected ray. It changes as at a plane mirror: the curvature of the surface is left out, because its
+    /// effect is small beside `spread`.
     pub ray: DispersedRay,
-    /// The factor by which the light from there counts.
+    /// The factor by which the light from that direction counts.
     pub weight: f64,
-    /// The side, in radians, of the square of directions for which this one stands; 0 for one direction.
+    /// The side, in radians, of the square of directions that the ray represents; 0 for one direction.
     pub spread: f64,
 }
 
@@ -63,12 +64,13 @@ impl MetalTracer {
         metals.iter().map(tracer).collect()
     }
 
-    /// Returns the same body at a wavelength at which the metal has this index.
+    /// Returns the same body at a wavelength at which its metal has this index.
     pub fn made_of(&self, index: Complex64) -> Self {
         Self { finish: Some(Roughness::shared(self.roughness).of_metal(index)), ..self.clone() }
     }
 
-    /// Returns the triangle and the distance at which a ray meets the body; `left` is the triangle that it has just left.
+    /// Returns the triangle and the distance at which a ray meets the body. `left` is the triangle that the ray has
+    /// just left.
     fn meet(&self, origin: DVec3, direction: DVec3, left: Option<u32>) -> Option<(u32, f64)> {
         if !self.ball.is_met(origin, direction) {
             return None;
@@ -78,8 +80,8 @@ impl MetalTracer {
         Some((hit.triangle, hit.distance * self.pose.scale))
     }
 
-    /// Reflects a ray by a direction that is drawn by three numbers; `None` where what was drawn is lost, and where the body
-    /// has no index yet.
+    /// Reflects a ray in a direction that is drawn by three random numbers; `None` where the drawn light is lost, and
+    /// where the body has no index yet.
     pub fn reflect(&self, ray: &DispersedRay, hit: &MetalHit, luck: [f64; 3]) -> Option<MetalReflection> {
         let DispersedRay { origin: point, direction, fan, shift } = ray.ahead(hit.distance);
         let SurfaceNormals { flat, shading } = self.mesh.normals(hit.triangle, self.pose.unplace(point));
@@ -107,7 +109,7 @@ impl MetalTracer {
     }
 }
 
-/// Returns the body of metal that a ray meets first; `left` is the body, and the triangle of it, that it has just left.
+/// Returns the first hit of a ray on metal. `left` is the body, and its triangle, that the ray has just left.
 pub(super) fn nearest_metal(
     metals: &[MetalTracer],
     (origin, direction): (DVec3, DVec3),
@@ -121,8 +123,9 @@ pub(super) fn nearest_metal(
     metals.iter().enumerate().filter_map(hit).min_by(|a, b| a.distance.total_cmp(&b.distance))
 }
 
-/// Returns the normal of a smooth surface, turned toward the true normal as far as the mirror image along it must be to leave
-/// the true surface (A. Keller et al., *The Iray Light Transport Simulation and Rendering System*, 2017, appendix A.3).
+/// Returns the normal of a smooth surface, turned toward the true normal just far enough that the mirror image along
+/// it leaves the true surface (A. Keller et al., *The Iray Light Transport Simulation and Rendering System*, 2017,
+/// appendix A.3).
 fn bent(shading: DVec3, flat: DVec3, out: DVec3) -> DVec3 {
     let image = shading * (2.0 * shading.dot(out)) - out;
     let least = (LIFT.0 * flat.dot(out)).min(LIFT.1);
@@ -134,8 +137,8 @@ fn bent(shading: DVec3, flat: DVec3, out: DVec3) -> DVec3 {
     (out + lifted).normalize_or(flat)
 }
 
-/// Returns a direction as it is where it leaves the true surface, else its mirror image in that surface: what rough metal
-/// sends there is not lost.
+/// Returns a direction unchanged where it leaves the true surface, and otherwise its mirror image in that surface, so
+/// that light which rough metal sends below the surface is not lost.
 fn above(direction: DVec3, flat: DVec3) -> DVec3 {
     let sine = direction.dot(flat);
     let lifted = direction + flat * (sine.abs().max(LEAST_SINE) - sine);

@@ -1,4 +1,4 @@
-//! One ray's way through a stone, facet by facet.
+//! The path of one ray through a stone, facet by facet.
 
 use super::facets::SolidFacets;
 use super::light::PathLight;
@@ -7,24 +7,25 @@ use crate::optics::critical_angle;
 use crate::trace::DispersedRay;
 use glam::DVec3;
 
-/// A facet that a ray meets on its way.
+/// A facet that a ray meets on its path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
     /// The facet, by its index in the solid.
     pub facet: u32,
-    /// The point where the ray meets it.
+    /// The point where the ray meets the facet.
     pub point: DVec3,
     /// The number of this bounce inside, from 1; 0 where the ray enters.
     pub bounce: u32,
-    /// Length of the way inside the stone up to here, in girdle radii.
+    /// The length of the path inside the stone up to this facet, in girdle radii.
     pub path: f64,
-    /// The angle between the ray and the facet's normal, 0 to 90 degrees: in the air where the ray enters, inside the stone
-    /// after that.
+    /// The angle between the ray and the facet's normal, 0 to 90 degrees. It is measured in the air where the ray
+    /// enters, and inside the stone after that.
     pub incidence: f64,
-    /// The angle of incidence beyond which reflection is total, in degrees; `None` where it never is, as for light that
-    /// enters.
+    /// The angle of incidence beyond which reflection is total, in degrees; `None` where reflection is never total,
+    /// as for light that enters.
     pub critical: Option<f64>,
-    /// The light that leaves: the glare where the ray enters, refracted light after that. `None` where reflection is total.
+    /// The light that leaves: the glare where the ray enters, and refracted light after that. `None` where reflection
+    /// is total.
     pub leaving: Option<Leaving>,
     /// The share of the ray's light that goes on inside.
     pub onward: f64,
@@ -33,18 +34,19 @@ pub struct Step {
 /// Light that leaves a stone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leaving {
-    /// Its share of the ray's light.
+    /// The share of the ray's light that leaves here.
     pub share: f64,
     /// The direction in which the light travels, of length 1.
     pub direction: DVec3,
-    /// The distance after which it enters the solid again, where it does: the path ends there, the light does not.
+    /// The distance at which the light enters the solid again, if it does. The path ends where the light leaves; the
+    /// light goes on.
     pub again: Option<f64>,
 }
 
-/// A ray's way through a stone. The shares of all light that leaves on it and of its `rest` add up to 1.
+/// The path of a ray through a stone. The shares of all light that leaves along it and of its `rest` add up to 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Path {
-    /// A point of the ray before it meets the stone.
+    /// A point of the ray before the ray meets the stone.
     pub origin: DVec3,
     /// The ray's unit direction there.
     pub direction: DVec3,
@@ -54,7 +56,7 @@ pub struct Path {
     pub rest: Loss,
 }
 
-/// A facet that the tracer's loop comes to, and what becomes of the light there.
+/// A facet that the tracer's loop reaches, and the light before and after it.
 pub(in crate::trace) struct SurfaceEvent<'a> {
     pub facet: u32,
     pub point: DVec3,
@@ -74,11 +76,11 @@ pub(in crate::trace) struct SurfaceEvent<'a> {
     pub onward: f64,
 }
 
-/// The light that leaves at a surface event, as in [`Exit`].
+/// The light that leaves at a surface event. Its fields are those of [`Exit`].
 pub(in crate::trace) struct ExitLight {
     pub direction: DVec3,
     pub fan: DVec3,
-    /// The displacement of the point over what the ray stands for.
+    /// The displacement of the point over the range that the ray represents.
     pub shift: DVec3,
     pub weight: f64,
     pub spread: f64,
@@ -102,9 +104,9 @@ impl SurfaceEvent<'_> {
 }
 
 impl StoneTracer {
-    /// Returns the way of a ray from a point outside, as far as [`follow`](Self::follow) follows it; `None` where it misses
-    /// the stone. Of a solid that is not convex it is the first passage: light that leaves and enters again is reported, not
-    /// followed.
+    /// Returns the path of a ray from a point outside, as far as [`follow`](Self::follow) follows it; `None` where
+    /// the ray misses the stone. For a solid that is not convex the result is the first passage: light that leaves
+    /// and enters again is reported and not followed.
     pub fn path(&self, origin: DVec3, direction: DVec3) -> Option<Path> {
         let met = self.meet(origin, direction)?;
         let mut steps = vec![];
@@ -129,7 +131,7 @@ impl StoneTracer {
             point,
             bounce,
             path,
-            // From sine and cosine: an arc cosine alone has few digits near the normal.
+            // The angle is computed from sine and cosine, because an arc cosine alone has few digits near the normal.
             incidence: arriving.cross(normal).length().atan2(arriving.dot(normal).abs()).to_degrees(),
             critical: critical.map(f64::to_degrees),
             leaving: leaving.as_ref().map(|l| Leaving {
@@ -154,7 +156,7 @@ mod tests {
 
     const CLEAR: Medium = Medium::clear(2.4175);
 
-    /// Returns what is wrong with a path through a solid, each fault by its name.
+    /// Returns the names of all laws that a path through a solid breaks.
     fn faults(path: &Path, planes: &[Plane], index: f64) -> Vec<&'static str> {
         let all = path.steps.iter().map(|step| step.leaving.map_or(0.0, |l| l.share)).sum::<f64>();
         let off_balance = (all + path.rest.absorbed + path.rest.unresolved - 1.0).abs() > 1e-9;

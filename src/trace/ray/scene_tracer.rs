@@ -1,4 +1,4 @@
-//! Traces pictures under light by point rays: several stones and bodies of metal, and light that goes from one to the next.
+//! Traces pictures under light by point rays, through several stones and bodies of metal and from one to the next.
 
 use super::lobe_luck::LobeLuck;
 use super::metal_tracer::{MetalHit, MetalTracer, nearest_metal};
@@ -19,7 +19,7 @@ const PIECE: usize = 8;
 /// The most reflections by metal on a ray's way; light that would be reflected once more is unresolved.
 const MOST_REFLECTIONS: u32 = 256;
 
-/// A tracer of several stones, each of one medium, and of metal, and of the light that goes from one to the next.
+/// A tracer of several stones, each of one medium, and of metal. It also follows light from one body to the next.
 #[derive(Clone)]
 pub struct SceneTracer {
     tracers: Vec<InstanceTracer>,
@@ -27,33 +27,34 @@ pub struct SceneTracer {
     least_weight: f64,
 }
 
-/// A ray on its way, and what it left.
+/// A ray on its way, and the body that it has left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaitingRay {
-    /// The ray, and how it changes over what it stands for.
+    /// The ray, with its change over the range that it represents.
     pub ray: DispersedRay,
     /// The share of the light from that direction that reaches the eye.
     pub weight: f64,
-    /// By what chance weak light goes on in solids that are not convex and to other bodies; without it, all of it does.
+    /// The chance by which weak light goes on in solids that are not convex and to other bodies; `None` where all
+    /// light is followed.
     pub roulette: Option<Roulette>,
-    /// The side, in radians, of the square of directions that the ray stands for: rough metal and frosted facets spread light; 0 for one
-    /// direction.
+    /// The side, in radians, of the square of directions that the ray represents, because rough metal and frosted
+    /// facets spread light; 0 for one direction.
     pub spread: f64,
     left: LeftBody,
-    /// The number of bounces inside stones on its way so far.
+    /// The number of bounces inside stones so far.
     bounces: u32,
-    /// The number of reflections by metal on its way so far.
+    /// The number of reflections by metal so far.
     reflections: u32,
     luck: LobeLuck,
 }
 
-/// What a ray has just left.
+/// The body that a ray has just left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum LeftBody {
-    /// Nothing: it comes from the eye.
+    /// No body: the ray comes from the eye.
     Eye,
     Stone(usize),
-    /// A body of metal, and a triangle of it.
+    /// A body of metal, and the triangle of it that the ray has left.
     Metal(usize, u32),
 }
 
@@ -82,7 +83,7 @@ impl WaitingRay {
         }
     }
 
-    /// Whether metal has reflected it.
+    /// Returns whether metal has reflected the ray.
     pub fn is_reflected(&self) -> bool {
         self.reflections > 0
     }
@@ -133,8 +134,8 @@ impl SceneTracer {
         }
     }
 
-    /// Follows a ray through all bodies, from the one that it is known to meet; calls `leave` for each ray that meets none any
-    /// more.
+    /// Follows a ray through all bodies, beginning with the body that it is known to meet, and calls `leave` for each
+    /// ray that meets no further body.
     pub fn follow(&self, start: &WaitingRay, first: &First, mut leave: impl FnMut(&WaitingRay)) -> Loss {
         let mut waiting = Vec::new();
         let mut rest = self.onward(start, first.0, &mut waiting, &mut leave);
@@ -145,7 +146,7 @@ impl SceneTracer {
         rest
     }
 
-    /// Follows a ray through the body that it meets; light that meets another body then is put into `waiting`.
+    /// Follows a ray through the body that it meets. Light that then meets another body is added to `waiting`.
     fn onward(
         &self,
         ray: &WaitingRay,
@@ -195,7 +196,7 @@ impl SceneTracer {
         Loss { unresolved: rest.unresolved + unseen, bounces: before + rest.bounces, ..rest }
     }
 
-    /// Reflects a ray at metal.
+    /// Reflects a ray at metal, and adds it to `waiting` where it meets another body.
     fn reflect(
         &self,
         ray: &WaitingRay,
@@ -230,8 +231,8 @@ impl SceneTracer {
         lost(absorbed, self.wait(next, first, sieve.as_mut(), waiting))
     }
 
-    /// Puts light that meets another body into `waiting`, weak light by chance where there is roulette, and returns what is not
-    /// followed.
+    /// Adds light that meets another body to `waiting`, weak light only by chance where there is a roulette. Returns
+    /// the weight of the light that is not followed.
     fn wait(
         &self,
         mut ray: WaitingRay,
@@ -255,7 +256,7 @@ impl SceneTracer {
         0.0
     }
 
-    /// Whether light that has left a stone meets another body at less than this distance.
+    /// Returns whether light that has left a stone meets another body at less than this distance.
     fn meets_before(&self, exit: &Exit, left: usize, distance: f64) -> bool {
         let way = (exit.point, exit.direction);
         let near = |&(k, tracer): &(usize, &InstanceTracer)| k != left && tracer.is_near(way);
@@ -265,18 +266,18 @@ impl SceneTracer {
     }
 }
 
-/// The body that a ray meets first, and where.
+/// The body that a ray meets first, and the place where it meets the body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct First(FirstBody);
 
-/// What a ray meets first, and where: a stone, or a body of metal.
+/// The first hit of a ray, on a stone or on a body of metal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum FirstBody {
     Stone(Met),
     Metal(MetalHit),
 }
 
-/// What follows the rays of a picture under light.
+/// The tracer of the rays of a picture under light.
 enum RayTracer<'a> {
     /// Packets in single precision, which are quicker.
     Packets(Box<PacketTracer<'a>>),
@@ -298,9 +299,9 @@ impl<'a> ByRays<'a> {
     /// The most rows to trace at once: the sums of their passes are held in memory.
     pub const MOST_ROWS: u32 = 256;
 
-    /// Prepares some rows of a picture: by packets of rays in single precision where these can follow light through all
-    /// bodies, else by single rays in double precision. Metal, triangles, and bodies a thousand times their size away from the
-    /// middle of the world, need the latter.
+    /// Prepares some rows of a picture. They are traced by packets of rays in single precision where these can follow
+    /// light through all bodies, and otherwise by single rays in double precision. Metal, triangles, frosted facets,
+    /// and bodies farther from the middle of the world than a thousand times their size need double precision.
     pub fn new(lit_scene: LitScene<'a>, rows: Range<u32>) -> Self {
         match PacketTracer::new(lit_scene) {
             Some(packets) => Self::of(lit_scene, rows, RayTracer::Packets(Box::new(packets))),
@@ -324,7 +325,7 @@ impl<'a> ByRays<'a> {
         }
     }
 
-    /// Returns what one ray of a pixel sees, over all wavelengths.
+    /// Returns the light that one ray of a pixel receives, over all wavelengths.
     fn see(&self, bands: &[SceneTracer], pass: &SamplePass, pixel: [u32; 2]) -> RadiancePixel {
         let straight = self.eye_ray(pass, pixel);
         let mut start = WaitingRay::from_eye(straight);
@@ -353,21 +354,22 @@ impl<'a> ByRays<'a> {
         RadiancePixel { unresolved: unresolved * share, absorbed: absorbed * share, ..lit }
     }
 
-    /// Returns the environment's light along a ray that has left all stones; `straight` is the ray from the eye that it goes
-    /// back to.
+    /// Returns the light of the environment along a ray that has left all stones. `straight` is the ray from the eye
+    /// to which it belongs.
     fn arriving(&self, ray: &WaitingRay, straight: &DispersedRay, pass: &SamplePass) -> DVec4 {
-        // Only refraction is mixed with the straight way.
+        // Only refracted light is mixed with the straight ray.
         let seen = if ray.is_reflected() { ray.ray } else { pass.mixed(straight, &ray.ray) };
         self.lit_scene.environment.radiance_around(&seen, ray.spread) * ray.weight
     }
 
-    /// Returns the ray of a pixel, given by column and row, with the stretch of the pixel that it stands for.
+    /// Returns the ray of a pixel, given by column and row, with the stretch of the pixel that the ray represents.
     fn eye_ray(&self, pass: &SamplePass, [x, y]: [u32; 2]) -> DispersedRay {
         let (at, film) = (DVec2::new(f64::from(x), f64::from(y)) + pass.shift, &self.lit_scene.film);
         self.camera.ray_along(film.image_from_pixels(at), pass.footprint_in_image(film))
     }
 
-    /// Adds what one ray of each pixel sees to the sums of some pixels, which stand row by row from the number `first` on.
+    /// Adds the light of one ray through each pixel to the sums of some pixels. The pixels are in rows, and begin
+    /// with the number `first`.
     fn add(&self, bands: &[SceneTracer], pass: &SamplePass, first: usize, sums: &mut [RadiancePixel]) {
         let across = self.lit_scene.film.size[0] as usize;
         let pixel = |k: usize| [(k % across) as u32, self.rows.start + (k / across) as u32];

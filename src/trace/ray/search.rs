@@ -1,7 +1,8 @@
-//! Finds the plane that a ray meets: all are tried, as many side by side as the processor takes.
+//! Finds the plane that a ray meets. All planes are tried, as many side by side as the processor's registers hold.
 //!
-//! What the processor can do is found out when the program runs, so that one build is quick on all. Closures would not be
-//! compiled for it, so there are none in the loops. Sums are not fused, so that the answer does not depend on the processor.
+//! The processor's abilities are detected when the program runs, so that one build is quick on all processors. The
+//! loops contain no closures, because closures would not be compiled for the wider instructions. Sums are not fused,
+//! so that the result does not depend on the processor.
 
 use crate::math::Plane;
 use crate::trace::lanes::{Vec3s, dot, splat};
@@ -11,19 +12,19 @@ use pulp::{Arch, Simd, WithSimd};
 /// The most planes that any processor tries at once.
 const WIDEST: usize = 8;
 
-/// The least gap between a point and a plane; smaller ones count as this. So where rounding has put a point a hair outside a
-/// plane, that plane is met at once.
+/// The least gap between a point and a plane; smaller gaps count as this one. So where rounding has put a point just
+/// outside a plane, the ray meets that plane at once.
 const LEAST_GAP: f64 = 1e-290;
 
-/// Planes, coordinate by coordinate, filled up to whole rows with the zero normal, toward which no ray runs.
+/// Planes, coordinate by coordinate. Whole rows are filled up with zero normals, toward which no ray runs.
 #[derive(Debug, Clone)]
 pub(super) struct Search {
     normal: [Vec<f64>; 3],
     offset: Vec<f64>,
     /// The plane's number, in the bits of `tag_bits`.
     tag: Vec<f64>,
-    /// The low bits of a ratio's fraction that hold the number of its plane instead. With 16,384 planes two ratios
-    /// that differ by less than 4e-12 of their size are confused: their facets meet in an edge there.
+    /// The low bits of a ratio's fraction; they hold the number of the ratio's plane. With 16,384 planes, two ratios
+    /// that differ by less than 4e-12 of their size are confused; their facets then meet in an edge near that point.
     tag_bits: u64,
     arch: Arch,
 }
@@ -45,8 +46,9 @@ impl Search {
         }
     }
 
-    /// Returns the facet by which a ray leaves from a point inside: that of the greatest ratio of the speed toward a plane
-    /// to the gap before it. Planes behind have negative ratios and never win.
+    /// Returns the facet by which a ray from a point inside leaves: the facet with the greatest ratio of the speed
+    /// toward its plane to the gap before that plane. Planes behind the ray have negative ratios and are never
+    /// chosen.
     #[inline]
     pub fn next(&self, point: DVec3, direction: DVec3) -> usize {
         self.plane(self.arch.dispatch(Next { search: self, point, direction }))
@@ -77,7 +79,7 @@ impl Search {
     }
 }
 
-/// The planes as rows of as many as the processor tries at once.
+/// The planes in rows, each as long as the processor's registers.
 struct Rows<'a, S: Simd> {
     normal: [&'a [S::f64s]; 3],
     offset: &'a [S::f64s],

@@ -1,4 +1,4 @@
-//! Finds what is seen first at a point of a picture.
+//! Finds the body and the facet that are seen first at a point of a picture.
 
 use super::metal_tracer::{MetalTracer, nearest_metal};
 use super::{Camera, InstanceTracer};
@@ -9,7 +9,8 @@ use glam::{DVec2, DVec3};
 /// The index of a stone, and the facet and the distance at which a ray meets it.
 pub(super) type Met = (usize, (usize, f64));
 
-/// The stones of a scene at sodium's D line, 589.3 nm, and the camera, to ask what is seen at points of the picture.
+/// The stones of a scene at sodium's D line, 589.3 nm, and the camera. It finds what is visible at points of the
+/// picture.
 pub struct SceneProbe<'a> {
     lit_scene: LitScene<'a>,
     /// The picture's camera.
@@ -23,15 +24,15 @@ pub struct SceneProbe<'a> {
 /// A ray from the eye that meets a stone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProbeRay {
-    /// The point where it begins.
+    /// The point where the ray begins.
     pub origin: DVec3,
     /// The direction in which the light travels, of length 1.
     pub direction: DVec3,
-    /// The index of the stone that it meets first.
+    /// The index of the stone that the ray meets first.
     pub stone: usize,
-    /// The facet that it meets there, by its index in the solid.
+    /// The facet that the ray meets there, by its index in the solid.
     pub facet: u32,
-    /// Distance from its beginning to that facet, in world units.
+    /// The distance from the ray's origin to that facet, in world units.
     pub distance: f64,
 }
 
@@ -48,8 +49,8 @@ impl<'a> SceneProbe<'a> {
         }
     }
 
-    /// Returns the ray through a point of the picture, in pixels to the right of its left border and below its upper one;
-    /// `None` where it meets no stone, or metal before that.
+    /// Returns the ray through a point of the picture, in pixels to the right of its left border and below its upper
+    /// one; `None` where the ray meets no stone, or meets metal first.
     pub fn through(&self, x: f64, y: f64) -> Option<ProbeRay> {
         let at = self.lit_scene.film.image_from_pixels(DVec2::new(x, y));
         let (origin, direction) = self.camera.ray(at);
@@ -61,8 +62,8 @@ impl<'a> SceneProbe<'a> {
         Some(ProbeRay { origin, direction, stone, facet: facet as u32, distance })
     }
 
-    /// Whether a point of a stone's surface is hidden from the eye, by another body or, where it is not convex, by the
-    /// stone itself.
+    /// Returns whether a point of a stone's surface is hidden from the eye by another body or, where the stone is not
+    /// convex, by the stone itself.
     pub fn is_hidden(&self, stone: usize, point: DVec3) -> bool {
         let way = (point, self.camera.toward_eye(point));
         nearest(&self.tracers, way, Some(stone)).is_some()
@@ -71,13 +72,15 @@ impl<'a> SceneProbe<'a> {
     }
 }
 
-/// Returns the facet seen at a point of the picture, in pixels to the right of its left border and below its upper one: the
-/// index of the stone, and that of the facet in it. `None` beside the stones. For many points keep a [`SceneProbe`].
+/// Returns the facet that is seen at a point of the picture, in pixels to the right of its left border and below its
+/// upper one: the index of the stone, and the index of the facet in it. `None` beside the stones. For many points,
+/// use a [`SceneProbe`].
 pub fn facet_at(lit_scene: &LitScene, x: f64, y: f64) -> Option<(usize, u32)> {
     SceneProbe::new(lit_scene).through(x, y).map(|glance| (glance.stone, glance.facet))
 }
 
-/// Returns the stone that a ray meets first, but for the one that it has just left, and where.
+/// Returns the stone that a ray meets first and the place where it meets it, except for the stone that the ray has
+/// just left.
 pub(super) fn nearest(
     tracers: &[InstanceTracer],
     (origin, direction): (DVec3, DVec3),

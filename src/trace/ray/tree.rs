@@ -1,10 +1,10 @@
-//! A ray's way through a solid that is not convex: light that leaves may enter again.
+//! The path of a ray through a solid that is not convex: light that leaves may enter again.
 //!
-//! Every passage, from entry until too little is left, is the chain of bounces that a convex stone has; light that leaves on
-//! it and meets the solid again waits to be followed like the first, the strongest first, its polarisation kept. Without
-//! roulette, what is weaker than the least weight is not followed and is unresolved, so that all shares still add up to 1.
-//! With roulette, weak light is followed by chance: the shares add up to 1 in the mean, and nothing is unresolved but what the
-//! limits on bounces and passages cut off.
+//! Every passage, from entry until too little light is left, is the chain of bounces that a convex stone has. Light
+//! that leaves and meets the solid again waits, with its polarisation, and is followed in the same way, the strongest
+//! first. Without roulette, light weaker than the least weight is not followed and counts as unresolved, so that all
+//! shares still add up to 1. With roulette, weak light is followed by chance: the shares add up to 1 in the mean, and
+//! only the limits on bounces and passages leave light unresolved.
 
 use super::facets::FacetSearch;
 use super::light::PathLight;
@@ -17,7 +17,7 @@ use crate::trace::DispersedRay;
 /// The most passages of one ray that are followed; light that waits after so many is unresolved.
 const MOST_PASSAGES: usize = 1000;
 
-/// Light outside on its way into the solid.
+/// Light outside that is about to enter the solid.
 #[derive(Clone, Copy)]
 pub(super) struct Inbound {
     pub met: (usize, f64),
@@ -26,11 +26,11 @@ pub(super) struct Inbound {
     pub light: PathLight,
     /// The share that has not been absorbed.
     pub left: f64,
-    /// Length of its way inside so far.
+    /// The length of the path inside so far.
     pub path: f64,
-    /// Bounces inside so far.
+    /// The number of bounces inside so far.
     pub bounce: u32,
-    /// As in [`MeetingRay`](super::MeetingRay).
+    /// The random numbers, as in [`MeetingRay`](super::MeetingRay).
     pub luck: Option<LobeLuck>,
 }
 
@@ -41,8 +41,9 @@ impl Inbound {
 }
 
 impl StoneTracer {
-    /// Follows light into a solid, and all that leaves it and enters again, except where `is_taken` says that it meets
-    /// something else before that distance. `None` where it runs along the first facet.
+    /// Follows light into a solid, and all light that leaves it and enters again, except where `is_taken` returns
+    /// true for an exit and a distance, because another body is nearer. `None` where the ray runs along the first
+    /// facet.
     pub(super) fn branch<F: FacetSearch>(
         &self,
         facets: &F,

@@ -63,17 +63,17 @@ impl Beams {
     }
 }
 
-/// What the change per refracted direction goes back to.
+/// The derivatives of a sum by the quantities on which a refracted direction depends.
 struct RefractionAdjoint {
     ray: DVec3,
-    /// Per normal on the side that the light comes from.
+    /// The derivative by the normal on the side that the light comes from.
     normal: DVec3,
-    /// Per ratio of the indices.
+    /// The derivative by the ratio of the indices.
     eta: f64,
 }
 
-/// Follows the change per refracted direction back through Snell's law; the light comes along `ray` to a surface with this
-/// normal against it.
+/// Returns these derivatives from that by the refracted direction, by Snell's law. The light comes along `ray` to a
+/// surface whose normal points against it.
 fn refraction(ray: DVec3, normal: DVec3, eta: f64, per: DVec3) -> RefractionAdjoint {
     let cos_i = -ray.dot(normal);
     let Some(cos_t) = cos_transmitted(cos_i, eta).filter(|&cos_t| cos_t > 0.0) else {

@@ -1,13 +1,13 @@
-//! How a sum over beams changes with the planes of the stone and with its index: exact derivatives, followed back along the
+//! The exact derivatives of a sum over beams by the planes of the stone and by its index, followed back along the
 //! beams.
 //!
-//! A sum over beams depends on their weights, on the directions of their exits and on the areas of their outlines. Each of
-//! these is a smooth function of the planes that the beam has met, as long as it meets the same ones. Areas change only
-//! where their edges move: an edge is the line on which the point that the beam has reached on one facet lies on the plane
-//! of a neighbour, f(x) = 0, and moving it changes the area by |edge| / |∇f| times the change of f in the edge's middle. So no
-//! corner is differentiated, and meets of many facets do no harm. All derivatives of one sum are found in one pass from
-//! the last beams to the first (reverse accumulation: A. Griewank and A. Walther, Evaluating Derivatives, 2nd ed., 2008,
-//! chapter 3).
+//! A sum over beams depends on their weights, on the directions of their exits and on the areas of their outlines.
+//! Each of these is a smooth function of the planes that the beam has met, as long as it meets the same planes. Areas
+//! change only where their edges move. An edge is the line f(x) = 0 on which the point that the beam has reached on
+//! one facet lies on the plane of a neighbour. Moving the edge changes the area by |edge| / |∇f| times the change of
+//! f in the edge's middle. So no corner is differentiated, and meets of many facets do no harm. One pass from the
+//! last beams to the first finds all derivatives of one sum (reverse accumulation: A. Griewank and A. Walther,
+//! Evaluating Derivatives, 2nd ed., 2008, chapter 3).
 
 mod fan;
 mod pass;
@@ -18,22 +18,22 @@ use crate::math::Polytope;
 use glam::DVec3;
 use pass::ReversePass;
 
-/// How a sum over beams changes with each beam, which is what [`Beams::derivatives`] starts from. All lists have one entry
-/// for each beam.
+/// The derivatives of a sum by the results of each beam, from which [`Beams::derivatives`] starts. Each list has one
+/// entry for each beam.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamPartials {
-    /// The change per energy of the beam's exit: its weight times the area of its outline.
+    /// The derivative by the energy of the beam's exit, which is its weight times the area of its outline.
     pub energy: Vec<f64>,
-    /// The change per area of the beam's outline while all energies stay.
+    /// The derivative by the area of the beam's outline while all energies stay.
     pub area: Vec<f64>,
-    /// The change per direction of the beam's exit.
+    /// The derivative by the direction of the beam's exit.
     pub exit: Vec<DVec3>,
-    /// The change per energy that is absorbed on the beam's last way, [`Beam::absorbed`](super::Beam::absorbed).
+    /// The derivative by the energy absorbed on the beam's last way, [`Beam::absorbed`](super::Beam::absorbed).
     pub absorbed: Vec<f64>,
 }
 
 impl BeamPartials {
-    /// Makes the partial derivatives of a sum that does not depend on any of this many beams.
+    /// Returns the derivatives of a sum that depends on none of this many beams.
     pub fn none(count: usize) -> Self {
         Self {
             energy: vec![0.0; count],
@@ -44,19 +44,20 @@ impl BeamPartials {
     }
 }
 
-/// How a number changes with the planes of a stone and with its index.
+/// The derivatives of a number by the planes of a stone and by its index.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlaneDerivatives {
-    /// For each facet of the polytope, the change per unit normal; only its part square to the normal means anything.
+    /// For each facet, the derivative by its unit normal; only the component perpendicular to the normal has a
+    /// meaning.
     pub normals: Vec<DVec3>,
-    /// For each facet, the change per offset, in girdle radii.
+    /// For each facet, the derivative by its offset, in girdle radii.
     pub offsets: Vec<f64>,
-    /// The change per refractive index.
+    /// The derivative by the refractive index.
     pub index: f64,
 }
 
 impl PlaneDerivatives {
-    /// Makes the derivatives of what does not change with any of this many facets.
+    /// Returns the derivatives of a number that depends on none of this many facets.
     pub(super) fn none(facets: usize) -> Self {
         Self { normals: vec![DVec3::ZERO; facets], offsets: vec![0.0; facets], index: 0.0 }
     }
@@ -72,7 +73,8 @@ impl PlaneDerivatives {
         self.index += other.index;
     }
 
-    /// Returns the change when each facet's normal and offset change by these amounts, in the order of the facets.
+    /// Returns the change of the number when each facet's normal and offset change by these amounts, in the order of
+    /// the facets.
     pub fn along(&self, changes: impl IntoIterator<Item = (DVec3, f64)>) -> f64 {
         let own = self.normals.iter().zip(&self.offsets);
         own.zip(changes).map(|((n, o), (by_n, by_o))| n.dot(by_n) + o * by_o).sum()
@@ -80,13 +82,14 @@ impl PlaneDerivatives {
 }
 
 impl Beams {
-    /// Returns how a sum over these beams changes with the planes of all facets of `polytope`, which must be the one that was
-    /// traced, and with the index.
+    /// Returns the derivatives of a sum over these beams by the planes of all facets of `polytope`, which must be the
+    /// one that was traced, and by the index.
     ///
-    /// They are the derivatives of the sum over the stored domain of the symmetry, of the beams that were followed, each
-    /// between its borders: where a beam begins or ceases to leave the stone, or its exit crosses a border of the light, sums
-    /// have kinks or jumps, which no derivative shows. Where the planes change and keep the symmetry, the whole picture's
-    /// sum changes by this times the symmetry's order. The coefficients of absorption are held.
+    /// They are the derivatives of the sum over the followed beams of the stored domain of the symmetry, each between
+    /// its borders. Where a beam begins or ceases to leave the stone, or where its exit crosses a border of the
+    /// light, sums have kinks or jumps, which no derivative shows. Where the planes change and keep the symmetry, the
+    /// sum of the whole picture changes by the symmetry's order times as much. The coefficients of absorption are
+    /// held constant.
     pub fn derivatives(&self, polytope: &Polytope, partials: &BeamPartials) -> PlaneDerivatives {
         ReversePass::new(self, polytope).run(partials)
     }
@@ -106,7 +109,8 @@ mod tests {
         exit.z.max(0.0).powi(2) + 0.3 * exit.x
     }
 
-    /// Sums what leaves in a smooth light and a part of what is absorbed, of one domain of the symmetry.
+    /// Sums the light that leaves, weighted by a smooth function of direction, and a part of the light that is
+    /// absorbed, in one domain of the symmetry.
     fn sum(beams: &Beams) -> f64 {
         beams.iter().map(|beam| beam.weight * beam.area * weighed(beam.exit) + 0.4 * beam.absorbed).sum()
     }
@@ -159,7 +163,7 @@ mod tests {
             let options = BeamOptions { symmetry: false, polarised, ..BeamOptions::default() };
             let case =
                 Case { absorption, view: View { tilt: 0.13, azimuth: 0.4, ..View::default() }, options };
-            // Planes that are off by a little meet by threes, so that each may move alone.
+            // Planes that are slightly off meet by threes, so that each may move alone.
             let planes: Vec<Plane> = TOLKOWSKY
                 .facets()
                 .unwrap()

@@ -6,13 +6,14 @@ use super::{BeamPartials, PlaneDerivatives};
 use crate::math::{Affine, Moments, Polytope, moments_along_edge, moments_of_decay};
 use glam::{DVec2, DVec3};
 
-/// Lines of an image nearer than this to one another count as one; lengths are in girdle radii.
+/// Lines of an image that are nearer than this to one another count as one; the unit is the girdle radius.
 const SAME_LINE: f64 = 1e-9;
 
 /// The number that stands for an edge that does not move.
 const FIXED: u32 = u32::MAX;
 
-/// The line that an edge of an outline lies on: where the point that the beam `level` reaches lies on the plane of `facet`.
+/// The line that contains an edge of an outline: the line on which the point that the beam `level` reaches lies on
+/// the plane of `facet`.
 #[derive(Debug, Clone, Copy)]
 struct EdgeLine {
     /// A beam's id, or [`FIXED`] for the border of a domain of the symmetry.
@@ -28,10 +29,10 @@ pub(super) struct ReversePass<'a> {
     adjoints: Vec<StateAdjoint>,
     /// For each corner of the beams, the line of the edge that begins there.
     lines: Vec<EdgeLine>,
-    /// For the first corner of each outline, the change per area.
+    /// For the first corner of each outline, the derivative by the outline's area.
     areas: Vec<f64>,
-    /// For each corner of the beams in a stone that absorbs, the change per movement of the edge that begins there, spread
-    /// along the edge, beside what `areas` says; empty in a clear stone.
+    /// For each corner of the beams in a stone that absorbs, the derivative by the movement of the edge that begins
+    /// there, spread along the edge, in addition to `areas`; empty in a clear stone.
     edges: Vec<Moments>,
     found: PlaneDerivatives,
 }
@@ -72,13 +73,13 @@ impl<'a> ReversePass<'a> {
         self.found
     }
 
-    /// Whether a beam has an outline of its own.
+    /// Returns whether a beam has an outline of its own.
     fn is_cut_here(&self, node: &BeamNode) -> bool {
         node.parent == ROOT || self.beams.nodes[node.parent].corners != node.corners
     }
 
-    /// Finds the line of each edge of a beam's outline: one of the outline that it was cut from, or one beyond which a
-    /// neighbour of its facet is met.
+    /// Finds the line of each edge of a beam's outline. It is a line of the outline from which this one was cut, or
+    /// one beyond which the beam meets a neighbour of its facet.
     fn find_lines(&mut self, id: u32) {
         let node = &self.beams.nodes[id];
         let outline = self.beams.outline(node);
@@ -108,7 +109,7 @@ impl<'a> ReversePass<'a> {
                 let slope = line.gradient.length();
                 if slope > 0.0 { most / slope } else { f64::INFINITY }
             };
-            // Where both kinds fit, the splitting has left the former edge in place.
+            // Where lines of both kinds fit, the splitting has left the former edge in place.
             let own = before.iter().map(|(line, at)| (off(line) - SAME_LINE, at));
             let nearest = own.chain(cuts.iter().map(|(line, at)| (off(line), at)));
             if let Some((_, &line)) = nearest.min_by(|a, b| a.0.total_cmp(&b.0)) {
@@ -117,7 +118,7 @@ impl<'a> ReversePass<'a> {
         }
     }
 
-    /// Returns how deep inside the plane of `facet` the points lie that a beam reaches, over the image.
+    /// Returns the depth inside the plane of `facet` of the points that a beam reaches, over the image.
     fn inside(&self, id: u32, facet: u32) -> Affine {
         let plane = &self.polytope.facets()[facet as usize].plane;
         let [o, u, v] = self.states[id as usize].origin;
@@ -127,7 +128,7 @@ impl<'a> ReversePass<'a> {
         )
     }
 
-    /// Follows the changes of one beam back to the one that it came from.
+    /// Follows the derivatives of one beam back to its parent.
     fn step(&mut self, id: u32, partials: &BeamPartials) {
         let beams = self.beams;
         let (node, k) = (&beams.nodes[id], id as usize);
@@ -160,15 +161,16 @@ impl<'a> ReversePass<'a> {
         self.found.index += index;
     }
 
-    /// Adds the changes of what leaves a beam and of what is absorbed on its last way, both integrals over its outline of light
-    /// that falls along its path; returns the change per weight of its exit without absorption.
+    /// Adds the derivatives by the light that leaves a beam and by the light that is absorbed on its last way. Both
+    /// are integrals over the outline of light that falls along the path. Returns the derivative by the weight of the
+    /// exit without absorption.
     fn absorb(&mut self, id: u32, partials: &BeamPartials) -> f64 {
         let beams = self.beams;
         let (node, k) = (&beams.nodes[id], id as usize);
         let weight = if node.exit == NO_EXIT { 0.0 } else { beams.exits[node.exit as usize].weight };
         let absorbed = if node.parent == ROOT { 0.0 } else { partials.absorbed[k] };
         let arriving = if node.parent == ROOT { 0.0 } else { beams.nodes[node.parent].onward };
-        // What is left after the path, and what was left before the last way, each times its change.
+        // The light left after the path, and the light left before the last way, each times its derivative.
         let (after, before) = (partials.energy[k] * weight - absorbed * arriving, absorbed * arriving);
         let left = self.spread(node, node.path, after);
         self.adjoints[k].add_path(left.per_path);
@@ -182,12 +184,13 @@ impl<'a> ReversePass<'a> {
         partials.energy[k] * left.sum
     }
 
-    /// Integrates over an outline what absorption leaves after a path, and adds the changes by its edges, `per` each unit of it.
+    /// Integrates over an outline the share that absorption leaves after a path, and adds the derivatives by the
+    /// movement of its edges, times `per`.
     fn spread(&mut self, node: &BeamNode, path: Affine, per: f64) -> LeftLight {
         let beams = self.beams;
         let outline = beams.outline(node);
         let mut left = LeftLight { sum: 0.0, per_path: Moments::default() };
-        // Half of the light is of each polarisation of the stone.
+        // Half of the light has each of the stone's two polarisations.
         for absorption in beams.medium.absorption {
             let fall = path * absorption;
             let inside = moments_of_decay(outline, fall) * 0.5;
@@ -205,7 +208,7 @@ impl<'a> ReversePass<'a> {
         left
     }
 
-    /// Turns the changes of an outline into changes of what places its edges.
+    /// Turns the derivatives by an outline into derivatives by the planes and beams that place its edges.
     fn move_edges(&mut self, node: &BeamNode) {
         let outline = self.beams.outline(node);
         let per_area = self.areas[node.corners.0 as usize];
@@ -225,7 +228,7 @@ impl<'a> ReversePass<'a> {
         }
     }
 
-    /// Turns the change of one edge, spread along it, into changes of what places it.
+    /// Turns the derivative by one edge, spread along it, into derivatives by the plane and the beam that place it.
     fn move_edge(&mut self, (level, facet): (u32, u32), along: Moments) {
         let slope = self.inside(level, facet).gradient.length();
         let Moments { sum, first } = along * (1.0 / slope);
@@ -243,9 +246,9 @@ impl<'a> ReversePass<'a> {
     }
 }
 
-/// What absorption leaves of a light of weight 1 over an outline.
+/// The share of a light of weight 1 that absorption leaves, integrated over an outline.
 struct LeftLight {
     sum: f64,
-    /// The change per length of the path at each point.
+    /// The derivative by the length of the path at each point.
     per_path: Moments,
 }

@@ -1,4 +1,4 @@
-//! One landing of a beam, and how changes of what follows go back to what came before.
+//! One landing of a beam, and the derivatives by its quantities before it, from those after it.
 
 use super::super::coherency::Coherency;
 use super::super::follow::{SQUARE_ON, s_axis};
@@ -9,36 +9,36 @@ use crate::math::{Affine, Moments, Plane};
 use crate::optics::{Fresnel, fresnel, reflect, refract};
 use glam::{DVec2, DVec3};
 
-/// How a beam goes on from a facet, without its outline.
+/// The light that goes on from a facet, without its outline.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BeamState {
-    /// See [`Ray::origin`].
+    /// The starts of the rays, as in [`Ray::origin`].
     pub origin: [DVec3; 3],
     pub direction: DVec3,
     pub light: Coherency,
     pub s: DVec3,
 }
 
-/// The change of a sum per change of each number of a [`BeamState`].
+/// The derivatives of a sum by each number of a [`BeamState`].
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct StateAdjoint {
     pub origin: [DVec3; 3],
     pub direction: DVec3,
-    /// Per `ss`, `pp`, `re` and `im` of the light.
+    /// The derivatives by `ss`, `pp`, `re` and `im` of the light.
     pub light: [f64; 4],
     pub s: DVec3,
-    /// Per length of the path so far: its constant and the two parts of its gradient.
+    /// The derivatives by the length of the path so far: by its constant and by both components of its gradient.
     pub path: [f64; 3],
 }
 
 impl StateAdjoint {
-    /// Adds the change per weight of the light.
+    /// Adds the derivative by the weight of the light.
     pub fn add_weight(&mut self, by: f64) {
         self.light[0] += by;
         self.light[1] += by;
     }
 
-    /// Adds changes per length of the path at each point of the image.
+    /// Adds the derivatives by the length of the path at each point of the image.
     pub fn add_path(&mut self, by: Moments) {
         self.path[0] += by.sum;
         self.path[1] += by.first.x;
@@ -60,12 +60,13 @@ impl StateAdjoint {
     }
 }
 
-/// Fresnel's coefficients, and their changes with the cosine of incidence and with the ratio of the indices.
+/// Fresnel's coefficients, and their derivatives by the cosine of incidence and by the ratio of the indices.
 struct FresnelChange {
     surface: Fresnel,
-    /// The change of the reflectances of s and p, and of the real and imaginary part of r_s r_p*; each per cosine and per ratio.
+    /// The derivatives of the reflectances of s and p, and of the real and imaginary part of r_s r_p*; each by the
+    /// cosine and by the ratio.
     of: [[f64; 2]; 4],
-    /// The change of the cosine of refraction; 0 in total reflection.
+    /// The derivatives of the cosine of refraction; 0 in total reflection.
     of_cos_t: [f64; 2],
 }
 
@@ -106,14 +107,15 @@ impl FresnelChange {
         Self { surface, of: std::array::from_fn(|k| [by_i[k], by_eta[k]]), of_cos_t: [0.0; 2] }
     }
 
-    /// Returns the changes per cosine and per ratio, from those per reflectance of s and p and per r_s r_p*.
+    /// Returns the derivatives of a sum by the cosine and by the ratio, from those by the reflectances of s and p and
+    /// by r_s r_p*.
     fn pull_back(&self, per: [f64; 4]) -> [f64; 2] {
         std::array::from_fn(|k| self.of.iter().zip(per).map(|(of, per)| of[k] * per).sum())
     }
 }
 
-/// Adds what follows from the changes per axis s to those per direction and per normal; returns false where the axis does not
-/// depend on them.
+/// Adds to the derivatives by the direction and by the normal those that follow from the derivative by the axis s;
+/// returns false where the axis depends on neither.
 fn pull_back_s_axis(
     (direction, normal): (DVec3, DVec3),
     s: DVec3,
@@ -131,7 +133,7 @@ fn pull_back_s_axis(
 }
 
 impl BeamState {
-    /// Returns how light goes on that has entered through a facet.
+    /// Returns the state of light that has entered through a facet.
     pub fn entered(beams: &Beams, plane: &Plane) -> Self {
         let view = &beams.view;
         let cos_i = plane.normal.dot(view.toward);
@@ -144,9 +146,9 @@ impl BeamState {
         Self { origin: entry_points(view, plane), direction, light, s }
     }
 
-    /// Returns the changes per normal and offset of the facet by which the light has entered, and per index.
+    /// Returns the derivatives by normal and offset of the facet by which the light has entered, and by the index.
     ///
-    /// `leaving` is the change per weight and per direction of the glare.
+    /// `leaving` is the derivative by the weight and by the direction of the glare.
     pub fn pull_back_entry(
         &self,
         beams: &Beams,
@@ -190,7 +192,7 @@ impl BeamState {
     }
 }
 
-/// A beam that lands on a facet, with all that its changes depend on.
+/// A beam that lands on a facet, with everything on which its derivatives depend.
 pub(super) struct LandingStep<'a> {
     before: &'a BeamState,
     plane: &'a Plane,
@@ -202,7 +204,7 @@ pub(super) struct LandingStep<'a> {
     pub after: BeamState,
 }
 
-/// What the changes of a landing go back to.
+/// The derivatives of a sum by the quantities on which a landing depends.
 pub(super) struct LandingAdjoint {
     pub before: StateAdjoint,
     pub normal: DVec3,
@@ -211,7 +213,7 @@ pub(super) struct LandingAdjoint {
 }
 
 impl<'a> LandingStep<'a> {
-    /// Lands on a plane; the same as in [`super::super::follow`].
+    /// Lands on a plane, by the same formulae as [`super::super::follow`].
     pub fn new(before: &'a BeamState, plane: &'a Plane, beams: &'a Beams) -> Self {
         let (d, n) = (before.direction, plane.normal);
         let cos_i = d.dot(n);
@@ -226,7 +228,8 @@ impl<'a> LandingStep<'a> {
         Self { before, plane, beams, cos_i, distance, s, turned, after }
     }
 
-    /// Follows the changes per state after the landing, and per weight and direction of the exit, back to what came before.
+    /// Returns the derivatives by the quantities before the landing, from those by the state after it and by weight
+    /// and direction of the exit.
     pub fn pull_back(&self, after: &StateAdjoint, leaving: (f64, DVec3)) -> LandingAdjoint {
         let mut back =
             LandingAdjoint { before: StateAdjoint::default(), normal: DVec3::ZERO, offset: 0.0, index: 0.0 };
@@ -237,7 +240,8 @@ impl<'a> LandingStep<'a> {
         back
     }
 
-    /// Adds what the reflected light, the exit and the axis s depend on; returns the change per cosine of incidence.
+    /// Adds the derivatives that follow from the reflected light, the exit and the axis s; returns the derivative by
+    /// the cosine of incidence.
     fn pull_back_light(
         &self,
         after: &StateAdjoint,
@@ -278,7 +282,8 @@ impl<'a> LandingStep<'a> {
         per_cos
     }
 
-    /// Adds what the point reached and the reflected direction depend on; returns the change per cosine of incidence.
+    /// Adds the derivatives that follow from the point reached and the reflected direction; returns the derivative by
+    /// the cosine of incidence.
     fn pull_back_path(&self, after: &StateAdjoint, back: &mut LandingAdjoint) -> f64 {
         let (d, n) = (self.before.direction, self.plane.normal);
         back.before.direction += after.direction;

@@ -1,4 +1,5 @@
-//! The beams that [`trace_shared`](super::trace_shared) hands on: what lands on each facet, what leaves there, and where beams end.
+//! The results that [`trace_shared`](super::trace_shared) hands on: the beams that land on each facet, the light that
+//! leaves there, and the ends of beams.
 
 use super::moving::MovingCorner;
 use super::slanted_light::{EntryFacet, Slant, SlantedLight};
@@ -12,7 +13,7 @@ use std::ops::Range;
 
 /// A part of a beam that lands on one facet, for a group of wavelengths.
 pub struct SharedBeam<'a> {
-    /// The wavelengths, by their number among the media.
+    /// The range of the wavelengths, by their numbers among the media.
     pub group: Range<usize>,
     /// The facet by which the light entered.
     pub entry: &'a EntryFacet,
@@ -22,29 +23,29 @@ pub struct SharedBeam<'a> {
     pub slant: Slant,
     /// The outline's area at `slant`.
     pub area: f64,
-    /// The share of the light that arrives, without absorption, at `slant`; 1 for a beam that enters here.
+    /// The share of the light that arrives, at `slant` and without absorption; 1 for a beam that enters here.
     pub weight: f64,
-    /// What has become of the light inside; `None` for a beam that enters here, of which the surface reflects a part.
+    /// The light inside; `None` for a beam that enters here, of which the surface reflects a part.
     pub inside: Option<Inside>,
 }
 
 /// Light inside a stone that arrives at a facet.
 pub struct Inside {
-    /// Outward unit normal of the facet.
+    /// The outward unit normal of the facet.
     pub(super) normal: DVec3,
     pub(super) light: SlantedLight,
-    /// Its polarisation in the axes of the facet.
+    /// The polarisation of the light, in the axes of the facet.
     pub(super) arriving: Coherency,
-    /// The depth of the facet before, and of this one, behind the facet by which the light entered.
+    /// The depths of the facet before and of this one behind the facet by which the light entered.
     pub(super) depths: [Affine; 2],
-    /// The parts of the speed toward this facet: of light that is not slanted, and per slant.
+    /// The speed toward this facet, in two parts: that of light that is not slanted, and the part per slant.
     pub(super) speed: DVec2,
 }
 
 /// Light of one wavelength that leaves a shared beam.
 #[derive(Debug, Clone, Copy)]
 pub struct SharedExit {
-    /// Unit direction, followed from the eye.
+    /// The unit direction, followed from the eye.
     pub direction: DVec3,
     /// The change of the direction over the medium's spread of indices.
     pub change: DVec3,
@@ -57,26 +58,26 @@ pub trait SharedBeams: Send {
     /// Receives a beam.
     fn take(&mut self, beam: &SharedBeam);
 
-    /// Receives the end of a beam that is not followed any further.
+    /// Receives the end of a beam that is not followed further.
     fn leave(&mut self, end: BeamEnd);
 
-    /// Ends the piece of work: no more beams come.
+    /// Ends the piece of work; no more beams follow.
     fn finish(&mut self);
 }
 
 /// The end of a beam that is too weak to be followed.
 pub struct BeamEnd {
-    /// The wavelengths, by their number among the media.
+    /// The range of the wavelengths, by their numbers among the media.
     pub group: Range<usize>,
     /// The outline at `slant`.
     pub outline: Vec<DVec2>,
-    /// Its area.
+    /// The outline's area.
     pub area: f64,
     /// The slant in the middle of the group.
     pub slant: Slant,
     /// The share of the light that goes on, without absorption.
     pub weight: f64,
-    /// The most light of a wavelength that goes on, as share times area, with absorption.
+    /// The greatest light of one wavelength that goes on, as share times area, with absorption.
     pub energy: f64,
     pub(in crate::trace) coherency: Coherency,
     /// The axis s of `coherency`.
@@ -86,7 +87,8 @@ pub struct BeamEnd {
 }
 
 impl BeamEnd {
-    /// Returns how the ray of an image point goes on: its start, its unit direction, and the length of its path so far.
+    /// Returns the ray that goes on from an image point: its start, its unit direction, and the length of its path so
+    /// far.
     pub(in crate::trace) fn ray(&self, p: DVec2) -> (DVec3, DVec3, f64) {
         let (depth, way) = (self.depth.at(p), self.light.way(self.slant.slant));
         (self.light.start(p) + way * depth, self.light.direction(&self.slant), depth / self.slant.cos_t)
@@ -94,8 +96,8 @@ impl BeamEnd {
 }
 
 impl SharedBeam<'_> {
-    /// Returns the share of light from the direction of the [glare](EntryFacet::glare) that the surface reflects, where light of a
-    /// medium enters.
+    /// Returns the share of light that the surface reflects where light enters a medium. The reflected light comes
+    /// from the direction of the [glare](EntryFacet::glare).
     pub fn glare(&self, medium: &Medium) -> f64 {
         fresnel(self.entry.cos_i, 1.0 / medium.index).reflectance()
     }
@@ -112,7 +114,7 @@ impl SharedBeam<'_> {
 }
 
 impl Inside {
-    /// Returns the light of a medium that leaves; `None` where reflection is total.
+    /// Returns the light that leaves here at the wavelength of a medium; `None` where reflection is total.
     pub fn exit(&self, entry: &EntryFacet, medium: &Medium) -> Option<SharedExit> {
         let slant = entry.slant(medium.index);
         let ray = self.light.direction(&slant);
@@ -123,7 +125,8 @@ impl Inside {
         Some(SharedExit { direction, change, weight })
     }
 
-    /// Returns the length of the path inside the stone to the facet, over the image, at a slant; `middle` is that of the beam.
+    /// Returns the length of the path inside the stone to the facet, over the image, at a slant. `middle` is the
+    /// beam's slant.
     pub fn path(&self, middle: &Slant, slant: &Slant) -> Affine {
         let speed = |slant: &Slant| self.speed.x + self.speed.y * slant.slant;
         self.depths[1] * (speed(middle) / (speed(slant) * slant.cos_t))

@@ -1,10 +1,10 @@
 //! Beams that several wavelengths share.
 //!
-//! Light of all wavelengths is reflected by the same facets at the same angles; it differs in how it was refracted where it
-//! entered. So the directions inside differ by one number, the [`Slant`], and along one sequence of facets everything else
-//! follows exactly: where light lands, how it leaves and with which weight. Only the outline of a beam is carried by first
-//! order, corner by corner. Wavelengths share a beam as long as little would change; else their group is halved, and each
-//! half goes on from its own middle.
+//! Light of all wavelengths is reflected by the same facets at the same angles; it differs only by its refraction
+//! where it entered. So the directions inside differ by one number, the [`Slant`]. Along one sequence of facets
+//! everything else follows exactly from it: where light lands, how it leaves and with which weight. Only the outline
+//! of a beam is carried to first order, corner by corner. Wavelengths share a beam as long as sharing changes little.
+//! Where it would change more, their group is halved, and each half goes on from its own middle.
 
 mod handed_on;
 mod moving;
@@ -27,44 +27,46 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// The number of beams from which work goes on on all cores. It does not depend on their number, as the result must not.
+/// The number of beams from which the work is divided among all cores. It does not depend on the number of cores,
+/// because the result must not.
 const SEEDS: usize = 512;
 
-/// The most rounds of splitting until there are so many beams.
+/// The most rounds of splitting to reach that number of beams.
 const MOST_ROUNDS: u32 = 12;
 
 /// The number of seeds whose beams are found before they are handed on.
 const SEEDS_AT_ONCE: usize = 64;
 
-/// The part of the progress that finding the least energy of beams takes.
+/// The part of the progress that is reserved for finding the least energy of beams.
 const PART_OF_LEVEL: f64 = 0.1;
 
-/// The square of the cosine of refraction above which the share that is reflected changes little with the wavelength.
+/// The square of the cosine of refraction above which reflectance changes little with the wavelength.
 const STEADY: f64 = 0.25;
 
-/// How beams are shared.
+/// The options for sharing beams.
 #[derive(Debug, Clone, Copy)]
 pub struct SharingOptions {
-    /// How far beams are followed.
+    /// The limits up to which beams are followed.
     pub beams: BeamOptions,
-    /// The most by which sharing one beam may change a pixel, as a part of what light of radiance 1 at all wavelengths gives; 0
-    /// where each wavelength is traced on its own.
+    /// The most by which sharing one beam may change a pixel, as a part of the light of radiance 1 at all
+    /// wavelengths; 0 where each wavelength is traced on its own.
     pub most_change: f64,
     /// The area of a pixel in the stone's units.
     pub pixel: f64,
-    /// The part of all wavelengths that share a beam which is followed as far as `beams` says. Those that more share are
-    /// followed farther, and those that fewer share less far: each to the same energy of all its wavelengths.
+    /// The share of all wavelengths whose common beams are followed exactly as far as `beams` requires. Beams of
+    /// larger groups are followed farther, and those of smaller groups less far, each down to the same energy, summed
+    /// over its wavelengths.
     pub usual_part: f64,
 }
 
-/// What all shared beams of a picture have in common.
+/// The properties that all shared beams of a picture have in common.
 #[derive(Debug, Clone)]
 pub struct SharedView {
     /// The image's axes in the stone's frame.
     pub basis: Basis,
     /// The symmetry that stone, view and light share; only one domain of it is traced.
     pub symmetry: Symmetry,
-    /// Area of the whole silhouette.
+    /// The area of the whole silhouette.
     pub silhouette_area: f64,
 }
 
@@ -72,22 +74,22 @@ pub struct SharedView {
 #[derive(Clone)]
 struct SharedFront {
     group: (u32, u32),
-    /// The place of its facet in the chain.
+    /// The place of the front's facet in the chain.
     link: u32,
     bounces: u32,
     entry: EntryFacet,
     light: SlantedLight,
     slant: Slant,
-    /// How far the slants of the group reach to both sides.
+    /// The greatest difference of the group's slants from `slant`, to both sides.
     reach: f64,
-    /// Weight and polarisation at `slant`, without absorption, and the axis s.
+    /// The weight and polarisation at `slant`, without absorption; the field `s` holds its axis s.
     coherency: Coherency,
     s: DVec3,
-    /// The depth of the facet behind that by which the light entered, at `slant`.
+    /// The depth of the front's facet behind the facet by which the light entered, at `slant`.
     depth: Affine,
-    /// The parts of the speed toward the facet: of light that is not slanted, and per slant.
+    /// The speed toward the facet, in two parts: that of light that is not slanted, and the part per slant.
     speed: DVec2,
-    /// The first of its corners and the one after the last.
+    /// The first of the front's corners, and the one after the last.
     corners: (u32, u32),
 }
 
@@ -98,7 +100,7 @@ struct Seed {
     facets: Vec<u32>,
 }
 
-/// What does not change while beams are followed.
+/// The data that stay the same while beams are followed.
 struct Common<'a> {
     facets: &'a Facets<'a>,
     polytope: &'a Polytope,
@@ -107,25 +109,26 @@ struct Common<'a> {
     basis: Basis,
     /// The least energy of a beam that is followed, summed over the wavelengths of its group.
     level: f64,
-    /// Outlines of less area come from rounding.
+    /// The area below which outlines come from rounding.
     sliver: f64,
 }
 
-/// Follows shared beams.
+/// The state of one piece of work that follows shared beams.
 struct Sharer<'a> {
     common: &'a Common<'a>,
     splitter: MovingSplitter<'a>,
     stack: Vec<SharedFront>,
     corners: Vec<MovingCorner>,
-    /// The facets that beams have met: for each the place of the one before, and the facet.
+    /// The facets that beams have met; each entry is the place of the facet before it, and the facet.
     chain: Vec<(u32, u32)>,
 }
 
-/// The place of a facet in the chain that has none before it.
+/// The place that stands for no facet before the first one.
 const FIRST_LINK: u32 = u32::MAX;
 
-/// Follows light of several wavelengths from the eye into a stone, down to the energy at which beams of the middle index satisfy
-/// `options`, if they are absorbed as those of the clearest wavelength. `prepare` makes a container for each piece of work, and `hand_on` takes in some that are full, in order.
+/// Follows light of several wavelengths from the eye into a stone, down to the energy at which beams of the middle
+/// index satisfy `options` if they are absorbed as those of the clearest wavelength. `prepare` makes a container for
+/// each piece of work, and `hand_on` receives full containers in order.
 ///
 /// `media` are those of the wavelengths, ordered by index.
 ///
@@ -142,7 +145,7 @@ pub fn trace_shared<B: SharedBeams>(
 ) -> Result<(), Stopped> {
     let Some(middle) = media.get(media.len() / 2) else { return Ok(()) };
     let facets = Facets::new(polytope);
-    // Of other wavelengths less light is left to follow.
+    // Less light is left to follow at the other wavelengths.
     let clearest = Medium { index: middle.index, ..Medium::clearest(media).unwrap_or(*middle) };
     let level = level_for(polytope, clearest, view, &options.beams, &|part| watch(PART_OF_LEVEL * part))?;
     let level = level * (media.len() as f64 * options.usual_part).max(1.0);
@@ -247,7 +250,7 @@ impl<'a> Sharer<'a> {
         }
     }
 
-    /// Returns the fronts that wait, with all that is needed to go on from them.
+    /// Returns the fronts that wait, with all data that are needed to follow them.
     fn seeds(&mut self) -> Vec<Seed> {
         let fronts = std::mem::take(&mut self.stack);
         let seed = |front: SharedFront| Seed {
@@ -262,7 +265,7 @@ impl<'a> Sharer<'a> {
         &self.corners[front.corners.0 as usize..front.corners.1 as usize]
     }
 
-    /// Returns the facets of the chain down to one of its places, from the facet of entry on.
+    /// Returns the facets of the chain up to one of its places, beginning with the facet of entry.
     fn facets_to(&self, link: u32) -> Vec<u32> {
         let up = |&link: &u32| Some(self.chain[link as usize].0).filter(|&l| l != FIRST_LINK);
         let mut met: Vec<u32> =
@@ -271,7 +274,7 @@ impl<'a> Sharer<'a> {
         met
     }
 
-    /// Follows a seed, and every beam that it splits into, while they are strong.
+    /// Follows a seed, and every beam into which it splits, while these are strong.
     fn follow(&mut self, seed: &Seed, beams: &mut impl SharedBeams) {
         self.corners.clear();
         self.corners.extend_from_slice(&seed.corners);
@@ -316,7 +319,7 @@ impl<'a> Sharer<'a> {
         self.splitter.cells = cells;
     }
 
-    /// Lets a part of a beam land on its facet.
+    /// Processes the landing of a part of a beam on its facet.
     fn land(
         &mut self,
         front: &SharedFront,
@@ -365,7 +368,7 @@ impl<'a> Sharer<'a> {
         }
     }
 
-    /// Puts a beam on the stack that goes on from a part of the last beam split, whose link and corners it still has.
+    /// Puts a part of the beam that was split last on the stack. `front` still has that beam's link and corners.
     fn go_on(&mut self, mut front: SharedFront, cell: &MovingCell) {
         if !cell.is_whole {
             let start = self.corners.len() as u32;
@@ -377,7 +380,7 @@ impl<'a> Sharer<'a> {
         self.stack.push(front);
     }
 
-    /// Puts a beam that a group of wavelengths shares on the stack, at the middle of that group.
+    /// Puts a beam on the stack for a smaller group of wavelengths, at the middle of that group.
     fn regroup(&mut self, front: &SharedFront, group: Range<usize>) {
         let common = self.common;
         let slant = front.entry.slant(common.middle_index(&group));
@@ -430,7 +433,7 @@ impl Common<'_> {
         0.5 * (self.media[group.start].index + self.media[group.end - 1].index)
     }
 
-    /// Returns the largest share that absorption leaves of light of a group.
+    /// Returns the largest share that absorption leaves of the light of any wavelength of a group.
     fn most_left(
         &self,
         group: &Range<usize>,
@@ -447,8 +450,8 @@ impl Common<'_> {
         media.iter().map(|m| m.transmittance(path)).fold(0.0, f64::max)
     }
 
-    /// Whether a beam would change too much if its group shared it: by the area that goes astray, or by what the facets that it
-    /// lands on reflect.
+    /// Returns whether a beam would change too much if its group shared it. The measures are the area that goes
+    /// astray, and the change of reflectance at the facets that it lands on.
     fn is_changed(
         &self,
         front: &SharedFront,
@@ -471,8 +474,8 @@ impl Common<'_> {
         })
     }
 
-    /// Returns by how much the share that a facet reflects differs between the ends of a group, where it may differ much: near the
-    /// angle of total reflection.
+    /// Returns the difference between the reflectances of a facet at the ends of a group. It is computed only near
+    /// the angle of total reflection, where it may be large.
     fn reflectance_change(&self, front: &SharedFront, group: &Range<usize>, normal: DVec3) -> f64 {
         let (down, along) = (front.light.down.dot(normal), front.light.along.dot(normal));
         let ends = [group.start, group.end - 1].map(|k| {

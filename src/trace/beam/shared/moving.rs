@@ -1,10 +1,10 @@
-//! Splits a beam that several wavelengths share: its outline moves with the wavelength.
+//! Splits a beam that several wavelengths share, whose outline moves with the wavelength.
 //!
-//! Light of all wavelengths that entered by one facet differs in its slant alone. Whether it meets one facet before another is
-//! the sign of a function that is affine in the image's coordinates and, scaled by what is positive, affine in the slant
-//! (see [`MovingSplitter::cut`]). So corners move nearly evenly with the slant, and each carries its drift. What this leaves
-//! out, at the ends of a group of wavelengths, are the places where corners pass by one another; their area is found as the
-//! beam is cut.
+//! Light of all wavelengths that entered by one facet differs only in its slant. It meets one facet before another
+//! where a function is positive that is affine in the image's coordinates and, after scaling by a positive factor,
+//! affine in the slant (see [`MovingSplitter::cut`]). So corners move nearly evenly with the slant, and each corner
+//! has its drift. The error of this is where corners pass one another toward the ends of a group of wavelengths; the
+//! area of these places is found when the beam is cut.
 
 use super::super::split::{Facets, GRAZING, MISSED, NO_FACET, Ray, SAME};
 use super::super::whole::Candidate;
@@ -12,20 +12,20 @@ use super::slanted_light::SlantedLight;
 use crate::math::Affine;
 use glam::{DVec2, DVec3};
 
-/// The most of an edge by which a corner on it may drift within a group of wavelengths.
+/// The most lengths of an edge by which a corner on it may drift within a group of wavelengths.
 const FARTHEST: f64 = 4.0;
 
 /// A corner of an outline, at the middle slant of a group of wavelengths, and its change per slant.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct MovingCorner {
-    /// Its place in the image.
+    /// The place of the corner in the image.
     pub at: DVec2,
-    /// The change of its place per slant.
+    /// The change of that place per slant.
     pub drift: DVec2,
 }
 
 impl MovingCorner {
-    /// Returns the place after a change of the slant.
+    /// Returns the place of the corner after a change of the slant.
     pub fn after(&self, change: f64) -> DVec2 {
         self.at + self.drift * change
     }
@@ -36,7 +36,7 @@ impl MovingCorner {
 pub(super) struct MovingBeam<'a> {
     pub light: &'a SlantedLight,
     pub slant: f64,
-    /// How far the slants of the group reach to both sides.
+    /// The greatest difference of the group's slants from the middle one, to both sides.
     pub reach: f64,
     /// The depth at which the light last met a facet.
     pub depth: Affine,
@@ -47,18 +47,18 @@ pub(super) struct MovingBeam<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MovingCell {
     pub facet: u32,
-    /// Outward unit normal.
+    /// The outward unit normal of the facet.
     pub normal: DVec3,
     /// The depth at which the light meets the facet, at the middle slant, over the image.
     pub depth: Affine,
     /// The first corner among [`MovingSplitter::corners`], and the one after the last.
     pub corners: (usize, usize),
     pub twice_area: f64,
-    /// Whether the outline is that of the whole beam.
+    /// True where the outline is that of the whole beam.
     pub is_whole: bool,
 }
 
-/// The corners of an outline while it is cut, with what lies beyond each edge.
+/// The corners of an outline while it is cut, with the facet beyond each edge.
 #[derive(Default)]
 struct Cut {
     corners: Vec<MovingCorner>,
@@ -83,13 +83,13 @@ pub(super) struct MovingSplitter<'a> {
     facets: &'a Facets<'a>,
     /// For each facet, the depth at which the light meets its plane at the middle slant, over the image.
     depth: Vec<Affine>,
-    /// For each facet, the part by which the speed toward its plane changes per slant.
+    /// For each facet, the relative change of the speed toward its plane per slant.
     rate: Vec<f64>,
-    /// For each facet, the number of the beam for which both were last worked out.
+    /// For each facet, the number of the beam for which `depth` and `rate` were last computed.
     known: Vec<u32>,
     /// For each facet, the number of the beam for which it was last put into the queue.
     visited: Vec<u32>,
-    /// The number of the present beam.
+    /// The number of the current beam.
     beam: u32,
     queue: Vec<u32>,
     outline: Cut,
@@ -124,8 +124,8 @@ impl<'a> MovingSplitter<'a> {
         }
     }
 
-    /// Leaves in `cells` the parts of a beam that land on each facet at the middle slant. Returns the area in which the parts
-    /// at another slant of the group are not these parts after their drift.
+    /// Leaves in `cells` the parts of a beam that land on each facet at the middle slant. Returns the area where, at
+    /// the other slants of the group, the drifted parts differ from the true ones.
     pub fn split(&mut self, beam: &MovingBeam) -> f64 {
         self.beam += 1;
         self.cells.clear();
@@ -156,7 +156,7 @@ impl<'a> MovingSplitter<'a> {
         astray
     }
 
-    /// Whether the beam lands on one facet as a whole, at both ends of its group.
+    /// Returns whether the beam lands on one facet as a whole, at both ends of its group.
     fn is_whole(&mut self, beam: &MovingBeam, way: DVec3, facet: u32) -> bool {
         if !self.is_ahead(beam.light, way, facet) {
             return false;
@@ -208,8 +208,8 @@ impl<'a> MovingSplitter<'a> {
         (covered, all_astray)
     }
 
-    /// Leaves in `self.outline` the part of the outline from which `facet` is met before its neighbours, and returns the area
-    /// that goes astray; `None` where there is no such part.
+    /// Leaves in `self.outline` the part of the outline whose rays meet `facet` before its neighbours, and returns
+    /// the area that goes astray; `None` where there is no such part.
     fn cell(&mut self, beam: &MovingBeam, way: DVec3, facet: u32) -> Option<f64> {
         self.outline.clear();
         self.outline.corners.extend_from_slice(beam.outline);
@@ -223,14 +223,16 @@ impl<'a> MovingSplitter<'a> {
             }
             let (there, other) = (self.depth[neighbour as usize], self.rate[neighbour as usize]);
             let tolerance = SAME * (here.magnitude(self.facets.extent) + there.magnitude(self.facets.extent));
-            // The depths are here / (1 + own · change) and there / (1 + other · change); both divisors are positive.
+            // The depths are here / (1 + own · change) and there / (1 + other · change), where both divisors are
+            // positive.
             let change = there * own - here * other;
             astray += self.cut((there - here, change), tolerance, neighbour, beam.reach)?;
         }
         Some(astray)
     }
 
-    /// Works out the depth of a facet's plane, once for each beam; returns false where the light does not run toward it.
+    /// Computes the depth of a facet's plane, once for each beam; returns false where the light does not run toward
+    /// the plane.
     #[inline]
     fn is_ahead(&mut self, light: &SlantedLight, way: DVec3, facet: u32) -> bool {
         let k = facet as usize;
@@ -246,7 +248,7 @@ impl<'a> MovingSplitter<'a> {
         self.depth[k].constant.is_finite()
     }
 
-    /// Returns the facet that the ray of image point `p` meets, found by walking from `at` to ever nearer neighbours.
+    /// Returns the facet that the ray of image point `p` meets. The search walks from `at` to ever nearer neighbours.
     fn first(&mut self, beam: &MovingBeam, way: DVec3, p: DVec2, mut at: u32) -> Option<u32> {
         if !self.is_ahead(beam.light, way, at) {
             at = (0..self.known.len() as u32).find(|&k| self.is_ahead(beam.light, way, k))?;
@@ -268,9 +270,9 @@ impl<'a> MovingSplitter<'a> {
         }
     }
 
-    /// Keeps the part of `self.outline` where a function is positive at the middle slant, given with its change per slant.
-    /// Returns the area that goes astray, or `None` where the function is positive nowhere. Corners within the tolerance of
-    /// the line count as on it, so that both sides of a cut agree.
+    /// Keeps the part of `self.outline` where a function is positive at the middle slant. The function is given with
+    /// its change per slant. Returns the area that goes astray, or `None` where the function is positive nowhere.
+    /// Corners within the tolerance of the line count as on it, so that both sides of a cut agree.
     fn cut(
         &mut self,
         (keep, change): (Affine, Affine),
@@ -313,7 +315,8 @@ impl<'a> MovingSplitter<'a> {
     }
 }
 
-/// Returns where a line crosses an edge on whose sides its function has these values and changes per slant.
+/// Returns the point where a line crosses an edge. The line's function has these values, and changes per slant, at
+/// the ends of the edge.
 fn crossing(
     (a, (at_a, of_a)): (MovingCorner, (f64, f64)),
     (b, (at_b, of_b)): (MovingCorner, (f64, f64)),
@@ -330,8 +333,9 @@ fn crossing(
     MovingCorner { at, drift: a.drift + (b.drift - a.drift) * part + edge * change }
 }
 
-/// Returns the area of an outline that changes sides of a line as the slant goes to one of its ends, at the end where it is
-/// larger. `values` are those of the line's function at the corners, and their changes per slant.
+/// Returns the area of an outline that changes sides of a line as the slant goes to either end of the group, at the
+/// end where this area is larger. `values` are those of the line's function at the corners, with their changes per
+/// slant.
 fn astray(corners: &[MovingCorner], values: &[(f64, f64)], tolerance: f64, reach: f64) -> f64 {
     if reach <= 0.0 || values.iter().all(|(at, of)| of.abs() * reach <= at.abs()) {
         return 0.0;

@@ -1,4 +1,4 @@
-//! Light of several wavelengths behind one facet: how its directions inside a stone differ.
+//! The directions of light of several wavelengths inside a stone, behind the facet by which it entered.
 
 use super::super::grow::entry_points;
 use crate::math::{Basis, Plane};
@@ -13,44 +13,45 @@ const LEAST_COS_SQUARED: f64 = 1e-18;
 pub struct EntryFacet {
     /// The facet.
     pub facet: u32,
-    /// Unit direction of the light that the facet's outer side reflects, followed from the eye.
+    /// The unit direction of the light that the facet's outer side reflects, followed from the eye.
     pub glare: DVec3,
-    /// Outward unit normal.
+    /// The outward unit normal.
     pub(super) normal: DVec3,
     /// The cosine of the angle of incidence.
     pub(super) cos_i: f64,
-    /// The square of its sine.
+    /// The square of the sine of that angle.
     sin_squared: f64,
 }
 
-/// How light of one index runs behind a facet.
+/// The refraction of light of one index behind a facet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slant {
     /// The refractive index.
     pub index: f64,
-    /// The tangent of the angle of refraction per sine of the angle of incidence. Where light of different wavelengths
-    /// lands on a facet is affine in it, whatever facets have reflected the light before.
+    /// The tangent of the angle of refraction per sine of the angle of incidence. The place where light lands on a
+    /// facet is affine in this number, whatever facets have reflected the light before.
     pub slant: f64,
     /// The cosine of the angle of refraction.
     pub cos_t: f64,
 }
 
-/// The rays behind one facet, as facets have mirrored them: for each image point a start, and for each slant a direction.
+/// The rays behind one facet, mirrored by all facets that they have met: for each image point a start, and for each
+/// slant a direction.
 ///
-/// Nothing in it depends on the wavelength. Mirror images of rays stand for mirrored rays, so the start stays that of the
-/// facet by which the light entered, seen in as many mirrors as there were facets since.
+/// None of the numbers depends on the wavelength. Each reflection replaces the rays by their mirror images, so the
+/// start stays on the image of the facet by which the light entered.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SlantedLight {
     /// The start of the ray at the image's origin, and its changes along the image's axes.
     pub origin: [DVec3; 3],
-    /// The way of light that is not slanted, to the unit of depth behind the facet.
+    /// The displacement of light that is not slanted, per unit of depth behind the facet.
     pub down: DVec3,
-    /// The change of that way per slant.
+    /// The change of that displacement per slant.
     pub along: DVec3,
 }
 
 impl EntryFacet {
-    /// Returns the light that the eye's rays become behind a facet which they meet at an angle of cosine `cos_i`.
+    /// Returns the light into which the eye's rays turn behind a facet that they meet at an angle of cosine `cos_i`.
     pub(super) fn new(facet: u32, plane: &Plane, view: &Basis, cos_i: f64) -> (Self, SlantedLight) {
         let ray = -view.toward;
         let along = ray + plane.normal * cos_i;
@@ -59,7 +60,7 @@ impl EntryFacet {
         (Self { facet, glare, normal: plane.normal, cos_i, sin_squared }, light)
     }
 
-    /// Returns how light of an index runs behind the facet.
+    /// Returns the slant of light of an index.
     pub fn slant(&self, index: f64) -> Slant {
         let eta = 1.0 / index;
         let cos_t = (1.0 - eta * eta * self.sin_squared).max(LEAST_COS_SQUARED).sqrt();
@@ -68,7 +69,7 @@ impl EntryFacet {
 }
 
 impl SlantedLight {
-    /// Returns the way of the light, to the unit of depth behind the facet by which it entered.
+    /// Returns the displacement of the light per unit of depth behind the facet by which it entered.
     pub fn way(&self, slant: f64) -> DVec3 {
         self.down + self.along * slant
     }
@@ -78,7 +79,7 @@ impl SlantedLight {
         self.way(slant.slant) * slant.cos_t
     }
 
-    /// Returns where the ray of image point `p` starts.
+    /// Returns the start of the ray of image point `p`.
     pub fn start(&self, p: DVec2) -> DVec3 {
         let [o, u, v] = self.origin;
         o + u * p.x + v * p.y
@@ -96,8 +97,8 @@ impl SlantedLight {
         }
     }
 
-    /// Returns the direction in which a ray of this light leaves through a facet of this normal, and the change of that
-    /// direction over a spread of indices around that of its slant.
+    /// Returns the direction in which a ray of this light leaves through a facet with this normal, and the change of
+    /// that direction over a spread of indices around that of its slant.
     pub fn leaving(
         &self,
         entry: &EntryFacet,

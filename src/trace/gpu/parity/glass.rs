@@ -6,8 +6,8 @@ use super::{card, run};
 use crate::math::{ImplicitForm, ImplicitSurface, Jet};
 use glam::{DMat3, DVec3};
 
-/// A shader that takes points, each with the number of its shape, and returns the function's gradient and value there and
-/// its bend along each axis.
+/// A shader that takes points, each with the number of its shape, and returns the function's gradient and value there
+/// and its bend along each axis.
 const JETS_WGSL: &str = "
 @group(0) @binding(0) var<storage, read> given: array<vec4f>;
 @group(0) @binding(1) var<storage, read_write> found: array<array<vec4f, 4>>;
@@ -30,7 +30,7 @@ fn jets(@builtin(global_invocation_id) id: vec3u) {
 }
 ";
 
-/// Returns every form, sharp and round.
+/// Returns a shape of every form, sharp and rounded.
 fn shapes() -> Vec<ImplicitSurface> {
     let plate = |edge, amplitude, wavelength| ImplicitForm::Plate {
         size: DVec3::new(1.7, 1.6, 0.3),
@@ -53,8 +53,8 @@ fn shapes() -> Vec<ImplicitSurface> {
     forms.into_iter().map(|form| ImplicitSurface::new(form).unwrap()).collect()
 }
 
-/// Returns the function's gradient and value, and the change of the unit normal along each axis, all in units of the shape's
-/// reach, as `p` is.
+/// Returns the function's gradient and value, and the change of the unit normal along each axis, all in units of the
+/// shape's reach. The point `p` is in those units as well.
 fn jet(shape: &ImplicitSurface, p: DVec3) -> ([f64; 4], DMat3) {
     let reach = shape.reach();
     let Jet { value, gradient, hessian } = shape.jet(p * reach);
@@ -64,8 +64,9 @@ fn jet(shape: &ImplicitSurface, p: DVec3) -> ([f64; 4], DMat3) {
     (gradient.extend(value).to_array(), within * hessian * within * gradient.length().recip())
 }
 
-/// Returns points a little inside or outside the surface all around, in units of its reach. Of a sharp shape they are all inside: outside, the
-/// library has the distance from an edge and the card that from its faces.
+/// Returns points slightly inside or outside the surface all around, in units of its reach. For a sharp shape all
+/// points are inside: outside, the library's function is the distance from an edge, and the card's is the distance
+/// from the edge's faces.
 fn points(shape: &ImplicitSurface) -> impl Iterator<Item = DVec3> + '_ {
     let is_sharp = shape.parts().edge == 0.0;
     (0..2000).filter_map(move |k| {

@@ -5,8 +5,8 @@ use super::{card, run};
 use crate::trace::environment::share_inside;
 use glam::DVec3;
 
-/// A shader that takes x and y of the vector from a lamp's middle and of the fan, and returns the share; z of both is half
-/// of x.
+/// A shader that takes the x and y of the vector from a lamp's middle and of the fan, and returns the share of the
+/// fan inside the lamp. The z of both vectors is half of x.
 const SHARE_WGSL: &str = "
 struct Ray {
     origin: vec3f,
@@ -46,7 +46,7 @@ fn lamps_are_as_bright_on_the_card_however_far_a_fan_reaches() {
             let beside = CHORD * 1.2 * (2.0 * part(0.671_043_607) - 1.0);
             let along = (CHORD + 0.5 * length) * (2.0 * part(0.549_700_478) - 1.0);
             let (sin, cos) = f64::from(k).sin_cos();
-            // Unit vectors of the plane in which z is half of x.
+            // The unit vectors of the plane in which z is half of x.
             let ([x, y], [u, v]) = ([cos * 0.8_f64.sqrt(), sin], [-sin * 0.8_f64.sqrt(), cos]);
             [x * beside + u * along, y * beside + v * along, u * length, v * length].map(|n| n as f32)
         })
@@ -55,13 +55,13 @@ fn lamps_are_as_bright_on_the_card_however_far_a_fan_reaches() {
     let environment = include_str!("../../../../shaders/environment.wgsl");
     let structs = [gpu_types::FRAME_WGSL, gpu_types::ENVIRONMENT_WGSL, gpu_types::LAMP_WGSL].concat();
     let found: Vec<f32> = run(&gpu, structs + &chord + environment + SHARE_WGSL, &given, None);
-    // The largest difference of short fans, and the light of all fans by their length.
+    // The largest difference for short fans, and the light of all fans by their length.
     let (mut largest, mut light) = (0.0_f64, [[0.0; 2]; 9]);
     for (given, found) in given.iter().zip(found) {
         let [x, y, u, v] = given.map(f64::from);
         let (from, fan) = (DVec3::new(x, y, 0.5 * x), DVec3::new(u, v, 0.5 * u));
         let (exact, found) = (share_inside(from, fan, CHORD * CHORD), f64::from(found));
-        // Differences are parts of what a fan through the middle sees.
+        // Differences are compared with the share of a fan through the middle.
         let most = (2.0 * CHORD / fan.length()).min(1.0);
         if fan.length() < 1.0 {
             largest = largest.max((found - exact).abs() / most);

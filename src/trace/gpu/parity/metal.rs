@@ -6,8 +6,9 @@ use crate::optics::{Metal, RoughMetal, Roughness};
 use glam::DVec3;
 use num_complex::Complex64;
 
-/// A shader that takes directions as (cosine to the eye, three numbers of chance), and returns what metal makes of them: the number
-/// of the invocation picks the metal. The tables of the surfaces come first in `roughnesses`, then the finishes.
+/// A shader that takes directions as (cosine to the eye, three random numbers), and returns the samples that metal
+/// draws from them. The number of the invocation selects the metal. The tables of the surfaces come first in
+/// `roughnesses`, then the finishes.
 const SAMPLES_WGSL: &str = "
 const FRAC_1_PI: f32 = 0.31830988;
 var<private> turns: u32;
@@ -49,8 +50,9 @@ fn metals(index_factor: f64) -> Vec<(RoughMetal, [f64; 4])> {
     surfaces.iter().enumerate().flat_map(of).collect()
 }
 
-/// Returns the greatest differences of direction, of weight and of the root of the solid angle as parts of themselves, between the card's and
-/// the library's metal with an index that is `index_factor` times as large, and the number of samples that were compared.
+/// Returns the greatest differences of direction, of weight and of the root of the solid angle, each as a part of its
+/// value, between the card's and the library's metal, and the number of samples that were compared. The library's
+/// index is multiplied by `index_factor`.
 fn compared(given: &[[f32; 4]], found: &[[[u32; 4]; 3]], index_factor: f64) -> ([f64; 3], usize) {
     let metals = metals(index_factor);
     let (mut largest, mut count) = ([0.0_f64; 3], 0);
@@ -58,7 +60,7 @@ fn compared(given: &[[f32; 4]], found: &[[[u32; 4]; 3]], index_factor: f64) -> (
         let [cos, u, v, w] = given.map(f64::from);
         let out = DVec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
         let drawn = |off: f64| metals[k % metals.len()].0.sample(out, [u - off, v, w + off]);
-        // Where the library's answer hangs on the last digits of f32, there is nothing to compare.
+        // Where the library's result depends on the last digits of f32, nothing can be compared.
         let (Some(own), Some(beside)) = (drawn(0.0), drawn(1e-6)) else { continue };
         if own.direction.distance(beside.direction) > 1e-3 {
             continue;

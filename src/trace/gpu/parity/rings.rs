@@ -1,4 +1,5 @@
-//! Parity of metal in pictures: the same light between metal and stones as by the rays in f64, pixel by pixel.
+//! Parity of metal in pictures: the card and the rays in f64 give the same light between metal and stones, pixel by
+//! pixel.
 
 use super::super::limits::{MOST_METALS, MOST_ROUGHNESSES};
 use super::super::{ByCard, Gpu, GpuEnvironment, GpuError};
@@ -25,7 +26,7 @@ const BLOCK: u32 = 8;
 
 type Broken = Box<dyn std::error::Error>;
 
-/// A picture to take.
+/// A scene and the settings of its picture.
 struct Shot {
     scene: Scene,
     passes: u32,
@@ -90,12 +91,12 @@ fn of(mesh: &Arc<ShadedMesh>, metal: Metal, roughness: f64, pose: Pose) -> Metal
     MetalInstance { roughness, pose, ..MetalInstance::new(mesh, metal) }
 }
 
-/// A turn that keeps edges and walls away from the axes, where rounding would decide.
+/// A rotation that keeps edges and walls away from the axes, where rounding would decide.
 fn askew() -> DQuat {
     DQuat::from_rotation_x(0.13) * DQuat::from_rotation_y(-0.21) * DQuat::from_rotation_z(0.17)
 }
 
-/// Returns glass of an index that absorbs, by its coefficient in both polarisations, per mm.
+/// Returns a glass with this index that absorbs, by its coefficient for both polarisations, per mm.
 fn dark(index: f64, per_mm: f64) -> Material {
     let mut material = Material::from_index("glass", index).unwrap();
     material.absorption = [(); 2].map(|()| Absorption::new(vec![(550.0, per_mm)]).unwrap());
@@ -114,7 +115,8 @@ fn band(is_smooth: bool) -> Arc<ShadedMesh> {
     Arc::new(torus((0.95, 0.25), (96, 48), is_smooth))
 }
 
-/// Returns a stone in a ring that cuts into it, over an open plate that mirrors both sides, and a smaller ring of the same mesh beside.
+/// Returns a stone in a ring that cuts into it, above an open plate that mirrors on both sides, and a smaller ring of
+/// the same mesh beside them.
 fn ring(body: impl Into<Body>, roughness: f64) -> Shot {
     let pose = |at: DVec3, scale: f64| Pose { at, turn: askew(), scale };
     let stone = Instance { pose: pose(DVec3::ZERO, 0.7), ..Instance::new(body, dark(1.8, 0.05)) };
@@ -128,7 +130,7 @@ fn ring(body: impl Into<Body>, roughness: f64) -> Shot {
     Shot { scene, passes: 1, wavelengths: 3, by_chance: 0.0, backdrop: false }
 }
 
-/// How two pictures of one scene differ.
+/// The differences between two pictures of one scene.
 #[derive(Debug)]
 struct Differences {
     /// The share of pixels, of those that see anything, that differ by more than a hundredth of the brightest.
@@ -161,8 +163,9 @@ fn differences(exact: &[RadiancePixel], card: &[RadiancePixel]) -> Differences {
     }
 }
 
-/// The greatest share of pixels that may differ. Curved metal spreads neighbouring rays, and their rounding errors with them, as
-/// glass shapes do; an edge or a chance that is met otherwise changes a whole pixel.
+/// The greatest share of pixels that may differ. Curved metal, like glass shapes, spreads neighbouring rays apart,
+/// and their rounding errors with them. Where the card meets another edge or decides a chance otherwise, the whole
+/// pixel changes.
 const LEFT_OUT: f64 = 0.02;
 
 fn assert_same(name: &str, found: &Differences) {
@@ -212,7 +215,7 @@ fn metal_stands_on_the_card_beside_every_kind_of_solid_and_alone() {
     let Some(gpu) = card("metal_stands_on_the_card_beside_every_kind_of_solid_and_alone") else { return };
     let (vertices, triangles) = heart();
     let heart = Arc::new(TriangleMesh::new(Surface::new(vertices, triangles)).unwrap());
-    // More planes than the uniform array takes: the stone is packed as triangles.
+    // There are more planes than the uniform array takes, so the stone is packed as triangles.
     let many: Vec<Plane> = (0..400)
         .map(|i| {
             let z: f64 = 1.0 - 2.0 * (f64::from(i) + 0.5) / 400.0;
@@ -228,7 +231,7 @@ fn metal_stands_on_the_card_beside_every_kind_of_solid_and_alone() {
     for (name, body) in bodies {
         let shot = Shot { wavelengths: 1, passes: 4, ..ring(body, 0.3) };
         let found = compared(&shot, &gpu);
-        // The chances of light that has left a mesh or a shape are not the same in single pixels.
+        // For light that has left a mesh or a shape, the random numbers of single pixels differ.
         assert!(found.blocks < 0.05, "{name}: {found:?}");
         assert!(found.rest.iter().all(|rest| rest.abs() < 5e-3), "{name}: {found:?}");
     }

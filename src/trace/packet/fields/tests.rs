@@ -1,4 +1,4 @@
-//! Laws of packets: they agree with the surfaces in f64, lane by lane.
+//! Tests that packets agree with the surfaces in f64, lane by lane.
 
 use super::super::lanes::{Lanes, Vectors};
 use super::*;
@@ -200,9 +200,9 @@ fn inside(surface: &ImplicitSurface, count: usize, chance: &mut Chance) -> Vec<R
 #[derive(Debug, Default)]
 struct Agreement {
     met: usize,
-    /// Rays that meet the surface in one of the two only, or in places far from each other.
+    /// Rays that meet the surface in one of the two computations only, or at points far from each other.
     parted: usize,
-    /// The same, of rays that do not graze.
+    /// Those of them that do not graze.
     parted_clearly: usize,
     /// The greatest distance of a point from the surface, in units of the reach.
     off: f64,
@@ -322,7 +322,7 @@ fn normals_turn_as_in_f64() {
         for (m, answer) in moves.iter().zip(ask(&surface, Question::Turned, &moves)) {
             let turned = answer.normal.as_dvec3();
             bent += usize::from(turned.length() * reach > 0.01);
-            // On a seam between two pieces of the surface, either bend is right.
+            // On a seam between two pieces of the surface, the bend of either piece is correct.
             let around = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]).chain([DVec3::ZERO]);
             let apart = around
                 .map(|off| surface.bend(m.origin + off * (5e-7 * reach)) * m.direction)
@@ -347,7 +347,7 @@ fn each_lane_depends_on_its_own_ray_alone() {
             } else {
                 rays(&surface, 500, &mut chance)
             };
-            // Between the rays stand others that lead nowhere, in another order.
+            // Other rays, which meet nothing, are mixed in, in another order.
             let mixed: Vec<Ray> = rays
                 .iter()
                 .rev()

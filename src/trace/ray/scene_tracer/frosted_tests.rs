@@ -1,4 +1,5 @@
-//! Stones with frosted facets: they neither add nor lose light, and what does not follow scattered light says so.
+//! Stones with frosted facets neither add nor lose light, and tracers that do not follow scattered light report it as
+//! unresolved.
 
 use super::*;
 use crate::math::{Plane, Polytope};
@@ -75,7 +76,7 @@ fn frosted_stones_account_for_all_light_of_a_white_world() {
 
 #[test]
 fn a_frosted_stone_shows_another_picture_than_a_polished_one_and_chance_hardly_changes_it() {
-    // Parts of this world shine, so that directions count.
+    // Parts of this world shine more than others, so that directions matter.
     let light = Light::studio();
     let diamond = material("diamond").unwrap();
     let of = |frosting: f64, passes: u32| taken(gem(|_| frosting), diamond, &light, passes);
@@ -103,7 +104,7 @@ fn without_luck_all_light_that_meets_a_frosted_facet_is_unresolved() {
         if bottom {
             continue;
         }
-        // From below, the polished facets reflect and pass light before it comes to the table.
+        // From below, light is reflected and passed by the polished facets before it reaches the table.
         let rest =
             tracer.follow(DVec3::new(0.05, 0.02, -5.0), DVec3::Z, |exit| light += exit.weight).unwrap();
         assert!(rest.unresolved > 0.03 && light > 0.05, "{rest:?} {light}");

@@ -1,4 +1,4 @@
-//! Scenes with metal: all light is accounted for, and nothing depends on what it must not depend on.
+//! Scenes with metal: all light is accounted for, chance changes no mean, and smooth normals change no outline.
 
 use super::*;
 use crate::math::{Plane, Polytope, Pose, ShadedMesh, ShadedSurface, torus};
@@ -29,7 +29,7 @@ fn gem() -> Instance {
     Instance::new(Polytope::from_planes(&planes).unwrap(), material("diamond").unwrap().clone())
 }
 
-/// How a picture is taken.
+/// The settings of a picture.
 #[derive(Clone, Copy)]
 struct Shot {
     passes: u32,
@@ -74,7 +74,7 @@ fn ring(metal: Metal, roughness: f64) -> Scene {
     Scene { instances: vec![gem()], metals, unit_mm: 3.0 }
 }
 
-/// Returns the means of light seen, absorbed and unresolved over the pixels that see anything, each by its share.
+/// Returns the means of light seen, absorbed and unresolved over the pixels that see a body, each by its share.
 fn means(pixels: &[RadiancePixel]) -> [f64; 3] {
     let cover: f64 = pixels.iter().map(|pixel| pixel.cover).sum();
     let mean = |of: fn(&RadiancePixel) -> f64| pixels.iter().map(of).sum::<f64>() / cover;
@@ -92,7 +92,7 @@ fn a_ring_and_its_stone_account_for_all_light_of_a_white_world() {
             assert!((all - pixel.cover).abs() < 2e-3, "{pixel:?}");
         }
         let [_, absorbed, _] = means(&pixels);
-        // Without what the metal takes, the sum would be short.
+        // Without the light that the metal absorbs, the sum would be too small.
         assert!(absorbed > 0.02, "{absorbed}");
     }
 }
@@ -135,12 +135,12 @@ fn smooth_normals_never_change_an_outline() {
     };
     let [smooth, flat] = [true, false].map(|is_smooth| seen(torus((0.9, 0.4), (9, 6), is_smooth)));
     assert!(smooth.iter().zip(&flat).all(|(a, b)| a.cover.to_bits() == b.cover.to_bits()));
-    // What they show differs, and a finer mesh has another outline.
+    // The two pictures differ, and a finer mesh has another outline.
     let apart = smooth.iter().zip(&flat).filter(|(a, b)| a.colour.distance(b.colour) > 0.02).count();
     assert!(apart > 50, "{apart}");
     let finer = seen(torus((0.9, 0.4), (18, 12), true));
     assert!(smooth.iter().zip(&finer).any(|(a, b)| a.cover != b.cover));
-    // No pixel of the metal is black: a normal never swallows what it would send below the surface.
+    // No pixel of the metal is black, because a normal never loses light by sending it below the surface.
     let white = Scene {
         instances: vec![],
         metals: vec![of(torus((0.9, 0.4), (9, 6), true), Metal::Silver, 0.3)],

@@ -5,7 +5,7 @@ use crate::scene::Instance;
 use crate::trace::ray::RayOptions;
 use glam::DVec3;
 
-/// Returns a cube of side 2 of this index, whose middle lies at this height.
+/// Returns a cube of side 2 with this index, whose middle lies at this height.
 fn cube(index: f64, height: f64) -> Instance {
     let planes: Vec<Plane> =
         DVec3::AXES.iter().flat_map(|&a| [Plane::new(a, 1.0), Plane::new(-a, 1.0)]).collect();
@@ -33,6 +33,6 @@ fn bounces_are_those_of_the_longest_way_through_all_stones() {
     assert_eq!((bounces(&[air(0.0)], 5), bounces(&[glass(0.0)], 5)), (1, 5));
     // All light leaves air at its first bounce.
     assert_eq!((bounces(&[air(3.0), glass(0.0)], 5), bounces(&[glass(0.0), air(3.0)], 5)), (6, 6));
-    // Down through both, four bounces in glass, and up through both again.
+    // The light runs down through both cubes, bounces four times in the glass, and runs up through both cubes again.
     assert_eq!(bounces(&[air(6.0), air(3.0), glass(0.0)], 5), 8);
 }

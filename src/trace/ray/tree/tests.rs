@@ -46,8 +46,8 @@ proptest! {
         prop_assert!((sum(&exits) + rest.absorbed + rest.unresolved - 1.0).abs() < 1e-9);
         // Light that total reflection keeps inside for ever is rare.
         prop_assert!(rest.unresolved < 0.05 || medium.absorption == [0.0; 2], "{rest:?}");
-        // Where a path has light leave for good, the followed ray has an exit of the same share; where it enters again,
-        // none.
+        // Where the path reports light that leaves for good, the followed ray has an exit of the same share; where
+        // the light enters again, the ray has none.
         let (origin, direction) = Camera::new(&view, &mesh).ray(DVec2::new(x, y));
         for step in tracer.path(origin, direction).unwrap().steps {
             let Some(leaving) = step.leaving else { continue };
@@ -89,8 +89,9 @@ proptest! {
     }
 }
 
-/// Returns what passes two plates and what they send back. Each surface reflects the share `r`, and a way through leaves the
-/// share `a`: incoherent multiple reflections in each plate, summed, then between the two.
+/// Returns the shares of light that pass two plates and that they send back. Each surface reflects the share `r`, and
+/// one passage through a plate leaves the share `a`. The multiple reflections are incoherent; they are summed in each
+/// plate and then between the two.
 fn through_two_plates(r: f64, a: f64) -> (f64, f64) {
     let once = (1.0 - r) * (1.0 - r) * a / (1.0 - r * r * a * a);
     let back = r + r * a * once;
@@ -98,7 +99,8 @@ fn through_two_plates(r: f64, a: f64) -> (f64, f64) {
     (through, back + once * once * back / (1.0 - back * back))
 }
 
-/// Returns the shares of a ray along -y, leant toward z, that go on below two plates and above them, and its loss.
+/// Returns the shares of a ray along -y, inclined toward z, that go on below two plates and above them, and the ray's
+/// loss.
 fn shares(medium: Medium, lean: f64, polarised: bool) -> (f64, f64, Loss) {
     // The plates are turned, so that no axis is special.
     let turn = DQuat::from_rotation_x(0.3) * DQuat::from_rotation_z(0.8);
@@ -169,8 +171,8 @@ fn through_corners_edges_and_along_facets_no_light_is_lost() {
         for (aim, way) in edges.flat_map(|aim| ways.map(|way| (aim, way))) {
             let Some((exits, rest)) = followed(&tracer, (aim - 8.0 * way, way)) else { continue };
             assert!((sum(&exits) + rest.absorbed + rest.unresolved - 1.0).abs() < 1e-9);
-            // A ray that to the last digit only touches the solid, at an outline or along a facet, may slip out: its light
-            // is then reported as unresolved. A hair beside it no ray does.
+            // A ray that only touches the solid, at an outline or along a facet, may slip out by rounding; its light
+            // is then reported as unresolved. A ray slightly beside it does not.
             let hair = 1e-10 * DVec3::new(0.3, -0.7, 0.4);
             beside.extend(followed(&tracer, (aim - 8.0 * way + hair, way)).map(|(_, rest)| rest.unresolved));
         }
@@ -200,7 +202,8 @@ fn zones(
     Some((sums, rest.unresolved))
 }
 
-/// How far the means of many roulettes are from what all light gives, in standard errors: zone by zone, and their sum.
+/// The deviations of the means of many roulettes from the result without roulette, in standard errors: zone by zone,
+/// and that of their sum.
 struct Departure {
     zones: [f64; ZONES],
     sum: f64,
@@ -240,7 +243,7 @@ fn departure(solid: Triangles, medium: Medium, is_polarised: bool, spoil: f64) -
             squares[zone] += square;
         }
     }
-    // A zone that no light reaches departs by nothing.
+    // A zone that no light reaches has no deviation.
     let each = |zone: usize| off[zone] / squares[zone].sqrt().max(1e-12);
     Departure { zones: std::array::from_fn(each), sum: each(ZONES), unresolved }
 }
