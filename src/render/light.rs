@@ -16,11 +16,11 @@ use crate::trace::sampling::{LitScene, ProgressiveImage, Sampling};
 use crate::trace::sampling::{RadiancePixel, SamplePass};
 use std::ops::Range;
 
-/// The share of a ray's light below which Russian roulette decides whether the ray goes on, in a picture of one pass:
-/// so little that the noise is hardly visible.
-const CHANCE_OF_ONE_PASS: f64 = 0.05;
+/// The share of a ray's light below which Russian roulette decides whether the ray goes on, in a picture of one pass and one
+/// wavelength: so little that the noise is hardly visible.
+const CHANCE_OF_ONE_RAY: f64 = 0.0125;
 
-/// The greatest such share, for pictures of many passes, which average the noise.
+/// The greatest such share, for pictures of many passes and wavelengths, which average the noise.
 const MOST_CHANCE: f64 = 0.4;
 
 /// A picture under light that is being traced.
@@ -40,7 +40,8 @@ impl LightProduct {
         watch: Watch,
         each: EachPart<E>,
     ) -> Result<Output, Halt<E>> {
-        let by_chance = (CHANCE_OF_ONE_PASS * f64::from(count).sqrt()).min(MOST_CHANCE);
+        let rays = f64::from(count) * f64::from(self.wavelengths);
+        let by_chance = (CHANCE_OF_ONE_RAY * rays.sqrt()).min(MOST_CHANCE);
         let sampling = Sampling { strength: self.strength, by_chance, ..Sampling::of(count) };
         let (lit_scene, strata) = (job.lit_scene(&self.surroundings), self.strata(count));
         let exposure = Exposure { job, lit_scene, strata, sampling, watch };
