@@ -11,6 +11,9 @@ use std::borrow::Cow;
 /// The gears that are tried for a design without one, the commonest first.
 const GEARS: [i32; 9] = [96, 80, 72, 64, 120, 84, 88, 77, 100];
 
+/// The distance in girdle radii between the origin and an axis from which on a stone is moved to the axis.
+const BESIDE_AXIS: f64 = 1e-6;
+
 /// The plane of a facet and its corners, counter-clockwise seen from outside; no corners where it does not reach the stone.
 pub(in super::super) type FacetOutline = (Plane, Vec<DVec3>);
 
@@ -91,7 +94,8 @@ pub enum NoTiers {
 }
 
 /// Returns the stone cut by tiers: unchanged where its design has tiers, else with the tiers of [`as_tiers`] and the
-/// meets that its geometry shows. No facet moves by more than rounding.
+/// meets that its geometry shows. No facet moves by more than rounding, except that a whole stone may be moved to the axis of its
+/// symmetry.
 ///
 /// # Errors
 /// Fails where the body is no convex stone between planes, or where its tiers make none.
@@ -105,20 +109,34 @@ pub fn in_tiers(specimen: &Specimen) -> Result<Cow<'_, Specimen>, NoTiers> {
     Ok(Cow::Owned(specimen.remade(Design { cut, ..specimen.design.clone() })?))
 }
 
-/// Returns the facets of a design, moved where the origin lies outside the stone, since tiers have no place for that.
+/// Returns the facets of a design, moved where tiers have no place for them: where the origin lies outside the stone, or beside
+/// an axis about which the stone can be turned more often, as a trillion about the middle of its three sides.
 fn around_the_origin(specimen: &Specimen, lost: &mut Vec<String>) -> Vec<(String, Plane)> {
     // The design of a specimen has been checked, so it has facets.
     let mut facets = specimen.design.facets().unwrap_or_default();
-    if facets.iter().any(|(_, plane)| plane.offset < 0.0) {
-        let corners = facets_solid(&facets);
-        let shift = corners.iter().sum::<DVec3>() / corners.len().max(1) as f64;
-        facets.iter_mut().for_each(|(_, plane)| plane.offset -= plane.normal.dot(shift));
-        let [x, y, z] = (-shift).to_array();
-        lost.push(format!(
-            "the stone is moved by ({x:.6}, {y:.6}, {z:.6}), because cutters measure from a point inside it"
-        ));
-    }
+    let corners = facets_solid(&facets);
+    let middle = corners.iter().sum::<DVec3>() / corners.len().max(1) as f64;
+    let beside = middle.with_z(0.0);
+    let turns = |shift: DVec3| {
+        let planes = facets.iter().map(|(_, plane)| moved_back(plane, shift));
+        Symmetry::of(planes, &Basis::FACE_UP, DVec3::Z).turns
+    };
+    let (shift, why) = if facets.iter().any(|(_, plane)| plane.offset < 0.0) {
+        (middle, "cutters measure from a point inside it")
+    } else if beside.length() > BESIDE_AXIS && turns(beside) > turns(DVec3::ZERO) {
+        (beside, "cutters measure from the axis about which it can be turned")
+    } else {
+        return facets;
+    };
+    facets.iter_mut().for_each(|(_, plane)| *plane = moved_back(plane, shift));
+    let [x, y, z] = (-shift).to_array();
+    lost.push(format!("the stone is moved by ({x:.6}, {y:.6}, {z:.6}), because {why}"));
     facets
+}
+
+/// Returns a plane of a stone that is moved so that a point of it comes to the origin.
+fn moved_back(plane: &Plane, point: DVec3) -> Plane {
+    Plane { offset: plane.offset - plane.normal.dot(point), ..*plane }
 }
 
 fn facets_solid(facets: &[(String, Plane)]) -> Vec<DVec3> {
@@ -128,15 +146,16 @@ fn facets_solid(facets: &[(String, Plane)]) -> Vec<DVec3> {
 
 /// Converts named planes to tiers, each of which has its name at its first facet alone.
 fn indexed(facets: &[(String, Plane)], gear: Gear) -> Tiers {
-    let mut runs = 0;
-    let mut last = "";
+    let mut stems: Vec<&str> = vec![];
     let pieces = facets.iter().map(|(name, plane)| {
         let stem = tier_stem(name);
-        runs += usize::from(stem != last);
-        last = stem;
+        let number = stems.iter().position(|&other| other == stem).unwrap_or(stems.len());
+        if number == stems.len() {
+            stems.push(stem);
+        }
         let setting = gear.setting(plane.normal, plane.offset.max(0.0));
         TierPiece {
-            tier: runs,
+            tier: number,
             setting,
             name: stem.to_owned(),
             instructions: String::new(),
@@ -149,13 +168,15 @@ fn indexed(facets: &[(String, Plane)], gear: Gear) -> Tiers {
     tiers
 }
 
-/// Moves facets that are cut alike next to each other, where others of their name lie between them, as on an oval.
+/// Moves facets of one name that are cut alike next to each other. Families list their facets around the stone, so that
+/// facets of other names or settings lie between them.
 fn together(pieces: impl Iterator<Item = TierPiece>) -> impl Iterator<Item = TierPiece> {
     let mut groups: Vec<Vec<TierPiece>> = vec![];
     for piece in pieces {
-        let of_its_run = groups.iter_mut().rev().take_while(|group| group[0].tier == piece.tier);
-        let alike = of_its_run.into_iter().find(|group| piece.is_cut_as(&group[0].setting));
-        match alike {
+        let is_alike = |group: &&mut Vec<TierPiece>| {
+            group[0].tier == piece.tier && piece.is_cut_as(&group[0].setting)
+        };
+        match groups.iter_mut().find(is_alike) {
             Some(group) => group.push(piece),
             None => groups.push(vec![piece]),
         }
