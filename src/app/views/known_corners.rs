@@ -138,7 +138,9 @@ impl CornersOfTier {
     pub fn is_hopeless(&self) -> bool {
         let picked = self.picked();
         let others = self.corners.iter().enumerate().filter(|(k, _)| !picked.contains(k));
-        self.pick.is_last() && others.clone().next().is_some() && others.clone().all(|(_, known)| known.fault().is_some())
+        self.pick.is_last()
+            && others.clone().next().is_some()
+            && others.clone().all(|(_, known)| known.fault().is_some())
     }
 }
 

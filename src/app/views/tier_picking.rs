@@ -54,7 +54,11 @@ pub fn picked(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneVi
     let fault = known.corners[number].fault().cloned();
     let corner = known.corners[number].corner.at;
     let is_taken_back = pick.corners.contains(&corner);
-    sight.mark_corner(ui, known.at(&known.corners[number].corner), if fault.is_some() { DIMMED } else { MEETING });
+    sight.mark_corner(
+        ui,
+        known.at(&known.corners[number].corner),
+        if fault.is_some() { DIMMED } else { MEETING },
+    );
     if is_taken_back || (!pick.is_last() && fault.is_none()) {
         cx.tools.attention.message = pick.words();
         cx.actions.push_if(response.clicked(), ViewAction::PickMeet(Some(pick.toggled(corner))));

@@ -101,7 +101,8 @@ impl Tiers {
         meets.extend((2..=MOST_REACHED).flat_map(later));
         let given: Vec<Meet> =
             meets.into_iter().filter(|meet| bench.gives(place, &tier, meet)).take(MOST_FOLLOWED).collect();
-        let fault = if given.is_empty() { CornerFault::NoName { number: 1 } } else { CornerFault::CutAtOtherPlace };
+        let fault =
+            if given.is_empty() { CornerFault::NoName { number: 1 } } else { CornerFault::CutAtOtherPlace };
         given.into_iter().find(|meet| self.leads_to(place, &tier, meet)).ok_or(fault)
     }
 
@@ -171,7 +172,8 @@ impl Bench<'_> {
     /// Returns whether a corner lies across the girdle from a side: only facets that lean to the other side meet there.
     fn is_across(&self, corner: &StoneCorner, side: Option<StoneSide>) -> bool {
         let side_of = |&plane: &usize| StoneSide::of(self.stone().plane(plane).plane.normal);
-        side.is_some() && corner.planes.iter().all(|plane| side_of(plane).is_some_and(|other| Some(other) != side))
+        side.is_some()
+            && corner.planes.iter().all(|plane| side_of(plane).is_some_and(|other| Some(other) != side))
     }
 
     /// Returns a corner as one of a facet of a tier; `planes` are those of the tier.

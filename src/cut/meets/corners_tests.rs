@@ -25,7 +25,8 @@ fn a_tier_that_meets_a_corner_has_it_among_its_corners_with_its_own_meet() {
         assert!(now.len() >= design.tiers[place].facets.len(), "{name}: {}", now.len());
         for corner in now {
             assert_near(&[corner.distance], &[design.tiers[place].distance]);
-            let meet = design.meet_at(place, corner).map_or_else(|fault| fault.to_string(), |meet| meet.to_string());
+            let meet =
+                design.meet_at(place, corner).map_or_else(|fault| fault.to_string(), |meet| meet.to_string());
             let named = meet.strip_prefix("Meet ").unwrap_or_default();
             assert!(named.split('-').count() >= 3, "{name}: {meet}");
             for other in named.split('-') {
