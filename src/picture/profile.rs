@@ -402,12 +402,19 @@ mod tests {
         let stone = Stone::new(&given.facets().unwrap()).unwrap();
         assert_eq!(across_the_width(&stone).right, DVec3::X);
         let (found, derived) = (measured(&stone), given.derived().unwrap());
-        let heights = [found.total, found.crown.unwrap(), found.pavilion.unwrap()].map(|span| span.percent);
-        for (found, expected) in
-            heights.into_iter().zip([derived.total_depth, derived.crown_height, derived.pavilion_depth])
-        {
-            assert!((found - expected).abs() < 1e-9);
-        }
+        let total = found.total.percent;
+        assert!((total - derived.total_depth).abs() < 1e-9);
+        // The parts of the height are those of `info`, which leave out the tips of the girdle.
+        let names: Vec<String> = stone.names().to_vec();
+        let report = crate::cut::ProportionReport::of(&stone.polytope, &names);
+        let parts = [found.crown, found.girdle, found.pavilion].map(|span| span.unwrap().percent);
+        let expected = [report.crown_height, report.girdle_thickness, report.pavilion_depth];
+        assert!(
+            parts.iter().zip(expected).all(|(part, expected)| (part - expected).abs() < 1e-9),
+            "{parts:?}"
+        );
+        assert!((parts.iter().sum::<f64>() - total).abs() < 1e-9);
+        assert!(parts[1] < given.girdle_thickness, "a tenth of the corners lies beyond each edge");
     }
 
     #[test]

@@ -41,7 +41,7 @@ impl FamilyForm {
             let other = row.pair.unwrap_or_default();
             if let Some((mover, _)) = self.movers().find(|(mover, _)| mover.does_move(row)) {
                 if self.given.contains_key(key) {
-                    let (mover_key, place) = (mover.key, self.place_of(mover));
+                    let (mover_key, place) = (mover.key, Self::place_of(mover));
                     let message = match place.contains(' ') {
                         true => format!(
                             "{mover_key}: it stands in the place of {place}; leave out {key}, or give {place} without {mover_key}"
@@ -80,9 +80,8 @@ impl FamilyForm {
     }
 
     /// Returns the keys of the numbers that a number moves, in words.
-    fn place_of(&self, mover: &Proportion) -> String {
-        let keys = self.family.editable().filter(|row| mover.does_move(row)).map(|row| row.key);
-        keys.collect::<Vec<_>>().join(" and ")
+    fn place_of(mover: &Proportion) -> String {
+        mover.moves.join(" and ")
     }
 
     /// Says what may stand in the file in the place of a number and of those that change with it; `None` where nothing does, or
@@ -90,7 +89,7 @@ impl FamilyForm {
     fn instead_of(&self, row: &'static Proportion) -> Option<String> {
         let mut settable = self.family.settable().filter(|mover| !mover.moves.is_empty());
         let mover = settable.find(|mover| mover.does_move(row))?;
-        let place = self.place_of(mover);
+        let place = Self::place_of(mover);
         place.contains(' ').then(|| format!("give {place}, or {} in their place", mover.key))
     }
 
