@@ -6,12 +6,14 @@ use super::console::{json, print, say};
 use super::meets::KnownMeets;
 use super::mesh_options::MeshArguments;
 use super::specimen::{LoadedSpecimen, load_assembly};
-use crate::cut::{AlongAxes, Audit, Cut, MeshHeights, ProportionReport, Spread, Unit, tier_stem};
+use crate::cut::{
+    AlongAxes, Audit, Cut, MaterialRef, MeshHeights, ProportionReport, Spread, Unit, tier_stem,
+};
 use crate::io::Failure;
 use crate::io::STANDARD;
 use crate::io::assembly::{Assembly, MadeRing};
 use crate::io::built_design::is_scene;
-use crate::math::{Facet, Polytope};
+use crate::math::{Facet, Polytope, rounded};
 use crate::scene::{ALLOYS, Alloy, Body};
 use clap::Args;
 use glam::DVec2;
@@ -315,8 +317,14 @@ fn table(specimen: &LoadedSpecimen, value: &Value) -> String {
     if let Some(source) = &specimen.design.source {
         line("source", source.clone());
     }
-    line("material", specimen.material.name.clone());
-    line("diameter", format!("{} mm", specimen.design.diameter_mm));
+    line(
+        "material",
+        match &specimen.design.material {
+            MaterialRef::Index(index) => format!("index {}", rounded(*index, 4)),
+            _ => specimen.material.name.clone(),
+        },
+    );
+    line("diameter", format!("{} mm", rounded(specimen.design.diameter_mm, 4)));
     line("weight", weight(specimen.carats()));
     proportions_of_cut(&specimen.design.cut, value, &mut line);
     let Ok(stone) = specimen.stone() else {
@@ -351,7 +359,7 @@ fn proportions_of_cut(cut: &Cut, value: &Value, line: &mut impl FnMut(&str, Stri
                 unit => unit.map(|unit| unit.to_string()).unwrap_or_default(),
             };
             let number = number.as_f64().unwrap_or(f64::NAN);
-            let digits = if group == "given" { format!("{number}") } else { format!("{number:.4}") };
+            let digits = if group == "given" { rounded(number, 4) } else { format!("{number:.4}") };
             let mark = if group == "given" { "" } else { "   (derived)" };
             line(&key.replace('_', " "), format!("{digits}{unit}{mark}"));
         }
@@ -376,7 +384,8 @@ fn size_of_solid(
     }
     line("volume", format!("{:.6} girdle radii³", specimen.solid().volume()));
     for tier in value["tiers"].as_array().into_iter().flatten() {
-        line(tier["name"].as_str().unwrap_or_default(), format!("{} facets", tier["facets"]));
+        let facets = if tier["facets"] == 1 { "facet" } else { "facets" };
+        line(tier["name"].as_str().unwrap_or_default(), format!("{} {facets}", tier["facets"]));
     }
     match (is_mesh, value.get("tiers")) {
         (true, Some(_)) => "not convex: traced as triangles",
@@ -411,13 +420,18 @@ fn proportions(
     };
     line("length to width", format!("{:.4}", report.length_to_width));
     let [width, length] = report.table;
-    line(
-        "table",
-        format!("{width:.2} by {length:.2} %, {:.2} % from corner to corner", report.table_corners),
-    );
+    let table = match report.table_corners > 0.0 {
+        true => format!("{width:.2} by {length:.2} %, {:.2} % from corner to corner", report.table_corners),
+        false => "none".to_owned(),
+    };
+    line("table", table);
     line("crown height", format!("{:.2} %", report.crown_height));
     let along = report.girdle_edges.map(|edges| spread(edges, 2));
-    let along = along.filter(|text| text.contains('(')).map(|text| format!("; its edges {text} %"));
+    // Where the girdle is as thick all round, its edges are level.
+    let along = along.filter(|text| text.contains('('));
+    let along = along.map(|text| {
+        format!(" between its edges, beyond each of which a tenth of its corners lies; along it {text} %")
+    });
     line("girdle thickness", format!("{:.2} %{}", report.girdle_thickness, along.unwrap_or_default()));
     line("pavilion depth", format!("{:.2} %", report.pavilion_depth));
     line("total depth", format!("{:.2} %", report.total_depth));

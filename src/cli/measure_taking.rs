@@ -60,7 +60,7 @@ impl MeasureTaking {
         let specimen = LoadedSpecimen::load(file, self.mesh.options())?;
         let specimen = specimen.made_of(self.material.as_deref(), self.stone)?;
         let is_varied = axes.iter().any(|axis| axis.key == SweepKey::Material);
-        note_no_fire(&specimen.material, measures.iter().copied().filter(|_| !is_varied));
+        note_no_fire(&specimen.material, measures.iter().copied().filter(|_| !is_varied), "by --material");
         Ok(Sweep {
             design: specimen.design.clone(),
             viewpoint: self.view.viewpoint()?,

@@ -5,7 +5,7 @@ use super::optimise_text::{json_value, text};
 use super::options::number;
 use super::plot_file::PlotFile;
 use super::progress::{WorkProgress, finish_on_signals, is_asked_to_finish};
-use super::specimen::{LoadedSpecimen, note_no_fire};
+use super::specimen::{LoadedSpecimen, lacks_fire, no_fire, note_no_fire};
 use crate::cut::{Design, Size};
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::plot::{PLOT_SIZE, PlotAxis, PlotCurve, curves};
@@ -143,7 +143,15 @@ impl OptimiseArguments {
             );
         }
         let own = goal.measure.iter().filter(|measure| measure.material.is_none() && measure.weight != 0.0);
-        note_no_fire(&specimen.material, own.map(|measure| measure.of));
+        let where_to = "by --material, or by the key material of a measure in a goal file";
+        let weighted = || goal.measure.iter().filter(|measure| measure.weight != 0.0);
+        let is_dark =
+            |measure: &GoalMeasure| measure.material.is_none() && lacks_fire(&specimen.material, measure.of);
+        if weighted().next().is_some() && weighted().all(is_dark) {
+            let why = no_fire(&specimen.material, where_to);
+            return Err(Failure::Usage(format!("{path}: nothing to search for: {why}")));
+        }
+        note_no_fire(&specimen.material, own.map(|measure| measure.of), where_to);
         for held in search.objective().held() {
             say(&format!(
                 "note: {path}: {} is held: no meet that is known would be kept if it changed",

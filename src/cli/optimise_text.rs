@@ -2,6 +2,7 @@
 
 use super::sweep_plot::label;
 use crate::cut::Cut;
+use crate::math::rounded;
 use crate::measure::Interval;
 use crate::search::{
     DesignSearch, Goal, GoalValue, MeasureChange, OtherMeasure, SearchOutcome, VariedNumber,
@@ -39,7 +40,8 @@ pub fn text(goal: &Goal, search: &DesignSearch, outcome: &SearchOutcome, others:
     let _ = writeln!(text, "Numbers");
     for (number, value) in search.objective().numbers().iter().zip(&outcome.values) {
         let VariedNumber { key, least, most, start } = number;
-        let range = format!("from {least} to {most}{}", number.end_of_range(*value));
+        let range =
+            format!("from {} to {}{}", rounded(*least, 4), rounded(*most, 4), number.end_of_range(*value));
         let label = label(key, &search.objective().design().cut);
         let _ = writeln!(text, "  {label:<38}{start:>12.4}{value:>18.4}{:>+15.4}   {range}", value - start);
     }
@@ -49,10 +51,11 @@ pub fn text(goal: &Goal, search: &DesignSearch, outcome: &SearchOutcome, others:
     for ((name, before), (_, after)) in start.figures.iter().zip(&outcome.best.figures) {
         let (low, high) =
             goal.limit.get(name).map_or((f64::NEG_INFINITY, f64::INFINITY), |limit| limit.ends());
+        let [least, most] = [low, high].map(|end| rounded(end, 6));
         let ends = match (low.is_finite(), high.is_finite()) {
-            (true, true) => format!("from {low} to {high}"),
-            (true, false) => format!("at least {low}"),
-            _ => format!("at most {high}"),
+            (true, true) => format!("from {least} to {most}"),
+            (true, false) => format!("at least {least}"),
+            _ => format!("at most {most}"),
         };
         let _ = writeln!(text, "  {name:<38}{before:>12.4}{after:>18.4}{:>+15.4}   {ends}", after - before);
     }

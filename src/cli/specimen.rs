@@ -98,13 +98,26 @@ pub fn note_colour(material: &Material) {
     }
 }
 
-/// Prints a note where fire is measured for a material of which only one index is known.
-pub fn note_no_fire(material: &Material, measures: impl IntoIterator<Item = MeasureName>) {
-    let mut measures = measures.into_iter();
-    let is_of_colours = |name: &MeasureName| matches!(name, MeasureName::Fire | MeasureName::FireSeen);
-    if matches!(material.dispersion, Dispersion::Constant(_)) && measures.any(|name| is_of_colours(&name)) {
-        say(&format!("note: {} has one index for all colours, so that it has no fire", material.name));
+/// Prints a note where fire is measured for a material of which only one index is known; `where_to` says where to name another.
+pub fn note_no_fire(material: &Material, measures: impl IntoIterator<Item = MeasureName>, where_to: &str) {
+    if measures.into_iter().any(|name| lacks_fire(material, name)) {
+        say(&format!("note: {}", no_fire(material, where_to)));
     }
+}
+
+/// Returns whether a measure is of colours and the material parts none, so that it is 0 whatever the cut.
+pub fn lacks_fire(material: &Material, measure: MeasureName) -> bool {
+    matches!(material.dispersion, Dispersion::Constant(_))
+        && matches!(measure, MeasureName::Fire | MeasureName::FireSeen)
+}
+
+/// Says that a material has no fire, and how to give the stone dispersion.
+pub fn no_fire(material: &Material, where_to: &str) -> String {
+    format!(
+        "{} has one index for all colours, so that it has no fire; name a material with dispersion, such as quartz, {where_to} \
+         (brillianteer materials lists them)",
+        material.name
+    )
 }
 
 /// Returns a file's name without its ending, with which the names of its outputs begin; `stdin` for standard input.

@@ -181,7 +181,7 @@ impl Spin {
             return Err(Failure::Usage("--of: measures are of one stone, and this is a scene".into()));
         };
         if let Ok(material) = design.material.material() {
-            note_no_fire(&material, self.measures.iter().copied());
+            note_no_fire(&material, self.measures.iter().copied(), "by --material");
         }
         let settings = CurveSettings {
             measures: &self.measures,

@@ -91,6 +91,23 @@ impl FacetNet {
         Ok(())
     }
 
+    /// Returns the number of facets.
+    pub fn count(&self) -> usize {
+        self.facets.len()
+    }
+
+    /// Checks that facets, those from a place on, cut none of these points off.
+    ///
+    /// # Errors
+    /// The error names the tier of a facet that does.
+    pub fn keep(&self, from: usize, points: &[DVec3]) -> Result<(), NoRoom> {
+        let cuts_off = |plane: &Plane| points.iter().any(|point| plane.distance(*point) > SAME);
+        match self.facets.iter().skip(from).find(|(_, plane)| cuts_off(plane)) {
+            Some((tier, _)) => Err(NoRoom { tier }),
+            None => Ok(()),
+        }
+    }
+
     /// Returns every facet's name, no two alike, and its plane with a unit normal.
     pub fn named(&self) -> Vec<(String, Plane)> {
         let names = names::unique(self.facets.iter().map(|(tier, _)| *tier));

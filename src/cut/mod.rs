@@ -60,7 +60,9 @@ pub use family_cut::FamilyCut;
 pub use frosting::{FROSTINGS, FinishNote, USUAL_FROSTING, with_finish};
 pub use glass::{Glass, Plate, Sides};
 pub use material::{MaterialError, MaterialRef};
-pub use meets::{GivenSize, Meet, MeetError, MeetFault, MeetPoint, SolvedTiers, TierCorner, TierOutcome};
+pub use meets::{
+    CornerFault, GivenSize, Meet, MeetError, MeetFault, MeetPoint, SolvedTiers, TierCorner, TierOutcome,
+};
 pub use mesh_shape::MeshShape;
 pub use outline::{AlongAxes, Outline, round_diameter};
 pub use proportion_error::{Limit, ProportionError};

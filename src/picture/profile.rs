@@ -75,12 +75,14 @@ pub(crate) struct Dimensions {
 }
 
 impl Dimensions {
-    /// Measures the dimensions of any stone, in percent of its diameter.
+    /// Measures the dimensions of any stone, in percent of its diameter. Crown, girdle and pavilion meet at the girdle's edges as
+    /// [`Outline`] measures them, so that they are those of `info` and of sheets.
     pub fn measured(stone: &Stone, basis: &Basis) -> Self {
         let polytope = &stone.polytope;
         let (left, right) = extent(polytope.vertices().iter().copied(), basis.right);
         let (low, high) = extent(polytope.vertices().iter().copied(), DVec3::Z);
-        let diameter = Outline::of(polytope).diameter;
+        let outline = Outline::of(polytope);
+        let diameter = outline.diameter;
         let span = |from: f64, to: f64| Span::new(from, to, 100.0 * (to - from).abs() / diameter);
         let something = |s: &Span| s.percent > 100.0 * NOTHING;
         let zones = FacetZones::of(polytope);
@@ -88,8 +90,9 @@ impl Dimensions {
             let found: Vec<_> = polytope.facets().iter().filter(|f| zones.zone(f) == zone).collect();
             found.into_iter().flat_map(|f| polytope.corners(f)).collect::<Vec<_>>()
         };
-        let (table, upright) = (corners(TierZone::Table), corners(TierZone::Girdle));
-        let girdle = (!upright.is_empty()).then(|| extent(upright.into_iter(), DVec3::Z));
+        let table = corners(TierZone::Table);
+        let has_girdle = polytope.facets().iter().any(|facet| zones.is_girdle(facet));
+        let girdle = has_girdle.then_some((outline.girdle_bottom, outline.girdle_top));
         let table = (!table.is_empty()).then(|| extent(table.into_iter(), basis.right));
         let lowest = polytope.vertices().iter().copied().filter(|v| v.z - low <= NOTHING * diameter);
         let culet = extent(lowest, basis.right);
@@ -126,10 +129,24 @@ fn measured_profile(stone: &Stone, title: &str) -> Document {
     drawing.table(1.0);
     drawing.heights();
     drawing.width("width", 1.0);
-    let remarks = [format!("Length / width {:.2}", (far - near) / dimensions.width.length())];
+    let mut remarks = vec![format!("Length / width {:.2}", (far - near) / dimensions.width.length())];
+    if has_wavy_girdle(stone) {
+        remarks
+            .push("Girdle: between its edges, beyond each of which a tenth of its corners lies.".to_owned());
+    }
     let Outline { diameter, width, .. } = Outline::of(&stone.polytope);
     let of = if diameter > width { "diameter" } else { "width" };
     drawing.sheet.document(title, &format!("profile · percent of the {of}, measured on the planes"), &remarks)
+}
+
+/// Returns whether corners of the girdle lie beyond its edges.
+fn has_wavy_girdle(stone: &Stone) -> bool {
+    let (polytope, outline) = (&stone.polytope, Outline::of(&stone.polytope));
+    let zones = FacetZones::of(polytope);
+    let upright = polytope.facets().iter().filter(|facet| zones.is_girdle(facet));
+    let (low, high) = extent(upright.flat_map(|facet| polytope.corners(facet)), DVec3::Z);
+    let least = NOTHING * outline.diameter;
+    outline.girdle_bottom - low > least || high - outline.girdle_top > least
 }
 
 /// Returns the side view that shows the stone's width: along x or y if the stone is nearly narrowest that way, otherwise
@@ -385,12 +402,19 @@ mod tests {
         let stone = Stone::new(&given.facets().unwrap()).unwrap();
         assert_eq!(across_the_width(&stone).right, DVec3::X);
         let (found, derived) = (measured(&stone), given.derived().unwrap());
-        let heights = [found.total, found.crown.unwrap(), found.pavilion.unwrap()].map(|span| span.percent);
-        for (found, expected) in
-            heights.into_iter().zip([derived.total_depth, derived.crown_height, derived.pavilion_depth])
-        {
-            assert!((found - expected).abs() < 1e-9);
-        }
+        let total = found.total.percent;
+        assert!((total - derived.total_depth).abs() < 1e-9);
+        // The parts of the height are those of `info`, which leave out the tips of the girdle.
+        let names: Vec<String> = stone.names().to_vec();
+        let report = crate::cut::ProportionReport::of(&stone.polytope, &names);
+        let parts = [found.crown, found.girdle, found.pavilion].map(|span| span.unwrap().percent);
+        let expected = [report.crown_height, report.girdle_thickness, report.pavilion_depth];
+        assert!(
+            parts.iter().zip(expected).all(|(part, expected)| (part - expected).abs() < 1e-9),
+            "{parts:?}"
+        );
+        assert!((parts.iter().sum::<f64>() - total).abs() < 1e-9);
+        assert!(parts[1] < given.girdle_thickness, "a tenth of the corners lies beyond each edge");
     }
 
     #[test]

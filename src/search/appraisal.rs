@@ -1,6 +1,7 @@
 //! The appraisal of a design by a goal, and the reasons why there is none.
 
 use super::goal::{GoalFault, GoalMaterial};
+use crate::math::rounded;
 use crate::measure::{Interval, MeasureName};
 use crate::render::SweepError;
 use crate::scene::SpecimenError;
@@ -24,7 +25,12 @@ pub enum SearchError {
     )]
     NotOfDesign(String),
     /// The design from before the search lies outside a range.
-    #[error("vary: {key}: the design has {start}, which is not from {least} to {most}; widen the range")]
+    #[error(
+        "vary: {key}: the design has {}, which is not from {} to {}; widen the range",
+        rounded(*.start, 6),
+        rounded(*.least, 6),
+        rounded(*.most, 6)
+    )]
     StartOutside {
         /// The number.
         key: String,

@@ -34,6 +34,13 @@ impl MeetPick {
         next
     }
 
+    /// Returns the pick without the corner that was picked last; `None` where none was, which ends the pick.
+    pub fn undone(&self) -> Option<Self> {
+        let mut before = self.clone();
+        before.corners.pop()?;
+        Some(before)
+    }
+
     /// Says what a click does, and how many corners are left.
     pub fn words(&self) -> String {
         let left = self.wanted - self.corners.len().min(self.wanted);
@@ -43,7 +50,7 @@ impl MeetPick {
             (_, 0) => "Click three corners: the tier passes through all, and its angle and index follow; Escape ends this."
                 .to_owned(),
             (wanted, picked) => format!(
-                "{} of {} corners picked, {} to go. Click a picked one to take it back; Escape ends this.",
+                "{} of {} corners picked, {} to go. Undo, or a click on a picked one, takes it back; Escape ends this.",
                 in_words(picked),
                 in_words(wanted).to_lowercase(),
                 in_words(left).to_lowercase()
@@ -70,5 +77,14 @@ mod tests {
         assert!(two.is_last() && two.words().starts_with("Two of three corners picked, one to go."));
         assert_eq!(two.toggled(DVec3::Y), one);
         assert_eq!(one.toggled(DVec3::X), pick);
+    }
+
+    #[test]
+    fn undo_takes_back_the_corner_that_was_picked_last_and_then_ends_the_pick() {
+        let pick = MeetPick::new(4, 3);
+        let two = pick.toggled(DVec3::X).toggled(DVec3::Y);
+        assert_eq!(two.undone(), Some(pick.toggled(DVec3::X)));
+        assert_eq!(two.undone().and_then(|one| one.undone()), Some(pick.clone()));
+        assert_eq!(pick.undone(), None);
     }
 }

@@ -8,6 +8,7 @@ use crate::app::panels::rows::{
     NOT_KNOWN, NUMBER, Number, UNKNOWN, choice_row, named, number_row, skip_control,
 };
 use crate::cut::{Cut, Design, MaterialRef, Size};
+use crate::math::rounded;
 use crate::optics::{Material, line, materials};
 use egui::{RichText, Ui};
 use std::ops::RangeInclusive;
@@ -49,7 +50,7 @@ pub fn material_choice(ui: &mut Ui, (row, meaning): (&str, &str), now: &Material
     let mut chosen = None;
     let name = match now {
         MaterialRef::Name(name) => name.clone(),
-        MaterialRef::Index(index) => format!("index {index}"),
+        MaterialRef::Index(index) => format!("index {}", rounded(*index, 4)),
         MaterialRef::Custom(material) => material.name.clone(),
     };
     choice_row(ui, row, meaning, &name, |ui| {

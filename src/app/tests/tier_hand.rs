@@ -1,9 +1,9 @@
 //! A tier in the hand: dragged by a facet, stopped at corners, and cut to a corner that is picked.
 
-use super::tiers::{reach, tiers};
+use super::tiers::{reach, tiers, type_text};
 use super::*;
 use crate::app::model::meet_pick::MeetPick;
-use crate::cut::{Meet, Tier, TierChange, TierCorner, Tiers};
+use crate::cut::{CornerFault, Meet, Tier, TierChange, TierCorner, TierZone, Tiers};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use glam::{DMat2, DVec2};
 
@@ -186,19 +186,20 @@ fn some_corners(bench: &Bench, count: usize) -> (usize, Vec<TierCorner>) {
     let tiers = tiers(bench);
     let places = (0..tiers.tiers.len()).filter(|&place| (5.0..85.0).contains(&tiers.tiers[place].angle));
     let found = places.into_iter().find_map(|place| {
-        let all = tiers.corners_beside(place);
+        let all = tiers.corners_to_pick(place, count);
         let is_seen = |corner: &TierCorner| corner.normals.iter().any(|normal| normal.z > 1e-3);
         let place_of = |corner: &TierCorner| at_corner(bench, corner);
         // Of corners behind one another a click means the nearest to it.
         let is_alone = |corner: &&TierCorner| {
             let near = |other: &&TierCorner| place_of(other).distance(place_of(corner)) < 4.0;
-            all.iter().filter(|other| is_seen(other)).filter(near).count() == 1
+            all.iter().map(|(other, _)| other).filter(|other| is_seen(other)).filter(near).count() == 1
         };
+        let offered = all.iter().filter(|(_, fault)| fault.is_none()).map(|(corner, _)| corner);
         let beside: Vec<&TierCorner> =
-            all.iter().filter(|corner| corner.facet == 0 && is_seen(corner)).filter(is_alone).collect();
+            offered.filter(|corner| corner.facet == 0 && is_seen(corner)).filter(is_alone).collect();
         let changes = |set: &Vec<usize>| {
             let picked: Vec<&TierCorner> = set.iter().map(|&k| beside[k]).collect();
-            let meet = tiers.meet_through(place, &picked)?;
+            let meet = tiers.meet_through(place, &picked).ok()?;
             let solved = tiers.changed(TierChange::Meet(place, Some(meet))).tiers;
             let turned = (solved.tiers[place].angle - tiers.tiers[place].angle).abs();
             (turned > 0.05).then(|| (place, picked.into_iter().cloned().collect::<Vec<_>>()))
@@ -258,6 +259,99 @@ fn two_corners_that_are_picked_become_one_meet_as_one_step() {
     assert!((tier.angle - before.tiers[place].angle).abs() > 0.05);
     bench.choose("Edit", "Undo");
     assert_eq!(tiers(&bench), before, "one step");
+}
+
+#[test]
+fn three_corners_that_are_picked_set_angle_and_index_as_one_step_and_undo_takes_back_one_at_a_time() {
+    let mut bench = bench();
+    let meant = tiers(&bench);
+    // Without meets no other tier follows this one, so that all corners around it stay.
+    for tier in meant.tiers.iter().filter(|tier| tier.meet.is_some()) {
+        type_text(&mut bench, &format!("Meet of {}", tier.name()), "");
+    }
+    let place = meant.tiers.iter().position(|tier| tier.name() == "C1").unwrap();
+    reach(&mut bench, "Angle of C1");
+    bench.type_number("Angle of C1", "33");
+    bench.settle();
+    let before = tiers(&bench);
+    assert!(before.tiers.iter().all(|tier| tier.meet.is_none()) && before.tiers[place].angle == 33.0);
+    // Three of the corners in which the tier met others lead it back.
+    let there = meant.plane(&meant.tiers[place], meant.tiers[place].facets[0].index);
+    let offered = before.corners_to_pick(place, 3).into_iter().filter(|(_, fault)| fault.is_none());
+    let is_seen = |corner: &TierCorner| corner.normals.iter().any(|normal| normal.z > 1e-3);
+    let around: Vec<TierCorner> = offered
+        .map(|(corner, _)| corner)
+        .filter(|corner| is_seen(corner) && there.distance(corner.at).abs() < THERE)
+        .collect();
+    let leads = |set: &Vec<usize>| {
+        let picked: Vec<&TierCorner> = set.iter().map(|&k| &around[k]).collect();
+        before.meet_through(place, &picked).is_ok()
+    };
+    let set = sets(around.len(), 3).into_iter().find(leads).unwrap_or_else(|| panic!("{around:?}"));
+    let corners: Vec<TierCorner> = set.iter().map(|&k| around[k].clone()).collect();
+    let button = "Pick three points of C1".to_owned();
+    reach(&mut bench, &button);
+    bench.click(&button);
+    assert_eq!(bench.editor().model.meet_pick(), Some(&MeetPick::new(place, 3)));
+    let count = |bench: &Bench| bench.editor().model.meet_pick().map(|pick| pick.corners.len());
+    let pick = |bench: &mut Bench, corner: &TierCorner| {
+        bench.click_at(at_corner(bench, corner));
+        bench.harness.run_steps(2);
+    };
+    // Undo takes back one corner after the other, then leaves the pick, and never touches the design.
+    let undo = |bench: &mut Bench| {
+        bench.harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+        bench.harness.run_steps(2);
+    };
+    corners[..2].iter().for_each(|corner| pick(&mut bench, corner));
+    for left in [Some(1), Some(0), None] {
+        undo(&mut bench);
+        assert_eq!((count(&bench), tiers(&bench)), (left, before.clone()));
+    }
+    reach(&mut bench, &button);
+    bench.click(&button);
+    let message = |bench: &Bench| bench.editor().model.session.message.clone();
+    for (corner, left) in corners.iter().zip(["two to go", "one to go", ""]) {
+        assert_eq!(tiers(&bench), before, "nothing changes before the last click");
+        pick(&mut bench, corner);
+        assert!(message(&bench).contains(left), "{left}: {}", message(&bench));
+    }
+    assert_eq!(bench.editor().model.meet_pick(), None);
+    let now = tiers(&bench);
+    let tier = &now.tiers[place];
+    assert!(matches!(&tier.meet, Some(Meet::Points(points)) if points.len() == 3), "{:?}", tier.meet);
+    let passes = |facet: &crate::cut::Indexed| {
+        let plane = now.plane(tier, facet.index);
+        corners.iter().all(|corner| plane.distance(corner.at).abs() < THERE)
+    };
+    assert!(tier.facets.iter().any(passes));
+    assert!((tier.angle - meant.tiers[place].angle).abs() < 0.01, "{}", tier.angle);
+    undo(&mut bench);
+    assert_eq!(tiers(&bench), before, "one step");
+}
+
+#[test]
+fn corners_across_the_girdle_are_dim_and_say_why_a_tier_is_not_cut_to_them() {
+    let mut bench = bench();
+    let before = tiers(&bench);
+    let place = before.tiers.iter().position(|tier| tier.zone() == TierZone::Pavilion).unwrap();
+    let name = before.tiers[place].name().to_owned();
+    reach(&mut bench, &format!("Pick meet of {name}"));
+    bench.click(&format!("Pick meet of {name}"));
+    let all = before.corners_to_pick(place, 1);
+    let is_seen = |corner: &TierCorner| corner.normals.iter().any(|normal| normal.z > 1e-3);
+    let is_across = |fault: &CornerFault| matches!(fault, CornerFault::Across { .. });
+    let across = all.iter().find(|(corner, fault)| is_seen(corner) && fault.as_ref().is_some_and(is_across));
+    let place_of = at_corner(&bench, &across.unwrap().0);
+    bench.harness.hover_at(place_of);
+    bench.harness.run_steps(3);
+    let said = "the corner is on the crown, and a pavilion tier that is cut to it would take the girdle away";
+    let message = bench.editor().model.session.message.clone();
+    assert!(message.contains(said), "{message}");
+    bench.click_at(place_of);
+    bench.harness.run_steps(2);
+    assert_eq!(tiers(&bench), before, "a click there cuts nothing");
+    assert_eq!(bench.editor().model.meet_pick(), Some(&MeetPick::new(place, 1)), "the pick goes on");
 }
 
 #[test]

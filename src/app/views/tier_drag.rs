@@ -58,7 +58,7 @@ impl TierDrag {
         let along = f64::from((at - self.pressed).dot(self.way));
         let wanted = (start + along * self.per_point).max(0.0);
         let apart = |corner: &TierCorner| (corner.distance - wanted).abs() / self.per_point;
-        let near = self.corners.corners.iter().enumerate().map(|(k, (corner, _))| (k, apart(corner)));
+        let near = self.corners.corners.iter().enumerate().map(|(k, known)| (k, apart(&known.corner)));
         let near = near.filter(|(_, apart)| !is_free && *apart <= f64::from(SNAP));
         self.stopped = near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k);
         let place = self.facet.0;
@@ -67,10 +67,10 @@ impl TierDrag {
             (distance != tier.distance).then_some(TierChange::Setting(place, tier.angle, distance))
         };
         let Some(k) = self.stopped else { return moved(wanted) };
-        let distance = self.corners.corners[k].0.distance;
+        let distance = self.corners.corners[k].corner.distance;
         // A tier that is there by a meet keeps its words.
         let is_there = (tier.distance.abs() - distance).abs() <= THERE * largest;
-        match self.corners.meet(k) {
+        match self.corners.meet(k).and_then(Result::ok) {
             Some(_) if is_there && tier.meet.is_some() => None,
             Some(meet) => Some(TierChange::Meet(place, Some(meet))),
             None => moved(distance),

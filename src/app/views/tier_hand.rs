@@ -68,7 +68,7 @@ fn begun(cx: &mut PaneContext, ui: &Ui, sight: &PaneView) -> Option<TierDrag> {
     let (way, per_point) = way(sight, point, normal)?;
     let specimen = cx.model.document.specimen();
     let mut corners = CornersOfTier::of(specimen, facet.0)?;
-    corners.corners.retain(|(corner, _)| corner.facet == facet.1);
+    corners.corners.retain(|known| known.corner.facet == facet.1);
     let largest = tiers.tiers.iter().map(|tier| tier.distance.abs()).fold(0.0, f64::max);
     Some(TierDrag {
         pane: cx.pane,
@@ -126,8 +126,8 @@ fn draw(cx: &mut PaneContext, ui: &Ui, sight: &PaneView, drag: &TierDrag) {
     let Some(tier) = tiers.tiers.get(drag.facet.0) else { return };
     let mm = document.specimen().design_unit_mm() * tier.distance.abs();
     let stopped = drag.stopped.filter(|_| !drag.is_over).and_then(|k| drag.corners.corners.get(k));
-    if let Some((corner, _)) = stopped {
-        sight.mark_corner(ui, document.specimen().frame.place(corner.at), MEETING);
+    if let Some(known) = stopped {
+        sight.mark_corner(ui, document.specimen().frame.place(known.corner.at), MEETING);
     }
     let there = match stopped {
         Some(_) => tier.meet.as_ref().map_or("at a corner that no meet names".to_owned(), Meet::to_string),

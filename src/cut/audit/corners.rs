@@ -24,6 +24,12 @@ const SAME_AZIMUTH: f64 = 0.5 * PI / 180.0;
 /// meet: if it shrank to a point, the facet's shape would change.
 const PART_OF_SIDE: f64 = 0.5;
 
+/// Edges turn by less than this where one goes on along the other (cosine of 20°).
+const GOES_ON: f64 = 0.94;
+
+/// Edges are as long as one another where the longer is no longer than this many times the shorter.
+const AS_LONG: f64 = 1.25;
+
 /// A corner: vertices that look like one point.
 pub(super) struct Corner {
     /// The mean of the vertices.
@@ -43,6 +49,8 @@ struct CornerEdge {
 pub(super) struct Corners {
     pub all: Vec<Corner>,
     edges: Vec<CornerEdge>,
+    /// The corners around each facet.
+    outlines: Vec<Vec<usize>>,
 }
 
 /// Calls `pair` for each two points that are nearer to one another than `reach`, the first below the second by place.
@@ -94,7 +102,7 @@ impl Corners {
         }
         let mut all: Vec<Corner> =
             sums.iter().map(|(sum, number)| Corner { at: *sum / *number, facets: vec![] }).collect();
-        let mut edges = vec![];
+        let (mut edges, mut outlines) = (vec![], vec![]);
         for (place, facet) in subject.facets().iter().enumerate() {
             let outline: Vec<usize> = facet.outline.iter().map(|&vertex| of[vertex as usize]).collect();
             let is_visible = outline.iter().any(|&corner| corner != outline[0]);
@@ -108,8 +116,14 @@ impl Corners {
                     edges.push(CornerEdge { ends: [corner, next], sides: [place, other], length });
                 }
             }
+            let mut around = outline;
+            around.dedup();
+            if around.first() == around.last() {
+                around.pop();
+            }
+            outlines.push(around);
         }
-        Self { all, edges }
+        Self { all, edges, outlines }
     }
 
     /// Returns the split meets and the near misses.
@@ -158,11 +172,14 @@ impl Corners {
     }
 
     /// Returns whether an edge is a side of the facets beside it, however short, and so not a split meet: an edge
-    /// between steps, an upright edge of the girdle, an edge among three girdle facets, or one that is as long as a
-    /// facet beside it is wide.
+    /// between steps, an upright edge of the girdle, an edge among three girdle facets, one half of a side, or one that is as
+    /// long as a facet beside it is wide.
     fn is_side(&self, edge: &CornerEdge, subject: &Subject) -> bool {
         let [a, b] = edge.sides;
         if subject.is_girdle(a) && subject.is_girdle(b) || same_azimuth(subject, a, b) {
+            return true;
+        }
+        if edge.sides.iter().any(|&side| self.is_half_of_side(edge, side)) {
             return true;
         }
         let mut around: Vec<usize> =
@@ -181,6 +198,22 @@ impl Corners {
                 crate::math::span(subject.given.stone.corners(facet).map(|corner| corner.dot(along)));
             edge.length > PART_OF_SIDE * (high - low)
         })
+    }
+
+    /// Returns whether an edge is one half of a side of a facet in whose middle a corner lies, as where two chevrons part below a facet
+    /// of the girdle: that corner is as far from both ends of the side and nearly meets neither.
+    fn is_half_of_side(&self, edge: &CornerEdge, facet: usize) -> bool {
+        let (around, [a, b]) = (&self.outlines[facet], edge.ends);
+        let at = |corner: usize| self.all[corner].at;
+        let goes_on = |from: usize, middle: usize| {
+            let Some(place) = around.iter().position(|&corner| corner == middle) else { return false };
+            let beside = [1, around.len() - 1].map(|step| around[(place + step) % around.len()]);
+            let Some(&to) = beside.iter().find(|&&corner| corner != from) else { return false };
+            let (before, after) = (at(middle) - at(from), at(to) - at(middle));
+            let (short, long) = (before.length().min(after.length()), before.length().max(after.length()));
+            before.dot(after) > GOES_ON * short * long && long <= AS_LONG * short
+        };
+        goes_on(a, b) || goes_on(b, a)
     }
 
     /// Returns whether one corner lies on the girdle's upper edge and the other on its lower one, so that their

@@ -96,6 +96,25 @@ fn a_bezel_that_is_cut_too_shallow_splits_its_meets_and_leaves_the_symmetry() {
 }
 
 #[test]
+fn a_corner_in_the_middle_of_a_side_is_no_split_meet_and_one_beside_the_middle_is() {
+    let family = crate::cut::Family::of_key("modified_cushion").unwrap();
+    let crate::cut::Cut::Family(made) = &family.first else { panic!() };
+    let mut facets = made.facets().unwrap();
+    // Two chevrons part below the middle of a girdle facet.
+    let apart = |audit: &Audit| {
+        let is_there = |finding: &&Finding| {
+            ["chevron_1 3", "chevron_1 4"].iter().all(|name| finding.facets.iter().any(|own| own == name))
+                && finding.facets.iter().any(|own| own.starts_with("girdle"))
+        };
+        audit.of_kind(FindingKind::SplitMeet).filter(is_there).count()
+    };
+    assert_eq!(apart(&audited(&facets, None, None)), 0);
+    plane(&mut facets, "chevron_1 3").offset += 0.004;
+    let aside = audited(&facets, None, None);
+    assert!(apart(&aside) > 0, "{aside:?}");
+}
+
+#[test]
 fn an_outline_off_its_symmetry_is_told_from_a_facet() {
     let mut facets = brilliant();
     plane(&mut facets, "girdle 7").offset -= 0.005;

@@ -8,13 +8,14 @@
 //! **Pavilion.** In the plane through the middle of a side and the axis, the profile is a convex line of straight pieces,
 //! from the girdle down to the shoulder of the mains, and on to the culet. Each piece and a corner of the girdle give a
 //! facet, so that all facets of half a side meet in that corner as in a fan, and those of both halves in the profile: chevrons.
-//! The last piece belongs to the mains, which both neighbouring sides have in common, so that they form an X. Every section
+//! The last piece belongs to the mains, which both neighbouring sides have in common, so that they form an X. Where the corners have
+//! facets of their own, these end in the point where the innermost chevrons of both sides and the main meet. Every section
 //! through the fan is the convex profile again, seen from the corner, so that the stone is convex. Both constructions are this
 //! program's own.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::steps::{Rectangle, StepRows};
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use std::f64::consts::FRAC_1_SQRT_2;
 
 const CHEVRONS: [&str; 5] = ["pavilion_side", "chevron_1", "chevron_2", "chevron_3", "chevron_4"];
@@ -134,7 +135,8 @@ pub struct Chevrons {
     pub step: f64,
     /// The part of the way from the middle to the girdle, along the middle of a side, to which the mains reach.
     pub shoulder: f64,
-    /// How many degrees the facets at the corners are steeper than the mains; `None` where mains reach the corners.
+    /// How many degrees the facets at the corners would be steeper than the mains if they reached half of the way to the point; `None`
+    /// where mains reach the corners.
     pub corner_step: Option<f64>,
     /// The part of the mains' way to their point at which the culet cuts them off; 0 is a point.
     pub culet: f64,
@@ -152,14 +154,22 @@ impl Chevrons {
         let slope = (self.depth / far).atan().to_degrees();
         let count = 1 + usize::from(self.corner_step.is_some());
         let corner = StepRows { count, slope, step: self.corner_step.unwrap_or(0.0), reach: far };
-        let corner = corner.tangents().ok_or(NoRoom { tier: "pavilion_corner" })?;
-        let main = corner[corner.len() - 1];
+        let main = corner
+            .tangents()
+            .and_then(|rows| rows.last().copied())
+            .ok_or(NoRoom { tier: "pavilion_corner" })?;
         let (side, end) = (outline.side_end().extend(below(0.0)), outline.end_end().extend(below(0.0)));
+        let point = DVec3::Z * below(self.depth);
+        let level = DVec3::new(-1.0, 1.0, 0.0);
+        let mains = [point, point + level, point + DVec3::new(FRAC_1_SQRT_2, FRAC_1_SQRT_2, main)];
         let profile = |size: f64| self.profile(size, main, far / FRAC_1_SQRT_2);
+        let mut innermost = vec![mains];
         for (from, way, points) in
             [(side, DVec3::X, profile(1.0)?), (end, DVec3::Y, profile(outline.length)?)]
         {
             let at = |[out, depth]: [f64; 2]| way * out + DVec3::Z * below(depth);
+            let [.., a, b] = points[..] else { return Err(NoRoom { tier: CHEVRONS[1] }) };
+            innermost.push([from, at(a), at(b)]);
             for (piece, pair) in points.windows(2).enumerate() {
                 let [a, b] = [at(pair[0]), at(pair[1])];
                 if piece == 0 {
@@ -171,14 +181,10 @@ impl Chevrons {
             }
         }
         if self.corner_step.is_some() {
-            let middle = 0.5 * (side + end);
-            let inward = DVec3::new(-FRAC_1_SQRT_2, -FRAC_1_SQRT_2, -corner[0]);
-            quarters.through("pavilion_corner", [side, end, middle + inward])?;
+            let tip = meeting(&innermost).ok_or(NoRoom { tier: "pavilion_corner" })?;
+            quarters.through("pavilion_corner", [side, end, tip])?;
         }
-        let point = DVec3::Z * below(self.depth);
-        let level = DVec3::new(-1.0, 1.0, 0.0);
-        let outward = DVec3::new(FRAC_1_SQRT_2, FRAC_1_SQRT_2, main);
-        quarters.through("main", [point, point + level, point + outward])?;
+        quarters.through("main", mains)?;
         if self.culet > 0.0 {
             quarters.net.plane("culet", DVec3::NEG_Z, DVec3::Z * below(self.depth * (1.0 - self.culet)));
         }
@@ -209,4 +215,14 @@ impl Chevrons {
         }
         Ok(points)
     }
+}
+
+/// Returns the point where planes meet, each given by three points; `None` where three planes share no one point.
+fn meeting(planes: &[[DVec3; 3]]) -> Option<DVec3> {
+    let [first, second, third] = planes else { return None };
+    let normals = [first, second, third].map(|[a, b, c]| (b - a).cross(c - a).normalize_or_zero());
+    let offset = |k: usize| normals[k].dot(planes[k][0]);
+    let point = DMat3::from_cols(normals[0], normals[1], normals[2]).transpose().inverse()
+        * DVec3::new(offset(0), offset(1), offset(2));
+    point.is_finite().then_some(point)
 }

@@ -46,12 +46,12 @@ impl CushionChevrons<'_> {
     /// Adds the pavilion.
     ///
     /// # Errors
-    /// The tier whose points give no plane.
+    /// The tier whose points give no plane, or that cuts off points in which others meet.
     pub fn add_to(&self, net: &mut FacetNet) -> Result<(), NoRoom> {
         let inside = DVec3::NEG_Z * (0.5 * self.thickness);
         let around = self.girdle.mains().len();
         let sides = || self.girdle.mains().step_by(2);
-        let mut halves = vec![];
+        let (before, mut halves) = (net.count(), vec![]);
         for side in sides() {
             let (next, last) = (side + 1, side + around - 1);
             halves.push(self.half_side(side, next, side)?);
@@ -69,7 +69,12 @@ impl CushionChevrons<'_> {
         for side in sides() {
             net.through("main", self.main(side + 1), inside)?;
         }
-        Ok(())
+        // Rows that turn too far from one to the next, seen from the tip, cut it off, and no facets would meet there.
+        let points = |half: &HalfSide| {
+            let ends = [half.tip, half.between, half.corner];
+            half.middles.iter().copied().chain(ends).collect::<Vec<_>>()
+        };
+        net.keep(before, &halves.iter().flat_map(points).collect::<Vec<_>>())
     }
 
     /// Returns a station's place on the lower edge of the girdle.

@@ -34,6 +34,13 @@ ratios of the cut's own file in `cuts/`. Where no stone has the depth, the messa
 The picture shows each family's first cut, in the order of the tables below, in diamond: its facets seen from above, its ASET,
 and a render under the light `studio`. [`contact-sheet.sh`](images/contact-sheet.sh) makes it by the program's own commands.
 
+## Where facets meet in points
+
+Facets meet in points as on real stones: in no stone of these families do four facets nearly meet, apart from edges that real stones of
+the cut have as well, which an [audit](formats.md#audit) lists as split meets where they are shorter than 12 % of W. Edges of a small
+culet are as short as it is. The table of an Asscher or of a cushion barion has corners: below it a crown of one row has four facets at the corners of
+the outline, whose upper edges are 10 to 12 % of W long with the narrowest corners and the smallest tables of the usual ranges.
+
 ## What the families weigh
 
 The trade estimates the weight of a set diamond from its dimensions in mm: carats = length · width · depth · k. Diamond has

@@ -33,7 +33,7 @@ pub static RADIANT: Family = Family {
     name: "Radiant cut",
     first: FamilyCut::first(
         &RADIANT,
-        &[1.2, 17.0, 65.0, 0.0, 34.0, 12.0, 12.0, 3.0, 50.0, 6.0, 30.0, 9.95, 3.0, 1.0],
+        &[1.2, 17.0, 65.0, 0.0, 34.0, 12.0, 12.0, 3.0, 50.0, 6.0, 30.0, 10.0, 3.0, 1.0],
     ),
     net: Some(net),
     depth: Some(depth),
@@ -59,7 +59,7 @@ pub static RADIANT: Family = Family {
         chevron_step::<STEP>(),
         shoulder::<SHOULDER>(),
         Proportion {
-            meaning: "How much steeper the pavilion's facets at the corners are than the mains.",
+            meaning: "How much flatter the mains are than the facets at the corners would be if both were equally wide. Those facets end in a point, where mains and chevrons meet.",
             ..step_rows::step::<CORNER_STEP>("corner_step", "Corner step", [5.0, 20.0])
         },
         rows::girdle_thickness::<GIRDLE>(),

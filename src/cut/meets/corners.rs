@@ -1,10 +1,14 @@
 //! The corners of a finished stone that a tier can be moved to, and the meet that says so.
 
 use super::super::tiers::{Tier, Tiers};
+use super::corner_fault::CornerFault;
 use super::found::{NAMES, PASSES};
 use super::meet::{Meet, MeetPoint};
 use super::names::TierNames;
+use super::reach::REACHABLE;
 use super::solve::{Bench, TierOutcome, cutting_order};
+use super::stone::{StoneCorner, StoneSide};
+use crate::math::Plane;
 use glam::DVec3;
 
 /// The most corners that are tried for the same names.
@@ -33,31 +37,56 @@ impl Tiers {
     /// reaches them as it is cut deeper; none for a place past the last tier, and where the tier has no facets.
     ///
     /// They are corners of the stone of all tiers that do not follow this one by a meet, at the numbers that the design has. While
-    /// the tier moves they stay.
+    /// the tier moves they stay. Those across the girdle are left out: cut to one, the tier would take the girdle away.
     pub fn tier_corners(&self, place: usize) -> Vec<TierCorner> {
         let Some(tier) = self.tiers.get(place) else { return vec![] };
         let bench = self.bench_without(place);
-        let (planes, stone) = (bench.planes(tier, tier.angle), bench.stone());
+        let planes = bench.planes(tier, tier.angle);
         let of_facet = |facet: usize| {
             let normal = planes[facet].normal;
-            let reached = bench.reached_corners(&planes, facet, |_| true);
+            let side = StoneSide::of(normal);
+            let reached = bench.reached_corners(&planes, facet, |corner| !bench.is_across(corner, side));
             let distance = move |at: DVec3| normal.dot(at);
-            reached.into_iter().filter(move |corner| distance(corner.at) >= 0.0).map(move |corner| {
-                let normals = corner.planes.iter().map(|&plane| stone.plane(plane).plane.normal).collect();
-                let (at, planes) = (corner.at, corner.planes.clone());
-                TierCorner { at, distance: distance(at), facet, normals, planes }
-            })
+            let ahead = reached.into_iter().filter(move |corner| distance(corner.at) >= 0.0);
+            ahead.map(|corner| bench.tier_corner(corner, &planes, facet)).collect::<Vec<_>>()
         };
         (0..planes.len()).flat_map(of_facet).collect()
     }
 
-    /// Returns the meet that cuts the tier at a place to one of its [corners](Self::tier_corners); `None` where no meet gives it
-    /// this distance once all are followed.
+    /// Returns all corners of the stone of all tiers that do not follow the tier at a place by a meet, for a pick of `count` of
+    /// them, 1 to 3. Each has the facet of the tier whose direction it lies farthest out in, and the fault that keeps the tier
+    /// from it, if one is known before other corners are picked. None for a place past the last tier, and where the tier has no
+    /// facets.
+    pub fn corners_to_pick(&self, place: usize, count: usize) -> Vec<(TierCorner, Option<CornerFault>)> {
+        let Some(tier) = self.tiers.get(place) else { return vec![] };
+        let bench = self.bench_without(place);
+        let planes = bench.planes(tier, tier.angle);
+        let (stone, zone) = (bench.stone(), tier.zone());
+        let supports: Vec<f64> = planes.iter().map(|plane| stone.support(plane.normal)).collect();
+        let all = stone.corners().iter().filter_map(|corner| {
+            let depth = |facet: &usize| planes[*facet].normal.dot(corner.at);
+            let facet = (0..planes.len()).max_by(|a, b| depth(a).total_cmp(&depth(b)))?;
+            let touches = depth(&facet) >= supports[facet] - REACHABLE * stone.scale();
+            let fault = match () {
+                () if bench.is_across(corner, StoneSide::of(planes[facet].normal)) => {
+                    Some(CornerFault::Across { zone })
+                }
+                () if depth(&facet) <= 0.0 => Some(CornerFault::Behind),
+                () if count <= 1 && touches => Some(CornerFault::Touches),
+                () => None,
+            };
+            Some((bench.tier_corner(corner, &planes, facet), fault))
+        });
+        all.collect()
+    }
+
+    /// Returns the meet that cuts the tier at a place to one of its [corners](Self::tier_corners), or why no meet gives it this
+    /// distance once all are followed.
     ///
     /// A corner on the axis is the centre point, and the level girdle is named where the tier lies beside the girdle. For other
     /// corners the meet lists the tiers that meet there.
-    pub fn meet_at(&self, place: usize, corner: &TierCorner) -> Option<Meet> {
-        let own = self.tiers.get(place)?;
+    pub fn meet_at(&self, place: usize, corner: &TierCorner) -> Result<Meet, CornerFault> {
+        let own = self.tiers.get(place).ok_or(CornerFault::NoFacets)?;
         let distance = corner.distance.copysign(own.distance);
         let tier = Tier { distance, meet: None, is_cut: true, ..own.clone() };
         let bench = self.bench_without(place);
@@ -70,8 +99,11 @@ impl Tiers {
             lists.iter().map(meet).map(|point| Meet::Points(vec![point])).collect::<Vec<_>>()
         };
         meets.extend((2..=MOST_REACHED).flat_map(later));
-        let given = meets.into_iter().filter(|meet| bench.gives(place, &tier, meet));
-        given.take(MOST_FOLLOWED).find(|meet| self.leads_to(place, &tier, meet))
+        let given: Vec<Meet> =
+            meets.into_iter().filter(|meet| bench.gives(place, &tier, meet)).take(MOST_FOLLOWED).collect();
+        let fault =
+            if given.is_empty() { CornerFault::NoName { number: 1 } } else { CornerFault::CutAtOtherPlace };
+        given.into_iter().find(|meet| self.leads_to(place, &tier, meet)).ok_or(fault)
     }
 
     /// Returns the next corner at another depth that the first facet of a tier can be cut to, deeper or less deep than it is now,
@@ -87,7 +119,7 @@ impl Tiers {
         let mut next: Vec<TierCorner> = corners.filter(beyond).collect();
         let apart = |corner: &TierCorner| (corner.distance - now).abs();
         next.sort_by(|a, b| apart(a).total_cmp(&apart(b)));
-        next.iter().find_map(|corner| self.meet_at(place, corner))
+        next.iter().find_map(|corner| self.meet_at(place, corner).ok())
     }
 
     /// Returns whether a tier has its distance by a meet once all meets of the design are followed.
@@ -133,5 +165,21 @@ impl Tiers {
                 };
         }
         follows
+    }
+}
+
+impl Bench<'_> {
+    /// Returns whether a corner lies across the girdle from a side: only facets that lean to the other side meet there.
+    fn is_across(&self, corner: &StoneCorner, side: Option<StoneSide>) -> bool {
+        let side_of = |&plane: &usize| StoneSide::of(self.stone().plane(plane).plane.normal);
+        side.is_some()
+            && corner.planes.iter().all(|plane| side_of(plane).is_some_and(|other| Some(other) != side))
+    }
+
+    /// Returns a corner as one of a facet of a tier; `planes` are those of the tier.
+    fn tier_corner(&self, corner: &StoneCorner, planes: &[Plane], facet: usize) -> TierCorner {
+        let normals = corner.planes.iter().map(|&plane| self.stone().plane(plane).plane.normal).collect();
+        let distance = planes[facet].normal.dot(corner.at);
+        TierCorner { at: corner.at, distance, facet, normals, planes: corner.planes.clone() }
     }
 }

@@ -1,7 +1,7 @@
 //! Tests of the corners that a tier can be moved to, on a brilliant that is cut by meets.
 
 use super::super::tier_change::TierChange;
-use super::super::tiers::Tiers;
+use super::super::tiers::{TierZone, Tiers};
 use super::tests::{assert_near, brilliant};
 use super::*;
 
@@ -25,7 +25,8 @@ fn a_tier_that_meets_a_corner_has_it_among_its_corners_with_its_own_meet() {
         assert!(now.len() >= design.tiers[place].facets.len(), "{name}: {}", now.len());
         for corner in now {
             assert_near(&[corner.distance], &[design.tiers[place].distance]);
-            let meet = design.meet_at(place, corner).map(|meet| meet.to_string()).unwrap_or_default();
+            let meet =
+                design.meet_at(place, corner).map_or_else(|fault| fault.to_string(), |meet| meet.to_string());
             let named = meet.strip_prefix("Meet ").unwrap_or_default();
             assert!(named.split('-').count() >= 3, "{name}: {meet}");
             for other in named.split('-') {
@@ -42,7 +43,7 @@ fn a_meet_at_a_corner_takes_the_tier_there_and_the_corner_stays() {
     for place in 0..design.tiers.len() {
         let corners = design.tier_corners(place);
         for corner in corners.iter().filter(|corner| corner.facet == 0) {
-            let Some(meet) = design.meet_at(place, corner) else { continue };
+            let Ok(meet) = design.meet_at(place, corner) else { continue };
             let moved = design.changed(TierChange::Meet(place, Some(meet))).tiers;
             let off = miss(&moved, place, corner);
             assert!(off < NEAR, "{}: {off}", design.tiers[place].name());
@@ -67,4 +68,24 @@ fn the_next_meet_is_deeper_or_farther_out_and_leads_back() {
     assert!((distance(&back) - distance(&design)).abs() < NEAR, "{} {}", distance(&back), distance(&design));
     assert_eq!(design.next_meet(99, true), None);
     assert_eq!(design.tier_corners(99), []);
+}
+
+#[test]
+fn a_tier_is_cut_to_corners_on_its_side_or_at_the_girdle_only() {
+    let design = brilliant();
+    for (place, tier) in design.tiers.iter().enumerate().filter(|(_, tier)| tier.angle.abs() < 90.0) {
+        let side = if matches!(tier.zone(), TierZone::Crown | TierZone::Table) { 1.0 } else { -1.0 };
+        let is_across = |corner: &TierCorner| corner.normals.iter().all(|normal| normal.z * side < 0.0);
+        let offered = design.tier_corners(place);
+        assert!(!offered.is_empty() && !offered.iter().any(is_across), "{}", tier.name());
+        let (mut across, mut own) = (0, 0);
+        for (corner, fault) in design.corners_to_pick(place, 1) {
+            assert_eq!(is_across(&corner), fault == Some(CornerFault::Across { zone: tier.zone() }));
+            across += usize::from(is_across(&corner));
+            let is_offered = offered.iter().any(|other| other.at == corner.at);
+            assert_eq!(fault.is_none(), is_offered, "{}: {corner:?} {fault:?}", tier.name());
+            own += usize::from(is_offered);
+        }
+        assert!(across > 0 && own > 0, "{}: {across} {own}", tier.name());
+    }
 }

@@ -2,12 +2,13 @@
 //! instructions, `stated` chooses the reading that agrees with the design's numbers, `found` finds meets in the geometry,
 //! and `solve` follows them
 //! to the corners that a facet can `reach`. `corners` lists those that a tier of a finished stone can be moved to,
-//! and `picked` finds the meet through two or three of them.
+//! `picked` finds the meet through two or three of them, and `corner_fault` says why there is none.
 //!
 //! A meet is a point on the stone as it is cut so far (`stone`): a corner where named tiers meet (`names`), a corner of the
 //! girdle, the girdle line, or the point where the axis leaves the stone. Names may be written as cutters write them: P1 is
 //! the pavilion tier 1, G1 a girdle tier, C1 the crown tier 1, and small and capital letters are the same.
 
+mod corner_fault;
 mod corners;
 #[cfg(test)]
 mod corners_tests;
@@ -26,6 +27,7 @@ mod stone;
 mod tests;
 mod words;
 
+pub use corner_fault::CornerFault;
 pub use corners::TierCorner;
 pub use fault::{MeetError, MeetFault};
 pub use meet::{GivenSize, Meet, MeetPoint};

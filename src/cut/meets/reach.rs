@@ -8,7 +8,7 @@ use crate::math::Plane;
 use glam::DVec3;
 
 /// A corner this much below the highest, in lengths of the largest distance, is one that a facet can be cut to.
-const REACHABLE: f64 = 1e-6;
+pub(super) const REACHABLE: f64 = 1e-6;
 
 impl Bench<'_> {
     /// Returns whether two upright facets meet at a corner on a side.

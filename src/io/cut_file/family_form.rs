@@ -41,7 +41,14 @@ impl FamilyForm {
             let other = row.pair.unwrap_or_default();
             if let Some((mover, _)) = self.movers().find(|(mover, _)| mover.does_move(row)) {
                 if self.given.contains_key(key) {
-                    return twice(mover.key);
+                    let (mover_key, place) = (mover.key, Self::place_of(mover));
+                    let message = match place.contains(' ') {
+                        true => format!(
+                            "{mover_key}: it stands in the place of {place}; leave out {key}, or give {place} without {mover_key}"
+                        ),
+                        false => format!("{mover_key}: give {place} or {mover_key}, not both"),
+                    };
+                    return Err(Fault::key(format!("{table}/{}", mover.key), message));
                 }
                 continue;
             }
@@ -51,7 +58,10 @@ impl FamilyForm {
                 (None, None, Some(value)) => self.give(&mut cut, row, value)?,
                 (None, Some(_), _) => {}
                 _ if row.pair.is_some() => return missing(format!("{key} or {other} is missing; give one")),
-                _ => return missing(format!("the key `{key}` is missing ({})", row.hint())),
+                _ => {
+                    let instead = self.instead_of(row).map(|text| format!("; {text}")).unwrap_or_default();
+                    return missing(format!("the key `{key}` is missing ({}){instead}", row.hint()));
+                }
             }
         }
         for (mover, value) in self.movers() {
@@ -67,6 +77,20 @@ impl FamilyForm {
     fn movers(&self) -> impl Iterator<Item = (&'static Proportion, f64)> + '_ {
         let movers = self.family.settable().filter(|row| !row.moves.is_empty());
         movers.filter_map(|row| Some((row, *self.given.get(row.key)?)))
+    }
+
+    /// Returns the keys of the numbers that a number moves, in words.
+    fn place_of(mover: &Proportion) -> String {
+        mover.moves.join(" and ")
+    }
+
+    /// Says what may stand in the file in the place of a number and of those that change with it; `None` where nothing does, or
+    /// where the number is the only one.
+    fn instead_of(&self, row: &'static Proportion) -> Option<String> {
+        let mut settable = self.family.settable().filter(|mover| !mover.moves.is_empty());
+        let mover = settable.find(|mover| mover.does_move(row))?;
+        let place = Self::place_of(mover);
+        place.contains(' ').then(|| format!("give {place}, or {} in their place", mover.key))
     }
 
     fn give(&self, cut: &mut Cut, row: &'static Proportion, value: f64) -> Result<(), Fault> {

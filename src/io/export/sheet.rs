@@ -3,6 +3,7 @@
 use super::viewing::Viewing;
 use super::{OutputFormat, Outputs};
 use crate::io::{Failure, PngFile, rasterize};
+use crate::math::rounded;
 use crate::picture::{Caption, Palette, Rows};
 use crate::render::{Backend, Job, Product, Reading, ScopeProduct};
 use crate::scene::{Glare, Scope};
@@ -117,7 +118,7 @@ impl ScopeSheet<'_> {
                 format!("index {:.4} at {nm} nm", medium.index)
             }
             Some(nm) => format!("{}, index {:.4} at {nm} nm", material.name, medium.index),
-            None => format!("index {}", medium.index),
+            None => format!("index {}", rounded(medium.index, 4)),
         };
         let colour = if material.colour_is_illustrative { ", colour illustrative" } else { "" };
         let polarised = if *polarised { "polarised" } else { "unpolarised" };

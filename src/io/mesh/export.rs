@@ -7,9 +7,9 @@
 
 mod ply;
 
-use super::file::{MaterialHint, STL_HEADER, Statement, rounded};
+use super::file::{MaterialHint, STL_HEADER, Statement};
 use crate::cut::MaterialRef;
-use crate::math::{Surface, triangulate};
+use crate::math::{Surface, rounded, triangulate};
 use crate::scene::Body;
 use glam::DVec3;
 use serde_json::{Value, json};

@@ -74,7 +74,10 @@ pub enum GpuError {
     )]
     MixedKinds,
     /// A software driver would follow too few bounces.
-    #[error("{name} follows only {bounces} bounces of light in a scene of so many facets (stones: {stones})")]
+    #[error(
+        "{name} follows only {bounces} bounce{} of light in a scene of so many facets (stones: {stones})",
+        if *.bounces == 1 { "" } else { "s" }
+    )]
     TooFewBounces {
         /// The card's name.
         name: String,

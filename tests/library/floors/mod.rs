@@ -50,6 +50,7 @@ const ROOMS: [Room; 8] = [
     Room {
         folder: "cut/meets",
         door: &[
+            "CornerFault",
             "GivenSize",
             "Meet",
             "MeetError",

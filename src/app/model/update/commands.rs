@@ -24,7 +24,7 @@ impl Model {
         match command {
             Command::ViewBack => back,
             Command::ViewOn => on,
-            Command::Undo => undo,
+            Command::Undo => undo || self.meet_pick().is_some(),
             Command::Redo => redo,
             Command::Save => self.document.is_changed() || self.document.path().is_none(),
             Command::IntoTiers => !self.has_tiers() && self.document.specimen().stone().is_ok(),
@@ -142,6 +142,10 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
         Command::AnotherLight => another_light(model),
         Command::LayOut => edits::edit(model, Edit::LayOut(model.document.work.copies.poses.len())),
         Command::Search => searching::toggle(model, tasks),
+        Command::Undo if model.meet_pick().is_some() => {
+            // The design has not changed since the pick began.
+            model.session.picking = model.session.picking.as_ref().and_then(MeetPick::undone);
+        }
         Command::Undo | Command::Redo => {
             searching::interrupt(model, tasks);
             let beside = model.document.work.companions.clone();

@@ -29,7 +29,7 @@ use parsed_mesh::ParsedMesh;
 pub(super) use sniff::STL_HEADER;
 use sniff::STL_START;
 pub use sniff::{MeshFormat, looks_like};
-pub use statement::{Stands, Statement, rounded};
+pub use statement::{Stands, Statement};
 
 /// The content of a mesh file as it is written: not yet welded, in the file's unit and frame.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,7 +8,7 @@
 
 use crate::cut::MaterialRef;
 use crate::io::file_error::Fault;
-use crate::math::{self, Surface};
+use crate::math::{self, Surface, rounded};
 use glam::{DQuat, DVec3};
 use std::fmt::Write as _;
 
@@ -272,11 +272,4 @@ impl Found {
 fn material_of(name: &str) -> Result<MaterialRef, Fault> {
     let material = name.parse().map_or_else(|_| MaterialRef::Name(name.to_owned()), MaterialRef::Index);
     material.check().map(|()| material).map_err(Fault::whole)
-}
-
-/// Formats a number with so many decimals, without zeros at its end and without the sign of a number that is rounded to 0.
-pub fn rounded(number: f64, decimals: usize) -> String {
-    let text = format!("{number:.decimals$}");
-    let text = if decimals > 0 { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
