@@ -5,7 +5,6 @@ use crate::cut::{Cut, TierZone, Tiers};
 use crate::picture::{CuttingSheet, PaperSize, sheet_pages};
 use crate::scene::{Specimen, Stone};
 use glam::DVec3;
-use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 #[cfg(test)]
@@ -57,7 +56,7 @@ impl SheetFormat {
 
 /// Describes the sheet of a stone. A stone that is not cut by tiers gets those that the editor turns it into: pavilion,
 /// girdle, crown and table with cutters' names, and the meets that its geometry shows as instructions; see [`in_tiers`]. The
-/// instruction of a tier without a meet is its depth.
+/// instruction of a tier that has neither a meet nor an instruction is its depth.
 ///
 /// # Errors
 /// Fails with [`Failure::Input`] for a solid without facets that can be cut: a mesh that is not convex, a smooth
@@ -67,20 +66,17 @@ pub fn cutting_sheet(specimen: &Specimen, left_handed: bool) -> Result<CuttingSh
     let by_tiers = in_tiers(specimen).map_err(|why| refused(why.to_string()))?;
     let stone = by_tiers.stone().map_err(|why| refused(why.to_string()))?;
     let Cut::Tiers(tiers) = &by_tiers.design.cut else { return Err(refused("it has no tiers".to_owned())) };
-    let tiers = match &by_tiers {
-        Cow::Borrowed(_) => Cow::Borrowed(tiers),
-        Cow::Owned(turned) => Cow::Owned(with_depths(turned, stone, tiers)),
-    };
+    let tiers = with_depths(&by_tiers, stone, tiers);
     Ok(CuttingSheet::new(specimen, stone, &tiers, left_handed))
 }
 
-/// Returns the tiers with their depth as the instruction where they have no meet, and with a footer that defines
-/// depth. A depth is the distance of a facet's plane from the origin of the tiers, in widths of the stone.
+/// Returns the tiers with their depth as the instruction where they have neither a meet nor an instruction, and with a footer
+/// that defines depth. A depth is the distance of a facet's plane from the origin of the tiers, in widths of the stone.
 fn with_depths(turned: &Specimen, stone: &Stone, tiers: &Tiers) -> Tiers {
     let mut tiers = tiers.clone();
     let (low, high) = stone.polytope.bounds();
     let width = (high - low).truncate().min_element();
-    let free = tiers.tiers.iter_mut().filter(|tier| tier.meet.is_none());
+    let free = tiers.tiers.iter_mut().filter(|tier| tier.meet.is_none() && tier.instructions.is_empty());
     let mut count = 0;
     for tier in free {
         let table = if tier.zone() == TierZone::Table { "Table, depth" } else { "Depth" };

@@ -173,9 +173,8 @@ fn indexed(facets: &[(String, Plane)], gear: Gear) -> Tiers {
 fn together(pieces: impl Iterator<Item = TierPiece>) -> impl Iterator<Item = TierPiece> {
     let mut groups: Vec<Vec<TierPiece>> = vec![];
     for piece in pieces {
-        let is_alike = |group: &&mut Vec<TierPiece>| {
-            group[0].tier == piece.tier && piece.is_cut_as(&group[0].setting)
-        };
+        let is_alike =
+            |group: &&mut Vec<TierPiece>| group[0].tier == piece.tier && piece.is_cut_as(&group[0].setting);
         match groups.iter_mut().find(is_alike) {
             Some(group) => group.push(piece),
             None => groups.push(vec![piece]),
