@@ -3,11 +3,12 @@
 use super::console::{json, print, say};
 use super::mesh_options::MeshArguments;
 use super::options::number;
-use super::specimen::{LoadedSpecimen, asked_material};
+use super::specimen::{LoadedSpecimen, asked_material, note_colour};
 use crate::cut::{Design, RetargetError, RetargetRule, Retargeted, ScaleError, retarget};
 use crate::io::Failure;
 use crate::io::design_file::{self, DesignFormat};
 use crate::measure::Measured;
+use crate::optics::line;
 use crate::render::{MeasureError, MeasureOptions, measure};
 use crate::scene::Specimen;
 use clap::{Args, ValueEnum};
@@ -37,6 +38,12 @@ pub struct RetargetArguments {
     /// Measure no light
     #[arg(long)]
     no_light: bool,
+    /// Measure the light at this wavelength in nm; stones of a strong colour let little of other colours pass
+    #[arg(
+        long, value_name = "NM", default_value_t = line::SODIUM_D, value_parser = number, allow_negative_numbers = true,
+        conflicts_with = "no_light"
+    )]
+    wavelength: f64,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -108,10 +115,10 @@ impl RetargetArguments {
         for warning in unusual.map(ToString::to_string).chain(odd.cloned()) {
             say(&format!("warning: {path}, fitted: {warning}"));
         }
-        let light = if self.no_light { vec![] } else { light(&specimen, &made)? };
+        let light = if self.no_light { vec![] } else { self.light(&specimen, &made)? };
         let text = match self.json {
-            true => json(&value(&path, &specimen, &made, &found, &light)),
-            false => table(&path, &specimen, &made, &found, &light),
+            true => json(&self.value(&path, (&specimen, &made), &found, &light)),
+            false => self.table(&path, (&specimen, &made), &found, &light),
         };
         print(&text)?;
         if let (Some(out), Some(format)) = (&self.out, format) {
@@ -120,98 +127,125 @@ impl RetargetArguments {
         }
         Ok(())
     }
-}
 
-/// Measures the old design in its old and in the new material, and the new design.
-fn light(old: &Specimen, new: &Specimen) -> Result<Vec<MeasuredStone>, Failure> {
-    let same_angles = Design { material: new.design.material.clone(), ..old.design.clone() };
-    let (of_old, of_new) = (&old.material.name, &new.material.name);
-    let volume = |specimen: &Specimen| specimen.solid().volume() * specimen.unit_mm().powi(3);
-    let stone = |label: String, design: &Design, carats| -> Result<MeasuredStone, Failure> {
-        let measured = measure(design, &MeasureOptions::default()).map_err(|error| match error {
-            MeasureError::Render(error) => error.into(),
-            error => Failure::Input(format!("{label}: {error}")),
-        })?;
-        Ok(MeasuredStone { label, measured, carats })
-    };
-    Ok(vec![
-        stone(format!("as it was, {of_old}"), &old.design, old.carats())?,
-        stone(format!("as it was, {of_new}"), &same_angles, new.material.carats(volume(old)))?,
-        stone(format!("fitted, {of_new}"), &new.design, new.carats())?,
-    ])
-}
-
-fn value(path: &str, old: &Specimen, new: &Specimen, found: &Retargeted, light: &[MeasuredStone]) -> Value {
-    let stones = light.iter().map(|stone| {
-        let MeasuredStone { label, measured, carats } = stone;
-        let bands = measured.scope.bands.iter().zip(&measured.figures.transmitted);
-        let zones: serde_json::Map<String, Value> =
-            bands.map(|(band, light)| (band.name.clone(), json!(light))).collect();
-        json!({
-            "stone": label,
-            "index": measured.index,
-            "light_return": measured.light_return(),
-            "glare_return": measured.glare_return(),
-            "leakage": measured.leakage(),
-            "transmitted": zones,
-            "absorbed": measured.figures.absorbed,
-            "error": measured.error(),
-            "carats": carats,
-        })
-    });
-    json!({
-        "file": path,
-        "name": found.design.name,
-        "from": old.material.name,
-        "to": new.material.name,
-        "critical_deg": found.critical_deg,
-        "main": found.main,
-        "factor": found.factor,
-        "tiers": found.tiers,
-        "notes": found.notes,
-        "light": stones.collect::<Vec<_>>(),
-    })
-}
-
-fn table(path: &str, old: &Specimen, new: &Specimen, found: &Retargeted, light: &[MeasuredStone]) -> String {
-    let [from, to] = found.critical_deg;
-    let mut text = format!("{path}: {}, {} to {}\n", found.design.name, old.material.name, new.material.name);
-    let _ = writeln!(text, "  {:<28}{from:.2} to {to:.2} deg", "critical angle");
-    let _ = writeln!(text, "  {:<28}{}", "main tier", found.main);
-    let _ = writeln!(text, "  {:<28}{:.4}", "its tangent ratio", found.factor);
-    for note in &found.notes {
-        let _ = writeln!(text, "  note: {note}");
-    }
-    let _ =
-        write!(text, "\n  {:<18}{:>7}{:>11}{:>11}{:>10}", "tier", "facets", "from deg", "to deg", "margin");
-    for tier in &found.tiers {
-        let margin = match tier.after_deg < 0.0 {
-            true => format!("{:.2}", -tier.after_deg - to),
-            false => String::new(),
+    /// Measures the old design in its old and in the new material, and the new design.
+    fn light(&self, old: &Specimen, new: &Specimen) -> Result<Vec<MeasuredStone>, Failure> {
+        let wavelength_nm = self.wavelength;
+        if !(100.0..=100_000.0).contains(&wavelength_nm) {
+            return Err(Failure::Usage(format!(
+                "--wavelength {wavelength_nm}: this is not light; give 100 to 100000 nm"
+            )));
+        }
+        let options = MeasureOptions { wavelength_nm, ..MeasureOptions::default() };
+        note_colour(&old.material);
+        note_colour(&new.material);
+        let same_angles = Design { material: new.design.material.clone(), ..old.design.clone() };
+        let (of_old, of_new) = (&old.material.name, &new.material.name);
+        let volume = |specimen: &Specimen| specimen.solid().volume() * specimen.unit_mm().powi(3);
+        let stone = |label: String, design: &Design, carats| -> Result<MeasuredStone, Failure> {
+            let measured = measure(design, &options).map_err(|error| match error {
+                MeasureError::Render(error) => error.into(),
+                error => Failure::Input(format!("{label}: {error}")),
+            })?;
+            Ok(MeasuredStone { label, measured, carats })
         };
-        let (name, facets, before, after) = (&tier.name, tier.facets, tier.before_deg, tier.after_deg);
-        let _ = write!(text, "\n  {name:<18}{facets:>7}{before:>11.2}{after:>11.2}{margin:>10}");
+        Ok(vec![
+            stone(format!("as it was, {of_old}"), &old.design, old.carats())?,
+            stone(format!("as it was, {of_new}"), &same_angles, new.material.carats(volume(old)))?,
+            stone(format!("fitted, {of_new}"), &new.design, new.carats())?,
+        ])
     }
-    if light.is_empty() {
-        return text;
+
+    fn value(
+        &self,
+        path: &str,
+        (old, new): (&Specimen, &Specimen),
+        found: &Retargeted,
+        light: &[MeasuredStone],
+    ) -> Value {
+        let stones = light.iter().map(|stone| {
+            let MeasuredStone { label, measured, carats } = stone;
+            let bands = measured.scope.bands.iter().zip(&measured.figures.transmitted);
+            let zones: serde_json::Map<String, Value> =
+                bands.map(|(band, light)| (band.name.clone(), json!(light))).collect();
+            json!({
+                "stone": label,
+                "index": measured.index,
+                "light_return": measured.light_return(),
+                "glare_return": measured.glare_return(),
+                "leakage": measured.leakage(),
+                "transmitted": zones,
+                "absorbed": measured.figures.absorbed,
+                "error": measured.error(),
+                "carats": carats,
+            })
+        });
+        json!({
+            "file": path,
+            "name": found.design.name,
+            "from": old.material.name,
+            "to": new.material.name,
+            "critical_deg": found.critical_deg,
+            "main": found.main,
+            "factor": found.factor,
+            "tiers": found.tiers,
+            "notes": found.notes,
+            "wavelength_nm": (!light.is_empty()).then_some(self.wavelength),
+            "light": stones.collect::<Vec<_>>(),
+        })
     }
-    let _ = write!(text, "\n\n  {:<18}", "% of face, face up");
-    for stone in light {
-        let _ = write!(text, "  {:>26}", stone.label);
+
+    fn table(
+        &self,
+        path: &str,
+        (old, new): (&Specimen, &Specimen),
+        found: &Retargeted,
+        light: &[MeasuredStone],
+    ) -> String {
+        let [from, to] = found.critical_deg;
+        let mut text =
+            format!("{path}: {}, {} to {}\n", found.design.name, old.material.name, new.material.name);
+        let _ = writeln!(text, "  {:<28}{from:.2} to {to:.2} deg", "critical angle");
+        let _ = writeln!(text, "  {:<28}{}", "main tier", found.main);
+        let _ = writeln!(text, "  {:<28}{:.4}", "its tangent ratio", found.factor);
+        for note in &found.notes {
+            let _ = writeln!(text, "  note: {note}");
+        }
+        let _ = write!(
+            text,
+            "\n  {:<18}{:>7}{:>11}{:>11}{:>10}",
+            "tier", "facets", "from deg", "to deg", "margin"
+        );
+        for tier in &found.tiers {
+            let margin = match tier.after_deg < 0.0 {
+                true => format!("{:.2}", -tier.after_deg - to),
+                false => String::new(),
+            };
+            let (name, facets, before, after) = (&tier.name, tier.facets, tier.before_deg, tier.after_deg);
+            let _ = write!(text, "\n  {name:<18}{facets:>7}{before:>11.2}{after:>11.2}{margin:>10}");
+        }
+        if light.is_empty() {
+            return text;
+        }
+        let _ = write!(text, "\n\n  light at {} nm, face up", self.wavelength);
+        let _ = write!(text, "\n  {:<18}", "% of face");
+        for stone in light {
+            let _ = write!(text, "  {:>26}", stone.label);
+        }
+        let mut row = |name: &str, of: &dyn Fn(&MeasuredStone) -> String| {
+            let columns: String = light.iter().map(|stone| format!("  {:>26}", of(stone))).collect();
+            let _ = write!(text, "\n  {name:<18}{columns}");
+        };
+        let percent = |part: f64| format!("{:.2}", 100.0 * part);
+        row("light return", &|stone| percent(stone.measured.light_return()));
+        row("with glare", &|stone| percent(stone.measured.light_return() + stone.measured.glare_return()));
+        let bands = &light[0].measured.scope.bands;
+        for (place, band) in bands.iter().enumerate().rev() {
+            row(&band.name, &|stone| percent(stone.measured.figures.transmitted[place]));
+        }
+        row("absorbed", &|stone| percent(stone.measured.figures.absorbed));
+        row("error", &|stone| percent(stone.measured.error()));
+        row("weight, ct", &|stone| stone.carats.map_or("not known".into(), |carats| format!("{carats:.3}")));
+        text
     }
-    let mut row = |name: &str, of: &dyn Fn(&MeasuredStone) -> String| {
-        let columns: String = light.iter().map(|stone| format!("  {:>26}", of(stone))).collect();
-        let _ = write!(text, "\n  {name:<18}{columns}");
-    };
-    let percent = |part: f64| format!("{:.2}", 100.0 * part);
-    row("light return", &|stone| percent(stone.measured.light_return()));
-    row("with glare", &|stone| percent(stone.measured.light_return() + stone.measured.glare_return()));
-    let bands = &light[0].measured.scope.bands;
-    for (place, band) in bands.iter().enumerate().rev() {
-        row(&band.name, &|stone| percent(stone.measured.figures.transmitted[place]));
-    }
-    row("absorbed", &|stone| percent(stone.measured.figures.absorbed));
-    row("error", &|stone| percent(stone.measured.error()));
-    row("weight, ct", &|stone| stone.carats.map_or("not known".into(), |carats| format!("{carats:.3}")));
-    text
 }

@@ -83,6 +83,11 @@ fn a_design_is_fitted_to_another_material_written_and_measured_beside_the_old_on
     assert!(info["notes"].as_str().unwrap().contains("tangent ratio of 1.0200"), "{info}");
     let table = desk.done(&format!("{line} --no-light"));
     assert!(table.contains("diamond to sapphire") && !table.contains("light return"), "{table}");
+    let red = desk.json(&format!("{line} --json --wavelength 650"));
+    assert_eq!((at(&value, "wavelength_nm"), at(&red, "wavelength_nm")), (589.3, 650.0));
+    let measured = desk.json("measure tolkowsky --json --wavelength 650");
+    near(at(&list(&red["light"])[0], "light_return"), at(&measured, "light_return"), 1e-9, "the old stone in red");
+    assert!(at(&list(&red["light"])[0], "index") < at(&light[0], "index"), "{red}");
 }
 
 #[test]
@@ -94,6 +99,7 @@ fn what_retarget_cannot_do_is_refused_with_what_to_give() {
         ("tolkowsky --material ruby --rule tangent-ratio --factor 100", 2, "must be from 0.1 to 10"),
         ("tolkowsky --material ruby --rule critical-angle --out a.stl", 2, ".toml, .asc, .gem or .gcs"),
         ("tolkowsky --material rubby --rule critical-angle", 2, "did you mean 'ruby'"),
+        ("tolkowsky --material ruby --rule critical-angle --wavelength 5", 2, "this is not light"),
         ("pill --material ruby --rule critical-angle", 1, "a glass shape is curved"),
         ("heart --material ruby --rule critical-angle", 1, "a heart is a mesh that is not convex"),
     ] {
