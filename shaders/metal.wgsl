@@ -91,7 +91,7 @@ fn metal_met(metal: u32, ray: Ray, left: u32) -> Meeting {
 // Returns what a ray meets first, metal or the stone that it meets first.
 fn with_metal(stone: First, ray: Ray, left: Left) -> First {
     var first = stone;
-    turns += frame.most.z;
+    count_balls(frame.most.z);
     for (var k = 0u; k < frame.most.z; k++) {
         if !is_near(metals[k].middle, ray) {
             continue;
@@ -107,7 +107,7 @@ fn with_metal(stone: First, ray: Ray, left: Left) -> First {
 // Whether a ray meets metal before this distance.
 fn meets_metal(ray: Ray, before: f32) -> bool {
     var found = false;
-    turns += frame.most.z;
+    count_balls(frame.most.z);
     for (var k = 0u; k < frame.most.z; k++) {
         if !found && is_near(metals[k].middle, ray) {
             let distance = metal_met(k, ray, NONE).distance;

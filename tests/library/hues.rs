@@ -37,13 +37,13 @@ fn cut(bands: (u32, u32), sampling: Sampling) -> Vec<DVec3> {
     let mut material = Material::from_index("rainbow soap", 1.272).unwrap();
     material.dispersion = Dispersion::Abbe { n_d: 1.272, v_d: 2.0 };
     let stone = Instance::new(Polytope::from_planes(&planes).unwrap(), material);
-    let setting = Scene { instances: vec![stone], metals: vec![], unit_mm: 20.0 };
+    let scene = Scene { instances: vec![stone], metals: vec![], unit_mm: 20.0 };
     let slit = BackgroundRef::read("slit", Path::new("")).unwrap().picture().unwrap().unwrap().panorama;
     let slit = Mipmap::new(slit);
-    shot(&setting, &slit, bands, sampling)
+    shot(&scene, &slit, bands, sampling)
 }
 
-fn shot(setting: &Scene, slit: &Mipmap, (wavelengths, shares): (u32, u32), sampling: Sampling) -> Vec<DVec3> {
+fn shot(scene: &Scene, slit: &Mipmap, (wavelengths, shares): (u32, u32), sampling: Sampling) -> Vec<DVec3> {
     let dark = Light { dome: vec![], ..Light::white() };
     let (sky, view) = (EnvironmentMap::new(&dark, None), View::default());
     let behind = Backplate { picture: slit, distance: 0.75, width: 4.24 };
@@ -58,7 +58,7 @@ fn shot(setting: &Scene, slit: &Mipmap, (wavelengths, shares): (u32, u32), sampl
     // The film is a column from the slit up over the upper face.
     let film = Film { centre: DVec2::new(0.0, 0.17), ..Film::new([1, PIXELS], 0.40 / f64::from(PIXELS)) };
     let options = RayOptions { polarised: true, most_bounces: 16, least_weight: 1e-4 };
-    let lit_scene = LitScene { scene: setting, environment, view: &view, film, options };
+    let lit_scene = LitScene { scene, environment, view: &view, film, options };
     let strata = match shares {
         0 => Strata::of_middles(wavelengths, &Illuminant::D65, true),
         _ => Strata::new(wavelengths, shares, &Illuminant::D65, true),
