@@ -144,8 +144,8 @@ fn frosted(at: vec2i, by: vec2f, sigma: f32) -> vec3f {
     );
     var three = array<vec3f, 3>(
         vec3f(0.0, 0.0, 2.0 / 3.0),
-        vec3f(1.0, 1.0, 1.0 / 6.0),
-        vec3f(-1.0, -1.0, 1.0 / 6.0),
+        vec3f(1.0, 0.0, 1.0 / 6.0),
+        vec3f(-1.0, 0.0, 1.0 / 6.0),
     );
     if sigma <= 0.0 {
         return around(at, by);

@@ -117,23 +117,23 @@ impl Info {
 }
 
 fn scene_json(assembly: &Assembly) -> Value {
-    let stones = assembly.setting.instances.iter().zip(&assembly.places).map(|(stone, place)| {
+    let stones = assembly.scene.instances.iter().zip(&assembly.places).map(|(stone, place)| {
         json!({
             "cut": stone.label,
             "material": stone.material.name,
             "diameter_mm": place.diameter_mm,
-            "carats": stone.carats(assembly.setting.unit_mm),
+            "carats": stone.carats(assembly.scene.unit_mm),
             "at_mm": place.at_mm.to_array(),
         })
     });
-    let metals = assembly.setting.metals.iter().map(
+    let metals = assembly.scene.metals.iter().map(
         |metal| json!({ "mesh": metal.label, "metal": metal.metal.name(), "roughness": metal.roughness }),
     );
     json!({
         "file": assembly.path,
         "name": assembly.name,
         "light": assembly.light,
-        "unit_mm": assembly.setting.unit_mm,
+        "unit_mm": assembly.scene.unit_mm,
         "carats": assembly.carats(),
         "ring": assembly.ring.as_ref().map(ring_json),
         "stones": stones.collect::<Vec<_>>(),
@@ -150,15 +150,15 @@ fn scene_table(assembly: &Assembly) -> String {
     assembly.ring.iter().for_each(|ring| ring_rows(ring, &mut text));
     let _ = write!(text, "\n  {:<20}{:<20}{:>8}{:>12}", "cut", "material", "mm", "weight");
     let _ = write!(text, "{:>9}{:>9}{:>9}", "x mm", "y mm", "z mm");
-    for (stone, place) in assembly.setting.instances.iter().zip(&assembly.places) {
-        let weight = weight(stone.carats(assembly.setting.unit_mm));
+    for (stone, place) in assembly.scene.instances.iter().zip(&assembly.places) {
+        let weight = weight(stone.carats(assembly.scene.unit_mm));
         let (cut, material, diameter) = (&stone.label, &stone.material.name, place.diameter_mm);
         let _ = write!(text, "\n  {cut:<20}{material:<20}{diameter:>8.3}{weight:>12}");
         // The height is rounded first, so that a tiny negative number does not print as -0.000.
         let at = (1e3 * place.at_mm).round() / 1e3 + 0.0;
         let _ = write!(text, "{:>9.3}{:>9.3}{:>9.3}", at.x, at.y, at.z);
     }
-    for metal in &assembly.setting.metals {
+    for metal in &assembly.scene.metals {
         let (mesh, name, roughness) = (&metal.label, metal.metal.name(), metal.roughness);
         let _ = write!(text, "\n  {mesh:<20}{name:<20}roughness {roughness}");
     }

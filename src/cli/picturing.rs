@@ -84,7 +84,7 @@ impl<'a> PictureSetup<'a> {
             let seconds = within("moment", seconds, 0.0, 1e5)?;
             assembly = assembly.at_moment(seconds, options.movement)?;
         }
-        assembly.setting.instances.iter().for_each(|stone| note_colour(&stone.material));
+        assembly.scene.instances.iter().for_each(|stone| note_colour(&stone.material));
         let own = assembly.light.as_ref().map(|light| light.display().to_string());
         let light = options.light.as_ref().or(own.as_ref());
         let mut lighting = Lighting::load(light.map_or("studio", String::as_str))?;
@@ -93,7 +93,7 @@ impl<'a> PictureSetup<'a> {
             lighting.light.head = within("head", head, 0.0, 89.0)?;
         }
         within("turn", options.turn, -1e6, 1e6)?;
-        let own = assembly.background_distance_mm.map(|mm| mm / assembly.setting.unit_mm);
+        let own = assembly.background_distance_mm.map(|mm| mm / assembly.scene.unit_mm);
         let distance = options.photo_distance.or(own).unwrap_or(PHOTO_DISTANCE);
         within("photo-distance", distance, 0.0, 1e6)?;
         let strength = within("strength", finish.strength.unwrap_or(assembly.strength), 0.0, 1.0)?;
@@ -149,7 +149,7 @@ impl<'a> PictureSetup<'a> {
 
     /// Returns a description of the tracer that pictures of a view will have.
     fn planned(&self, view: &View) -> Result<String, Failure> {
-        let job = self.job(&Arc::new(self.assembly.setting.clone()), view, 1.0);
+        let job = self.job(&Arc::new(self.assembly.scene.clone()), view, 1.0);
         let plan = self.renderer.borrow().plan(&job).map_err(|why| unfit(&why, &self.assembly.path))?;
         Ok(plan.backend.description())
     }
@@ -196,9 +196,9 @@ impl<'a> PictureSetup<'a> {
     ///
     /// # Errors
     /// Fails with [`Failure::Input`] where the eye of a perspective is not in front of all stones.
-    pub fn pixel(&self, setting: &Scene, view: &View) -> Result<f64, Failure> {
-        let camera = Camera::reaching(view, setting.reach());
-        let Some(extent) = camera.extent(setting.vertices()) else {
+    pub fn pixel(&self, scene: &Scene, view: &View) -> Result<f64, Failure> {
+        let camera = Camera::reaching(view, scene.reach());
+        let Some(extent) = camera.extent(scene.vertices()) else {
             let message = "the eye of the perspective is not in front of all of it; move it farther off by --perspective";
             return Err(Failure::Input(format!("{}: {message}", self.assembly.path)));
         };

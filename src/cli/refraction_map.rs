@@ -126,8 +126,8 @@ impl RefractionMaps {
     }
 
     fn trace(&self, studio: &PictureSetup, view: &View, bar: &WorkProgress) -> Result<Rendered, Failure> {
-        let setting = Arc::new(studio.assembly.setting.clone());
-        let pixel = studio.pixel(&setting, view)?;
+        let scene = Arc::new(studio.assembly.scene.clone());
+        let pixel = studio.pixel(&scene, view)?;
         let distance = studio.distance;
         let [across, down] = self.picture.size.map(f64::from);
         let product = MapProduct {
@@ -144,7 +144,7 @@ impl RefractionMaps {
         };
         let film = Film::new(self.picture.size, pixel);
         let product = Product::RefractionMap(product);
-        let job = Job { scene: setting, view: *view, film, product, quality: studio.quality() };
+        let job = Job { scene, view: *view, film, product, quality: studio.quality() };
         let mut renderer = Renderer::new(Card::None);
         renderer.run(&job, &bar.watch(), &mut |_| Ok(()))
     }

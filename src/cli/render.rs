@@ -78,8 +78,8 @@ impl Render {
         let studio =
             PictureSetup::load((&self.picture, &self.finish), file, asked)?.with_what_has_a_distance()?;
         let view = studio.viewpoint.view();
-        let setting = Arc::new(studio.assembly.setting.clone());
-        let job = studio.job(&setting, &view, studio.pixel(&setting, &view)?);
+        let scene = Arc::new(studio.assembly.scene.clone());
+        let job = studio.job(&scene, &view, studio.pixel(&scene, &view)?);
         if let Some(at) = self.probe {
             let [width, height] = job.film.size.map(f64::from);
             if !(0.0..width).contains(&at.x) || !(0.0..height).contains(&at.y) {

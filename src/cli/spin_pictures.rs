@@ -64,7 +64,7 @@ impl<'a> LitPictures<'a> {
         viewpoint: Viewpoint,
     ) -> Result<Self, Failure> {
         let setup = PictureSetup::load(options, file, viewpoint)?.with_what_has_a_distance()?;
-        let stones = Arc::new(setup.assembly.setting.clone());
+        let stones = Arc::new(setup.assembly.scene.clone());
         Ok(Self { setup, material: options.0.material.as_deref(), stones, pixel: 0.0 })
     }
 

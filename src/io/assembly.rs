@@ -34,8 +34,8 @@ pub struct Assembly {
     /// The design of a stone alone, in its own material; none of a scene.
     pub design: Option<Design>,
     /// The stones in one world. A single stone lies unmoved in its own frame.
-    pub setting: Scene,
-    /// The kind and the place of each stone, in the order of the instances of `setting`.
+    pub scene: Scene,
+    /// The kind and the place of each stone, in the order of the instances of `scene`.
     pub places: Vec<StonePlace>,
     /// The light that the scene names: one that comes with the program, or a file.
     pub light: Option<PathBuf>,
@@ -142,7 +142,7 @@ impl Assembly {
             path,
             name: made.design.name.clone(),
             design: Some(Design { diameter_mm, ..made.design.clone() }),
-            setting: Scene { instances: vec![stone], metals: vec![], unit_mm: 0.5 * diameter_mm },
+            scene: Scene { instances: vec![stone], metals: vec![], unit_mm: 0.5 * diameter_mm },
             places: vec![place],
             light: None,
             background: None,
@@ -194,8 +194,8 @@ impl Assembly {
                 "{path}: {count} stones are too many, at most {MOST_STONES}"
             )));
         }
-        let setting = placed(&members, metals);
-        if let Some((a, b)) = overlapping(&setting.instances) {
+        let stones = placed(&members, metals);
+        if let Some((a, b)) = overlapping(&stones.instances) {
             let (a, b) = (&members[a].description, &members[b].description);
             return Err(Failure::Input(format!("{path}: {a} and {b} overlap; move one of them away")));
         }
@@ -204,7 +204,7 @@ impl Assembly {
             path,
             name: scene.name,
             design: None,
-            setting,
+            scene: stones,
             places,
             light: scene.light,
             background: scene.background,
@@ -227,14 +227,14 @@ impl Assembly {
             return viewpoint;
         }
         let reach =
-            self.setting.vertices().map(|corner| corner.truncate().abs().max_element()).fold(0.0, f64::max);
+            self.scene.vertices().map(|corner| corner.truncate().abs().max_element()).fold(0.0, f64::max);
         let distance = reach / (0.5 * angle).to_radians().tan();
         Viewpoint { projection: Projection::Perspective { distance }, ..viewpoint }
     }
 
     /// Returns the weight of all stones together, in carats; `None` if one has no density.
     pub fn carats(&self) -> Option<f64> {
-        self.setting.instances.iter().map(|stone| stone.carats(self.setting.unit_mm)).sum()
+        self.scene.instances.iter().map(|stone| stone.carats(self.scene.unit_mm)).sum()
     }
 }
 

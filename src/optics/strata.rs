@@ -62,7 +62,7 @@ pub struct Strata {
 const MOST_SHARES: u32 = 1024;
 
 /// The number of evenly spread shares whose sum is white to 1 %.
-const ENOUGH_SHARES: u64 = 32;
+const ENOUGH_SHARES: u64 = 48;
 
 impl Strata {
     /// Divides the visible range as [`strata()`] does, and each of the `count` strata into `shares` parts of equal
@@ -77,13 +77,7 @@ impl Strata {
         let shares = passes / times;
         let whole = strata(count, key, adapted);
         let all = if shares == 1 { whole.clone() } else { strata(count * shares, key, adapted) };
-        // The passes, in the order of their places in J. G. van der Corput's sequence (1935), any first few of which
-        // are evenly spread.
-        let mut order: Vec<u32> = (0..shares).collect();
-        order.sort_by_key(|k| k.reverse_bits());
-        let mut turns = vec![0; shares as usize];
-        (0..).zip(&order).for_each(|(share, &pass)| turns[pass as usize] = share);
-        Self { whole, shares: all, turns }
+        Self { whole, shares: all, turns: turns(shares) }
     }
 
     /// Divides the visible range as [`strata()`] does. Every pass samples only the middle wavelength of each stratum.
@@ -113,6 +107,13 @@ impl Strata {
         })
     }
 
+    /// Returns the number of the place in the pixel of the sample pass with this number. Places with neighbouring
+    /// numbers have neighbouring shares.
+    pub fn place(&self, number: u32) -> u32 {
+        let per = self.turns();
+        (number - number % per).wrapping_add(self.turns[(number % per) as usize])
+    }
+
     /// Returns the number of passes after which each share has been taken once; 1 where every pass takes whole
     /// strata.
     pub fn turns(&self) -> u32 {
@@ -128,6 +129,20 @@ impl Strata {
     pub fn response(&self) -> [DVec3; 4] {
         [0, 1, 2, 3].map(|channel| self.whole.iter().map(|stratum| stratum.response[channel]).sum())
     }
+}
+
+/// Returns the share of each stratum that each pass takes, where every stratum has this number of shares.
+///
+/// The binary digits of the share are those of the pass in the opposite order, as in J. G. van der Corput's sequence (1935),
+/// so any first few passes are evenly spread over the strata. But the last digit is the parity of all digits of the pass:
+/// so even and odd shares, whose places in the pixel are opposite, take turns.
+fn turns(shares: u32) -> Vec<u32> {
+    let digits = u32::BITS - shares.saturating_sub(1).leading_zeros();
+    let share = |pass: u32| {
+        let opposite = pass.reverse_bits() >> 1 >> (u32::BITS - 1 - digits);
+        (opposite & !1) | (pass.count_ones() & 1)
+    };
+    (0..1 << digits).map(share).filter(|share| *share < shares).collect()
 }
 
 /// Returns the spectra of linear sRGB's red, green and blue at a wavelength in nm.

@@ -43,7 +43,7 @@ pub struct ByBeams<'a> {
     subject: Subject<'a>,
     /// True where each wavelength is traced on its own.
     is_apart: bool,
-    looks: u32,
+    passes: u32,
     rows: Range<u32>,
     /// Colour and cover, piece by piece, not yet summed along the rows (see [`Rows::summed`]).
     pieces: Vec<Rows<DVec4>>,
@@ -56,8 +56,8 @@ pub struct ByBeams<'a> {
 
 impl Subject<'_> {
     /// Returns the polygons of one band's beams in their colours, in all copies of the symmetry.
-    fn patches(&self, beams: &Beams, look: &SamplePass, band: usize) -> Vec<Patches> {
-        let response = &look.responses[band];
+    fn patches(&self, beams: &Beams, pass: &SamplePass, band: usize) -> Vec<Patches> {
+        let response = &pass.responses[band];
         self.patches_of(beams, band == 0, |beam, fan, copy| {
             colour(response, self.arriving(beams, beam, (beam.exit, fan), copy))
         })
@@ -148,7 +148,7 @@ impl<'a> ByBeams<'a> {
         Some(Self {
             subject,
             is_apart: false,
-            looks: 0,
+            passes: 0,
             rows,
             pieces,
             unresolved: 0.0,
@@ -204,7 +204,7 @@ impl<'a> ByBeams<'a> {
         };
         self.absorbed += beams.iter().map(|beam| absorbed(&beam)).sum::<f64>() * share_of_area(&beams);
         self.unresolved += beams.unresolved();
-        self.looks += 1;
+        self.passes += 1;
         Ok(())
     }
 
@@ -291,25 +291,25 @@ impl ByBeams<'_> {
         let lost = picture.trace(|patches| paint(pieces, rows, patches), watch)?;
         self.unresolved += lost.unresolved;
         self.absorbed += lost.absorbed;
-        self.looks += passes.len() as u32;
+        self.passes += passes.len() as u32;
         Ok(())
     }
 
     /// Adds a sample pass, wavelength by wavelength.
-    fn add_apart(&mut self, look: &SamplePass, watch: Watch) -> Result<(), Stopped> {
-        let bands = look.responses.len();
-        self.see_beside(&look.whole);
-        for (band, &medium) in look.media[0].iter().enumerate() {
+    fn add_apart(&mut self, pass: &SamplePass, watch: Watch) -> Result<(), Stopped> {
+        let bands = pass.responses.len();
+        self.see_beside(&pass.whole);
+        for (band, &medium) in pass.media[0].iter().enumerate() {
             let done = |part: f64| watch((band as f64 + part) / bands as f64);
             let subject = &self.subject;
             let beams = beam::trace(subject.stone, medium, &subject.view, &subject.options, &done)?;
-            let found = subject.patches(&beams, look, band);
+            let found = subject.patches(&beams, pass, band);
             self.paint(&found);
             self.unresolved += beams.unresolved() / bands as f64;
             let whole = share_of_area(&beams) / bands as f64;
             self.absorbed += beams.iter().map(|b| b.absorbed).sum::<f64>() * whole;
         }
-        self.looks += 1;
+        self.passes += 1;
         Ok(())
     }
 }
@@ -341,7 +341,7 @@ impl<E: From<Stopped>> ProgressiveImage<E> for ByBeams<'_> {
 
     /// Unresolved and absorbed light is known only for the picture as a whole, so every covered pixel gets the mean.
     fn each_pixel(&self, each: &mut dyn FnMut(&RadiancePixel)) -> Result<(), E> {
-        let share = 1.0 / f64::from(self.looks.max(1));
+        let share = 1.0 / f64::from(self.passes.max(1));
         for piece in &self.pieces {
             let rows = piece.clone().summed();
             for v in (rows.first..rows.first + rows.count).flat_map(|y| rows.row(y, 0)) {

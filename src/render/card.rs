@@ -123,6 +123,21 @@ impl Backend {
         }
     }
 
+    /// Returns a note for a driver that only acts as a graphics card, which is slower than rays; `None` for all other
+    /// tracers.
+    pub fn note_of_software(&self) -> Option<String> {
+        match self {
+            Self::Beams | Self::Rays => None,
+            #[cfg(feature = "gpu")]
+            Self::Card(gpu) => gpu.is_software().then(|| {
+                format!(
+                    "{} is no graphics card: it computes in software, on the processor; rays (--tracer ray) are quicker",
+                    gpu.name()
+                )
+            }),
+        }
+    }
+
     /// Returns whether the tracer is a real graphics card, and not one in software.
     pub fn is_quick(&self) -> bool {
         match self {

@@ -207,9 +207,10 @@ impl Renderer {
         each: EachPart<E>,
     ) -> Result<Rendered, E> {
         let Plan { backend, no_card } = self.plan(job).map_err(RenderError::from)?;
-        if let Some(why) = no_card.filter(|_| !self.is_noted) {
+        let replaced = no_card.map(|why| format!("{why}: tracing by rays on the processor"));
+        if let Some(note) = replaced.or_else(|| backend.note_of_software()).filter(|_| !self.is_noted) {
             self.is_noted = true;
-            each(Partial::Note(&format!("{why}: tracing by rays on the processor")))?;
+            each(Partial::Note(&note))?;
         }
         match self.attempt(job, &backend, watch, each) {
             #[cfg(feature = "gpu")]

@@ -80,7 +80,7 @@ impl Mipmap {
 
     /// Returns the level in which a stretch of this length, in pixels, is looked up in single precision, and the
     /// number of look-ups, as [`along`](Self::along) takes them.
-    #[inline]
+    #[inline(always)]
     pub fn taps(&self, length: f32) -> (usize, u32) {
         if length <= 1.0 {
             return (0, 1);
@@ -94,7 +94,7 @@ impl Mipmap {
 
     /// Returns the light of a level, from [`taps`](Self::taps), at a place in pixels from the middle of the picture's first
     /// pixel, interpolated in single precision; beyond the edge it is the edge's.
-    #[inline]
+    #[inline(always)]
     pub fn near(&self, level: usize, at: Vec2) -> Vec3 {
         let picture = &self.levels[level];
         let at = if level == 0 { at } else { (at + 0.5) * self.scales[level] - 0.5 };

@@ -8,8 +8,7 @@ const WAVING: f64 = 2.0;
 
 /// How plates of glass with a wave move. All other bodies tumble.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
-#[serde(rename_all = "kebab-case")]
+#[serde(try_from = "String", into = "String")]
 pub enum Movement {
     /// Plates tumble as other bodies do, and their waves run.
     #[default]
@@ -21,13 +20,18 @@ pub enum Movement {
 }
 
 impl Movement {
-    /// The movements by name.
+    /// All movements, each with its name in files and on the command line.
     pub const NAMES: [(&str, Self); 3] =
         [("both", Self::Both), ("tumble", Self::Tumble), ("wave", Self::Wave)];
 
     /// Returns the movement's name.
     pub fn name(self) -> &'static str {
         Self::NAMES.into_iter().find(|(_, movement)| *movement == self).map_or("both", |(name, _)| name)
+    }
+
+    /// Returns the movement of this name; `None` where there is none.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::NAMES.into_iter().find(|(known, _)| *known == name).map(|(_, movement)| movement)
     }
 
     /// Whether a body of this cut tumbles.
@@ -53,6 +57,40 @@ impl Movement {
     }
 }
 
+impl From<Movement> for String {
+    fn from(movement: Movement) -> Self {
+        movement.name().to_owned()
+    }
+}
+
+impl TryFrom<String> for Movement {
+    type Error = String;
+
+    fn try_from(name: String) -> Result<Self, String> {
+        Self::named(&name).ok_or_else(|| {
+            let known = Self::NAMES.map(|(name, _)| name).join(", ");
+            format!("the movement '{name}' is unknown; give one of {known}")
+        })
+    }
+}
+
+#[cfg(feature = "cli")]
+impl clap::ValueEnum for Movement {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [Movement; 3] = [Movement::NAMES[0].1, Movement::NAMES[1].1, Movement::NAMES[2].1];
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
+        let meaning = match self {
+            Self::Both => "Plates tumble as other bodies do, and their waves run",
+            Self::Tumble => "Plates tumble, and their waves stand still",
+            Self::Wave => "The waves run, and the plates stay in their pose",
+        };
+        Some(clap::builder::PossibleValue::new(self.name()).help(meaning))
+    }
+}
+
 /// Whether a cut is a plate with a wave.
 pub fn has_wave(cut: &Cut) -> bool {
     matches!(cut, Cut::Glass(Glass::Plate(plate)) if plate.amplitude > 0.0)
@@ -62,6 +100,18 @@ pub fn has_wave(cut: &Cut) -> bool {
 mod tests {
     use super::*;
     use crate::cut::Family;
+
+    #[test]
+    fn each_movement_has_one_name_in_files_and_options() {
+        for (name, movement) in Movement::NAMES {
+            assert_eq!(serde_json::to_value(movement).unwrap(), name);
+            assert_eq!(serde_json::from_value::<Movement>(name.into()).unwrap(), movement);
+            #[cfg(feature = "cli")]
+            assert_eq!(<Movement as clap::ValueEnum>::from_str(name, false), Ok(movement));
+        }
+        let unknown = serde_json::from_value::<Movement>("waves".into()).unwrap_err().to_string();
+        assert!(unknown.contains("'waves'") && unknown.contains("both, tumble, wave"), "{unknown}");
+    }
 
     #[test]
     fn plates_move_as_they_are_told_to_and_all_else_tumbles() {

@@ -102,8 +102,9 @@ impl Panorama {
         self.mixed(at, |x| x.clamp(0, i64::from(self.width) - 1))
     }
 
-    /// Returns the light at a place as [`between`](Self::between) does, in single precision.
-    #[inline]
+    /// Returns the light at a place as [`between`](Self::between) does, in single precision. It is always inlined, so that it is compiled
+    /// for the instructions of its caller, which rounds down by one of them.
+    #[inline(always)]
     pub fn near(&self, at: Vec2) -> Vec3 {
         let base = at.floor();
         let part = at - base;

@@ -66,7 +66,7 @@ pub struct Sampling {
     /// metal, and follow all other light.
     pub by_chance: f64,
     /// True where each ray represents a stretch of its pixel ([`stretch_of_pixel`])
-    /// and, where bands are divided into n shares, √n of the shares but at most 2.5, so that a picture of few rays
+    /// and, where bands are divided into shares, up to 2.5 of the shares, so that a picture of few rays
     /// has fewer gaps. Otherwise it represents one point and one share.
     pub stretches: bool,
 }
@@ -130,6 +130,10 @@ pub trait ProgressiveImage<E: From<Stopped>> {
 /// the rainbow of a glass with unnaturally strong dispersion by a percent.
 const WIDEST_BAND: f64 = 2.5;
 
+/// The number of shares that a ray represents, as a part of the square root of the number of shares in all bands. The noise
+/// of a rainbow and its blur are then about equal.
+const BAND_BY_ROOT: f64 = 0.25;
+
 impl Sampling {
     /// Returns a sampling of `count` passes at full strength, in which all light is followed and rays represent
     /// stretches of their pixels.
@@ -137,18 +141,18 @@ impl Sampling {
         Self { count, strength: 1.0, by_chance: 0.0, stretches: true }
     }
 
-    /// Returns the sample pass with this number, from 0. Many passes fill pixels and strata evenly; the first pass
+    /// Returns the sample pass with this number, from 0. Many passes fill pixels and strata evenly; a single pass
     /// goes through the middle of the pixels.
     pub fn pass(&self, scene: &Scene, strata: &Strata, number: u32) -> SamplePass {
-        let bands: Vec<Stratum> = strata.of_pass(number).collect();
-        let wider = if self.stretches { f64::from(strata.turns()).sqrt().min(WIDEST_BAND) } else { 1.0 };
+        let (bands, place): (Vec<Stratum>, u32) = (strata.of_pass(number).collect(), strata.place(number));
+        let wider = if self.stretches { band_in_shares(strata) } else { 1.0 };
         let medium = |stone: &Instance, s: &Stratum| {
             let (from, to) = widened(s, wider);
             scene.medium(stone, (from, 0.5 * (from + to), to))
         };
         SamplePass {
-            shift: place_in_pixel(number, self.count),
-            footprint: if self.stretches { stretch_of_pixel(number, self.count) } else { DVec2::ZERO },
+            shift: place_in_pixel(place, self.count),
+            footprint: if self.stretches { stretch_of_pixel(place, self.count) } else { DVec2::ZERO },
             media: scene.instances.iter().map(|p| bands.iter().map(|s| medium(p, s)).collect()).collect(),
             metals: scene
                 .metals
@@ -162,6 +166,12 @@ impl Sampling {
             by_chance: self.by_chance,
         }
     }
+}
+
+/// Returns the number of neighbouring shares of a band that a ray represents, at least 1.
+fn band_in_shares(strata: &Strata) -> f64 {
+    let (shares, bands) = (f64::from(strata.turns()), strata.whole().len() as f64);
+    (BAND_BY_ROOT * (shares * bands).sqrt()).min(shares.sqrt()).clamp(1.0, WIDEST_BAND)
 }
 
 /// Returns the ends, in nm, of a range of wavelengths that is `wider` times as wide around the same middle. The range

@@ -18,7 +18,7 @@ pub const SIZE: u32 = 64;
 
 /// A picture to take.
 pub struct Shoot {
-    pub setting: Scene,
+    pub scene: Scene,
     pub light: Light,
     pub view: View,
     pub wavelengths: u32,
@@ -52,7 +52,7 @@ impl Shoot {
 
     pub fn of_stone(stone: Instance, light: Light) -> Self {
         Self {
-            setting: Scene { instances: vec![stone], metals: vec![], unit_mm: 3.25 },
+            scene: Scene { instances: vec![stone], metals: vec![], unit_mm: 3.25 },
             light: Light { head: 0.0, ..light },
             view: View { tilt: 0.2, azimuth: 0.4, ..View::default() },
             wavelengths: 8,
@@ -86,7 +86,7 @@ impl Shoot {
             backdrop: self.backdrop,
         };
         work(&LitScene {
-            scene: &self.setting,
+            scene: &self.scene,
             environment,
             view: &self.view,
             film: Film { centre: self.centre, ..Film::square(self.size, 1.1) },

@@ -143,7 +143,7 @@ fn lit(stone: Instance, material_name: &str, light_name: &str, most_bounces: u32
 /// A pill in front of a plate whose wave begins at the pill.
 fn pill_and_plate(phase: f64, most_bounces: u32) -> Shoot {
     let mut both = lit(pill(DVec3::new(0.1, 0.1, 0.6)), "quartz", "studio", most_bounces);
-    both.setting.instances.push(small_plate(DVec3::new(-0.1, -0.2, -0.3), phase));
+    both.scene.instances.push(small_plate(DVec3::new(-0.1, -0.2, -0.3), phase));
     both
 }
 
@@ -251,7 +251,7 @@ fn glass_beside_a_stone_is_not_for_the_card() {
     let Some(gpu) = card("glass_beside_a_stone_is_not_for_the_card") else { return };
     let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16)).polytope;
     let mut shoot = Shoot::new(&stone, "diamond", light("dome").unwrap());
-    shoot.setting.instances.push(pill(DVec3::X * 3.0));
+    shoot.scene.instances.push(pill(DVec3::X * 3.0));
     shoot.with(|lit_scene| {
         let around = GpuEnvironment::new(&gpu, &lit_scene.environment).unwrap();
         let refused = ByCard::new(&gpu, lit_scene, &around, 0..8, 3).err();

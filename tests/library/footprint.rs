@@ -141,7 +141,7 @@ fn the_card_sees_the_same_stretch_of_what_hangs_behind() {
 /// Returns for each pixel of a picture whether its middle shows the rim of the body, where rays from the eye meet it
 /// at more than 60 degrees from its normal.
 fn rims(shoot: &Shoot, form: ImplicitForm) -> Vec<bool> {
-    let (stone, surface) = (&shoot.setting.instances[0], ImplicitSurface::new(form).unwrap());
+    let (stone, surface) = (&shoot.scene.instances[0], ImplicitSurface::new(form).unwrap());
     let tracer =
         &InstanceTracer::of_all(std::slice::from_ref(stone), shoot.options, |_| Medium::clear(1.5))[0];
     shoot.with(|lit_scene| {

@@ -28,22 +28,32 @@ const DIM: f64 = 0.02;
 const XYZ_FROM_SRGB: DMat3 =
     DMat3::from_cols_array(&[0.4124, 0.2126, 0.0193, 0.3576, 0.7152, 0.1192, 0.1805, 0.0722, 0.9505]);
 
-/// Traces the cut, with this number of bands of wavelengths and of shares of each band, where 0 stands for the
-/// middles alone. The subject is a prism of rainbow soap in the dark, in front of the slit of `render prism
-/// --background slit`. The cut runs across the upper rainbow.
+/// Traces the cut, a column of pixels from the slit up over the upper face of the prism.
 fn cut(bands: (u32, u32), sampling: Sampling) -> Vec<DVec3> {
+    let film = Film { centre: DVec2::new(0.0, 0.17), ..Film::new([1, PIXELS], 0.40 / f64::from(PIXELS)) };
+    column(film, bands, sampling)
+}
+
+/// Traces a film with this number of bands of wavelengths and of shares of each band, where 0 stands for the middles
+/// alone. The subject is a prism of rainbow soap in the dark, in front of the slit of `render prism --background slit`.
+fn column(film: Film, bands: (u32, u32), sampling: Sampling) -> Vec<DVec3> {
     let prism = Glass::Prism(Sides { length: 100.0, width: 37.9, depth: 29.8, edge: 0.0 });
     let planes: Vec<Plane> = prism.planes().unwrap().into_iter().map(|(_, plane)| plane).collect();
     let mut material = Material::from_index("rainbow soap", 1.272).unwrap();
     material.dispersion = Dispersion::Abbe { n_d: 1.272, v_d: 2.0 };
     let stone = Instance::new(Polytope::from_planes(&planes).unwrap(), material);
-    let setting = Scene { instances: vec![stone], metals: vec![], unit_mm: 20.0 };
+    let scene = Scene { instances: vec![stone], metals: vec![], unit_mm: 20.0 };
     let slit = BackgroundRef::read("slit", Path::new("")).unwrap().picture().unwrap().unwrap().panorama;
     let slit = Mipmap::new(slit);
-    shot(&setting, &slit, bands, sampling)
+    shot((&scene, &slit), film, bands, sampling)
 }
 
-fn shot(setting: &Scene, slit: &Mipmap, (wavelengths, shares): (u32, u32), sampling: Sampling) -> Vec<DVec3> {
+fn shot(
+    (scene, slit): (&Scene, &Mipmap),
+    film: Film,
+    (wavelengths, shares): (u32, u32),
+    sampling: Sampling,
+) -> Vec<DVec3> {
     let dark = Light { dome: vec![], ..Light::white() };
     let (sky, view) = (EnvironmentMap::new(&dark, None), View::default());
     let behind = Backplate { picture: slit, distance: 0.75, width: 4.24 };
@@ -55,10 +65,8 @@ fn shot(setting: &Scene, slit: &Mipmap, (wavelengths, shares): (u32, u32), sampl
         backplate: Some(behind),
         backdrop: true,
     };
-    // The film is a column from the slit up over the upper face.
-    let film = Film { centre: DVec2::new(0.0, 0.17), ..Film::new([1, PIXELS], 0.40 / f64::from(PIXELS)) };
     let options = RayOptions { polarised: true, most_bounces: 16, least_weight: 1e-4 };
-    let lit_scene = LitScene { scene: setting, environment, view: &view, film, options };
+    let lit_scene = LitScene { scene, environment, view: &view, film, options };
     let strata = match shares {
         0 => Strata::of_middles(wavelengths, &Illuminant::D65, true),
         _ => Strata::new(wavelengths, shares, &Illuminant::D65, true),
@@ -139,6 +147,21 @@ fn three_wavelengths_show_three_hues_and_with_other_ones_in_each_pass_a_whole_ra
         assert!(shared.0 > 20 && shared.1 < GAP && shared.3 < 0.02, "as smooth: {shared:?}");
         assert!(shared.4 < 2e-3, "the mean is that of the spectrum: {shared:?}");
     }
+}
+
+#[test]
+fn pixels_of_a_rainbow_have_little_noise_with_three_wavelengths() {
+    // A column through both rainbows of the guide's picture, with its pixels.
+    let film = Film::new([1, 240], 2.12 / 640.0);
+    let of = |bands, samples: u32, stretches| {
+        column(film, (bands, samples), Sampling { stretches, ..Sampling::of(samples) })
+    };
+    let off = [32, 64].map(|samples| {
+        let all = of(64, samples, true);
+        [true, false].map(|stretches| differ(&of(3, samples, stretches), &all))
+    });
+    println!("32 and 64 samples, with stretches and without: {off:.4?}");
+    assert!(off.iter().all(|[own, points]| own < points) && off[0][0] < 0.03 && off[1][0] < 0.02, "{off:?}");
 }
 
 #[test]

@@ -53,8 +53,7 @@ fn many_wavelengths_of_a_neutral_scene_are_neutral() {
     // A stone of one index in neutral light: whatever it shows is grey, for any number of wavelengths.
     let mut shoot =
         Shoot::new(&modern(), "diamond", Light { spectrum: Illuminant::A, ..light("lamps").unwrap() });
-    shoot.setting.instances[0].material =
-        brillianteer::optics::Material::from_index("glass", 2.4175).unwrap();
+    shoot.scene.instances[0].material = brillianteer::optics::Material::from_index("glass", 2.4175).unwrap();
     for wavelengths in [1, 3, 64] {
         shoot.wavelengths = wavelengths;
         let (picture, _) = shoot.by_rays();
@@ -120,9 +119,9 @@ fn a_stone_behind_another_is_seen_through_it_and_hidden_beside_it() {
     let behind = || placed(cube(DVec3::new(0.1, 0.05, -0.6), 0.4), glass(1.6));
     let mut shoot = Shoot::new(&modern(), "diamond", light("studio").unwrap());
     shoot.view = View { tilt: 0.1, azimuth: 0.4, ..View::default() };
-    shoot.setting.instances = vec![behind()];
+    shoot.scene.instances = vec![behind()];
     let alone = shoot.by_rays().0;
-    shoot.setting.instances = vec![placed(cube(DVec3::new(0.1, 0.0, 0.6), 0.5), glass(1.0)), behind()];
+    shoot.scene.instances = vec![placed(cube(DVec3::new(0.1, 0.0, 0.6), 0.5), glass(1.0)), behind()];
     let through = shoot.by_rays().0;
     // The faintest light is not followed into another stone, and rounding moves an edge by a little.
     let differ =
@@ -130,7 +129,7 @@ fn a_stone_behind_another_is_seen_through_it_and_hidden_beside_it() {
     assert!(differ.count() <= 4);
     let mut dark = glass(1.0);
     dark.absorption = [(); 2].map(|()| brillianteer::optics::Absorption::new(vec![(550.0, 1e3)]).unwrap());
-    shoot.setting.instances[0].material = dark;
+    shoot.scene.instances[0].material = dark;
     shoot.backdrop = false;
     let hidden = shoot.by_rays().0;
     let middle = hidden.pixels[(SIZE / 2 * SIZE + SIZE / 2) as usize];
@@ -222,7 +221,7 @@ fn a_photograph_behind_is_seen_beside_the_stone_and_through_a_slab_as_it_lies() 
     let slab = Polytope::from_planes(&[&planes[..], &sides[..]].concat()).unwrap();
     let mut shoot = Shoot::new(&slab, "diamond", Light { head: 0.0, ..light("white").unwrap() });
     shoot.light.dome[0].radiance = 0.0;
-    shoot.setting.instances[0].material = brillianteer::optics::Material::from_index("glass", 1.5).unwrap();
+    shoot.scene.instances[0].material = brillianteer::optics::Material::from_index("glass", 1.5).unwrap();
     (shoot.view, shoot.photo, shoot.wavelengths) = (View::default(), Some((stripes(), 1.0)), 3);
     let picture = shoot.by_rays().0;
     let through = (1.0 - 0.04) / (1.0 + 0.04);
@@ -247,7 +246,7 @@ fn a_photograph_behind_is_seen_beside_the_stone_and_through_a_slab_as_it_lies() 
 #[test]
 fn a_stone_as_thin_as_air_still_covers_what_is_behind() {
     let mut shoot = Shoot::new(&modern(), "diamond", light("dome").unwrap());
-    shoot.setting.instances[0].material = brillianteer::optics::Material::from_index("air", 1.0).unwrap();
+    shoot.scene.instances[0].material = brillianteer::optics::Material::from_index("air", 1.0).unwrap();
     shoot.backdrop = false;
     let middle = (SIZE / 2 * SIZE + SIZE / 2) as usize;
     let (rays, beams) = (shoot.by_rays().0, shoot.by_beams().0);
@@ -292,7 +291,7 @@ mod card {
         let found = differ(&photo(), &photo(), &gpu);
         assert!(found < 0.005, "a photograph: {found}");
         let mut mutant = shoot(4, 4);
-        mutant.setting.instances[0].material = material("cubic zirconia").unwrap().clone();
+        mutant.scene.instances[0].material = material("cubic zirconia").unwrap().clone();
         assert!(differ(&shoot(4, 4), &mutant, &gpu) > 0.02);
         let mut mutant = shoot(4, 4);
         mutant.light.lamp[0].azimuth += 4.0;
@@ -351,7 +350,7 @@ mod card {
             let mut shoot =
                 Shoot::new(&planes(DVec3::new(-0.4, 0.1, 0.2)), "diamond", light("studio").unwrap());
             let glass = brillianteer::optics::Material::from_index("glass", index).unwrap();
-            shoot.setting.instances.push(Instance::new(planes(DVec3::new(0.45, -0.2, 0.0)), glass));
+            shoot.scene.instances.push(Instance::new(planes(DVec3::new(0.45, -0.2, 0.0)), glass));
             shoot.samples = 8;
             shoot
         };

@@ -17,7 +17,7 @@ const PIXEL: f64 = 2.4 / SIZE as f64;
 
 /// The scene and the view that overlays are drawn for.
 struct Shot {
-    setting: Scene,
+    scene: Scene,
     view: View,
     options: RayOptions,
 }
@@ -26,15 +26,15 @@ impl Shot {
     fn new(polytope: Polytope, material_name: &str, view: View) -> Self {
         let stone = Instance::new(polytope, material(material_name).unwrap().clone());
         let options = RayOptions { polarised: false, most_bounces: 64, least_weight: 1e-4 };
-        Self { setting: Scene { instances: vec![stone], metals: vec![], unit_mm: 3.25 }, view, options }
+        Self { scene: Scene { instances: vec![stone], metals: vec![], unit_mm: 3.25 }, view, options }
     }
 
     fn with<T>(&self, work: impl FnOnce(&LitScene) -> T) -> T {
         let sky = EnvironmentMap { levels: vec![vec![[0.0; 4]]], side: 1, lamps: vec![] };
         let (basis, eye) = (self.view.light_basis(), self.view.basis());
         let environment = Environment { map: &sky, basis, eye, head: 0.0, backplate: None, backdrop: false };
-        let (setting, view, options) = (&self.setting, &self.view, self.options);
-        work(&LitScene { scene: setting, environment, view, film: Film::new([SIZE; 2], PIXEL), options })
+        let (scene, view, options) = (&self.scene, &self.view, self.options);
+        work(&LitScene { scene, environment, view, film: Film::new([SIZE; 2], PIXEL), options })
     }
 
     /// Draws an overlay over an empty picture, and returns the colour and cover of each pixel.
@@ -58,7 +58,7 @@ impl Shot {
 
     /// Returns the outlines, in the picture, of a stone's facets that face the eye, in counter-clockwise order.
     fn outlines(&self, stone: usize) -> Vec<(u32, Vec<DVec2>)> {
-        let polytope = &self.setting.instances[stone].body.stone().unwrap().polytope;
+        let polytope = &self.scene.instances[stone].body.stone().unwrap().polytope;
         let outline = |k: usize| -> Vec<DVec2> {
             let corners = polytope.corners(&polytope.facets()[k]).map(|v| self.seen(v));
             corners.map(|p| DVec2::new(p.x, -p.y)).collect()
@@ -140,7 +140,7 @@ fn the_facet_at_a_point_is_the_one_whose_outline_lies_around_it() {
 /// corner.
 fn faintest_corner(shot: &Shot, drawn: &Shot) -> Option<u8> {
     let picture = drawn.laid(Overlay::Wireframe);
-    let polytope = &shot.setting.instances[0].body.stone().unwrap().polytope;
+    let polytope = &shot.scene.instances[0].body.stone().unwrap().polytope;
     let corners =
         shot.outlines(0).into_iter().flat_map(|(k, _)| polytope.corners(&polytope.facets()[k as usize]));
     let pixel = |p: DVec2| picture[(p.y as u32 * SIZE + p.x as u32) as usize];
@@ -180,8 +180,8 @@ fn edges_behind_are_fainter_whichever_stone_they_are_behind() {
     let glass = material("quartz").unwrap().clone();
     for (z, hidden) in [(0.6, true), (-1.7, false)] {
         let other = Instance::new(cube(DVec3::new(0.3, 0.0, z), 0.45), glass.clone());
-        shot.setting.instances.truncate(1);
-        shot.setting.instances.push(other);
+        shot.scene.instances.truncate(1);
+        shot.scene.instances.push(other);
         let beside = corner(&shot);
         assert_eq!(beside < alone / 2 + 20, hidden, "{z}: {beside}, alone {alone}");
     }
@@ -190,7 +190,7 @@ fn edges_behind_are_fainter_whichever_stone_they_are_behind() {
 /// Finds the first plane that a ray meets inside the stone by trying every plane: returns the share of light that went in
 /// and the cosine at that plane; `None` beside the stone and where another plane is nearly as close.
 fn first_inside(shot: &Shot, lit_scene: &LitScene, index: f64, at: DVec2) -> Option<(f64, f64)> {
-    let planes: Vec<Plane> = shot.setting.instances[0].body.stone().unwrap().polytope.planes().collect();
+    let planes: Vec<Plane> = shot.scene.instances[0].body.stone().unwrap().polytope.planes().collect();
     let eye = shot.view.basis();
     let (d, from) = (-eye.toward, eye.lift(lit_scene.film.image_from_pixels(at)) + eye.toward * 10.0);
     let way = |p: &Plane, from: DVec3, d: DVec3| -p.distance(from) / p.normal.dot(d);

@@ -68,7 +68,7 @@ fn two_stones(index: f64) -> Shoot {
         Instance::new(body.clone(), glass).moved(&Pose { at, turn, scale })
     };
     let mut shoot = Shoot::new(&body, "diamond", light("studio").unwrap());
-    shoot.setting.instances = vec![
+    shoot.scene.instances = vec![
         stone(1.7, DVec3::new(-0.4, 0.1, 0.2), DQuat::IDENTITY, 1.0),
         stone(index, DVec3::new(0.35, -0.2, 0.0), DQuat::from_rotation_y(0.5), 0.8),
     ];
@@ -82,7 +82,7 @@ fn packets_go_from_stone_to_stone() {
     assert!(found < 0.005, "{found}");
     assert!(differ(&two_stones(1.6), &two_stones(1.65)) > 0.01);
     let mut alone = two_stones(1.6);
-    alone.setting.instances.pop();
+    alone.scene.instances.pop();
     assert!(differ(&two_stones(1.6), &alone) > 0.1);
 }
 
@@ -92,7 +92,7 @@ fn a_stone_looks_the_same_wherever_it_stands() {
     let standing = |at: f64| {
         let mut shoot = Shoot::new(&modern(), "quartz", light("dome").unwrap());
         let pose = Pose { at: DVec3::new(at, 0.0, 0.0), turn: DQuat::IDENTITY, scale: 1.0 };
-        shoot.setting.instances[0] = shoot.setting.instances[0].clone().moved(&pose);
+        shoot.scene.instances[0] = shoot.scene.instances[0].clone().moved(&pose);
         (shoot.view, shoot.centre, shoot.samples) = (View::default(), DVec2::new(at, 0.0), 8);
         shoot.by_packets().0
     };
@@ -143,7 +143,7 @@ fn two_shapes() -> Shoot {
     let mut shoot = Shoot::of(body(pill), "diamond", light("studio").unwrap());
     let moved = |x: f64| Pose { at: DVec3::X * x, turn: DQuat::from_rotation_y(0.5), scale: 0.6 };
     let diamond = material("diamond").unwrap();
-    shoot.setting.instances = [(pill, -0.5), (plate, 0.5)]
+    shoot.scene.instances = [(pill, -0.5), (plate, 0.5)]
         .map(|(form, x)| Instance::new(body(form), diamond.clone()).moved(&moved(x)))
         .into();
     (shoot.samples, shoot.wavelengths, shoot.size) = (64, 3, 32);
@@ -168,7 +168,7 @@ fn light_that_goes_on_by_chance_is_all_light_in_the_mean() {
             let mut white = two_shapes();
             (white.by_chance, white.light) = (by_chance, Light { head: 0.0, ..light("white").unwrap() });
             let own = material(name).unwrap();
-            white.setting.instances.iter_mut().for_each(|stone| stone.material = own.clone());
+            white.scene.instances.iter_mut().for_each(|stone| stone.material = own.clone());
             let (picture, rest) = white.by_packets();
             let mean = picture.pixels.iter().map(colour).sum::<DVec3>() / picture.pixels.len() as f64;
             (mean, rest.absorbed)
@@ -192,7 +192,7 @@ fn packets_are_equal_to_the_bit_on_any_number_of_cores() {
 #[test]
 fn a_stone_of_colour_absorbs_on_every_way() {
     let mut shoot = Shoot::new(&modern(), "diamond", Light { head: 0.0, ..light("white").unwrap() });
-    shoot.setting.instances[0].material = material("ruby").unwrap().clone();
+    shoot.scene.instances[0].material = material("ruby").unwrap().clone();
     (shoot.backdrop, shoot.wavelengths) = (false, 1);
     let [(rays, lost), (packets, packets_lost)] = [shoot.by_rays(), shoot.by_packets()];
     let mean = |picture: &brillianteer::picture::Linear| {

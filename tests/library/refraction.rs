@@ -22,7 +22,7 @@ const DISTANCE: f64 = 2.5;
 
 /// The scene, the view and the background to map.
 pub(super) struct Shoot {
-    pub(super) setting: Scene,
+    pub(super) scene: Scene,
     pub(super) view: View,
     pub(super) size: [u32; 2],
     pub(super) light: Light,
@@ -67,7 +67,7 @@ pub(super) fn photo() -> Panorama {
 impl Shoot {
     pub(super) fn of(solid: Polytope, material: Material) -> Self {
         Self {
-            setting: Scene { instances: vec![Instance::new(solid, material)], metals: vec![], unit_mm: 3.0 },
+            scene: Scene { instances: vec![Instance::new(solid, material)], metals: vec![], unit_mm: 3.0 },
             view: View::default(),
             size: [96, 72],
             light: dark(),
@@ -111,7 +111,7 @@ impl Shoot {
             backdrop: photo.is_some(),
         };
         let options = ray::RayOptions { polarised: true, most_bounces: 1000, least_weight: 1e-6 };
-        work(&LitScene { scene: &self.setting, environment, view: &self.view, film: self.film(), options })
+        work(&LitScene { scene: &self.scene, environment, view: &self.view, film: self.film(), options })
     }
 
     pub(super) fn map(&self) -> (RefractionMap, Carried) {

@@ -112,7 +112,7 @@ fn estimated_light_of_a_stone_that_absorbs_has_the_colour_of_that_of_beams() {
     // absorption colours the stone.
     for material in ["ruby", "blue sapphire"] {
         let mut shoot = shoot(modern(), material, "studio");
-        shoot.setting.unit_mm *= 3.0;
+        shoot.scene.unit_mm *= 3.0;
         (shoot.light, shoot.backdrop) = (Light { head: 0.0, ..Light::white() }, false);
         let mean = |options: BeamOptions, is_apart: bool| {
             let picture = shoot.by_beams_of(options, is_apart).0;

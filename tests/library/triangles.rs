@@ -32,7 +32,7 @@ fn view() -> View {
 
 /// Does work with a lit scene of stones in one world.
 fn taken<T>(stones: Vec<Instance>, light: &Light, work: impl FnOnce(&LitScene) -> T) -> T {
-    let setting = Scene { instances: stones, metals: vec![], unit_mm: 3.25 };
+    let scene = Scene { instances: stones, metals: vec![], unit_mm: 3.25 };
     let (sky, view) = (EnvironmentMap::new(light, None), view());
     let environment = Environment {
         map: &sky,
@@ -43,7 +43,7 @@ fn taken<T>(stones: Vec<Instance>, light: &Light, work: impl FnOnce(&LitScene) -
         backdrop: false,
     };
     let film = Film::square(SIZE, 1.1);
-    work(&LitScene { scene: &setting, environment, view: &view, film, options: options() })
+    work(&LitScene { scene: &scene, environment, view: &view, film, options: options() })
 }
 
 fn by_rays_of(stones: Vec<Instance>, light: &Light) -> (Linear, Remainder) {

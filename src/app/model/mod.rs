@@ -71,13 +71,15 @@ pub struct Model {
 }
 
 impl Model {
-    /// Opens the first design in a workspace as it was kept.
+    /// Opens the first design in a workspace as it was kept, but without the settings of a scene that was open.
     ///
     /// # Errors
     /// Fails only where the program itself is broken: it comes with the cut and the light that it starts with.
     pub fn new(mut workspace: Workspace) -> Result<Self, Failure> {
         let mut document = Document::first()?;
         workspace.face_up();
+        (workspace.light, workspace.exposure) =
+            workspace.light_after_scene((workspace.light.clone(), workspace.exposure));
         workspace.rest();
         document.begin(&workspace.light, workspace.exposure, workspace.head);
         let session = Session::new(&document, &workspace)?;

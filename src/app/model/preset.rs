@@ -68,7 +68,7 @@ impl Preset {
     }
 
     fn new(file: &Path, scene: SceneFile) -> Result<Self, Failure> {
-        let Assembly { setting, places, remarks, .. } = Assembly::of(file, scene.clone())?;
+        let Assembly { scene: whole, places, remarks, .. } = Assembly::of(file, scene.clone())?;
         let Some(first) = places.first() else {
             let label = file.display().to_string();
             let problem = format!(
@@ -79,17 +79,17 @@ impl Preset {
         let design = design_of(first);
         let unit_mm = 0.5 * design.diameter_mm;
         let is_first = |place: &StonePlace| Kind::of(place) == Kind::of(first);
-        let in_mm = |pose: &Pose| Pose { scale: setting.unit_mm, ..Pose::STILL }.after(pose);
+        let in_mm = |pose: &Pose| Pose { scale: whole.unit_mm, ..Pose::STILL }.after(pose);
         let (mut poses, mut stones, mut made) = (vec![], vec![], vec![]);
-        for (instance, place) in setting.instances.iter().zip(&places) {
+        for (instance, place) in whole.instances.iter().zip(&places) {
             let pose = in_mm(&instance.pose);
             match is_first(place) {
                 true => poses.push(Pose { at: pose.at / unit_mm, scale: 1.0, ..pose }),
                 false => stones.push(Companion { specimen: specimen_of(place, &mut made)?, pose }),
             }
         }
-        let metals = setting.metals.into_iter();
-        let larger = Pose { scale: setting.unit_mm, ..Pose::STILL };
+        let metals = whole.metals.into_iter();
+        let larger = Pose { scale: whole.unit_mm, ..Pose::STILL };
         let metals = metals.map(|metal| metal.moved(&larger)).collect();
         let mut copies = Copies::at(poses, first.specimen.solid().vertices());
         copies.movement = scene.movement;
@@ -180,8 +180,8 @@ mod tests {
             let unit_mm = 0.5 * preset.design.diameter_mm;
             let assembly = Assembly::of(Path::new(name), preset.scene.clone()).unwrap();
             let (mut own, mut others) = (preset.copies.poses.iter(), beside.iter());
-            for (instance, place) in assembly.setting.instances.iter().zip(&assembly.places) {
-                let corner = instance.pose.place(DVec3::new(0.3, -0.2, 0.1)) * assembly.setting.unit_mm;
+            for (instance, place) in assembly.scene.instances.iter().zip(&assembly.places) {
+                let corner = instance.pose.place(DVec3::new(0.3, -0.2, 0.1)) * assembly.scene.unit_mm;
                 let is_first = Kind::of(place) == Kind::of(&assembly.places[0]);
                 let at = match is_first {
                     true => own.next().unwrap().place(DVec3::new(0.3, -0.2, 0.1)) * unit_mm,
@@ -193,7 +193,7 @@ mod tests {
             let highest = |scene: f64, metals: &[crate::scene::MetalInstance]| {
                 metals.iter().flat_map(|m| m.vertices().map(|v| v.z * scene)).fold(0.0, f64::max)
             };
-            let was = highest(assembly.setting.unit_mm, &assembly.setting.metals);
+            let was = highest(assembly.scene.unit_mm, &assembly.scene.metals);
             assert!((highest(1.0, metal) - was).abs() < 1e-9, "{name}");
         }
         let trilogy = Preset::of_library("trilogy").unwrap();

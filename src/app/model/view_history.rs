@@ -48,18 +48,18 @@ pub struct ViewHistory {
 impl ViewHistory {
     /// Begins with the workspace as it is.
     pub fn new(workspace: &Workspace) -> Self {
-        let look = ViewState::of(workspace);
-        Self { history: History::new(look.clone()), last: (look, 0.0) }
+        let state = ViewState::of(workspace);
+        Self { history: History::new(state.clone()), last: (state, 0.0) }
     }
 
     /// Records the workspace between two gestures, at the time `now`, seconds.
     pub fn note(&mut self, workspace: &Workspace, now: f64) {
-        let look = ViewState::of(workspace);
-        if look != self.last.0 {
+        let state = ViewState::of(workspace);
+        if state != self.last.0 {
             if now - self.last.1 > PAUSE {
                 self.settle();
             }
-            self.last = (look, now);
+            self.last = (state, now);
         }
     }
 
@@ -76,21 +76,21 @@ impl ViewHistory {
     /// Goes back to the state before.
     pub fn back(&mut self, workspace: &mut Workspace) {
         self.settle();
-        let look = self.history.undo();
-        self.go(look, workspace);
+        let state = self.history.undo();
+        self.go(state, workspace);
     }
 
     /// Goes forward to the state from before the last step back.
     pub fn on(&mut self, workspace: &mut Workspace) {
         self.settle();
-        let look = self.history.redo();
-        self.go(look, workspace);
+        let state = self.history.redo();
+        self.go(state, workspace);
     }
 
-    fn go(&mut self, look: Option<ViewState>, workspace: &mut Workspace) {
-        if let Some(look) = look {
-            self.last.0 = look.clone();
-            look.lay(workspace);
+    fn go(&mut self, state: Option<ViewState>, workspace: &mut Workspace) {
+        if let Some(state) = state {
+            self.last.0 = state.clone();
+            state.lay(workspace);
         }
     }
 }
@@ -102,20 +102,20 @@ mod tests {
     #[test]
     fn what_follows_at_once_is_one_step_and_what_follows_later_another() {
         let mut workspace = Workspace::default();
-        let mut looks = ViewHistory::new(&workspace);
+        let mut history = ViewHistory::new(&workspace);
         let zooms = [(2.0, 10.0), (3.0, 10.1), (4.0, 10.2), (5.0, 11.0), (6.0, 11.1)];
         for (zoom, now) in zooms {
             workspace.eye.zoom = zoom;
-            looks.note(&workspace, now);
+            history.note(&workspace, now);
         }
-        assert_eq!(looks.steps(), (true, false));
+        assert_eq!(history.steps(), (true, false));
         let mut seen = vec![];
         for _ in 0..3 {
-            looks.back(&mut workspace);
+            history.back(&mut workspace);
             seen.push(workspace.eye.zoom);
         }
-        looks.on(&mut workspace);
+        history.on(&mut workspace);
         seen.push(workspace.eye.zoom);
-        assert_eq!((seen, looks.steps()), (vec![4.0, 1.0, 1.0, 4.0], (true, true)));
+        assert_eq!((seen, history.steps()), (vec![4.0, 1.0, 1.0, 4.0], (true, true)));
     }
 }

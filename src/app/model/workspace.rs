@@ -171,7 +171,7 @@ pub struct Workspace {
     pub liquid: Liquid,
 }
 
-/// The backplate and the number of bands of wavelengths, with the values that a scene has set and the former values.
+/// The settings that a scene has made, with the former ones: the backplate and the number of bands of wavelengths.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OfScene {
     set: (Option<String>, u32),
@@ -182,6 +182,10 @@ pub struct OfScene {
     /// The light and its exposure in stops, with the values that the scene has set and the former values.
     #[serde(default)]
     light: Option<[(String, f64); 2]>,
+    /// The view that is shown alone, and what the first view shows, with the values that the scene has set and the former
+    /// values.
+    #[serde(default)]
+    alone: Option<[(Option<usize>, Shows); 2]>,
 }
 
 /// The distance of the eye, the views in perspective and the smoothing, with the values that a scene has set and the
@@ -263,8 +267,13 @@ impl Workspace {
     pub fn enter_scene(&mut self, behind: Option<String>, wavelengths: Option<u32>) {
         let before = (self.behind.take(), self.wavelengths);
         (self.behind, self.wavelengths) = (behind, wavelengths.unwrap_or(self.wavelengths));
-        self.of_scene =
-            Some(OfScene { set: (self.behind.clone(), self.wavelengths), before, sight: None, light: None });
+        self.of_scene = Some(OfScene {
+            set: (self.behind.clone(), self.wavelengths),
+            before,
+            sight: None,
+            light: None,
+            alone: None,
+        });
     }
 
     /// Shows renders as a scene states it, face up and whole: in perspective from a distance in girdle radii, or
@@ -288,14 +297,24 @@ impl Workspace {
         (self.distance, self.panes.each_ref().map(|pane| pane.is_near), self.smoothing)
     }
 
-    /// Shows a view of a render alone.
+    /// Shows a view of a render alone as long as the present scene is open.
     pub fn enlarge_render(&mut self) {
+        let before = self.alone();
         let panes = &mut self.panes[..self.layout.panes()];
         let found = panes.iter().position(|pane| pane.shows == Shows::Render);
         if found.is_none() {
             panes[0].shows = Shows::Render;
         }
         self.large = (panes.len() > 1).then_some(found.unwrap_or(0));
+        let set = self.alone();
+        if let Some(of_scene) = &mut self.of_scene {
+            of_scene.alone = Some([set, before]);
+        }
+    }
+
+    /// Returns the view that is shown alone, and what the first view shows.
+    fn alone(&self) -> (Option<usize>, Shows) {
+        (self.large, self.panes[0].shows)
     }
 
     /// Remembers the light and the exposure that a scene has set, and the former ones.
@@ -322,9 +341,12 @@ impl Workspace {
     }
 
     /// Resets the settings that go with one stone: the backplate's distance in mm, the settings of its scene (also
-    /// its perspective and the turn and axis of its light), and a strength below 1.
+    /// its perspective, the view that it shows alone, and the turn and axis of its light), and a strength below 1.
     pub fn rest(&mut self) {
-        if let Some(OfScene { set, before, sight, .. }) = self.of_scene.take() {
+        if let Some(OfScene { set, before, sight, alone, .. }) = self.of_scene.take() {
+            if let Some([_, before]) = alone.filter(|[set, _]| *set == self.alone()) {
+                (self.large, self.panes[0].shows) = before;
+            }
             // Settings that the user has changed since then are no longer the scene's, and stay.
             if let Some(SightOfScene { before: (distance, is_near, smoothing), .. }) =
                 sight.filter(|sight| sight.set == self.sight())

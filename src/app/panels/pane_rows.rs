@@ -34,11 +34,7 @@ const MOTIONS: [(LightMotion, &str, &str); 3] = [
 /// The qualities: the name of each, and the part of the effect that it draws.
 const QUALITIES: [(PaneQuality, &str, &str); 3] = [
     (PaneQuality::High, "high", "All effects; frost takes five samples, along both axes."),
-    (
-        PaneQuality::Medium,
-        "medium",
-        "Frost takes three samples, along a diagonal, and dispersion is 30 at most.",
-    ),
+    (PaneQuality::Medium, "medium", "Frost takes three samples side by side, and dispersion is 30 at most."),
     (PaneQuality::Low, "low", "Only refraction: no depth, dispersion, frost, light or tint."),
 ];
 

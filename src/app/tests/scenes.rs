@@ -103,6 +103,43 @@ fn a_stone_of_another_design_is_shown_and_dragged_and_stops_before_the_next() {
 }
 
 #[test]
+fn a_design_that_is_opened_after_a_scene_has_the_light_and_the_views_from_before_it() {
+    use crate::app::model::action::{Edit, ViewAction};
+    let state = |model: &Model| {
+        let (work, workspace) = (&model.document.work, &model.workspace);
+        let near = workspace.panes.each_ref().map(|pane| (pane.shows, pane.is_near));
+        ((work.light.clone(), work.exposure, workspace.behind.clone()), (workspace.shown(), near))
+    };
+    let open = |model: &mut Model, then: Then| drop(update(model, FileAction::Ask(then).into()));
+    let design = || Then::Library("tolkowsky".to_owned());
+    for scene in ["halo-ring", "rotating-cube"] {
+        let mut model = Model::new(Workspace::default()).unwrap();
+        let before = state(&model);
+        open(&mut model, Then::Preset(scene.to_owned()));
+        let (lit, seen) = state(&model);
+        assert_eq!(seen.0.len(), 1, "{scene} is shown alone");
+        assert!(lit != before.0, "{scene} brings its light");
+        // Another scene between changes nothing, and neither does another start.
+        open(&mut model, Then::Preset("prism-rainbow".to_owned()));
+        let kept = Workspace {
+            light: model.document.work.light.clone(),
+            exposure: model.document.work.exposure,
+            ..model.workspace.clone()
+        };
+        let started = Model::new(kept).unwrap();
+        assert_eq!(state(&started), before, "{scene}");
+        open(&mut model, design());
+        assert_eq!(state(&model), before, "{scene}");
+        // The user's own choices stay.
+        open(&mut model, Then::Preset(scene.to_owned()));
+        update(&mut model, Edit::Light("ring".to_owned()).into());
+        update(&mut model, ViewAction::Enlarge(0).into());
+        open(&mut model, design());
+        assert_eq!((state(&model).0.0.as_str(), model.workspace.shown().len()), ("ring", 4), "{scene}");
+    }
+}
+
+#[test]
 fn another_stone_of_the_scene_is_edited_by_its_button_and_nothing_moves() {
     let mut bench = bench("trilogy");
     let before = places(work(&bench), unit_mm(&bench.editor().model));

@@ -19,7 +19,7 @@ impl Assembly {
                 && a.material == b.material
                 && a.diameter_mm == b.diameter_mm
         };
-        let first = self.places.first().filter(|_| self.setting.metals.is_empty());
+        let first = self.places.first().filter(|_| self.scene.metals.is_empty());
         let Some(first) = first.filter(|first| self.places.iter().all(|other| alike([*first, other]))) else {
             return Err(refused(
                 "only stones of one design move, without metal beside them; leave out --moment",
@@ -27,8 +27,8 @@ impl Assembly {
         };
         let (specimen, corners) = (&first.specimen, first.specimen.solid().vertices());
         // Copies are laid out in girdle radii.
-        let unit = 0.5 * first.diameter_mm / self.setting.unit_mm;
-        let rest = self.setting.instances.iter().map(|stone| Pose {
+        let unit = 0.5 * first.diameter_mm / self.scene.unit_mm;
+        let rest = self.scene.instances.iter().map(|stone| Pose {
             at: stone.pose.at / unit,
             scale: 1.0,
             ..stone.pose
@@ -48,8 +48,8 @@ impl Assembly {
             pose: Pose { at: pose.at * unit, scale: stone.pose.scale, ..pose },
             ..stone
         };
-        let instances = std::mem::take(&mut self.setting.instances);
-        self.setting.instances = instances.into_iter().zip(poses).map(moved).collect();
+        let instances = std::mem::take(&mut self.scene.instances);
+        self.scene.instances = instances.into_iter().zip(poses).map(moved).collect();
         Ok(self)
     }
 }

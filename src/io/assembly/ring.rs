@@ -113,27 +113,27 @@ mod tests {
             [("solitaire", 1, 16.5), ("four-prong", 1, 17.3), ("halo-ring", 17, 16.5), ("eternity", 27, 17.3)]
         {
             let ring = Assembly::load(Path::new(name), None, None, MeshOptions::default()).unwrap();
-            assert_eq!((ring.setting.instances.len(), ring.setting.metals.len()), (stones, 1), "{name}");
+            assert_eq!((ring.scene.instances.len(), ring.scene.metals.len()), (stones, 1), "{name}");
             assert_eq!(ring.places.len(), stones, "{name}");
-            let metal = &ring.setting.metals[0];
+            let metal = &ring.scene.metals[0];
             // The finger's hole keeps its size in the world's unit.
             let pose = metal.pose;
             let from_axis = |point: &DVec3| {
-                let own = (pose.turn.inverse() * (*point - pose.at)) * ring.setting.unit_mm;
+                let own = (pose.turn.inverse() * (*point - pose.at)) * ring.scene.unit_mm;
                 own.x.hypot(own.z)
             };
             let hole = metal.vertices().map(|point| from_axis(&point)).fold(f64::INFINITY, f64::min);
             assert!((2.0 * hole - across).abs() < 0.01, "{name}: {hole}");
             // Seats in the world are the mounting's, carried there.
             let mounting = &ring.ring.as_ref().unwrap().mounting;
-            for (seat, stone) in mounting.seats.iter().zip(&ring.setting.instances) {
+            for (seat, stone) in mounting.seats.iter().zip(&ring.scene.instances) {
                 let carried = pose.after(&seat.pose);
                 assert!(carried.at.distance(stone.pose.at) < 1e-9, "{name}");
                 assert!((carried.scale - stone.pose.scale).abs() < 1e-9, "{name}");
             }
             let corners = metal
                 .vertices()
-                .chain(ring.setting.instances.iter().flat_map(|s| s.solid().vertices().collect::<Vec<_>>()));
+                .chain(ring.scene.instances.iter().flat_map(|s| s.solid().vertices().collect::<Vec<_>>()));
             let (low, high) = crate::math::bounds(corners);
             assert!((low + high).length() < 1e-9, "{name}");
         }
@@ -145,7 +145,7 @@ mod tests {
         let ruby =
             Assembly::load(Path::new("halo-ring"), Some(&ruby), "7mm".parse().ok(), MeshOptions::default());
         let ruby = ruby.unwrap();
-        assert!(ruby.setting.instances.iter().all(|stone| stone.material.name == "ruby"));
+        assert!(ruby.scene.instances.iter().all(|stone| stone.material.name == "ruby"));
         assert_eq!((ruby.places[0].diameter_mm, ruby.places[1].diameter_mm), (7.0, 1.5));
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("x.toml");

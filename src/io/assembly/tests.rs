@@ -22,9 +22,9 @@ fn refused(stones: &str) -> String {
 fn a_stone_alone_lies_as_its_file_has_it_and_takes_another_material_and_size() {
     let stone = load("modern-ideal");
     let specimen = BuiltDesign::load(Path::new("modern-ideal"), MeshOptions::default()).unwrap();
-    assert_eq!(*stone.setting.instances[0].body.stone().unwrap(), *specimen.stone().unwrap());
-    assert_eq!((stone.setting.unit_mm, stone.name.as_str()), (3.25, "Modern ideal"));
-    assert_eq!(stone.setting.instances[0].pose, Pose::STILL);
+    assert_eq!(*stone.scene.instances[0].body.stone().unwrap(), *specimen.stone().unwrap());
+    assert_eq!((stone.scene.unit_mm, stone.name.as_str()), (3.25, "Modern ideal"));
+    assert_eq!(stone.scene.instances[0].pose, Pose::STILL);
     // In the trade a brilliant of 6.5 mm weighs about one carat; proportions change it a little.
     assert!(stone.carats().is_some_and(|carats| (0.97..1.03).contains(&carats)), "{:?}", stone.carats());
     let ruby = Assembly::load(
@@ -34,7 +34,7 @@ fn a_stone_alone_lies_as_its_file_has_it_and_takes_another_material_and_size() {
         MeshOptions::default(),
     )
     .unwrap();
-    assert_eq!(&ruby.setting.instances[0].material, material("ruby").unwrap());
+    assert_eq!(&ruby.scene.instances[0].material, material("ruby").unwrap());
     assert!((ruby.carats().unwrap() - 2.0).abs() < 1e-9);
     let index = Assembly::load(
         Path::new("modern-ideal"),
@@ -43,7 +43,7 @@ fn a_stone_alone_lies_as_its_file_has_it_and_takes_another_material_and_size() {
         MeshOptions::default(),
     )
     .unwrap();
-    assert_eq!((index.setting.unit_mm, index.carats()), (4.0, None));
+    assert_eq!((index.scene.unit_mm, index.carats()), (4.0, None));
     let heavy = Assembly::load(
         Path::new("modern-ideal"),
         Some(&MaterialRef::Index(2.42)),
@@ -57,22 +57,22 @@ fn a_stone_alone_lies_as_its_file_has_it_and_takes_another_material_and_size() {
 fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for() {
     let trilogy = load("trilogy");
     let weights: Vec<f64> =
-        trilogy.setting.instances.iter().map(|s| s.carats(trilogy.setting.unit_mm).unwrap()).collect();
+        trilogy.scene.instances.iter().map(|s| s.carats(trilogy.scene.unit_mm).unwrap()).collect();
     assert!(weights.iter().zip([0.5, 1.0, 0.5]).all(|(a, b)| (a - b).abs() < 1e-9), "{weights:?}");
     assert_eq!(trilogy.light, Some("studio".into()));
     for (name, count) in [("trilogy", 3), ("Ring", 8), ("parcel", 12)] {
         let scene = load(name);
-        assert_eq!((scene.setting.instances.len(), scene.places.len()), (count, count));
+        assert_eq!((scene.scene.instances.len(), scene.places.len()), (count, count));
         assert!(
             scene
-                .setting
+                .scene
                 .instances
                 .iter()
                 .all(|s| s.body.names().len() == s.body.stone().unwrap().polytope.facets().len())
         );
         let largest = scene.places.iter().map(|p| p.diameter_mm).fold(0.0, f64::max);
-        assert_eq!(scene.setting.unit_mm, 0.5 * largest);
-        assert_eq!(load(name).setting, scene.setting);
+        assert_eq!(scene.scene.unit_mm, 0.5 * largest);
+        assert_eq!(load(name).scene, scene.scene);
     }
     // The strengths are those of the demonstration that they follow.
     for (name, count, strength) in [
@@ -83,13 +83,13 @@ fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for(
         ("free-diamond", 1, 0.2),
     ] {
         let scene = load(name);
-        assert_eq!(scene.setting.instances.len(), count, "{name}");
+        assert_eq!(scene.scene.instances.len(), count, "{name}");
         assert_eq!(scene.strength, strength, "{name}");
         assert!(scene.background.is_some() && scene.angle_of_view == Some(45.0), "{name}");
         if name == "subtle-pill" {
             // Pills do not lean, and are as wide as in the demonstration.
-            let (low, high) = scene.setting.instances[0].solid().bounds();
-            let wide = (high - low).x * scene.setting.unit_mm;
+            let (low, high) = scene.scene.instances[0].solid().bounds();
+            let wide = (high - low).x * scene.scene.unit_mm;
             assert!((wide - 40.0).abs() < 0.02, "{wide}");
         }
     }
@@ -101,7 +101,7 @@ fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for(
     )
     .unwrap();
     assert!(small.places.iter().all(|p| p.diameter_mm == 3.0));
-    assert!(small.setting.instances.iter().all(|s| s.material.name == "diamond"));
+    assert!(small.scene.instances.iter().all(|s| s.material.name == "diamond"));
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn a_stone_leans_its_table_toward_the_azimuth_and_lies_where_it_is_put() {
     let stone = "cut = \"tolkowsky\"\nturn = 30\ntilt = 20\nazimuth = 90\nsize = \"4mm\"\nat = [1, 2, 3]";
     std::fs::write(&path, format!("format = 1\nname = \"x\"\n[[stone]]\n{stone}")).unwrap();
     let scene = load(&path);
-    let placed = &scene.setting.instances[0];
+    let placed = &scene.scene.instances[0];
     let table = placed.body.names().iter().position(|name| name == "table").unwrap();
     let (sin, cos) = 20_f64.to_radians().sin_cos();
     let plane = placed.body.stone().unwrap().polytope.facets()[table].plane.placed(&placed.pose);
@@ -119,7 +119,7 @@ fn a_stone_leans_its_table_toward_the_azimuth_and_lies_where_it_is_put() {
     // Pictures are centred on the middle of all stones.
     let (low, high) = placed.solid().bounds();
     assert!((low + high).length() < 1e-12);
-    assert_eq!((scene.setting.unit_mm, scene.places[0].at_mm), (2.0, DVec3::new(1.0, 2.0, 3.0)));
+    assert_eq!((scene.scene.unit_mm, scene.places[0].at_mm), (2.0, DVec3::new(1.0, 2.0, 3.0)));
 }
 
 #[test]
@@ -151,8 +151,8 @@ fn copies_of_one_design_move_and_nothing_else_does() {
     let plates = "stone = [{ cut = \"plate\", at = [-30, 0, 0] }, { cut = \"plate\", at = [30, 0, 0] }]";
     let seen = |movement: &str, asked: Option<Movement>| {
         let rest = scene(&format!("{movement}{plates}"));
-        let before = rest.setting.clone();
-        let moved = rest.at_moment(1.3, asked).unwrap().setting;
+        let before = rest.scene.clone();
+        let moved = rest.at_moment(1.3, asked).unwrap().scene;
         let turned = |k: usize| moved.instances[k].pose.turn.angle_between(before.instances[k].pose.turn);
         assert!(
             (0..2).all(|k| moved.instances[k].pose.at.distance(before.instances[k].pose.at) < 1e-9)
@@ -179,7 +179,7 @@ fn metal_lies_where_it_is_put_beside_stones_or_alone_and_may_cut_into_them() {
         Assembly::load(&path, None, None, MeshOptions::default())
     };
     let metal = "[[metal]]\nmesh = \"plate.obj\"\nmetal = \"gold\"\nturn = 90\nat = [1, 2, 3]\n";
-    let both = scene(&format!("[[stone]]\ncut = \"tolkowsky\"\nsize = \"6mm\"\n{metal}")).unwrap().setting;
+    let both = scene(&format!("[[stone]]\ncut = \"tolkowsky\"\nsize = \"6mm\"\n{metal}")).unwrap().scene;
     assert_eq!((both.unit_mm, both.metals[0].metal), (3.0, crate::optics::Metal::Gold));
     // Seen from the stone, the corners are in the places of the file.
     let at =
@@ -189,7 +189,7 @@ fn metal_lies_where_it_is_put_beside_stones_or_alone_and_may_cut_into_them() {
         at(1).distance(DVec3::new(1.0, 6.0, 3.0)) < 1e-12
             && at(2).distance(DVec3::new(-7.0, 2.0, 3.0)) < 1e-12
     );
-    let alone = scene(metal).unwrap().setting;
+    let alone = scene(metal).unwrap().scene;
     assert_eq!((alone.instances.len(), alone.unit_mm), (0, 4.0));
     let (low, high) = bounds(alone.vertices());
     assert!((low + high).length() < 1e-12);

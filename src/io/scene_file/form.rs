@@ -185,9 +185,8 @@ fn layout(given: &str) -> Result<Layout, Fault> {
 
 fn movement(given: &str) -> Result<Movement, Fault> {
     let names = Movement::NAMES.map(|(name, _)| name);
-    let found = Movement::NAMES.iter().find(|(name, _)| *name == given).map(|(_, movement)| *movement);
     let unknown = || format!("movement: '{}' is unknown{}", shown(given), likely(given, &names));
-    found.ok_or_else(|| Fault::key("movement", unknown()))
+    Movement::named(given).ok_or_else(|| Fault::key("movement", unknown()))
 }
 
 /// Returns the tables of stones, which may be missing where there is metal.

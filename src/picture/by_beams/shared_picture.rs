@@ -2,7 +2,7 @@
 //!
 //! A beam is painted as seldom as its drift over the group and the strength of its light allow, each time where a part of the
 //! group sees it, in the colour of all light of that part. Light is looked up as seldom as its weight allows, along the fan of
-//! all wavelengths that share the look-up; where a lamp may come into that fan, each wavelength looks for itself.
+//! all wavelengths that share the look-up; where a lamp may come into that fan, each wavelength is looked up alone.
 
 use super::Subject;
 use super::patches::{Patches, UNEVEN};
@@ -207,7 +207,7 @@ impl SharedBeams for PaintedPiece<'_> {
                     self.lost.absorbed += beam.absorbed(&self.picture.media[beam.group.clone()]);
                 }
                 for copy in 0..self.copies.len() {
-                    self.look(beam, inside, copy);
+                    self.look_up(beam, inside, copy);
                     self.paint(beam, inside, copy);
                 }
             }
@@ -314,7 +314,7 @@ impl PaintedPiece<'_> {
     }
 
     /// Looks up the light that comes through a copy of a beam, as if nothing were absorbed, into `seen`.
-    fn look(&mut self, beam: &SharedBeam, inside: &Inside, copy: usize) {
+    fn look_up(&mut self, beam: &SharedBeam, inside: &Inside, copy: usize) {
         self.seen.clear();
         let all = self.picture.media.len() as f64;
         let at_once = ((MOST_AT_ONCE * all / beam.weight) as usize).clamp(1, beam.group.len());
@@ -322,15 +322,15 @@ impl PaintedPiece<'_> {
         while start < beam.group.end {
             let waves = start..(start + at_once).min(beam.group.end);
             start = waves.end;
-            if waves.len() < 2 || !self.look_at_once(beam, inside, copy, &waves) {
+            if waves.len() < 2 || !self.look_up_together(beam, inside, copy, &waves) {
                 for wave in waves {
-                    self.look_once(beam, inside, copy, wave);
+                    self.look_up_alone(beam, inside, copy, wave);
                 }
             }
         }
     }
 
-    fn look_once(&mut self, beam: &SharedBeam, inside: &Inside, copy: usize, wave: usize) {
+    fn look_up_alone(&mut self, beam: &SharedBeam, inside: &Inside, copy: usize, wave: usize) {
         let Some(exit) = inside.exit(beam.entry, &self.picture.media[wave]) else { return };
         let light = self.radiance(copy, exit.direction, exit.change) * exit.weight;
         if light != DVec4::ZERO {
@@ -340,7 +340,7 @@ impl PaintedPiece<'_> {
 
     /// Looks up the light of several wavelengths along the fan of all. Returns false where they have to be looked up one by
     /// one, because a lamp is near or some are totally reflected.
-    fn look_at_once(
+    fn look_up_together(
         &mut self,
         beam: &SharedBeam,
         inside: &Inside,

@@ -1,6 +1,6 @@
 //! Looks rows of pixels up in the background behind a pane, in single precision.
 
-use super::frost::{CLEAR, FIVE, FrostTap};
+use super::frost::{CLEAR, FIVE, FrostTap, THREE};
 use super::parts::RED_AND_BLUE;
 use super::prepared::PaneRow;
 use crate::scene::Panorama;
@@ -43,7 +43,6 @@ impl WithSimd for LookThrough<'_> {
             }
             let at = [left as i32 + k as i32, y as i32];
             let (shift, blur) = ([row.shift[0][k], row.shift[1][k]], row.blur[k]);
-            let is_five = blur > 0.0 && taps.len() == FIVE.len();
             let taps = if blur > 0.0 { taps } else { &CLEAR };
             if !is_dispersed {
                 *to = ground.colour(at, shift, blur, taps);
@@ -53,8 +52,12 @@ impl WithSimd for LookThrough<'_> {
             let parts = [RED_AND_BLUE[0] as f32, 0.0, RED_AND_BLUE[1] as f32];
             for (channel, part) in parts.into_iter().enumerate() {
                 let by = [shift[0] + apart[0] * part, shift[1] + apart[1] * part];
-                let five = if is_five { ground.five(at, by, channel, blur) } else { None };
-                to[channel] = match five {
+                let together = match taps.len() {
+                    5 => ground.five(at, by, channel, blur),
+                    3 => ground.three(at, by, channel, blur),
+                    _ => None,
+                };
+                to[channel] = match together {
                     Some(mean) => mean,
                     None => ground.channel(at, by, channel, blur, taps),
                 };
@@ -152,6 +155,28 @@ impl<'a> Ground<'a> {
             first += width as usize;
         }
         Some((high.dot(columns.on + columns.beside) + low.dot(columns.on)) / 3.0)
+    }
+
+    /// Returns one channel of the mean of the three samples of frost around a place, where all of them lie within a pixel
+    /// of it and inside the picture; else `None`. With the weights of [`five`](Self::five), they add up to
+    /// (2 a + b) / 3 in each of two rows.
+    #[inline(always)]
+    fn three(&self, at: [i32; 2], by: [f32; 2], channel: usize, blur: f32) -> Option<f32> {
+        let reach = blur * THREE[1].at[0];
+        let base = [by[0].floor(), by[1].floor()];
+        let x = at[0].saturating_add(base[0] as i32).saturating_sub(1);
+        let y = at[1].saturating_add(base[1] as i32);
+        let [width, height] = self.size;
+        if reach > 1.0 || x < 0 || y < 0 || x >= width - 3 || y >= height - 1 {
+            return None;
+        }
+        let columns = BesideAndOn::new(by[0] - base[0], reach);
+        let (plane, first) = (&self.planes[channel], y as usize * width as usize + x as usize);
+        let high = Vec4::from_slice(&plane[first..first + 4]);
+        let below = first + width as usize;
+        let low = Vec4::from_slice(&plane[below..below + 4]);
+        let between = high + (low - high) * (by[1] - base[1]);
+        Some(between.dot(2.0 * columns.on + columns.beside) / 3.0)
     }
 
     /// Returns one channel of the mean of the background around a place.

@@ -111,7 +111,7 @@ impl PreparedPane {
         let mut colours = vec![[0.0; 3]; across * down];
         let taps: &[FrostTap] = if self.shape.quality == PaneQuality::High { &FIVE } else { &THREE };
         let (is_dispersed, arch) = (self.shape.dispersion > 0.0, Arch::new());
-        let planes = match self.shape.frost > 0.0 && is_dispersed && taps.len() == FIVE.len() {
+        let planes = match self.shape.frost > 0.0 && is_dispersed {
             true => planes(background),
             false => Default::default(),
         };

@@ -28,7 +28,7 @@ pub struct ByCard<'a> {
     metals: Option<GpuMetals>,
     responses: wgpu::Buffer,
     wavelengths: usize,
-    looks: u32,
+    passes: u32,
     film: Film,
 }
 
@@ -91,25 +91,25 @@ impl<'a> ByCard<'a> {
             metals: solids.metals,
             responses,
             wavelengths,
-            looks: 0,
+            passes: 0,
             film: lit_scene.film,
         })
     }
 
     /// Writes the media of the stones, the finishes of metal and the colours of the bands to the card's memory.
-    fn write_frame(&self, look: &SamplePass) {
+    fn write_frame(&self, pass: &SamplePass) {
         let of_stone = |(media, &unit): (&Vec<scene::Medium>, &f64)| -> Vec<[f32; 4]> {
             media.iter().map(|medium| bytemuck::cast(gpu_types::Medium::new(medium, unit))).collect()
         };
-        let finishes = self.metals.iter().flat_map(|metals| metals.finishes(&look.metals));
+        let finishes = self.metals.iter().flat_map(|metals| metals.finishes(&pass.metals));
         let media: Vec<[f32; 4]> =
-            look.media.iter().zip(&self.units).flat_map(of_stone).chain(finishes).collect();
+            pass.media.iter().zip(&self.units).flat_map(of_stone).chain(finishes).collect();
         let wide = |c: DVec3| with(c, 0.0);
         let response = |r: &[DVec3; 4]| {
             let [key, red, green, blue] = r.map(wide);
             Response { key, red, green, blue }
         };
-        let bands = look.responses.iter().chain(std::iter::once(&look.whole));
+        let bands = pass.responses.iter().chain(std::iter::once(&pass.whole));
         let responses: Vec<Response> = bands.map(response).collect();
         self.stage.gpu.queue.write_buffer(&self.media, 0, bytemuck::cast_slice(&media));
         self.stage.gpu.queue.write_buffer(&self.responses, 0, bytemuck::cast_slice(&responses));
@@ -117,28 +117,28 @@ impl<'a> ByCard<'a> {
 }
 
 impl<E: From<Stopped> + From<GpuError>> ProgressiveImage<E> for ByCard<'_> {
-    fn add_pass(&mut self, look: &SamplePass, watch: Watch) -> Result<(), E> {
-        self.write_frame(look);
-        let stretch = look.footprint_in_image(&self.film).as_vec2();
+    fn add_pass(&mut self, pass: &SamplePass, watch: Watch) -> Result<(), E> {
+        self.write_frame(pass);
+        let stretch = pass.footprint_in_image(&self.film).as_vec2();
         // Chance ends weak light where metal sends it back to stones again and again; else all light is followed.
-        self.stage.frame.limits[1] = if self.metals.is_some() { look.by_chance as f32 } else { 0.0 };
-        self.stage.frame.most[1] = look.number;
-        self.stage.frame.sample = [look.strength as f32, stretch.x, stretch.y, 0.0];
+        self.stage.frame.limits[1] = if self.metals.is_some() { pass.by_chance as f32 } else { 0.0 };
+        self.stage.frame.most[1] = pass.number;
+        self.stage.frame.sample = [pass.strength as f32, stretch.x, stretch.y, 0.0];
         let origin = self.film.shift();
         let layer =
-            StripLayer { shift: look.shift + origin, origin, cell: [0, 1], bands: self.wavelengths as u32 };
+            StripLayer { shift: pass.shift + origin, origin, cell: [0, 1], bands: self.wavelengths as u32 };
         self.stage.trace::<E>(&self.rows, &layer, watch)?;
-        self.looks += 1;
+        self.passes += 1;
         Ok(())
     }
 
     fn each_pixel(&self, each: &mut dyn FnMut(&RadiancePixel)) -> Result<(), E> {
-        let looks = 1.0 / f64::from(self.looks.max(1));
-        let share = looks / self.wavelengths as f64;
+        let per_pass = 1.0 / f64::from(self.passes.max(1));
+        let share = per_pass / self.wavelengths as f64;
         for sum in self.stage.read::<gpu_types::RadiancePixel>(self.rows.len() as u32)? {
             let [red, green, blue, cover] = sum.colour.map(f64::from);
             let [unresolved, absorbed, ..] = sum.rest.map(|x| f64::from(x) * share);
-            let colour = DVec3::new(red, green, blue) * looks;
+            let colour = DVec3::new(red, green, blue) * per_pass;
             each(&RadiancePixel { colour, cover: cover * share, unresolved, absorbed });
         }
         Ok(())

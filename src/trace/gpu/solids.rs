@@ -130,17 +130,17 @@ impl Surfaces {
 
     fn of_planes(gpu: &Gpu, stones: &[Vec<Plane>]) -> Self {
         let is_few = are_few(stones);
-        let (mut planes, mut bunched, mut ranges, mut largest) = (vec![], vec![], vec![], 0);
+        let (mut planes, mut clustered, mut ranges, mut largest) = (vec![], vec![], vec![], 0);
         for stone in stones {
             let (order, own) = clusters(stone);
-            let (first, first_bunch) = (planes.len(), bunched.len());
+            let (first, first_cluster) = (planes.len(), clustered.len());
             planes.extend(order.iter().map(|&k| with(stone[k as usize].normal, stone[k as usize].offset)));
             let moved = |b: &Cluster| {
                 let [spread, depth, start, count] = b.spread;
                 Cluster { spread: [spread, depth, start + first as f32, count], ..*b }
             };
-            bunched.extend(own.iter().map(moved));
-            ranges.push([first, planes.len(), first_bunch, bunched.len()].map(|k| k as u32));
+            clustered.extend(own.iter().map(moved));
+            ranges.push([first, planes.len(), first_cluster, clustered.len()].map(|k| k as u32));
             largest = largest.max(stone.len() + own.len());
         }
         let storage = wgpu::BufferUsages::STORAGE;
@@ -148,7 +148,7 @@ impl Surfaces {
             planes.resize(MOST_UNIFORM, [0.0; 4]);
             (ShaderSurface::Few, wgpu::BufferUsages::UNIFORM, None)
         } else {
-            let clusters = gpu.buffer("clusters", bytemuck::cast_slice(&bunched), storage);
+            let clusters = gpu.buffer("clusters", bytemuck::cast_slice(&clustered), storage);
             (ShaderSurface::Many, storage, Some(clusters))
         };
         let planes = Some(gpu.buffer("planes", bytemuck::cast_slice(&planes), kind));

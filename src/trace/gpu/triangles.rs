@@ -18,18 +18,18 @@ pub(super) struct GpuTriangles {
 impl GpuTriangles {
     /// Packs some solids and some bodies of metal.
     pub fn new(solids: &[SolidRef], metals: &[&ShadedMesh]) -> Result<Self, GpuError> {
-        let shells = solids.iter().map(shell).collect::<Result<Vec<Arc<TriangleMesh>>, GpuError>>()?;
+        let meshes = solids.iter().map(mesh_of).collect::<Result<Vec<Arc<TriangleMesh>>, GpuError>>()?;
         let of_metals: usize = metals.iter().map(|mesh| mesh.surface().corners.len()).sum();
-        let count = shells.iter().map(|s| s.facets().len()).sum::<usize>() + 2 * of_metals;
-        let mut trees = shells.iter().map(|s| s.bvh()).chain(metals.iter().map(|mesh| mesh.bvh()));
+        let count = meshes.iter().map(|s| s.facets().len()).sum::<usize>() + 2 * of_metals;
+        let mut trees = meshes.iter().map(|s| s.bvh()).chain(metals.iter().map(|mesh| mesh.bvh()));
         if count > MOST_TRIANGLES || trees.any(|tree| tree.depth() as usize > MOST_LEVELS) {
             return Err(GpuError::TooManyTriangles { count, most: MOST_TRIANGLES });
         }
         let mut all = Self { triangles: vec![], nodes: vec![], of_solids: vec![], of_metals: vec![] };
-        for shell in &shells {
-            let root = all.add_boxes(shell.bvh());
-            all.triangles.extend(shell.bvh().order().iter().map(|&k| triangle(shell, k as usize)));
-            all.of_solids.push([root, reach_bits(SolidRef::from(shell).reach()), 0, 0]);
+        for mesh in &meshes {
+            let root = all.add_boxes(mesh.bvh());
+            all.triangles.extend(mesh.bvh().order().iter().map(|&k| triangle(mesh, k as usize)));
+            all.of_solids.push([root, reach_bits(SolidRef::from(mesh).reach()), 0, 0]);
         }
         for mesh in metals {
             let root = all.add_boxes(mesh.bvh());
@@ -56,14 +56,14 @@ fn reach_bits(reach: f64) -> u32 {
 }
 
 /// Returns a solid as triangles; a convex stone's facets are triangulated.
-fn shell(solid: &SolidRef) -> Result<Arc<TriangleMesh>, GpuError> {
+fn mesh_of(solid: &SolidRef) -> Result<Arc<TriangleMesh>, GpuError> {
     let flat = Some(solid).filter(|solid| !matches!(solid, SolidRef::Smooth(_)));
     flat.and_then(|solid| solid.mesh()).ok_or(GpuError::MixedKinds)
 }
 
-fn triangle(shell: &TriangleMesh, k: usize) -> Triangle {
-    let [a, b, c] = shell.surface().triangles[k].map(|v| shell.vertices()[v as usize]);
-    let normal = shell.planes()[shell.facets()[k] as usize].normal;
+fn triangle(mesh: &TriangleMesh, k: usize) -> Triangle {
+    let [a, b, c] = mesh.surface().triangles[k].map(|v| mesh.vertices()[v as usize]);
+    let normal = mesh.planes()[mesh.facets()[k] as usize].normal;
     Triangle { a: with(a, normal.x), b: with(b, normal.y), c: with(c, normal.z) }
 }
 
@@ -91,14 +91,14 @@ mod tests {
 
     #[test]
     fn every_triangle_is_within_its_boxes_and_each_stone_has_its_own() {
-        let shells = [heart(), star()].map(|(vertices, triangles)| {
-            let shell = TriangleMesh::new(Surface::new(vertices, triangles)).unwrap();
+        let meshes = [heart(), star()].map(|(vertices, triangles)| {
+            let mesh = TriangleMesh::new(Surface::new(vertices, triangles)).unwrap();
             let (at, turn) = (glam::DVec3::new(0.3, 1.1, -0.2), glam::DQuat::from_rotation_x(0.7));
-            Arc::new(shell.reframed(&Pose { at, turn, ..Pose::STILL }))
+            Arc::new(mesh.reframed(&Pose { at, turn, ..Pose::STILL }))
         });
-        let solids = shells.each_ref().map(SolidRef::from);
+        let solids = meshes.each_ref().map(SolidRef::from);
         let all = GpuTriangles::new(&solids, &[]).unwrap();
-        let roots = [0, shells[0].bvh().nodes().len() as u32];
+        let roots = [0, meshes[0].bvh().nodes().len() as u32];
         assert_eq!(all.of_solids.iter().map(|range| range[0]).collect::<Vec<_>>(), roots);
         let mut next = 0;
         for node in all.nodes.iter().filter(|n| n.high[3] > 0.0) {

@@ -248,11 +248,18 @@ impl<'a> PacketTracer<'a> {
         let (bands, options) = (pixels.pass.responses.len(), self.lit_scene.options);
         let threshold = pixels.threshold(options);
         let mut to_look_up: Vec<LookUpRay> = Vec::with_capacity(leaving.len());
+        // Most light passes by all other bodies: a search among them costs far more than their balls.
+        let passes_by = |ray: &&SingleRay| {
+            let mut bodies = self.instances.iter().enumerate();
+            !bodies.any(|(other, instance)| instance.may_meet(ray, other == from.body))
+        };
+        let (free, near): (Vec<&SingleRay>, Vec<&SingleRay>) = leaving.iter().partition(passes_by);
+        to_look_up.extend(free.into_iter().map(|ray| LookUpRay::of(ray, ray.light.weight(), ray.tag)));
         let onward = |instance: &PacketInstance, other, place: usize| {
-            let ray = &leaving[place];
+            let ray = near[place];
             instance.may_meet(ray, other == from.body).then(|| (instance.arriving(ray), 0.0))
         };
-        for (ray, first) in leaving.iter().zip(self.first(leaving.len(), onward)) {
+        for (ray, first) in near.iter().zip(self.first(near.len(), onward)) {
             let (tag, weight) = (ray.tag as usize, ray.light.weight());
             match first {
                 None => to_look_up.push(LookUpRay::of(ray, weight, ray.tag)),

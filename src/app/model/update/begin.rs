@@ -68,13 +68,21 @@ pub fn begin_preset(model: &mut Model, tasks: &mut Vec<Task>, name: &str) {
     let preset = Preset::of_library(name);
     let Some(preset) = model.session.notes.ok_or_report(preset) else { return };
     // The scene is made to be seen as a render.
-    model.workspace.enlarge_render();
-    begin_scene(model, tasks, preset);
+    begin_scene(model, tasks, preset, Alone::Render);
     model.session.motion.is_on = PRESETS.iter().any(|known| known.name == name && known.moves);
 }
 
+/// The view that is shown alone where a scene begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Alone {
+    /// The layout stays as it is.
+    None,
+    /// A render is shown alone.
+    Render,
+}
+
 /// Begins to work on a scene: its design, which is not saved anywhere yet, its copies, its light and its backplate.
-pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset) {
+pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset, alone: Alone) {
     let Preset { design, copies, companions, scene, wavelengths, remarks } = preset;
     let document = Document::new(design, None);
     let Some(mut document) = model.session.notes.ok_or_report(document) else { return };
@@ -105,6 +113,9 @@ pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset) {
     // The workspace cannot hold plain colours.
     let behind = scene.background.as_ref().filter(|behind| !matches!(behind, BackgroundRef::Plain(_)));
     workspace.enter_scene(behind.map(ToString::to_string), wavelengths);
+    if alone == Alone::Render {
+        workspace.enlarge_render();
+    }
     workspace.light_scene((document.work.light.clone(), document.work.exposure), before);
     (workspace.light_turn, workspace.light_upright) = (scene.light_turn, scene.light_upright);
     workspace.see_under(scene.angle_of_view.map(|angle| reach / (0.5 * angle).to_radians().tan()));

@@ -1,6 +1,6 @@
 //! Opens, saves and watches files.
 
-use super::begin::{begin, begin_again, begin_library, begin_preset, begin_scene};
+use super::begin::{Alone, begin, begin_again, begin_library, begin_preset, begin_scene};
 use super::{safe, searching};
 use crate::app::model::Model;
 use crate::app::model::action::{Edit, FileAction};
@@ -292,7 +292,7 @@ fn open_read(model: &mut Model, tasks: &mut Vec<Task>) {
             }
         }
         (_, OpenedFile::Scene(preset)) => {
-            begin_scene(model, tasks, *preset);
+            begin_scene(model, tasks, *preset, Alone::None);
             model.workspace.remember(&request.path);
         }
     }
