@@ -122,6 +122,18 @@ impl FromStr for VariedRange {
     }
 }
 
+/// Prints which numbers the search leaves as they are.
+fn note_held(path: &str, search: &DesignSearch) {
+    let keys: Vec<String> = search.objective().held().iter().map(|held| held.key.to_string()).collect();
+    let (are, they) = if keys.len() == 1 { ("is", "it") } else { ("are", "they") };
+    if !keys.is_empty() {
+        let all = keys.join(", ");
+        say(&format!(
+            "note: {path}: {all} {are} held: no meet that is known would be kept if {they} changed"
+        ));
+    }
+}
+
 impl OptimiseArguments {
     pub fn run(&self) -> Result<(), Failure> {
         let goal = self.goal()?;
@@ -152,12 +164,7 @@ impl OptimiseArguments {
             return Err(Failure::Usage(format!("{path}: nothing to search for: {why}")));
         }
         note_no_fire(&specimen.material, own.map(|measure| measure.of), where_to);
-        for held in search.objective().held() {
-            say(&format!(
-                "note: {path}: {} is held: no meet that is known would be kept if it changed",
-                held.key
-            ));
-        }
+        note_held(&path, &search);
         let outcome = self.searched(&search, &path).map_err(refused)?;
         if outcome.was_stopped {
             let angles = match self.angle_step {

@@ -93,8 +93,8 @@ impl RoughYield {
         let mut line = |key: &str, what: String| {
             let _ = writeln!(table, "  {key:<28}{what}");
         };
-        let [length, width, depth] = found.size_mm;
-        line("finished size", format!("{length:.3} by {width:.3} by {depth:.3} mm"));
+        let size = |[x, y, depth]: [f64; 3]| format!("{x:.3} by {y:.3} by {depth:.3} mm");
+        line("finished size", size(found.own_size_mm));
         line("diameter", format!("{:.3} mm", found.diameter_mm));
         if let Some(mm) = found.girdle_mm {
             line("girdle", format!("{mm:.3} mm"));
@@ -109,6 +109,7 @@ impl RoughYield {
             };
             line("limited by", limit.to_owned());
             line("turned in the rough", format!("{:.2} deg", found.turn_deg));
+            line("place it takes there", size(found.size_mm));
             line("depth left", format!("{:.3} mm", found.depth_left_mm));
             line("yield of the box", format!("{:.2} %", 100.0 * found.yield_of(rough.volume_mm3())));
         }

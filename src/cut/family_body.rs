@@ -13,7 +13,7 @@ pub enum FamilySolid {
     /// A convex stone, and the names of its facets in their order.
     Convex(Polytope, Vec<String>),
     /// A stone that is not convex: its triangles, with the names of its facets.
-    Mesh(TriangleMesh),
+    Mesh(Box<TriangleMesh>),
 }
 
 impl FamilyCut {
@@ -44,7 +44,7 @@ impl FamilyCut {
         let (net, solid) = self.settled()?;
         if net.is_half() {
             let mesh = TriangleMesh::of_groups(net.both_halves(&solid)?).map_err(|_| NoRoom::default())?;
-            return Ok(FamilySolid::Mesh(mesh));
+            return Ok(FamilySolid::Mesh(Box::new(mesh)));
         }
         let named = net.named();
         let names = solid.facets().iter().map(|facet| named[facet.source].0.clone()).collect();

@@ -52,7 +52,7 @@ impl Specimen {
             Cut::Mesh(shape) => Some(Body::Mesh(Arc::clone(&shape.0))),
             Cut::Family(cut) => Some(match cut.solid().map_err(DesignError::from)? {
                 FamilySolid::Convex(polytope, names) => Body::Stone(Stone::named(polytope, names)),
-                FamilySolid::Mesh(mesh) => Body::Mesh(Arc::new(mesh)),
+                FamilySolid::Mesh(mesh) => Body::Mesh(Arc::from(mesh)),
             }),
             Cut::Glass(glass) if glass.planes().is_none() => {
                 Some(Body::Glass(SmoothSolid::new(glass.field().map_err(DesignError::from)?)))

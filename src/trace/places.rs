@@ -51,7 +51,7 @@ pub fn place_in_pixel(number: u32, count: u32) -> DVec2 {
     }
     let cell = f64::from(count).recip();
     let upper = (sobol(number / 2) + cell * DVec2::new(0.5, 1.0)).fract() * DVec2::new(1.0, 0.5);
-    if number % 2 == 0 { upper } else { 1.0 - upper }
+    if number.is_multiple_of(2) { upper } else { 1.0 - upper }
 }
 
 /// Returns the stretch of its pixel that the ray at the place with this number represents, in a pixel of `count` places, in

@@ -97,7 +97,7 @@ fn results(model: &Model, options: &YieldOptions, found: &Finished, ui: &mut Ui)
             ui.label(RichText::new(text).strong());
             ui.end_row();
         };
-        let [length, width, depth] = found.size_mm;
+        let [length, width, depth] = found.own_size_mm;
         line("Finished size", format!("{length:.3} × {width:.3} × {depth:.3} mm"));
         line(
             "Finished weight",

@@ -118,6 +118,8 @@ pub struct Finished {
     /// The extents along the sides of the rough, or, where a weight is requested, along the axes of the stone's
     /// frame, mm.
     pub size_mm: [f64; 3],
+    /// The extents along the axes of the stone's own frame, mm: its size however it lies in the rough.
+    pub own_size_mm: [f64; 3],
     /// The angle by which the stone is turned about its axis in the rough, counter-clockwise seen from the table, degrees.
     pub turn_deg: f64,
     /// The thickness of the girdle, mm; `None` of a stone that is not convex, whose girdle is not measured.
@@ -301,10 +303,15 @@ impl<'a> Shape<'a> {
             }
             None => (self.volume, 0.0),
         };
-        let [along, across] = self.plan.extents(turn);
+        let depth = scale * (self.depth + thicker);
+        let size = |turn: f64| {
+            let [along, across] = self.plan.extents(turn);
+            [scale * along, scale * across, depth]
+        };
         Ok(Finished {
             diameter_mm: scale * self.diameter,
-            size_mm: [scale * along, scale * across, scale * (self.depth + thicker)],
+            size_mm: size(turn),
+            own_size_mm: size(0.0),
             turn_deg: turn.to_degrees(),
             girdle_mm: self.girdle.map(|girdle| scale * (girdle.thickness + thicker)),
             volume_mm3: volume * scale.powi(3),

@@ -46,6 +46,9 @@ fn a_long_stone_lies_askew_in_square_rough() {
     let along = 10.0 * 2f64.sqrt() / 10.1;
     assert!((found.volume_mm3.cbrt() / 0.1f64.cbrt() - along).abs() < 1e-9, "{found:?}");
     assert!((found.turn_deg.abs() - 45.0).abs() < 1e-9);
+    // Its own size is that of the needle, and not of the square that it lies across.
+    let [length, width, _] = found.own_size_mm;
+    assert!((length / width - 100.0).abs() < 1e-9 && (found.size_mm[0] - 10.0).abs() < 1e-9, "{found:?}");
 }
 
 #[test]

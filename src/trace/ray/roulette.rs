@@ -12,8 +12,8 @@ const LEAST_LUCK: f64 = 1e-9;
 /// at random.
 const EVEN: usize = 4;
 
-/// The step of each of these numbers from one ray of the pixel to the next, in units of 2^-64: (√5 - 1)/2, √2 - 1, √3
-/// - 1 and (√13 - 3)/2. Multiples of one irrational number fill the interval from 0 to 1 evenly, and those of several
+/// The step of each of these numbers from one ray of the pixel to the next, in units of 2^-64: (√5 - 1)/2, √2 - 1,
+/// √3 - 1 and (√13 - 3)/2. Multiples of one irrational number fill the interval from 0 to 1 evenly, and those of several
 /// numbers fill the cube (R. D. Richtmyer, *The evaluation of definite integrals, and a quasi-Monte-Carlo method
 /// based on the properties of algebraic numbers*, 1951). The continued fractions of these four begin with no large
 /// number, so that gaps stay small for any number of rays.

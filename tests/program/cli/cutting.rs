@@ -86,7 +86,12 @@ fn a_design_is_fitted_to_another_material_written_and_measured_beside_the_old_on
     let red = desk.json(&format!("{line} --json --wavelength 650"));
     assert_eq!((at(&value, "wavelength_nm"), at(&red, "wavelength_nm")), (589.3, 650.0));
     let measured = desk.json("measure tolkowsky --json --wavelength 650");
-    near(at(&list(&red["light"])[0], "light_return"), at(&measured, "light_return"), 1e-9, "the old stone in red");
+    near(
+        at(&list(&red["light"])[0], "light_return"),
+        at(&measured, "light_return"),
+        1e-9,
+        "the old stone in red",
+    );
     assert!(at(&list(&red["light"])[0], "index") < at(&light[0], "index"), "{red}");
 }
 
