@@ -121,7 +121,9 @@ fn lines(specimen: &Specimen, tiers: &Tiers) -> Vec<String> {
         _ => &[],
     };
     let source = design.source.iter().map(|source| format!("Source: {source}"));
-    let all = own.iter().cloned().chain(source).map(|line| cleaned(&line));
+    // A design that the program turned into tiers has its source among its own lines too.
+    let own = own.iter().filter(|&line| design.source.as_ref() != Some(line));
+    let all = own.cloned().chain(source).map(|line| cleaned(&line));
     let title = cleaned(&design.name);
     let mut lines: Vec<String> = vec![];
     let is_said = |line: &String| line.contains(char::is_alphanumeric) && *line != title;

@@ -19,7 +19,8 @@ const BESIDE: f64 = 4.0;
 const EVEN: f64 = 1e-6;
 /// The most tiers left for which leaders are drawn.
 const MOST_LED: usize = 40;
-/// The most tiers without room for their names for which leaders may have any length.
+/// The most tiers without room for their names for which leaders may have any length: of all, or of those for which
+/// shorter leaders find no room.
 const FEW: usize = 5;
 /// The greatest length of a leader where there are many.
 const LONGEST_OF_MANY: f64 = 110.0;
@@ -56,9 +57,15 @@ pub(super) fn write_names(sheet: &mut Sheet, mut places: Places, tiers: &[SeenTi
     }
     rest.truncate(MOST_LED);
     // A few long leaders are easy to read, many are not.
-    let longest = if rest.len() <= FEW { f64::INFINITY } else { LONGEST_OF_MANY };
-    while let Some((leader, k)) = best_leader(&places, &rest, longest) {
-        write_outside(sheet, &mut places, rest.remove(k), leader);
+    let mut longest = if rest.len() <= FEW { f64::INFINITY } else { LONGEST_OF_MANY };
+    loop {
+        while let Some((leader, k)) = best_leader(&places, &rest, longest) {
+            write_outside(sheet, &mut places, rest.remove(k), leader);
+        }
+        if longest.is_infinite() || rest.len() > FEW {
+            return;
+        }
+        longest = f64::INFINITY;
     }
 }
 
