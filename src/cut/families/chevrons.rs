@@ -181,7 +181,10 @@ impl Chevrons {
             }
         }
         if self.corner_step.is_some() {
-            let tip = meeting(&innermost).ok_or(NoRoom { tier: "pavilion_corner" })?;
+            // A tip that is not farther in than the corner, and deeper, would make facets that lean outward.
+            let corner = side.truncate().element_sum();
+            let is_inside = |tip: &DVec3| tip.z < side.z && tip.truncate().element_sum() < corner;
+            let tip = meeting(&innermost).filter(is_inside).ok_or(NoRoom { tier: "pavilion_corner" })?;
             quarters.through("pavilion_corner", [side, end, tip])?;
         }
         quarters.through("main", mains)?;

@@ -38,8 +38,8 @@ and a render under the light `studio`. [`contact-sheet.sh`](images/contact-sheet
 
 Facets meet in points as on real stones: in no stone of these families do four facets nearly meet, apart from edges that real stones of
 the cut have as well, which an [audit](formats.md#audit) lists as split meets where they are shorter than 12 % of W. Edges of a small
-culet are as short as it is. The table of an Asscher or of a cushion barion has corners: below it a crown of one row has four facets at the corners of
-the outline, whose upper edges are 10 to 12 % of W long with the narrowest corners and the smallest tables of the usual ranges.
+culet are as short as it is. The table of an Asscher or of a cushion barion has corners: below it a crown of one row has four or eight facets at the
+corners of the outline, whose upper edges are 9.9 to 12 % of W long with the narrowest corners and the smallest tables of the usual ranges.
 
 ## What the families weigh
 

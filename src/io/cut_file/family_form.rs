@@ -46,7 +46,7 @@ impl FamilyForm {
                         true => format!(
                             "{mover_key}: it stands in the place of {place}; leave out {key}, or give {place} without {mover_key}"
                         ),
-                        false => format!("{mover_key}: give {place} or {mover_key}, not both"),
+                        false => format!("{mover_key}: give {key} or {mover_key}, not both"),
                     };
                     return Err(Fault::key(format!("{table}/{}", mover.key), message));
                 }

@@ -81,9 +81,9 @@ fn tiers_stand_in_cutting_order_with_all_that_a_cutter_sets() {
             "PAVILION|G1|90.00|96-24-48-72|Set size",
             "PAVILION|G2|90.00|12-36-60-84|Level girdle",
             "PAVILION|1|55.00|96-24-48-72|Meet G1 at the girdle, then stop",
-            "PAVILION|2|38.00*|96-24-48-72|",
+            "PAVILION|2|38.00*|96-24-48-72|Depth 0.3500 W",
             "CROWN|A|40.00|96-24-48-72|Größe",
-            "CROWN|T|0.00||Table",
+            "CROWN|T|0.00||Table, depth 0.1500 W",
         ]
     );
     assert_eq!(
