@@ -63,11 +63,6 @@ fn see(leaving: Ray, weight: f32, spread: f32, is_mirrored: bool) {
     sum.colour += response.key * light.x + response.red * light.y + response.green * light.z + response.blue * light.w;
 }
 
-// Counts the loop turns of a search among the balls around so many bodies; a ball takes as long as a plane.
-fn count_balls(balls: u32) {
-    turns += (frame.most.w * balls + 15u) / 16u;
-}
-
 // Whether a ray runs through a ball, whose radius is the fourth number.
 fn is_near(ball: vec4f, ray: Ray) -> bool {
     let away = ball.xyz - ray.origin;
@@ -85,7 +80,7 @@ fn first_body(ray: Ray, left: Left) -> First {
     let own = body;
     var first = First(NONE, Meeting(0u, -1.0));
     if COUNTS_TURNS {
-        count_balls(frame.counts.x);
+        turns += frame.counts.x;
     }
     for (var k = 0u; k < frame.counts.x; k++) {
         if k == left.body || !is_near(bodies[k].middle, ray) {

@@ -92,7 +92,7 @@ fn metal_met(metal: u32, ray: Ray, left: u32) -> Meeting {
 // Returns the first hit of a ray on metal, or `stone` where that is nearer.
 fn with_metal(stone: First, ray: Ray, left: Left) -> First {
     var first = stone;
-    count_balls(frame.most.z);
+    turns += frame.most.z;
     for (var k = 0u; k < frame.most.z; k++) {
         if !is_near(metals[k].middle, ray) {
             continue;
@@ -108,7 +108,7 @@ fn with_metal(stone: First, ray: Ray, left: Left) -> First {
 // Returns whether a ray meets metal before this distance.
 fn meets_metal(ray: Ray, before: f32) -> bool {
     var found = false;
-    count_balls(frame.most.z);
+    turns += frame.most.z;
     for (var k = 0u; k < frame.most.z; k++) {
         if !found && is_near(metals[k].middle, ray) {
             let distance = metal_met(k, ray, NONE).distance;

@@ -45,8 +45,10 @@ fn sobol(number: u32) -> DVec2 {
 /// Returns the place with this number in a pixel of `count` places. Both coordinates are 0 to 1, the mean of all places is
 /// the middle of the pixel, and neither coordinate is taken twice. Places beyond the last lie between the others.
 pub fn place_in_pixel(number: u32, count: u32) -> DVec2 {
-    // Beyond the last place, those of a finer division keep clear of the pixel's edges and middle.
-    let count = if number < count.max(1) { count.max(1) } else { (number + 1).next_power_of_two() };
+    let count = count.max(1);
+    if number >= count {
+        return (sobol(number) + 0.5 / f64::from(count)).fract();
+    }
     if number == count - 1 && count % 2 == 1 {
         return DVec2::splat(0.5);
     }

@@ -90,7 +90,11 @@ fn tiers_stand_in_cutting_order_with_all_that_a_cutter_sets() {
         (sheet.title.as_str(), sheet.lines.as_slice()),
         ("Step", ["by M. Müller".to_owned()].as_slice())
     );
-    assert_eq!(sheet.notes, ["One tier of the design is not cut and is left out."]);
+    // Depths count from the middle of the design, which lies 0.4442 widths above the culet.
+    assert!(
+        sheet.notes[0].starts_with("Depth is the distance") && sheet.notes[0].contains(" 0.4442 W above")
+    );
+    assert_eq!(sheet.notes[1..], ["One tier of the design is not cut and is left out."]);
     assert_eq!(sheet.below_critical, ["2"]);
     assert!((sheet.critical_angle_deg.unwrap() - 40.493).abs() < 1e-3);
     assert_eq!((sheet.figures.facets, sheet.figures.girdle_facets), (13, 8));
