@@ -41,7 +41,7 @@ pub use mounting::{
     ALLOYS, Alloy, MetalPart, Mounting, OuterShape, RING_NUMBERS, Ring, RingError, RingNumber, RingSeat,
     RingStyle, SeatKind, SetStone,
 };
-pub use movement::{Movement, has_wave};
+pub use movement::{Movement, UnknownMovement, has_wave};
 pub use overlap::overlapping;
 pub use panorama::{Panorama, PanoramaError};
 pub use scope::{

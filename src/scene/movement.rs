@@ -63,14 +63,19 @@ impl From<Movement> for String {
     }
 }
 
-impl TryFrom<String> for Movement {
-    type Error = String;
+/// A name that no movement has.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("the movement '{name}' is unknown; give one of {known}", known = Movement::NAMES.map(|(name, _)| name).join(", "))]
+pub struct UnknownMovement {
+    /// The name.
+    pub name: String,
+}
 
-    fn try_from(name: String) -> Result<Self, String> {
-        Self::named(&name).ok_or_else(|| {
-            let known = Self::NAMES.map(|(name, _)| name).join(", ");
-            format!("the movement '{name}' is unknown; give one of {known}")
-        })
+impl TryFrom<String> for Movement {
+    type Error = UnknownMovement;
+
+    fn try_from(name: String) -> Result<Self, UnknownMovement> {
+        Self::named(&name).ok_or(UnknownMovement { name })
     }
 }
 
