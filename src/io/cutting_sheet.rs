@@ -79,8 +79,13 @@ fn with_depths(turned: &Specimen, stone: &Stone, tiers: &Tiers) -> Tiers {
     let free = tiers.tiers.iter_mut().filter(|tier| tier.meet.is_none() && tier.instructions.is_empty());
     let mut count = 0;
     for tier in free {
-        let table = if tier.zone() == TierZone::Table { "Table, depth" } else { "Depth" };
-        tier.instructions = format!("{table} {:.4} W", tier.distance * turned.frame.scale / width);
+        // The sign of the distance of a flat facet says which way it faces.
+        let (label, distance) = match tier.zone() {
+            TierZone::Table => ("Table, depth", tier.distance.abs()),
+            TierZone::Culet => ("Culet, depth", tier.distance.abs()),
+            _ => ("Depth", tier.distance),
+        };
+        tier.instructions = format!("{label} {:.4} W", distance * turned.frame.scale / width);
         count += 1;
     }
     if count > 0 {

@@ -2,6 +2,7 @@
 //! The designs are not part of the project; where they are missing the test says so and passes.
 #![cfg(feature = "interchange")]
 
+use brillianteer::cut::Cut;
 use brillianteer::io::cutting_sheet::cutting_sheet;
 use brillianteer::io::design_file;
 use brillianteer::picture::{BlockKind, CuttingSheet, PaperSize, SheetRow, sheet_pages};
@@ -18,10 +19,11 @@ const DESIGNS: [&str; 11] = [
     "PC01697", "PC04039",
 ];
 
-/// A tier as the text of a file gives it: angle, indices, name, instruction.
+/// A tier as the text of a file gives it: angle, distance, indices, name, instruction.
 #[derive(Debug, Clone, PartialEq)]
 struct TextTier {
     angle: f64,
+    distance: f64,
     indices: Vec<f64>,
     name: String,
     instruction: String,
@@ -45,8 +47,9 @@ fn text_tiers(text: &str) -> (f64, Vec<TextTier>) {
 fn text_tier(record: &str) -> TextTier {
     let mut words = record.split_whitespace().skip(1);
     let mut number = || words.next().unwrap().parse::<f64>().unwrap();
-    let (angle, _) = (number(), number());
-    let mut tier = TextTier { angle, indices: vec![], name: String::new(), instruction: String::new() };
+    let (angle, distance) = (number(), number());
+    let mut tier =
+        TextTier { angle, distance, indices: vec![], name: String::new(), instruction: String::new() };
     while let Some(word) = words.next() {
         match word {
             "n" => {
@@ -63,17 +66,20 @@ fn text_tier(record: &str) -> TextTier {
 }
 
 /// Returns the row that a sheet must have for a tier of a file, in words: name, angle, indices, instruction. The
-/// sheet chooses the name of a tier without one.
-fn expected(gear: f64, tier: &TextTier, chosen: &str) -> String {
+/// sheet chooses the name of a tier without one, and gives the depth of a tier without an instruction in widths of
+/// the stone.
+fn expected(gear: f64, tier: &TextTier, chosen: &str, width: f64) -> String {
     let flat = tier.angle == 0.0;
     let mut indices: Vec<f64> = if flat { vec![] } else { tier.indices.clone() };
     indices.sort_by(|a, b| (a % gear).total_cmp(&(b % gear)));
     let text = |index: &f64| if *index == 0.0 { gear } else { *index }.to_string();
     let indices: Vec<String> = indices.iter().map(text).collect();
+    let depth = format!("{:.4} W", tier.distance.abs() / width);
     let said = match (tier.instruction.as_str(), flat, tier.angle.is_sign_negative()) {
-        ("", true, false) => "Table",
-        ("", true, true) => "Culet",
-        (said, ..) => said,
+        ("", true, false) => format!("Table, depth {depth}"),
+        ("", true, true) => format!("Culet, depth {depth}"),
+        ("", ..) => format!("Depth {depth}"),
+        (said, ..) => said.to_owned(),
     };
     let name = if tier.name.is_empty() { chosen } else { &tier.name };
     format!("{name} {:.2} {} {said}", tier.angle.abs(), indices.join("-"))
@@ -98,18 +104,23 @@ fn sheets_of_real_designs_say_what_their_files_say() {
         let gear = gear.abs();
         let specimen = Specimen::new(design_file::read(&path).unwrap().design).unwrap();
         let sheet = cutting_sheet(&specimen, false).unwrap();
+        // The width of the stone in the unit of the file's distances.
+        let Cut::Tiers(own) = &specimen.design.cut else { panic!("{name} has no tiers") };
+        let unit = own.tiers[0].distance / tiers[0].distance.abs();
+        let (low, high) = specimen.stone().unwrap().polytope.bounds();
+        let width = (high - low).truncate().min_element() / specimen.frame.scale / unit;
         let mut seen = BTreeSet::new();
         for block in &sheet.blocks {
             assert!(block.tiers.is_sorted_by_key(|row| row.tier), "{name}: not in cutting order");
             for row in &block.tiers {
                 let tier = &tiers[row.tier];
-                assert_eq!(line(row), expected(gear, tier, &row.name), "{name}");
+                assert_eq!(line(row), expected(gear, tier, &row.name, width), "{name}");
                 let is_crown = tier.angle.is_sign_positive() && tier.angle < 90.0;
                 assert_eq!(block.name == BlockKind::Crown, is_crown, "{name}: {tier:?}");
                 assert!(seen.insert(row.tier), "{name}: {tier:?} stands on the sheet twice");
                 // A number that is off by a digit would be seen.
                 let off = TextTier { angle: tier.angle + 0.01, ..tier.clone() };
-                assert_ne!(line(row), expected(gear, &off, &row.name));
+                assert_ne!(line(row), expected(gear, &off, &row.name, width));
             }
         }
         assert_eq!(seen.len(), tiers.len(), "{name}: tiers are missing");
