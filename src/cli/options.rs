@@ -6,7 +6,7 @@ use crate::io::export::Viewing;
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{Failure, nearest, scope_file};
 use crate::measure::STANDARD_ERROR;
-use crate::optics::line;
+use crate::optics::{Material, line};
 use crate::picture::{Picture, Scoped, named, names};
 use crate::render::{Renderer, Unfit, Wanted};
 use crate::scene::{Glare, Lean, Medium, Projection, Side, Viewpoint};
@@ -242,12 +242,7 @@ impl LightOptions {
 
     /// Returns the stone's medium at the chosen wavelength. Warns outside the range in which the material was measured.
     fn medium(&self, specimen: &LoadedSpecimen) -> Result<Medium, Failure> {
-        let wavelength = self.wavelength();
-        if !(100.0..=100_000.0).contains(&wavelength) {
-            return Err(Failure::Usage(format!(
-                "a wavelength of {wavelength} nm is not light; give 100 to 100000 nm"
-            )));
-        }
+        let wavelength = checked_wavelength(self.wavelength())?;
         let material = &specimen.material;
         let index = match self.index {
             Some(index) => index,
@@ -264,12 +259,8 @@ impl LightOptions {
         if !(1.0..=5.0).contains(&index) {
             return Err(Failure::Usage(format!("an index of {index} is not from 1 (air) to 5")));
         }
-        if let (None, Some((first, last))) = (self.index, material.valid_nm)
-            && !material.is_valid_at(wavelength)
-        {
-            let name = &material.name;
-            let range = format!("{name} was measured from {first} to {last} nm");
-            specimen.say(&format!("{range}; its index at {wavelength} nm is extrapolated"));
+        if let Some(warning) = extrapolation(material, wavelength).filter(|_| self.index.is_none()) {
+            specimen.say(&warning);
         }
         let radius_mm = specimen.design.diameter_mm / 2.0;
         Ok(Medium { index, absorption: Medium::absorption_of(material, wavelength, radius_mm), spread: 0.0 })
@@ -289,6 +280,21 @@ impl LightOptions {
             part => Ok(part),
         }
     }
+}
+
+/// Returns a wavelength in nm, if it is that of light.
+pub fn checked_wavelength(nm: f64) -> Result<f64, Failure> {
+    match (100.0..=100_000.0).contains(&nm) {
+        true => Ok(nm),
+        false => Err(Failure::Usage(format!("a wavelength of {nm} nm is not light; give 100 to 100000 nm"))),
+    }
+}
+
+/// Returns a warning for a wavelength, in nm, outside the range in which a material was measured; `None` inside it.
+pub fn extrapolation(material: &Material, nm: f64) -> Option<String> {
+    let (first, last) = material.valid_nm.filter(|_| !material.is_valid_at(nm))?;
+    let range = format!("{} was measured from {first} to {last} nm", material.name);
+    Some(format!("{range}; its index at {nm} nm is extrapolated"))
 }
 
 /// Returns the half angle of an observer's head, in degrees.

@@ -2,7 +2,7 @@
 
 use super::console::{json, print, say};
 use super::mesh_options::MeshArguments;
-use super::options::number;
+use super::options::{checked_wavelength, extrapolation, number};
 use super::specimen::{LoadedSpecimen, asked_material, note_colour};
 use crate::cut::{Design, RetargetError, RetargetRule, Retargeted, ScaleError, retarget};
 use crate::io::Failure;
@@ -130,15 +130,14 @@ impl RetargetArguments {
 
     /// Measures the old design in its old and in the new material, and the new design.
     fn light(&self, old: &Specimen, new: &Specimen) -> Result<Vec<MeasuredStone>, Failure> {
-        let wavelength_nm = self.wavelength;
-        if !(100.0..=100_000.0).contains(&wavelength_nm) {
-            return Err(Failure::Usage(format!(
-                "--wavelength {wavelength_nm}: this is not light; give 100 to 100000 nm"
-            )));
-        }
+        let wavelength_nm = checked_wavelength(self.wavelength)?;
         let options = MeasureOptions { wavelength_nm, ..MeasureOptions::default() };
-        note_colour(&old.material);
-        note_colour(&new.material);
+        for material in [&old.material, &new.material] {
+            note_colour(material);
+            if let Some(warning) = extrapolation(material, wavelength_nm) {
+                say(&format!("warning: {warning}"));
+            }
+        }
         let same_angles = Design { material: new.design.material.clone(), ..old.design.clone() };
         let (of_old, of_new) = (&old.material.name, &new.material.name);
         let volume = |specimen: &Specimen| specimen.solid().volume() * specimen.unit_mm().powi(3);

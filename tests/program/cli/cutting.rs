@@ -104,7 +104,7 @@ fn what_retarget_cannot_do_is_refused_with_what_to_give() {
         ("tolkowsky --material ruby --rule tangent-ratio --factor 100", 2, "must be from 0.1 to 10"),
         ("tolkowsky --material ruby --rule critical-angle --out a.stl", 2, ".toml, .asc, .gem or .gcs"),
         ("tolkowsky --material rubby --rule critical-angle", 2, "did you mean 'ruby'"),
-        ("tolkowsky --material ruby --rule critical-angle --wavelength 5", 2, "this is not light"),
+        ("tolkowsky --material ruby --rule critical-angle --wavelength 5", 2, "is not light"),
         ("pill --material ruby --rule critical-angle", 1, "a glass shape is curved"),
         ("heart --material ruby --rule critical-angle", 1, "a heart is a mesh that is not convex"),
     ] {
