@@ -11,7 +11,8 @@ use std::borrow::Cow;
 /// The gears that are tried for a design without one, the commonest first.
 const GEARS: [i32; 9] = [96, 80, 72, 64, 120, 84, 88, 77, 100];
 
-/// The distance in girdle radii between the origin and an axis from which on a stone is moved to the axis.
+/// The least distance between the origin and an axis of symmetry at which a stone is moved to the axis, as a part of how far its
+/// corners reach from the origin.
 const BESIDE_AXIS: f64 = 1e-6;
 
 /// The plane of a facet and its corners, counter-clockwise seen from outside; no corners where it does not reach the stone.
@@ -116,6 +117,7 @@ fn around_the_origin(specimen: &Specimen, lost: &mut Vec<String>) -> Vec<(String
     let mut facets = specimen.design.facets().unwrap_or_default();
     let corners = facets_solid(&facets);
     let middle = corners.iter().sum::<DVec3>() / corners.len().max(1) as f64;
+    let reach = corners.iter().map(|corner| corner.length()).fold(0.0, f64::max);
     let beside = middle.with_z(0.0);
     let turns = |shift: DVec3| {
         let planes = facets.iter().map(|(_, plane)| moved_back(plane, shift));
@@ -123,7 +125,7 @@ fn around_the_origin(specimen: &Specimen, lost: &mut Vec<String>) -> Vec<(String
     };
     let (shift, why) = if facets.iter().any(|(_, plane)| plane.offset < 0.0) {
         (middle, "cutters measure from a point inside it")
-    } else if beside.length() > BESIDE_AXIS && turns(beside) > turns(DVec3::ZERO) {
+    } else if beside.length() > BESIDE_AXIS * reach && turns(beside) > turns(DVec3::ZERO) {
         (beside, "cutters measure from the axis about which it can be turned")
     } else {
         return facets;
