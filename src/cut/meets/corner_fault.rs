@@ -6,7 +6,7 @@ use super::fault::MeetFault;
 /// Why a tier cannot be cut to a corner, or led through several.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CornerFault {
-    /// A corner across the girdle.
+    /// The corner lies on the other side of the girdle than the tier.
     #[error(
         "the corner is on the {}, and a {} tier that is cut to it would take the girdle away",
         across(*.zone),
@@ -16,16 +16,16 @@ pub enum CornerFault {
         /// The zone of the tier.
         zone: TierZone,
     },
-    /// A corner farther out than any other, seen from the tier.
+    /// No corner lies farther out in the direction of the tier, so that the tier would cut nothing.
     #[error("the tier only touches the stone at this corner and cuts nothing there")]
     Touches,
-    /// A corner, or a plane through several, on the other side of the origin.
+    /// The corner, or the plane through several corners, lies on the other side of the origin than the tier's facets.
     #[error("no facet of the tier faces the stone from that side")]
     Behind,
-    /// Corners in one place or on one line.
+    /// The corners lie in one place or on one line.
     #[error("the corners lie on one line and give no angle; choose one beside the line")]
     OneLine,
-    /// An angle at which the tier would face the other way.
+    /// At the angle that the corners give, the tier would lie on the other side of the girdle.
     #[error(
         "the {} corners give an angle of {angle:.2}° on the {}, and a {} tier does not go there",
         if *.count == 2 { "two" } else { "three" },
@@ -37,24 +37,24 @@ pub enum CornerFault {
         angle: f64,
         /// The zone of the tier.
         zone: TierZone,
-        /// How many corners give it.
+        /// The number of corners that give the angle, 2 or 3.
         count: usize,
     },
-    /// A corner that no names of tiers mean.
+    /// No names of tiers describe the corner.
     #[error("no names of tiers lead this tier to {}", corner(*.number))]
     NoName {
-        /// The number of the corner among those that were picked, from 1.
+        /// The number of the corner among several that were picked, from 1; 0 where one alone was picked.
         number: usize,
     },
-    /// Names that mean other corners while the tier is cut.
+    /// The names that describe the corner in the finished stone describe another one at the time when the tier is cut.
     #[error(
         "when the tier is cut, the same names lead it to another corner; move it later, or cut it to another corner"
     )]
     CutAtOtherPlace,
-    /// A tier without facets.
+    /// The tier has no facets, so that nothing can be cut.
     #[error("the tier has no facets")]
     NoFacets,
-    /// Points of a meet that give the tier no setting.
+    /// The points of the meet give the tier no setting, for the reason that is held.
     #[error("{0}")]
     Meet(MeetFault),
 }

@@ -102,7 +102,7 @@ impl Tiers {
         let given: Vec<Meet> =
             meets.into_iter().filter(|meet| bench.gives(place, &tier, meet)).take(MOST_FOLLOWED).collect();
         let fault =
-            if given.is_empty() { CornerFault::NoName { number: 1 } } else { CornerFault::CutAtOtherPlace };
+            if given.is_empty() { CornerFault::NoName { number: 0 } } else { CornerFault::CutAtOtherPlace };
         given.into_iter().find(|meet| self.leads_to(place, &tier, meet)).ok_or(fault)
     }
 

@@ -160,7 +160,7 @@ pub struct DispatchTotals {
     pub pixel_bytes: u64,
 }
 
-/// A fault of a card.
+/// A reason why a graphics card could not finish its work.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Fault {
     /// The card's memory ran out; the text is the driver's message.

@@ -77,7 +77,7 @@ pub fn begin_preset(model: &mut Model, tasks: &mut Vec<Task>, name: &str) {
 pub enum Alone {
     /// The layout stays as it is.
     None,
-    /// A render is shown alone.
+    /// One view fills the window and shows a render, as long as the scene is open.
     Render,
 }
 

@@ -55,7 +55,7 @@ pub struct SharedExit {
 
 /// Receives the beams of a piece of work, in the order of the tree.
 pub trait SharedBeams: Send {
-    /// Receives a beam.
+    /// Receives a part of a beam that lands on one facet.
     fn take(&mut self, beam: &SharedBeam);
 
     /// Receives the end of a beam that is not followed further.
@@ -80,7 +80,7 @@ pub struct BeamEnd {
     /// The greatest light of one wavelength that goes on, as share times area, with absorption.
     pub energy: f64,
     pub(in crate::trace) coherency: Coherency,
-    /// The axis s of `coherency`.
+    /// The axis s of `coherency`: a unit vector perpendicular to the ray.
     pub(in crate::trace) s: DVec3,
     pub(super) light: SlantedLight,
     pub(super) depth: Affine,
