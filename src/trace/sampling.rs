@@ -66,7 +66,7 @@ pub struct Sampling {
     /// metal, and follow all other light.
     pub by_chance: f64,
     /// True where each ray represents a stretch of its pixel ([`stretch_of_pixel`])
-    /// and, where bands are divided into shares, up to 2.5 of the shares, so that a picture of few rays
+    /// and, where bands are divided into shares, up to 5 of the shares, so that a picture of few rays
     /// has fewer gaps. Otherwise it represents one point and one share.
     pub stretches: bool,
 }
@@ -126,13 +126,13 @@ pub trait ProgressiveImage<E: From<Stopped>> {
     fn each_pixel(&self, each: &mut dyn FnMut(&RadiancePixel)) -> Result<(), E>;
 }
 
-/// The greatest number of shares of a band of wavelengths that a ray represents. With more, a few bands would blur
-/// the rainbow of a glass with unnaturally strong dispersion by a percent.
-const WIDEST_BAND: f64 = 2.5;
+/// The greatest number of shares of a band of wavelengths that a ray represents. Many samples need no wider bands to have
+/// little noise.
+const WIDEST_BAND: f64 = 5.0;
 
 /// The number of shares that a ray represents, as a part of the square root of the number of shares in all bands. The noise
-/// of a rainbow and its blur are then about equal.
-const BAND_BY_ROOT: f64 = 0.25;
+/// of a rainbow and its blur are then about equal (docs/performance.md, noise of few samples).
+const BAND_BY_ROOT: f64 = 0.35;
 
 impl Sampling {
     /// Returns a sampling of `count` passes at full strength, in which all light is followed and rays represent
