@@ -8,6 +8,7 @@
 
 mod camera;
 mod dispersed_ray;
+mod exit_planes;
 mod facets;
 mod first_bodies;
 mod frosted_facets;

@@ -1,7 +1,9 @@
 //! Tests of the views that show a background behind glass: refraction maps, and liquid glass.
 
 use super::*;
+use crate::app::liquid::Liquid;
 use crate::picture::RefractionMap;
+use crate::picture::liquid_glass::PaneQuality;
 
 impl Bench {
     /// Chooses what a view shows from its menu, by name.
@@ -151,6 +153,38 @@ fn liquid_glass_is_drawn_and_traced_as_strong_as_it_is_set() {
     bench.type_number("Crown angle", "33");
     bench.look();
     assert!(both(&bench) == first);
+}
+
+#[test]
+fn each_row_of_liquid_glass_changes_its_picture() {
+    let mut bench = Bench::new();
+    bench.show(0, Shows::LiquidGlass);
+    let liquid = |bench: &Bench| bench.editor().model.workspace.liquid;
+    let numbers = |bench: &Bench| {
+        let Liquid { size, corners, refraction, depth, dispersion, frost, light, .. } = liquid(bench);
+        [size.x, size.y, corners, refraction, depth, dispersion, frost, light]
+    };
+    let names = [
+        "Pane width",
+        "Pane height",
+        "Corners",
+        "Refraction",
+        "Pane depth",
+        "Dispersion",
+        "Frost",
+        "Pane light",
+    ];
+    for (row, name) in names.into_iter().enumerate() {
+        let before = bench.picture(0);
+        bench.type_number(name, "44");
+        bench.look();
+        assert_eq!(numbers(&bench)[row], 44.0, "{name}");
+        assert!(bench.picture(0) != before, "{name} changes nothing");
+    }
+    let before = bench.picture(0);
+    super::light_and_glass::pick(&mut bench, "Quality", "low");
+    bench.look();
+    assert!(liquid(&bench).quality == PaneQuality::Low && bench.picture(0) != before);
 }
 
 #[test]

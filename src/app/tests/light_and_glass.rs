@@ -45,6 +45,13 @@ fn rows_of_light_change_what_renders_are_ordered_to_show() {
     assert_ne!(shot(&bench).view.projection, near);
     pick(&mut bench, "Light axis", "up");
     assert!(shot(&bench).light_upright);
+    bench.type_number("Exposure", "1.5");
+    bench.type_number("Strength", "0.5");
+    assert_eq!((shot(&bench).exposure, shot(&bench).strength), (1.5, 0.5));
+    pick(&mut bench, "Wavelengths", "32");
+    assert_eq!((workspace(&bench).wavelengths, shot(&bench).bands), (32, 32));
+    pick(&mut bench, "Background", "city");
+    assert_eq!(shot(&bench).behind.as_ref().map(ToString::to_string), Some("city".to_owned()));
     pick(&mut bench, "Smoothing", "temporal");
     bench.type_number("Newest part", "0.25");
     assert_eq!(shot(&bench).smoothing, Smoothing::Temporal { newest: 0.25 });
@@ -89,7 +96,30 @@ fn rows_of_the_material_make_one_of_the_users_own() {
 }
 
 #[test]
-fn another_light_is_drawn_at_random_and_undone_and_each_light_of_the_list_has_a_picture() {
+fn a_gem_has_the_same_rows_under_a_heading() {
+    let mut bench = bench("tolkowsky");
+    assert!(bench.harness.query_by_role_and_label(Role::SpinButton, "Index").is_none(), "folded at first");
+    let before = bench.editor().model.document.work.design.material.clone();
+    bench.harness.get_by_label("Index and colour").scroll_to_me();
+    bench.harness.run_steps(super::SCROLLED);
+    bench.click("Index and colour");
+    bench.harness.run_steps(super::SCROLLED);
+    bench.type_number("Index", "1.9");
+    bench.type_number("Abbe number", "40");
+    let MaterialRef::Custom(own) = bench.editor().model.document.work.design.material.clone() else {
+        panic!("it is no material of one's own")
+    };
+    assert!((own.index(line::HELIUM_D) - 1.9).abs() < 1e-4);
+    assert!((own.dispersion.abbe_number().unwrap() - 40.0).abs() < 0.05);
+    for _ in 0..2 {
+        bench.harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+        bench.harness.run_steps(3);
+    }
+    assert!(bench.editor().model.document.work.design.material == before, "undone");
+}
+
+#[test]
+fn another_light_is_drawn_at_random_and_undone() {
     let mut bench = bench("subtle-pill");
     let before = bench.editor().model.document.work.light.clone();
     let mut seen = vec![before.clone()];

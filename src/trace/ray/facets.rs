@@ -4,6 +4,7 @@
 //! outside, a ray meets only facets that it runs into; from inside, only facets that it runs out of. So it never
 //! meets the facet again from which it starts.
 
+use super::exit_planes::ExitPlanes;
 use super::search::Search;
 use crate::math::{FromSide, ImplicitSurface, Plane, Polytope, SolidRef, TriangleMesh};
 use crate::trace::facet_guess::FacetGuess;
@@ -73,6 +74,8 @@ pub(super) struct TriangleFacets {
     /// The distance from which on a ray may meet a triangle. It is negative, because rounding may put a triangle a
     /// little behind the ray's start.
     behind: f64,
+    /// The planes by which light leaves, where the solid has few facets.
+    exits: Option<Arc<ExitPlanes>>,
 }
 
 /// The farthest that rounding may put the start of a ray beyond the triangle that it is about to meet, as a part of
@@ -166,23 +169,28 @@ impl FacetSearch for Planes {
 
 impl TriangleFacets {
     pub fn new(mesh: &Arc<TriangleMesh>) -> Self {
-        Self { mesh: Arc::clone(mesh), behind: -BEHIND * SolidRef::from(mesh).reach() }
+        let slack = BEHIND * SolidRef::from(mesh).reach();
+        let exits = ExitPlanes::new(mesh, slack).map(Arc::new);
+        Self { mesh: Arc::clone(mesh), behind: -slack, exits }
     }
 
-    /// Returns the facet and the distance of the first triangle that a ray meets from one side of the surface.
-    fn first(&self, side: FromSide, origin: DVec3, direction: DVec3) -> Option<(usize, f64)> {
-        let hit = self.mesh.bvh().nearest_from(side, origin, direction, self.behind)?;
-        Some((self.mesh.facets()[hit.triangle as usize] as usize, hit.distance.max(0.0)))
-    }
-}
-
-impl TriangleFacets {
     /// Returns whether the solid hides a point of its surface from an eye in this direction.
     pub fn hides(&self, (origin, direction): (DVec3, DVec3)) -> bool {
         // The ray starts at a distance from the facets that meet in the point.
         let away = -self.behind / BEHIND * CLOSE;
         self.entry(origin + direction * away, direction).is_some()
     }
+}
+
+/// Returns the facet and the distance of the first triangle that a ray meets from one side of the surface, beyond `behind`.
+fn first(
+    mesh: &TriangleMesh,
+    side: FromSide,
+    (origin, direction): (DVec3, DVec3),
+    behind: f64,
+) -> Option<(usize, f64)> {
+    let hit = mesh.bvh().nearest_from(side, origin, direction, behind)?;
+    Some((mesh.facets()[hit.triangle as usize] as usize, hit.distance.max(0.0)))
 }
 
 impl Wavy {
@@ -203,7 +211,7 @@ impl FacetSearch for TriangleFacets {
     }
 
     fn entry(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)> {
-        self.first(FromSide::Outside, origin, direction)
+        first(&self.mesh, FromSide::Outside, (origin, direction), self.behind)
     }
 
     fn again(&self, facet: usize, point: DVec3, direction: DVec3) -> Option<(usize, f64)> {
@@ -211,7 +219,10 @@ impl FacetSearch for TriangleFacets {
     }
 
     fn next(&self, point: DVec3, direction: DVec3) -> Option<(usize, f64)> {
-        self.first(FromSide::Inside, point, direction)
+        match &self.exits {
+            Some(exits) => exits.next((point, direction), self.behind),
+            None => first(&self.mesh, FromSide::Inside, (point, direction), self.behind),
+        }
     }
 }
 
