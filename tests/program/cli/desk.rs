@@ -57,7 +57,8 @@ impl Desk {
         let is_software = |l: &str| {
             line.contains("--tracer gpu") && l.contains("is no graphics card: it computes in software")
         };
-        let is_quiet = stderr.lines().all(|l| l.starts_with("note: the colour of ") || is_software(l));
+        let is_usual = |l: &str| l.starts_with("note: the colour of ") || l.starts_with("note: the folder ");
+        let is_quiet = stderr.lines().all(|l| is_usual(l) || is_software(l));
         assert!(code == 0 && is_quiet, "{line}: code {code}: {stderr}");
         printed
     }

@@ -367,6 +367,32 @@ fn a_gradient_is_the_slope_of_the_measures_beside_the_design() {
 }
 
 #[test]
+fn a_gradient_lists_both_slopes_where_the_planes_have_a_kink() {
+    let desk = Desk::new();
+    let line =
+        "gradient princess --of return-cos2 --of leakage --by length_to_width --by table --unresolved 0.02";
+    let found = desk.json(&format!("{line} --json"));
+    for name in ["return-cos2", "leakage"] {
+        let per = &found["measures"][name]["per"];
+        let [below, above] = ["below", "above"].map(|side| at(&per["length_to_width"], side));
+        // Both sides are the same stones, turned by a quarter: 1 + e and 1 / (1 + e).
+        near(below, -above, 1e-4 * above.abs(), name);
+        assert!(above.abs() > 1e-3, "{name}: {per}");
+        assert!(per["table"].is_number(), "{per}");
+    }
+    let listed = desk.done(line);
+    for said in ["below this value", "above this value", "length_to_width has a kink at this value"] {
+        assert!(listed.contains(said), "{said}: {listed}");
+    }
+    // At another length the planes are smooth.
+    let text = desk.done("cuts princess");
+    assert!(text.contains("length_to_width = 1.0"));
+    desk.write("long.toml", text.replace("length_to_width = 1.0", "length_to_width = 1.1"));
+    let listed = desk.done("gradient long.toml --of leakage --by length_to_width --unresolved 0.02");
+    assert!(!listed.contains("kink"), "{listed}");
+}
+
+#[test]
 fn a_table_in_parquet_holds_the_rows_of_one_in_csv() {
     use parquet::file::reader::{FileReader, SerializedFileReader};
     use parquet::record::Field;
