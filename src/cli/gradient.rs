@@ -139,15 +139,15 @@ fn table(sweep: &Sweep, keys: &[SweepKey], found: &GradedStone) -> String {
         kinks.push(key.to_string());
         for (side, what) in ["below", "above"].into_iter().enumerate() {
             let of = |each: &MeasureGradient| each.sides[k].map_or(each.per[k], |sides| sides[side]);
-            slopes(format!("{name} {what} this value"), &of);
+            slopes(format!("{name}, {what}"), &of);
         }
     }
     if !kinks.is_empty() {
         let (keys, has) = (kinks.join(", "), if kinks.len() == 1 { "has" } else { "have" });
         let _ = write!(
             text,
-            "\n{keys} {has} a kink at this value: the stone's planes change in another way below it than above it, so that there \
-             are two slopes.\n"
+            "\n{keys} {has} a kink at this value: the stone's planes change in another way below it than above it, so that \
+             each side has a slope of its own.\n"
         );
     }
     text + "\nSlopes of the light that was followed, at this very design. They can change within hundredths of a degree, and a measure jumps\n\

@@ -381,7 +381,9 @@ fn a_gradient_lists_both_slopes_where_the_planes_have_a_kink() {
         assert!(per["table"].is_number(), "{per}");
     }
     let listed = desk.done(line);
-    for said in ["below this value", "above this value", "length_to_width has a kink at this value"] {
+    for said in
+        ["length_to_width, below ", "length_to_width, above ", "length_to_width has a kink at this value"]
+    {
         assert!(listed.contains(said), "{said}: {listed}");
     }
     // At another length the planes are smooth.
