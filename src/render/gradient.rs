@@ -25,6 +25,9 @@ const RATIO_STEP: f64 = 1e-4;
 /// the greatest. Rounding and the step make less than a hundredth of it.
 const KINK: f64 = 1e-5;
 
+/// Derivatives of planes that differ by no more than this, per unit of a number, differ by rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// The derivatives of one measure by some numbers of a design.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasureGradient {
@@ -81,8 +84,9 @@ impl Sweep {
     ///
     /// The derivatives of the light are exact ([`MeasureName::derivatives`]), and so are those of the planes by the
     /// scale of a side. The derivatives of the planes by other numbers are central differences of fourth order. Where the
-    /// planes have a kink, as at a length to width of 1, below which another side is the width, there is a derivative for
-    /// each side of the value as well. Kinks of the light itself are not looked for.
+    /// planes have a kink, as those of an Asscher at a length to width of 1, where its keel turns, there is a derivative for each
+    /// side of the value as well; a kink nearer than twice the step of the differences counts as one at the value. Kinks of the
+    /// light itself are not looked for.
     ///
     /// # Errors
     /// Fails with a [`SweepError`] for a number that the design does not have, a measure without derivatives, or a stone
@@ -247,7 +251,7 @@ impl KeyChanges {
         let apart = |PlaneSlopes { sides: [below, above], .. }: &PlaneSlopes| {
             size((above.0 - below.0, above.1 - below.1))
         };
-        let is_kink = changes.iter().any(|each| apart(each) > KINK * greatest);
+        let is_kink = changes.iter().any(|each| apart(each) > (KINK * greatest).max(ROUNDING));
         let side = |place: usize| changes.iter().map(|each| each.sides[place]).collect();
         Self {
             middle: changes.iter().map(|each| each.middle).collect(),

@@ -19,7 +19,8 @@ tables in `src/cut/families`, and a test keeps it current. [Formats](formats.md#
 and `[round_brilliant]`.
 
 W is the [diameter](formats.md#diameter-length-and-width): of a round outline, that of the circle through its corners; of any
-other, the shorter extent of the outline along x and y. Lengths are in percent of W unless the unit is named, and angles are
+other, the shorter extent of the outline along x and y. (With a `length_to_width` below 1, which lies outside of the usual ranges
+of all families but the heart, it stays the extent along x; of a heart it is always the shorter one.) Lengths are in percent of W unless the unit is named, and angles are
 in degrees from the girdle plane. \"Usual\" is the range of the
 editor's slider, with its source: \"published\" means that a page or a cutter's design gives it, \"ours\" that no source does.
 \"Possible\" is the range that the program accepts, as long as the facets have room.
@@ -27,7 +28,7 @@ editor's slider, with its source: \"published\" means that a page or a cutter's 
 The key `length_to_width` is the extent of the outline along y, which is up in pictures, divided by that along x. Below 1, as the
 trade has it of hearts, the stone is wider than long. (Of a briolette it is the length of the drop along its axis.) What is
 measured of a stone is L/W, the longer extent divided by the shorter, so never below 1: in the table below, and the same in
-`info`, in reports, on cutters' sheets and in limits of `optimise`.
+`info`, in reports and on cutters' sheets.
 
 All keys are required, except those that have a default and `total_depth`. The total depth follows from the other numbers, but
 it can be set: the numbers that it moves then change by one factor (angles by that of their tangents, the tangent ratio) until
