@@ -26,7 +26,7 @@ pub fn estimated(specimen: &LoadedSpecimen) -> Result<ClassEstimate, Failure> {
         );
         return Err(Failure::Usage(format!("{}: {why}", specimen.path)));
     }
-    let stone = specimen.convex_stone("classes are estimated of round brilliants")?;
+    let stone = specimen.convex_stone("classes are estimated of round brilliants, which are convex")?;
     let proportions =
         brilliant_proportions(stone).map_err(|why| Failure::Input(format!("{}: {why}", specimen.path)))?;
     Ok(ClassEstimate::after_gia(&proportions))

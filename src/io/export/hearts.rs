@@ -28,7 +28,8 @@ pub struct HeartsReport<'a> {
 pub fn hearts<'a>(viewing: &Viewing<'a>, watch: Watch) -> Result<HeartsReport<'a>, Failure> {
     let refused = |why: &dyn std::fmt::Display| Failure::Input(format!("{}: {why}", viewing.file));
     let not_convex = viewing.specimen.why_not_convex().unwrap_or_default();
-    let not_convex = format!("hearts and arrows are measured of round brilliants, and {not_convex}");
+    let not_convex =
+        format!("hearts and arrows are measured of round brilliants, which are convex, and {not_convex}");
     let stone = viewing.specimen.stone().map_err(|_| refused(&not_convex))?;
     let deviations = facet_deviations(stone).map_err(|why| refused(&why))?;
     let beams = viewing.beams(UNRESOLVED);
