@@ -224,7 +224,7 @@ fn ordinary_rays() -> Vec<Material> {
     vec![
         Material::clear(
             "sapphire",
-            "Uniaxial; ordinary ray only, without double refraction; colourless.",
+            "Uniaxial corundum; ordinary ray only, without double refraction; colourless.",
             sellmeier(&[(1.4313493, 0.0726631), (0.65054713, 0.1193242), (5.3414021, 18.028251)]),
             "I. H. Malitson and M. J. Dodge, J. Opt. Soc. Am. 62, 1405 (1972); \
              fit by M. J. Dodge, Handbook of Laser Science and Technology IV (1986)",
