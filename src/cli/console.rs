@@ -26,6 +26,11 @@ pub fn written(path: &Path) -> Result<(), Failure> {
     if is_standard(path) { Ok(()) } else { print(&path.display().to_string()) }
 }
 
+/// Prints a note that a folder was missing and has been made.
+pub fn made_folder(folder: &Path) {
+    say(&format!("note: the folder {} was missing and has been made", folder.display()));
+}
+
 /// Prints text and a line break to standard output. A reader that has closed the pipe (`| head`) is not an error.
 pub fn print(text: &str) -> Result<(), Failure> {
     use std::io::{ErrorKind, Write};

@@ -55,9 +55,10 @@ impl Convert {
 fn followed(specimen: LoadedSpecimen) -> Result<LoadedSpecimen, Failure> {
     let LoadedSpecimen { path, made } = specimen;
     let Some(meets) = KnownMeets::of(&made) else {
-        let problem = "--meets follows the meets of tiers, which cut convex stones between planes, and this body is none; leave the \
-                       option out";
-        return Err(Failure::Input(format!("{path}: {problem}")));
+        let why = made.why_not_convex().unwrap_or_default();
+        return Err(Failure::Input(format!(
+            "{path}: --meets follows the meets of tiers, which cut convex stones between planes, and {why}; leave the option out"
+        )));
     };
     meets.say_turned(&path);
     let cut = Cut::Tiers(meets.followed(&path));

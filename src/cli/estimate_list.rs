@@ -15,21 +15,20 @@ const NOTE: &str = "An estimate after the ranges that GIA publishes for single p
 /// Estimates the class of a stone.
 ///
 /// # Errors
-/// Fails with [`Failure::Usage`] where the stone is no round brilliant of diamond.
+/// Fails with [`Failure::Usage`] where the material is not diamond, [`Failure::Input`] where the stone is no round
+/// brilliant.
 pub fn estimated(specimen: &LoadedSpecimen) -> Result<ClassEstimate, Failure> {
-    let refused = |why: &dyn std::fmt::Display| Failure::Usage(format!("{}: {why}", specimen.path));
     let material = &specimen.material.name;
     if !material.eq_ignore_ascii_case("diamond") {
         let why = format!(
             "GIA's ranges are for colourless diamond, so nothing is estimated of {material}; --material diamond estimates the \
              class of the same cut in diamond"
         );
-        return Err(refused(&why));
+        return Err(Failure::Usage(format!("{}: {why}", specimen.path)));
     }
-    let not_convex =
-        "classes are estimated of round brilliants, which are convex stones between planes; this is none";
-    let stone = specimen.stone().map_err(|_| refused(&not_convex))?;
-    let proportions = brilliant_proportions(stone).map_err(|why| refused(&why))?;
+    let stone = specimen.convex_stone("classes are estimated of round brilliants, which are convex")?;
+    let proportions =
+        brilliant_proportions(stone).map_err(|why| Failure::Input(format!("{}: {why}", specimen.path)))?;
     Ok(ClassEstimate::after_gia(&proportions))
 }
 

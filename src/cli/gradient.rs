@@ -54,6 +54,7 @@ impl GradientArguments {
         };
         let found = found.map_err(|error| match error {
             SweepError::Render(RenderError::Stopped(_)) => Failure::Stopped,
+            error if error.is_of_design() => Failure::Input(format!("{file}: {error}")),
             error => Failure::Usage(format!("{file}: {error}")),
         })?;
         if self.json {
@@ -87,8 +88,11 @@ fn all_keys(cut: &Cut) -> Vec<SweepKey> {
 fn value(file: &str, keys: &[SweepKey], found: &GradedStone) -> Value {
     let of = |each: &MeasureGradient| {
         let interval = each.name.of(&found.stone.measures);
-        let per: Map<String, Value> =
-            keys.iter().zip(&each.per).map(|(key, per)| (key.to_string(), (*per).into())).collect();
+        let slope = |place: usize| match each.sides[place] {
+            Some([below, above]) => serde_json::json!({ "below": below, "above": above }),
+            None => each.per[place].into(),
+        };
+        let per: Map<String, Value> = (0..).zip(keys).map(|(k, key)| (key.to_string(), slope(k))).collect();
         (each.name.to_string(), serde_json::json!({ "value": interval, "per": per }))
     };
     let measures: Map<String, Value> = found.gradients.iter().map(of).collect();
@@ -116,6 +120,7 @@ fn table(sweep: &Sweep, keys: &[SweepKey], found: &GradedStone) -> String {
     };
     row("value".to_owned(), shown(|value| value.middle()));
     row("±".to_owned(), shown(|value| value.error()));
+    let mut kinks = vec![];
     for (k, key) in keys.iter().enumerate() {
         let unit = match key {
             SweepKey::Proportion(name) => sweep.design.cut.proportion(name).map_or("", |row| row.unit.name()),
@@ -124,7 +129,26 @@ fn table(sweep: &Sweep, keys: &[SweepKey], found: &GradedStone) -> String {
             _ => "",
         };
         let name = if unit.is_empty() { key.to_string() } else { format!("{key}, {unit}") };
-        row(name, found.iter().map(|each| format!("{:+.4}", 100.0 * each.per[k])).collect());
+        let mut slopes = |name: String, of: &dyn Fn(&MeasureGradient) -> f64| {
+            row(name, found.iter().map(|each| format!("{:+.4}", 100.0 * of(each))).collect());
+        };
+        if found.iter().all(|each| each.sides[k].is_none()) {
+            slopes(name, &|each| each.per[k]);
+            continue;
+        }
+        kinks.push(key.to_string());
+        for (side, what) in ["below", "above"].into_iter().enumerate() {
+            let of = |each: &MeasureGradient| each.sides[k].map_or(each.per[k], |sides| sides[side]);
+            slopes(format!("{name}, {what}"), &of);
+        }
+    }
+    if !kinks.is_empty() {
+        let (keys, has) = (kinks.join(", "), if kinks.len() == 1 { "has" } else { "have" });
+        let _ = write!(
+            text,
+            "\n{keys} {has} a kink at this value: the stone's planes change in another way below it than above it, so that \
+             each side has a slope of its own.\n"
+        );
     }
     text + "\nSlopes of the light that was followed, at this very design. They can change within hundredths of a degree, and a measure jumps\n\
             where light crosses a border: look at the values beside the design with `sweep` before you follow a slope."

@@ -5,7 +5,7 @@ use super::batch::each_file;
 use super::console::{json, print, say};
 use super::meets::KnownMeets;
 use super::mesh_options::MeshArguments;
-use super::specimen::{LoadedSpecimen, load_assembly};
+use super::specimen::{LoadedSpecimen, load_assembly, weight};
 use crate::cut::{
     AlongAxes, Audit, Cut, MaterialRef, MeshHeights, ProportionReport, Spread, Unit, tier_stem,
 };
@@ -74,16 +74,17 @@ impl Info {
             let mut value = described(&specimen)?;
             let meets = self.meets.then(|| KnownMeets::of(&specimen)).flatten();
             if self.meets && meets.is_none() {
+                let why = specimen.why_not_convex().unwrap_or_default();
                 specimen
-                    .say("tiers cut convex stones between planes, and this body is none, so it has no meets");
+                    .say(&format!("tiers cut convex stones between planes, and {why}, so it has no meets"));
             }
             meets.iter().for_each(|meets| meets.say_turned(&specimen.path));
             if let Some(meets) = &meets {
                 value["meets"] = meets.json();
             }
             let audit = self.audited(&specimen);
-            if let Some(audit) = &audit {
-                value["audit"] = audit_json(audit);
+            if self.audit {
+                value["audit"] = audit.as_ref().map_or(Value::Null, audit_json);
             }
             let listed = [meets.as_ref().map(KnownMeets::table), audit.as_ref().map(audit_list)];
             self.print_as(&value, || self.text(&specimen, &value, listed.into_iter().flatten().collect()))
@@ -93,8 +94,12 @@ impl Info {
     /// Audits the stone if the option is set; a solid that is no convex stone between planes gets a note instead.
     fn audited(&self, specimen: &LoadedSpecimen) -> Option<Audit> {
         let audit = self.audit.then(|| specimen.audit())?;
-        if audit.is_err() {
-            say(&format!("note: {}: only a convex stone between planes can be audited", specimen.path));
+        if let Some(why) = specimen.why_not_convex() {
+            say(&format!(
+                "note: {}: only a convex stone between planes can be audited, and {why}; meets, slivers, critical angles, the girdle \
+                 and the symmetry have not been looked at",
+                specimen.path
+            ));
         }
         audit.ok()
     }
@@ -146,12 +151,13 @@ fn scene_table(assembly: &Assembly) -> String {
     if let Some(light) = &assembly.light {
         let _ = writeln!(text, "  {:<28}{}", "light", light.display());
     }
-    let _ = writeln!(text, "  {:<28}{}", "weight", weight(assembly.carats()));
+    let _ = writeln!(text, "  {:<28}{}", "weight", weight_of_all(assembly));
     assembly.ring.iter().for_each(|ring| ring_rows(ring, &mut text));
     let _ = write!(text, "\n  {:<20}{:<20}{:>8}{:>12}", "cut", "material", "mm", "weight");
     let _ = write!(text, "{:>9}{:>9}{:>9}", "x mm", "y mm", "z mm");
     for (stone, place) in assembly.scene.instances.iter().zip(&assembly.places) {
-        let weight = weight(stone.carats(assembly.scene.unit_mm));
+        let weight = stone.carats(assembly.scene.unit_mm);
+        let weight = weight.map_or("not known".to_owned(), |carats| format!("{carats:.3} ct"));
         let (cut, material, diameter) = (&stone.label, &stone.material.name, place.diameter_mm);
         let _ = write!(text, "\n  {cut:<20}{material:<20}{diameter:>8.3}{weight:>12}");
         // The height is rounded first, so that a tiny negative number does not print as -0.000.
@@ -209,9 +215,11 @@ fn heading(path: &str, name: &str) -> String {
     }
 }
 
-/// Formats a weight, or says that it is not known.
-fn weight(carats: Option<f64>) -> String {
-    carats.map_or("not known".into(), |carats| format!("{carats:.3} ct"))
+/// Formats the weight of all stones; without it, names the first material whose density is not known.
+fn weight_of_all(assembly: &Assembly) -> String {
+    let mut materials = assembly.scene.instances.iter().map(|stone| &stone.material);
+    let unknown = materials.find(|material| material.density.is_none());
+    weight(assembly.carats(), unknown.map_or("a stone", |material| &material.name))
 }
 
 fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
@@ -325,7 +333,7 @@ fn table(specimen: &LoadedSpecimen, value: &Value) -> String {
         },
     );
     line("diameter", format!("{} mm", rounded(specimen.design.diameter_mm, 4)));
-    line("weight", weight(specimen.carats()));
+    line("weight", weight(specimen.carats(), &specimen.material.name));
     proportions_of_cut(&specimen.design.cut, value, &mut line);
     let Ok(stone) = specimen.stone() else {
         let why = size_of_solid(specimen, value, &mut line);
@@ -418,7 +426,8 @@ fn proportions(
         true => line(&format!("{key}, measured"), what),
         false => line(key, what),
     };
-    line("length to width", format!("{:.4}", report.length_to_width));
+    // Its name differs from that of the design's own number, which may be below 1, or along the axis.
+    line("outline length to width", format!("{:.4}", report.length_to_width));
     let [width, length] = report.table;
     let table = match report.table_corners > 0.0 {
         true => format!("{width:.2} by {length:.2} %, {:.2} % from corner to corner", report.table_corners),

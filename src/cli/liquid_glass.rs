@@ -48,22 +48,22 @@ pub struct LiquidGlass {
     #[arg(long, value_name = "WxH+X+Y", value_parser = geometry)]
     pane: Option<Geometry>,
     /// Radius of the pane's corners in pixels [default: 0.3 of its shorter side]
-    #[arg(long, allow_negative_numbers = true, value_name = "PIXELS", value_parser = number)]
+    #[arg(long, value_name = "PIXELS", value_parser = number)]
     radius: Option<f64>,
     /// Strength of the refraction, 0 to 100
-    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 100.0, value_parser = number)]
+    #[arg(long, value_name = "STRENGTH", default_value_t = 100.0, value_parser = number)]
     refraction: f64,
     /// Strength of the depth, 0 to 100
-    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 100.0, value_parser = number)]
+    #[arg(long, value_name = "STRENGTH", default_value_t = 100.0, value_parser = number)]
     depth: f64,
     /// Strength of the dispersion, 0 to 100
-    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 100.0, value_parser = number)]
+    #[arg(long, value_name = "STRENGTH", default_value_t = 100.0, value_parser = number)]
     dispersion: f64,
     /// Strength of the frost, 0 to 100
-    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 0.0, value_parser = number)]
+    #[arg(long, value_name = "STRENGTH", default_value_t = 0.0, value_parser = number)]
     frost: f64,
     /// Strength of the light, 0 to 100
-    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 30.0, value_parser = number)]
+    #[arg(long, value_name = "STRENGTH", default_value_t = 30.0, value_parser = number)]
     light: f64,
     /// The direction of the light, degrees: its azimuth counter-clockwise from the right, 90 above, and its height
     /// over the pane, 0 to 90
@@ -88,16 +88,10 @@ pub struct LiquidGlass {
     #[arg(long)]
     compare: bool,
     /// The height of the traced pane above the background, in parts of the pane's shorter side
-    #[arg(
-        long,
-        allow_negative_numbers = true,
-        value_name = "DISTANCE",
-        default_value_t = 0.02,
-        requires = "compare"
-    )]
+    #[arg(long, value_name = "DISTANCE", default_value_t = 0.02, requires = "compare")]
     gap: f64,
     /// Samples of each pixel in the comparison, 1 to 1024
-    #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1024))]
     samples: u32,
 }
 

@@ -156,9 +156,8 @@ impl Measure {
 impl Measure {
     /// Prints the deviations of a stone's facets as a table or as JSON.
     fn list_deviations(&self, specimen: &LoadedSpecimen) -> Result<(), Failure> {
-        let refused = |why: &dyn std::fmt::Display| Failure::Usage(format!("{}: {why}", specimen.path));
-        let not_convex = "deviations are measured of round brilliants, which are convex stones between planes; this is none";
-        let stone = specimen.stone().map_err(|_| refused(&not_convex))?;
+        let refused = |why: &dyn std::fmt::Display| Failure::Input(format!("{}: {why}", specimen.path));
+        let stone = specimen.convex_stone("deviations are measured of round brilliants, which are convex")?;
         let classes = facet_deviations(stone).map_err(|why| refused(&why))?;
         if !self.json {
             return print(&table_of_deviations(&specimen.path, &classes));
@@ -184,8 +183,7 @@ impl Measure {
 
     /// Prints a stone's spread as a table or as JSON.
     fn list_spread(&self, specimen: &LoadedSpecimen) -> Result<(), Failure> {
-        let refused = "spread is measured of convex stones between planes; this is none";
-        let stone = specimen.stone().map_err(|_| Failure::Usage(format!("{}: {refused}", specimen.path)))?;
+        let stone = specimen.convex_stone("spread is measured of convex stones between planes")?;
         let size = FaceUpSize::of(&stone.polytope, specimen.unit_mm(), specimen.carats());
         if !self.json {
             return print(&table_of_spread(&specimen.path, &size));

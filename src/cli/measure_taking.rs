@@ -20,7 +20,7 @@ pub struct MeasureTaking {
     #[arg(long, value_name = "MATERIAL")]
     material: Option<String>,
     /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
-    #[arg(long, value_name = "SIZE")]
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
     stone: Option<Size>,
     /// The half angle of the head that hides light in obstruction, extinction and contrast
     #[arg(long, value_name = "DEGREES", default_value_t = MEASURES_HEAD_DEG, value_parser = number)]

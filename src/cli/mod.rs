@@ -50,9 +50,9 @@ mod without_window;
 
 use crate::io::built_design::hint;
 use crate::io::mesh_options::MeshOptions;
-use crate::io::{Failure, is_standard};
+use crate::io::{Failure, is_standard, report_made_folders};
 use clap::error::ErrorKind;
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::say;
 use mesh_options::MeshArguments;
 use std::ffi::OsString;
@@ -156,13 +156,27 @@ enum Command {
     Man(shell::Manual),
 }
 
+/// Parses a command line.
+///
+/// The value of every option may be a negative number, so that the option itself refuses one that it cannot take, and the
+/// message names the option and its range.
+fn parsed(words: &[OsString]) -> Result<Arguments, clap::Error> {
+    let may_be_negative = |arg: clap::Arg| match arg.get_action().takes_values() && !arg.is_positional() {
+        true => arg.allow_negative_numbers(true),
+        false => arg,
+    };
+    let mut line = Arguments::command().mut_subcommands(|command| command.mut_args(may_be_negative));
+    let matches = line.try_get_matches_from_mut(words)?;
+    Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut line))
+}
+
 /// Runs the program with the arguments of the process and returns its exit code.
 ///
 /// `editor` opens the editor; it is `None` in a program built without one.
 pub fn main(editor: Option<EditorOpener>) -> ExitCode {
     let typed: Vec<OsString> = std::env::args_os().collect();
     let given = spelt_out(typed.clone());
-    let arguments = match Arguments::try_parse_from(&given) {
+    let arguments = match parsed(&given) {
         Ok(arguments) => arguments,
         Err(error) => {
             // A failure to print help or an error is ignored; clap's own `exit` would panic over it.
@@ -184,6 +198,7 @@ pub fn main(editor: Option<EditorOpener>) -> ExitCode {
     let command = arguments.command.unwrap_or(Command::Edit { file: None, mesh: MeshArguments::default() });
     // The editor may be writing an export as well. Its autosaved work stays on disk for the next start.
     progress::end_on_signals();
+    report_made_folders(console::made_folder);
     let result = match command {
         Command::Edit { file, mesh } => edit(editor, file, mesh.options(), is_named),
         command => command.run(),
@@ -262,8 +277,8 @@ impl Command {
 
 /// Runs a command line as if the user had typed it.
 fn run_line(words: Vec<OsString>) -> Result<(), Failure> {
-    let parsed = Arguments::try_parse_from(words).map_err(|e| Failure::Usage(e.to_string()))?;
-    parsed.command.map_or(Ok(()), Command::run)
+    let arguments = parsed(&words).map_err(|e| Failure::Usage(e.to_string()))?;
+    arguments.command.map_or(Ok(()), Command::run)
 }
 
 /// Inserts the command `edit` where the first argument looks like a file or names a cut or scene, and is not a command.
@@ -298,7 +313,7 @@ mod tests {
         let words = |text: &str| text.split(' ').map(OsString::from).collect::<Vec<_>>();
         let file = env!("CARGO_MANIFEST_DIR").to_owned() + "/cuts/tolkowsky.toml";
         for only in [file.as_str(), "tolkowsky"] {
-            let arguments = Arguments::try_parse_from(spelt_out(words(&format!("b {only}")))).unwrap();
+            let arguments = parsed(&spelt_out(words(&format!("b {only}")))).unwrap();
             assert!(
                 matches!(arguments.command, Some(Command::Edit { file: Some(f), .. }) if f == Path::new(only))
             );

@@ -46,7 +46,7 @@ pub struct OptimiseArguments {
     #[arg(long, value_name = "MATERIAL")]
     material: Option<String>,
     /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
-    #[arg(long, value_name = "SIZE")]
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
     stone: Option<Size>,
     /// The file to write the design to; its ending names the format
     #[arg(long, value_name = "FILE")]
@@ -145,6 +145,7 @@ impl OptimiseArguments {
         let path = specimen.path.clone();
         let refused = |error: SearchError| match error {
             SearchError::Stopped => Failure::Stopped,
+            error if error.is_of_design() => Failure::Input(format!("{path}: {error}")),
             error => Failure::Usage(format!("{path}: {error}")),
         };
         let search = DesignSearch::new(&specimen.design, &goal, self.options(), &crate::trace::unwatched);

@@ -78,19 +78,18 @@ pub struct ViewOptions {
         long,
         value_name = "DEGREES",
         default_value_t = 0.0,
-        allow_negative_numbers = true,
         value_parser = number,
         conflicts_with = "eye_tilt"
     )]
     pub tilt: f64,
     /// Move the eye by DEGREES toward --azimuth; the light stays with the stone
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, value_parser = number)]
     pub eye_tilt: f64,
     /// The azimuth of a tilt, in the stone's frame (0 is the middle of bezel 1)
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, value_parser = number)]
     pub azimuth: f64,
     /// See the stone in perspective from DISTANCE, in girdle radii (traced by rays: without a graphics card a large picture takes minutes)
-    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "DISTANCE", value_parser = number)]
     pub perspective: Option<f64>,
 }
 
@@ -138,25 +137,25 @@ pub struct LightOptions {
     #[arg(long, value_name = "MATERIAL")]
     pub material: Option<String>,
     /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
-    #[arg(long, value_name = "SIZE")]
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
     pub stone: Option<Size>,
     /// Leave glare, the light that the stone's outer surface reflects, out of figures, which otherwise list it beside the
     /// rest
     #[arg(long)]
     pub no_glare: bool,
     /// Use this refractive index instead of the material's
-    #[arg(long, value_name = "N", conflicts_with = "wavelength", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "N", conflicts_with = "wavelength", value_parser = number)]
     pub index: Option<f64>,
     /// Take the material's index and absorption at this wavelength in nm [default: 589.3, sodium's D line]
-    #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "NM", value_parser = number)]
     pub wavelength: Option<f64>,
     /// Block the light within DEGREES of the scope's axis, as the observer's head does (not in Ideal-Scope, hearts
     /// and arrows, which have their own hole for the eye)
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, value_parser = number)]
     pub head: f64,
     /// Follow the beams until no more than this part of the light is unresolved, and estimate nothing in figures [default:
     /// 0.001 for pictures, 0.00015 for figures with --exact]
-    #[arg(long, value_name = "PART", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "PART", value_parser = number)]
     pub unresolved: Option<f64>,
     /// Estimate nothing in figures by exact beams: follow the beams until little light is unresolved. Otherwise rays estimate
     /// where the light goes that fewer beams leave

@@ -18,30 +18,30 @@ pub struct PictureOptions {
     #[arg(long, value_name = "LIGHT")]
     pub light: Option<String>,
     /// Turn the light about its axis, a world about its vertical, by DEGREES
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, value_parser = number)]
     pub turn: f64,
     /// Let the light's axis point up in the picture, so that its horizon lies level behind the stones, and not to the eye;
     /// worlds stand upright in any case
     #[arg(long)]
     pub upright: bool,
     /// Half angle of the observer's head, which blocks light, in DEGREES [default: the light's; in a scope none, for measures the usual one]
-    #[arg(long, allow_negative_numbers = true, value_name = "DEGREES", value_parser = number)]
+    #[arg(long, value_name = "DEGREES", value_parser = number)]
     pub head: Option<f64>,
     /// A material's name, or an index, instead of the file's
     #[arg(long, value_name = "MATERIAL")]
     pub material: Option<String>,
     /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
-    #[arg(long, value_name = "SIZE")]
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
     pub stone: Option<crate::cut::Size>,
     /// Pixels: a number for a square, or WIDTHxHEIGHT
     #[arg(long, value_name = "PIXELS", default_value = "1024", value_parser = film_size)]
     pub size: [u32; 2],
     /// Wavelengths of each sample, 1 to 64
-    #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub wavelengths: u32,
     /// Samples of each pixel, each at its own wavelengths and, by rays, at its own place in the pixel [default: 4 by exact
     /// beams, 64 by rays]
-    #[arg(long, allow_negative_numbers = true, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub samples: Option<u32>,
     /// Treat the light as unpolarised at every surface
     #[arg(long)]
@@ -50,7 +50,7 @@ pub struct PictureOptions {
     #[arg(long)]
     pub unadapted: bool,
     /// Brighten the picture by STOPS
-    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, value_parser = number)]
     pub exposure: f64,
     /// Tone curve: linear, neutral or filmic
     #[arg(long, value_name = "CURVE", default_value = "neutral")]
@@ -62,11 +62,11 @@ pub struct PictureOptions {
     pub background: Option<String>,
     /// The distance of the world, pattern or photograph behind the stones, in girdle radii [default: the scene's, or
     /// 3]
-    #[arg(long, allow_negative_numbers = true, value_name = "DISTANCE", value_parser = number)]
+    #[arg(long, value_name = "DISTANCE", value_parser = number)]
     pub photo_distance: Option<f64>,
     /// Show bodies SECONDS after they have begun to move, 0 to 100000: as in the editor, copies of one design tumble, and plates also
     /// wave
-    #[arg(long, allow_negative_numbers = true, value_name = "SECONDS", value_parser = number)]
+    #[arg(long, value_name = "SECONDS", value_parser = number)]
     pub moment: Option<f64>,
     /// How plates move by that moment: both tumble and wave, or one of these [default: the scene's, or both]
     #[arg(long, value_enum, value_name = "HOW", requires = "moment")]
@@ -84,17 +84,17 @@ pub struct FinishOptions {
     pub no_jitter: bool,
     /// Mix each refracted ray with the straight ray: 1 is physics, 0 the straight ray alone. Below 1 the picture is traced
     /// by rays [default: the scene's, or 1]
-    #[arg(long, allow_negative_numbers = true, value_name = "PART", value_parser = number)]
+    #[arg(long, value_name = "PART", value_parser = number)]
     pub strength: Option<f64>,
     /// Follow light through at most N bounces inside a stone, 1 to 64, to see what each adds; the rest of the light
     /// is dark. Below 64 the picture is traced by rays
-    #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = USUAL_BOUNCES, value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "N", default_value_t = USUAL_BOUNCES, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub bounces: u32,
     /// The tracer of the light; beams are for one convex stone without a photograph behind
     #[arg(long, value_enum, default_value_t = Wanted::Quickest)]
     pub tracer: Wanted,
     /// Part of the brightest light that is spread as glow and sparkle, 0 to 1
-    #[arg(long, allow_negative_numbers = true, value_name = "PART", default_value_t = Bloom::default().strength, value_parser = number)]
+    #[arg(long, value_name = "PART", default_value_t = Bloom::default().strength, value_parser = number)]
     pub bloom: f64,
     /// Smooth edges beyond what samples do: `none`; `fxaa`, in the finished picture, for few samples; or `temporal`, as the
     /// editor does while anything moves: samples, and the frames of `spin`, are blended one after the other, the newest by

@@ -67,7 +67,7 @@ pub struct RefractionImport {
     #[arg(long, value_name = "WHAT")]
     background: Option<String>,
     /// The width of the template, seen straight on, as a multiple of the picture's
-    #[arg(long, allow_negative_numbers = true, value_name = "TIMES", default_value_t = 2.0, value_parser = number)]
+    #[arg(long, value_name = "TIMES", default_value_t = 2.0, value_parser = number)]
     span: f64,
 }
 

@@ -33,14 +33,14 @@ pub struct RefractionMaps {
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KIND")]
     format: Vec<MapKind>,
     /// Make one map for each of N bands of wavelengths, 1 to 16, so that the look-up shows a rainbow
-    #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_MAP_BANDS)))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_MAP_BANDS)))]
     bands: u32,
     /// Keep the places of the N strongest paths of each pixel, 1 to 8, so that a pixel through which two places are
     /// seen shows both; each band has N maps
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_PLACES)))]
     places: u32,
     /// The width of the background as a multiple of the picture's; light from beyond it is in the diffuse layer
-    #[arg(long, allow_negative_numbers = true, value_name = "TIMES", default_value_t = 2.0, value_parser = number)]
+    #[arg(long, value_name = "TIMES", default_value_t = 2.0, value_parser = number)]
     span: f64,
     /// Hang the same background in front of the stones too, so that light which they send back to the eye's side shows it
     #[arg(long)]

@@ -33,7 +33,7 @@ pub struct ReportArguments {
     #[arg(long, value_name = "MATERIAL")]
     material: Option<String>,
     /// The stones' size, such as 6.5mm or 1.2ct, instead of the files'
-    #[arg(long, value_name = "SIZE")]
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
     stone: Option<Size>,
     #[command(flatten)]
     mesh: MeshArguments,

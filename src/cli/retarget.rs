@@ -27,7 +27,7 @@ pub struct RetargetArguments {
     #[arg(long, value_enum)]
     rule: Rule,
     /// The factor of the tangents [default: the main tier keeps its margin over the critical angle]
-    #[arg(long, value_name = "FACTOR", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "FACTOR", value_parser = number)]
     factor: Option<f64>,
     /// The side whose tangents are multiplied; the crown needs --factor
     #[arg(long, value_enum, default_value_t = RetargetSide::Pavilion)]
@@ -40,7 +40,7 @@ pub struct RetargetArguments {
     no_light: bool,
     /// Measure the light at this wavelength in nm; stones of a strong colour let little of other colours pass
     #[arg(
-        long, value_name = "NM", default_value_t = line::SODIUM_D, value_parser = number, allow_negative_numbers = true,
+        long, value_name = "NM", default_value_t = line::SODIUM_D, value_parser = number,
         conflicts_with = "no_light"
     )]
     wavelength: f64,
@@ -245,6 +245,13 @@ impl RetargetArguments {
         row("absorbed", &|stone| percent(stone.measured.figures.absorbed));
         row("error", &|stone| percent(stone.measured.error()));
         row("weight, ct", &|stone| stone.carats.map_or("not known".into(), |carats| format!("{carats:.3}")));
+        if let Some(unknown) = [&old.material, &new.material].into_iter().find(|of| of.density.is_none()) {
+            let _ = write!(
+                text,
+                "\n\n  no weight: no density is known of {}; a material by name has one, such as quartz",
+                unknown.name
+            );
+        }
         text
     }
 }

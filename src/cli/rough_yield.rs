@@ -3,7 +3,7 @@
 use super::console::{json, print};
 use super::mesh_options::MeshArguments;
 use super::options::number;
-use super::specimen::LoadedSpecimen;
+use super::specimen::{LoadedSpecimen, weight};
 use crate::cut::{Finished, FitLimit, Rough, RoughError};
 use crate::io::Failure;
 use clap::{ArgGroup, Args};
@@ -17,16 +17,16 @@ pub struct RoughYield {
     /// A design, or the name of a cut that comes with the program
     file: PathBuf,
     /// The rough's length, width and depth in mm, such as 12x9x7; the stone's axis lies along the depth
-    #[arg(long, value_name = "LxWxD")]
+    #[arg(long, value_name = "LxWxD", allow_hyphen_values = true)]
     rough: Option<Rough>,
     /// The weight of the finished stone, carats
-    #[arg(long, value_name = "CARATS", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "CARATS", value_parser = number)]
     weight: Option<f64>,
     /// The thickness of the finished girdle in mm, whatever the size [default: as the design has it]
-    #[arg(long, value_name = "MM", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM", value_parser = number)]
     girdle_mm: Option<f64>,
     /// The weight of the rough in carats, of which the yield is a part as well
-    #[arg(long, value_name = "CARATS", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "CARATS", value_parser = number)]
     rough_weight: Option<f64>,
     /// A material's name, or an index, instead of the file's
     #[arg(long, value_name = "MATERIAL")]
@@ -100,7 +100,7 @@ impl RoughYield {
             line("girdle", format!("{mm:.3} mm"));
         }
         let carats = value["carats"].as_f64();
-        line("weight", carats.map_or("not known".into(), |carats| format!("{carats:.3} ct")));
+        line("weight", weight(carats, text("material")));
         if let Some(rough) = self.rough {
             let limit = match found.limit {
                 FitLimit::Footprint => "the rough's length and width",

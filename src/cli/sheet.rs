@@ -112,7 +112,7 @@ mod tests {
             (vec!["tolkowsky", "--out", "a.jpg"], "the ending names no format"),
             (vec!["tolkowsky", "shallow", "--out", "a.pdf"], "several designs need a folder"),
             (vec!["tolkowsky", "--out", "-"], "--format"),
-            (vec!["pill", "--out", &path("pill.pdf")], "smooth"),
+            (vec!["pill", "--out", &path("pill.pdf")], "a glass shape is curved"),
         ] {
             let error = run(&options).unwrap_err().to_string();
             assert!(error.contains(said), "{error}");

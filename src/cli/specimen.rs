@@ -8,7 +8,7 @@ use crate::io::mesh_options::MeshOptions;
 use crate::io::{Failure, is_standard};
 use crate::measure::MeasureName;
 use crate::optics::{Dispersion, Material};
-use crate::scene;
+use crate::scene::{self, Stone};
 use std::collections::BTreeSet;
 use std::ops::Deref;
 use std::path::Path;
@@ -54,6 +54,16 @@ impl LoadedSpecimen {
         }
         let made = made.remade(design).map_err(|e| Failure::Input(format!("{path}: {e}")))?;
         Ok(Self { path, made })
+    }
+
+    /// Returns the stone with its facets. `what` begins the message where there is none: what the command does of which
+    /// stones.
+    ///
+    /// # Errors
+    /// Fails with [`Failure::Input`] where the solid is no convex stone between planes.
+    pub fn convex_stone(&self, what: &str) -> Result<&Stone, Failure> {
+        let why = || self.why_not_convex().unwrap_or_default();
+        self.stone().map_err(|_| Failure::Input(format!("{}: {what}, and {}", self.path, why())))
     }
 
     /// Prints a warning about the stone.
@@ -118,6 +128,16 @@ pub fn no_fire(material: &Material, where_to: &str) -> String {
          (brillianteer materials lists them)",
         material.name
     )
+}
+
+/// Formats a weight; without one, says why it is not known and what to give.
+pub fn weight(carats: Option<f64>, material: &str) -> String {
+    match carats {
+        Some(carats) => format!("{carats:.3} ct"),
+        None => format!(
+            "not known: no density is known of {material}; name a material by --material, such as quartz"
+        ),
+    }
 }
 
 /// Returns a file's name without its ending, with which the names of its outputs begin; `stdin` for standard input.

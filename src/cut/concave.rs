@@ -34,8 +34,8 @@ impl Tiers {
         let (first, others) = places.split_first()?;
         let more = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
         Some(format!(
-            "concave facets are named, whose shape the file does not hold: {first}{more}; they are made flat here, so the \
-             finished stone will look different"
+            "concave facets are named, whose shape the file does not hold: {first}{more}; they are flat here, so pictures, measures \
+             of light and the weight are those of the stone before they are ground"
         ))
     }
 }
@@ -79,7 +79,7 @@ mod tests {
             (["Concaved", "", "Concave facets last"], "tier 1 (P1) 'Concaved' and 1 more"),
         ] {
             let warning = design(texts[0], texts[1], texts[2]).concave_warning().unwrap();
-            assert!(warning.contains(place) && warning.contains("flat"), "{warning}");
+            assert!(warning.contains(place) && warning.contains("flat here, so pictures"), "{warning}");
         }
     }
 

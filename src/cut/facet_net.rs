@@ -54,7 +54,8 @@ pub struct NoRoom {
 
 impl FacetNet {
     /// Returns an empty net for the facets of one half, at x of 0 and more, of a stone. The other half is its mirror image. Each
-    /// half is convex; the stone need not be so. A facet that reaches the plane x = 0, square to it, lies on both.
+    /// half is convex; the stone need not be so. A facet with an edge in the plane x = 0, square to it, lies on both; a level facet
+    /// does so if it reaches that plane.
     pub fn half() -> Self {
         Self { is_half: true, ..Self::default() }
     }
@@ -206,8 +207,13 @@ impl FacetNet {
         let mut surface = Surface::default();
         let mut tiers = vec![];
         for (place, facet) in half.facets().iter().enumerate().filter(|(_, facet)| facet.source != mirror) {
-            let reaches_seam = facet.outline.iter().any(|corner| vertices[*corner as usize].x.abs() < SAME);
-            let is_both = reaches_seam && facet.plane.normal.x.abs() < SQUARE;
+            let normal = facet.plane.normal;
+            let on_seam =
+                facet.outline.iter().filter(|corner| vertices[**corner as usize].x.abs() < SAME).count();
+            // Mains in one plane that touch the seam only in the point of a pavilion without a culet stay two. Table and culet
+            // are each one cut, however they reach the seam.
+            let least = if normal.truncate().length() < SQUARE { 1 } else { 2 };
+            let is_both = on_seam >= least && normal.x.abs() < SQUARE;
             let own = tiers.len() as u32;
             let other = if is_both { own } else { own + 1 };
             tiers.extend(vec![self.facets[facet.source].0; (other - own + 1) as usize]);

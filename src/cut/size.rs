@@ -45,7 +45,7 @@ pub enum SizeError {
     },
     /// A weight, but of a material whose density is not known.
     #[error(
-        "a weight in ct needs a density, which {material} lacks; give the size in mm, or a material with one"
+        "a weight in ct needs a density, which {material} lacks; give the size in mm, or a material by its name, such as quartz"
     )]
     NoDensity {
         /// The material's name.

@@ -7,7 +7,7 @@ use std::convert::Infallible;
 use std::fs::OpenOptions;
 use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use tempfile::{NamedTempFile, SpooledTempFile};
 
 /// The reason why a file was not written. No part of it is left behind.
@@ -50,6 +50,15 @@ const MOST_LINKS: usize = 40;
 /// Content for a pipe or a device is kept in memory up to this many bytes, and beyond that in a file without a name.
 const KEPT: usize = 16 << 20;
 
+/// The function that is told of each folder that is made.
+static ON_FOLDER: OnceLock<fn(&Path)> = OnceLock::new();
+
+/// Has `report` told of each missing folder that is made for a file, from now on, in every thread. Only the first call in a
+/// process counts.
+pub fn report_made_folders(report: fn(&Path)) {
+    let _ = ON_FOLDER.set(report);
+}
+
 /// The temporary files of all writes that are under way.
 static UNDER_WAY: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
@@ -76,7 +85,8 @@ pub fn abandon_writes() -> Abandoned {
 
 /// A file that is written whole or not at all: nothing is found at its path before [`finish`](Self::finish) has returned.
 ///
-/// The content goes to a temporary file beside the path, which is renamed in the end. Missing folders are made. A
+/// The content goes to a temporary file beside the path, which is renamed in the end. Missing folders are made and
+/// [reported](report_made_folders). A
 /// symbolic link stays, and the file that it leads to is written. The path `-` is standard output; standard output,
 /// pipes and devices are written to in the end.
 pub struct WholeFile {
@@ -218,12 +228,16 @@ impl Temporary {
     /// Makes a temporary file in the folder of `target`; errors name `path`, or the folder.
     fn beside(path: &Path, target: &Path) -> Result<Self, WriteError> {
         let folder = target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let is_missing = !folder.exists();
         std::fs::create_dir_all(folder).map_err(|e| match e.kind() {
             io::ErrorKind::AlreadyExists | io::ErrorKind::NotADirectory => {
                 WriteError::io(folder, io::Error::new(e.kind(), "this is a file, and a folder is needed"))
             }
             _ => WriteError::io(folder, e),
         })?;
+        if let Some(report) = ON_FOLDER.get().filter(|_| is_missing) {
+            report(folder);
+        }
         let mut files = under_way();
         let file = new_file(folder).map_err(|e| {
             let why = format!("no file can be made in its folder ({})", e.kind());

@@ -144,8 +144,9 @@ pub fn written(specimen: &Specimen, format: DesignFormat) -> Result<EncodedDesig
     if matches!(format, DesignFormat::Asc | DesignFormat::Gem | DesignFormat::Gcs)
         && specimen.stone().is_err()
     {
+        let why = specimen.why_not_convex().unwrap_or_default();
         return Err(Failure::Input(format!(
-            "{name}: .{} takes convex stones between planes, and this is not one; write .toml, .obj, .stl, .ply or .glb",
+            "{name}: .{} takes convex stones between planes, and {why}; write .toml, .obj, .stl, .ply or .glb",
             format.ending()
         )));
     }

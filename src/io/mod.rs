@@ -55,7 +55,9 @@ mod toml_format;
 mod toml_text;
 
 pub use animation::{Animation, AnimationFormat, Frames, write_animation};
-pub use atomic::{Abandoned, Sink, WholeFile, WriteError, abandon_writes, check_writable, write};
+pub use atomic::{
+    Abandoned, Sink, WholeFile, WriteError, abandon_writes, check_writable, report_made_folders, write,
+};
 #[cfg(feature = "interchange")]
 pub use cutters::{NoTiers, as_tiers, in_tiers};
 pub use drawing_png::{DrawingError, rasterize, rasterize_clear, rasterize_within};

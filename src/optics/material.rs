@@ -130,13 +130,18 @@ impl Material {
 pub struct UnknownMaterial {
     /// The name that was looked up.
     pub name: String,
-    /// Names with a similar spelling, the nearest first.
+    /// The materials of the kind that the name means, such as the garnets.
+    pub of_kind: Vec<&'static str>,
+    /// Names with a similar spelling, the nearest first; an empty list where there are materials of the kind.
     pub near: Vec<&'static str>,
 }
 
 impl fmt::Display for UnknownMaterial {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "unknown material '{}'; ", self.name)?;
+        if !self.of_kind.is_empty() {
+            write!(f, "of that kind there are '{}'; ", self.of_kind.join("', '"))?;
+        }
         if !self.near.is_empty() {
             write!(f, "did you mean '{}'? ", self.near.join("' or '"))?;
         }
@@ -219,7 +224,7 @@ fn ordinary_rays() -> Vec<Material> {
     vec![
         Material::clear(
             "sapphire",
-            "Uniaxial; ordinary ray only, without double refraction; colourless.",
+            "Uniaxial corundum; ordinary ray only, without double refraction; colourless.",
             sellmeier(&[(1.4313493, 0.0726631), (0.65054713, 0.1193242), (5.3414021, 18.028251)]),
             "I. H. Malitson and M. J. Dodge, J. Opt. Soc. Am. 62, 1405 (1972); \
              fit by M. J. Dodge, Handbook of Laser Science and Technology IV (1986)",
@@ -266,14 +271,37 @@ fn key(name: &str) -> String {
     name.chars().filter(|c| !matches!(c, ' ' | '-' | '_')).flat_map(char::to_lowercase).collect()
 }
 
+/// Returns the materials of the kind that the last word of a name means, in singular or plural: those with that word in their
+/// name, or else in what their description calls them before it tells of their index and colour.
+fn of_kind(name: &str) -> Vec<&'static str> {
+    let words = |text: &str| -> Vec<String> {
+        text.split(|c: char| !c.is_alphanumeric())
+            .filter(|word| !word.is_empty())
+            .map(str::to_lowercase)
+            .collect()
+    };
+    let Some(kind) = words(name).pop() else { return vec![] };
+    let kind = kind.strip_suffix('s').filter(|kind| !kind.is_empty()).unwrap_or(&kind).to_owned();
+    let is_of = |text: &str| words(text).iter().any(|word| *word == kind || *word == format!("{kind}s"));
+    let named = materials().iter().filter(|material| is_of(&material.name));
+    let described = materials().iter().filter(|material| {
+        let what = material.description.split([';', '.']).next().unwrap_or_default();
+        !is_of(&material.name) && is_of(what)
+    });
+    named.chain(described).map(|material| material.name.as_str()).collect()
+}
+
 fn unknown(name: &str) -> UnknownMaterial {
-    let asked = key(name);
+    let (asked, of_kind) = (key(name), of_kind(name));
+    if !of_kind.is_empty() {
+        return UnknownMaterial { name: name.to_owned(), of_kind, near: vec![] };
+    }
     let mut near: Vec<(usize, &str)> =
         materials().iter().map(|m| (strsim::levenshtein(&asked, &key(&m.name)), m.name.as_str())).collect();
     // Up to one slip in three letters is taken for a misspelling; with more slips, the text is another word.
     near.retain(|&(slips, _)| slips <= asked.chars().count().div_ceil(3));
     near.sort_by_key(|&(slips, _)| slips);
-    UnknownMaterial { name: name.to_owned(), near: near.into_iter().map(|(_, name)| name).collect() }
+    UnknownMaterial { name: name.to_owned(), of_kind, near: near.into_iter().map(|(_, name)| name).collect() }
 }
 
 #[cfg(test)]
@@ -386,6 +414,40 @@ mod tests {
         let stranger = material("kryptonite").unwrap_err();
         assert!(stranger.near.is_empty() && stranger.to_string().contains("'kryptonite'; known: diamond"));
         assert!(material("").unwrap_err().near.is_empty());
+    }
+
+    #[test]
+    fn the_name_of_a_kind_is_answered_with_its_materials() {
+        for (asked, expected) in [
+            (
+                "garnet",
+                &[
+                    "pyrope",
+                    "almandine",
+                    "rhodolite",
+                    "spessartine",
+                    "grossular",
+                    "tsavorite",
+                    "hessonite",
+                    "demantoid",
+                ][..],
+            ),
+            ("red garnets", &["pyrope", "almandine"]),
+            ("Topaz", &["blue topaz"]),
+            ("tourmaline", &["green tourmaline", "pink tourmaline"]),
+            ("pale quartz", &["quartz", "amethyst", "citrine"]),
+            ("beryl", &["emerald", "aquamarine"]),
+            ("corundum", &["sapphire", "ruby", "blue sapphire"]),
+            ("olivine", &["peridot"]),
+        ] {
+            let error = material(asked).unwrap_err();
+            let text = error.to_string();
+            assert!(expected.iter().all(|name| error.of_kind.contains(name)), "{asked}: {:?}", error.of_kind);
+            assert!(text.contains(&format!("of that kind there are '{}'", error.of_kind[0])), "{text}");
+            assert!(error.near.is_empty() && !error.of_kind.contains(&"diamond"), "{asked}: {error:?}");
+        }
+        assert!(material("quarz").unwrap_err().of_kind.is_empty(), "a slip is no kind");
+        assert_eq!(material("quarz").unwrap_err().near, ["quartz"]);
     }
 
     #[test]

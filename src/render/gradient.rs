@@ -21,6 +21,13 @@ pub const LEAST_TIER_DEG: f64 = 2.0 * STEP;
 /// The same change of ratios, which are near 1.
 const RATIO_STEP: f64 = 1e-4;
 
+/// Two derivatives of the planes, one from each side of a value, count as one where they differ by no more than this part of
+/// the greatest. Rounding and the step make less than a hundredth of it.
+const KINK: f64 = 1e-5;
+
+/// Derivatives of planes that differ by no more than this, per unit of a number, differ by rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// The derivatives of one measure by some numbers of a design.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasureGradient {
@@ -28,16 +35,27 @@ pub struct MeasureGradient {
     pub name: MeasureName,
     /// Its value for the traced light: the least one, except for contrast, whose bounds lie on both sides of it.
     pub value: f64,
-    /// The derivative by each number, per its unit, in the order of the keys.
+    /// The derivative by each number, per its unit, in the order of the keys. At a kink of the planes it is the mean of
+    /// both sides.
     pub per: Vec<f64>,
+    /// For each number at whose value the planes have a kink, the derivatives below the value and above it.
+    pub sides: Vec<Option<[f64; 2]>>,
 }
 
 /// The derivatives of the planes of a stone's facets by some numbers of its design.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlaneChanges {
-    /// For each number, the derivative of each facet's normal and offset, per its unit; `None` for the index, which
-    /// changes no plane.
-    of_keys: Vec<Option<Vec<(DVec3, f64)>>>,
+    /// The derivatives by each number; `None` for the index, which changes no plane.
+    of_keys: Vec<Option<KeyChanges>>,
+}
+
+/// The derivative of each facet's normal and offset by a number, per its unit.
+#[derive(Debug, Clone, PartialEq)]
+struct KeyChanges {
+    /// The derivatives at the value; at a kink, the means of both sides.
+    middle: Vec<(DVec3, f64)>,
+    /// The derivatives below the value and above it, where the planes have a kink there.
+    sides: Option<[Vec<(DVec3, f64)>; 2]>,
 }
 
 /// A stone's measures, with the derivatives of some of them.
@@ -54,9 +72,9 @@ type NamedPlanes = HashMap<String, (DVec3, f64)>;
 
 impl PlaneChanges {
     /// Returns the derivatives of the normal and the offset of each facet by a number, whose place among the keys is
-    /// `place`; `None` for the index, which changes no plane.
+    /// `place`; `None` for the index, which changes no plane. At a kink they are the means of both sides.
     pub fn of_key(&self, place: usize) -> Option<&[(DVec3, f64)]> {
-        self.of_keys.get(place)?.as_deref()
+        Some(&self.of_keys.get(place)?.as_ref()?.middle)
     }
 }
 
@@ -65,7 +83,10 @@ impl Sweep {
     /// numbers.
     ///
     /// The derivatives of the light are exact ([`MeasureName::derivatives`]), and so are those of the planes by the
-    /// scale of a side. The derivatives of the planes by other numbers are central differences of fourth order.
+    /// scale of a side. The derivatives of the planes by other numbers are central differences of fourth order. Where the
+    /// planes have a kink, as those of an Asscher at a length to width of 1, where its keel turns, there is a derivative for each
+    /// side of the value as well; a kink nearer than twice the step of the differences counts as one at the value. Kinks of the
+    /// light itself are not looked for.
     ///
     /// # Errors
     /// Fails with a [`SweepError`] for a number that the design does not have, a measure without derivatives, or a stone
@@ -98,12 +119,17 @@ impl Sweep {
                      extinction or contrast"
                 ))
             })?;
-            let by_key = |changes: &Option<Vec<(DVec3, f64)>>| match changes {
-                Some(changes) => found.derivatives.along(changes.iter().copied()),
-                None => found.derivatives.index,
+            let along = |changes: &[(DVec3, f64)]| found.derivatives.along(changes.iter().copied());
+            let by_key = |changes: &Option<KeyChanges>| {
+                changes.as_ref().map_or(found.derivatives.index, |changes| along(&changes.middle))
+            };
+            let by_sides = |changes: &Option<KeyChanges>| {
+                let sides = changes.as_ref()?.sides.as_ref()?;
+                Some(sides.each_ref().map(|side| along(side)))
             };
             let per = changes.of_keys.iter().map(by_key).collect();
-            Ok(MeasureGradient { name: *name, value: found.value, per })
+            let sides = changes.of_keys.iter().map(by_sides).collect();
+            Ok(MeasureGradient { name: *name, value: found.value, per, sides })
         };
         let gradients: Result<_, SweepError> = names.iter().zip(taken.derivatives).map(of_name).collect();
         Ok(GradedStone { stone: SweptStone::of(taken.measures, specimen), gradients: gradients? })
@@ -118,13 +144,12 @@ impl Sweep {
     pub fn plane_changes(&self, keys: &[SweepKey]) -> Result<PlaneChanges, SweepError> {
         let start = self.start();
         let specimen = Specimen::new(self.design.clone())?;
-        let why = "only convex stones between planes have derivatives of their light, and this is none";
-        let stone = specimen.stone().map_err(|_| SweepError::NoDerivative(why.to_owned()))?;
-        let facets: Vec<String> =
-            (0..stone.polytope.facets().len() as u32).map(|facet| stone.name(facet).into_owned()).collect();
+        let why = || specimen.why_not_convex().unwrap_or_default();
+        let stone = specimen.stone().map_err(|_| SweepError::NotConvex(why()))?;
+        let smooth = |middle| Some(KeyChanges { middle, sides: None });
         let of_key = |key: &SweepKey| match key {
-            SweepKey::Scale(side) => self.changes_by_scale(*side, stone).map(Some),
-            key => self.changes_by(&start, key, &facets),
+            SweepKey::Scale(side) => self.changes_by_scale(*side, stone).map(smooth),
+            key => self.changes_by(&start, key, stone),
         };
         Ok(PlaneChanges { of_keys: keys.iter().map(of_key).collect::<Result<_, _>>()? })
     }
@@ -154,8 +179,8 @@ impl Sweep {
         &self,
         start: &VariedDesign,
         key: &SweepKey,
-        facets: &[String],
-    ) -> Result<Option<Vec<(DVec3, f64)>>, SweepError> {
+        stone: &Stone,
+    ) -> Result<Option<KeyChanges>, SweepError> {
         if let SweepKey::Tier(name) = key
             && start
                 .design
@@ -180,17 +205,58 @@ impl Sweep {
             }
         };
         let at = |by: f64| named_planes(with_numbers(&self.design, [(key, value + by)])?);
-        let [far_below, below, above, far_above] = [at(-2.0 * step)?, at(-step)?, at(step)?, at(2.0 * step)?];
-        let change = |name: &String| {
-            let of = |planes: &NamedPlanes| planes.get(name).copied();
-            let all = (of(&far_below), of(&below), of(&above), of(&far_above));
-            let (Some(a), Some(b), Some(c), Some(d)) = all else {
-                return Err(SweepError::FacetComes { facet: name.clone(), key: key.to_string() });
+        let beside = [at(-2.0 * step)?, at(-step)?, at(step)?, at(2.0 * step)?];
+        let mut changes = vec![];
+        for (place, facet) in (0..).zip(stone.polytope.facets()) {
+            let name = stone.name(place);
+            let [a, b, c, d] = beside.each_ref().map(|planes| planes.get(&*name).copied());
+            let (Some(a), Some(b), Some(c), Some(d)) = (a, b, c, d) else {
+                return Err(SweepError::FacetComes { facet: name.into_owned(), key: key.to_string() });
             };
-            let per = 1.0 / (12.0 * step);
-            Ok((((c.0 - b.0) * 8.0 - (d.0 - a.0)) * per, ((c.1 - b.1) * 8.0 - (d.1 - a.1)) * per))
+            let own = (facet.plane.normal, facet.plane.offset);
+            changes.push(PlaneSlopes::of([a, b, own, c, d], step));
+        }
+        Ok(Some(KeyChanges::of(&changes)))
+    }
+}
+
+/// The derivative of a plane by a number: at its value, below it and above it.
+struct PlaneSlopes {
+    middle: (DVec3, f64),
+    sides: [(DVec3, f64); 2],
+}
+
+impl PlaneSlopes {
+    /// Takes the derivatives from the planes at two steps below the value, one step below, the value, one step above and
+    /// two: a central difference of fourth order, and one of second order on each side.
+    fn of([a, b, own, c, d]: [(DVec3, f64); 5], step: f64) -> Self {
+        let sum = |terms: [(f64, (DVec3, f64)); 3], per: f64| {
+            let normal = terms.iter().map(|(factor, plane)| *factor * plane.0).sum::<DVec3>();
+            let offset = terms.iter().map(|(factor, plane)| factor * plane.1).sum::<f64>();
+            (normal / per, offset / per)
         };
-        facets.iter().map(change).collect::<Result<Vec<_>, _>>().map(Some)
+        let per = 12.0 * step;
+        let middle = (((c.0 - b.0) * 8.0 - (d.0 - a.0)) / per, ((c.1 - b.1) * 8.0 - (d.1 - a.1)) / per);
+        let below = sum([(3.0, own), (-4.0, b), (1.0, a)], 2.0 * step);
+        let above = sum([(-3.0, own), (4.0, c), (-1.0, d)], 2.0 * step);
+        Self { middle, sides: [below, above] }
+    }
+}
+
+impl KeyChanges {
+    /// Takes the derivatives of all facets. They have sides where those of any facet differ there.
+    fn of(changes: &[PlaneSlopes]) -> Self {
+        let size = |(normal, offset): (DVec3, f64)| normal.length().max(offset.abs());
+        let greatest = changes.iter().flat_map(|each| each.sides).map(size).fold(0.0, f64::max);
+        let apart = |PlaneSlopes { sides: [below, above], .. }: &PlaneSlopes| {
+            size((above.0 - below.0, above.1 - below.1))
+        };
+        let is_kink = changes.iter().any(|each| apart(each) > (KINK * greatest).max(ROUNDING));
+        let side = |place: usize| changes.iter().map(|each| each.sides[place]).collect();
+        Self {
+            middle: changes.iter().map(|each| each.middle).collect(),
+            sides: is_kink.then(|| [0, 1].map(side)),
+        }
     }
 }
 

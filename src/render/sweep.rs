@@ -3,7 +3,7 @@
 use super::job::{Job, MeasuresProduct, Product, Quality};
 use super::renderer::{RenderError, Renderer, TakenMeasures};
 use super::sweep_key::{PERCENT_OF_SIDE, SweepKey};
-use super::{Card, Wanted};
+use super::{Card, Unfit, Wanted};
 use crate::cut::{
     Cut, Design, DesignError, MachineSetting, MaterialError, MaterialRef, MeetError, Proportion, ScaleError,
     scaled,
@@ -157,6 +157,12 @@ pub enum SweepError {
     /// The library has no such material.
     #[error(transparent)]
     Material(#[from] MaterialError),
+    /// A stone whose light has no derivatives, because it is not convex and between planes, for the given reason.
+    #[error(
+        "derivatives of light are those of convex stones between planes, and {0}; change the numbers in the cut file, and \
+         compare the designs by `measure`"
+    )]
+    NotConvex(String),
     /// A number has no derivatives; the text says which, and what to give instead.
     #[error("{0}")]
     NoDerivative(String),
@@ -187,6 +193,19 @@ pub enum SweepError {
         /// The reason.
         error: ScaleError,
     },
+}
+
+impl SweepError {
+    /// Returns whether the design is at fault, whatever is varied and measured.
+    pub fn is_of_design(&self) -> bool {
+        matches!(
+            self,
+            Self::NotConvex(_)
+                | Self::Specimen(_)
+                | Self::FacetComes { .. }
+                | Self::Render(RenderError::Unfit(Unfit::Frosted))
+        )
+    }
 }
 
 /// A stone at one point of a sweep, before it is measured.

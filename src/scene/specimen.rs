@@ -114,6 +114,21 @@ impl Specimen {
         self.body.stone()
     }
 
+    /// Returns why the solid is no convex stone between planes, as a clause for messages; `None` where it is one.
+    pub fn why_not_convex(&self) -> Option<String> {
+        match (&*self.body, &self.design.cut) {
+            (Body::Stone(_), _) => None,
+            (Body::Glass(_), _) => Some("a glass shape is curved".to_owned()),
+            // Of the families, only stones of two halves are meshes.
+            (Body::Mesh(_), Cut::Family(cut)) => {
+                Some(format!("a {} is not convex at its cleft", cut.family.name.to_lowercase()))
+            }
+            (Body::Mesh(_), _) => {
+                Some("this is a mesh of triangles, not the planes of a convex stone".to_owned())
+            }
+        }
+    }
+
     /// Audits the stone: lists the places that may not be what its designer meant. The critical angle is that of the
     /// material in sodium light; without a finite index there, no angle is compared with it.
     ///

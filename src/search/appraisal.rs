@@ -55,9 +55,12 @@ pub enum SearchError {
     /// The design makes no stone.
     #[error(transparent)]
     Specimen(#[from] SpecimenError),
-    /// The stone is not convex.
-    #[error("a search measures convex stones between planes, and this design makes none")]
-    NotConvex,
+    /// The design makes no convex stone between planes, for the given reason.
+    #[error(
+        "a search follows the light of convex stones between planes exactly, and {0}; change the numbers in the cut file, and \
+         compare the designs by `measure`"
+    )]
+    NotConvex(String),
     /// The design cannot be set or measured.
     #[error(transparent)]
     Sweep(#[from] SweepError),
@@ -70,6 +73,17 @@ pub enum SearchError {
     /// The caller's watch has stopped the work.
     #[error("stopped")]
     Stopped,
+}
+
+impl SearchError {
+    /// Returns whether the design is at fault, whatever the goal.
+    pub fn is_of_design(&self) -> bool {
+        match self {
+            Self::NotConvex(_) | Self::Specimen(_) => true,
+            Self::Sweep(error) => error.is_of_design(),
+            _ => false,
+        }
+    }
 }
 
 /// A measure of a goal in one material and view.

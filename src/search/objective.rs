@@ -10,7 +10,7 @@ use crate::cut::{Cut, Design, TierOutcome, Tiers};
 use crate::measure::{Interval, MeasureSettings, PatternSettings, ROCK_DEG};
 use crate::optics::line;
 use crate::render::{PlaneChanges, RenderError, Sweep, SweepError, SweepKey, SweptStone, with_numbers};
-use crate::scene::Specimen;
+use crate::scene::{Specimen, Stone};
 use crate::trace::Watch;
 use rayon::prelude::*;
 
@@ -60,9 +60,9 @@ impl Objective {
         if let Cut::Tiers(tiers) = &mut design.cut {
             *tiers = followed(tiers.with_stated_meets().with_found_meets());
         }
-        let numbers = VariedNumber::all(goal, &design)?;
         let specimen = Specimen::new(design.clone())?;
-        let stone = specimen.stone().map_err(|_| SearchError::NotConvex)?;
+        let stone = stone_of(&specimen)?;
+        let numbers = VariedNumber::all(goal, &design)?;
         let corners = KeptCorners::of(stone);
         let limits = GeometryLimit::all(goal, &design, stone)?;
         let (views, terms) = views_and_terms(goal);
@@ -187,7 +187,7 @@ impl Objective {
     /// Returns the limited figures of a design that keeps its meets.
     fn figures(&self, design: &Design) -> Result<Vec<(String, f64)>, SearchError> {
         let specimen = Specimen::new(design.clone())?;
-        let stone = specimen.stone().map_err(|_| SearchError::NotConvex)?;
+        let stone = stone_of(&specimen)?;
         if !self.corners.has_all_facets(stone) {
             return Err(SearchError::Vanished);
         }
@@ -370,6 +370,15 @@ impl Objective {
             }
         }
     }
+}
+
+/// Returns the stone of a design.
+///
+/// # Errors
+/// Fails where the design makes no convex stone between planes.
+fn stone_of(specimen: &Specimen) -> Result<&Stone, SearchError> {
+    let why = || specimen.why_not_convex().unwrap_or_default();
+    specimen.stone().map_err(|_| SearchError::NotConvex(why()))
 }
 
 /// Follows all meets, and drops those that cannot be followed: their tiers stay where they are.

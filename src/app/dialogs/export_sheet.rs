@@ -14,7 +14,8 @@ const CHOICES: f32 = 84.0;
 pub fn sheet_row(sheet: &mut SheetChoice, can_have: bool, ui: &mut Ui) {
     let meaning = "Writes the sheet that a faceter works from: the stone from above and below with the indices round it, \
         the ratios, and every tier in the order in which it is cut. A cut by proportions is turned into tiers for it.";
-    let refused = "A sheet needs a convex stone between planes.";
+    let refused =
+        "A sheet is for a convex stone between planes: tiers cut no cleft of a heart and no curved glass.";
     ui.horizontal(|ui| {
         ui.add_enabled_ui(can_have, |ui| {
             ui.checkbox(&mut sheet.is_wanted, "Cutter's sheet")

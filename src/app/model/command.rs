@@ -21,7 +21,8 @@ pub enum Command by keys {
         "Undoes the last change of tilt, zoom, layout or overlay; the design stays.";
     ViewOn: "Shift+Backspace", "Next view", "Redoes the view change that was undone last.";
     IntoTiers: "", "Turn into tiers",
-        "Lists the facets as tiers on an index gear, so that each can be cut otherwise. Proportions end with it.";
+        "Lists the facets as tiers on an index gear, so that each can be cut otherwise. Proportions end with it. \
+         A heart, which is not convex at its cleft, and curved glass have no tiers.";
     Retarget: "", "Fit to another material…",
         "Changes the angles for another material by a rule, and compares the light of both.";
     Yield: "", "Size and yield…",

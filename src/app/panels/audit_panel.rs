@@ -45,8 +45,8 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
 /// Returns how many findings there are, or why there can be none.
 fn summary(model: &Model) -> String {
     let document = &model.document;
-    if document.specimen().stone().is_err() {
-        return "Only a convex stone between planes can be audited.".to_owned();
+    if let Some(why) = document.specimen().why_not_convex() {
+        return format!("Only a convex stone between planes can be audited, and {why}.");
     }
     let Some(audit) = &model.session.audit.found else { return "The audit is under way…".to_owned() };
     let found = match audit.findings.len() {

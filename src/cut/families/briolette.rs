@@ -30,6 +30,7 @@ pub static BRIOLETTE: Family = Family {
         rows::row_count::<UPPER_ROWS>("upper_rows", "Upper rows", [2.0, 7.0]),
         rows::row_count::<LOWER_ROWS>("lower_rows", "Lower rows", [2.0, 6.0]),
         Proportion {
+            name: "Drop length to width",
             of: "the length along the axis as a multiple of the width",
             meaning: "The length of the drop from tip to tip as a multiple of its width.",
             ..rows::length_to_width::<LENGTH>([1.2, 3.0])

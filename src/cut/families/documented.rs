@@ -4,8 +4,8 @@
 //! `BRILLIANTEER_RECORD=1 cargo test --lib documented` writes the file.
 
 use super::range_sources::range_source;
-use super::tests::{Solid, made, on_random_cuts};
-use crate::cut::{Bound, BoundAt, Family, Proportion, Unit};
+use super::tests::{Solid, made, on_random_cuts, stone};
+use crate::cut::{Bound, BoundAt, Family, Proportion, ProportionReport, SheetFigures, Unit};
 use proptest::prelude::*;
 use std::fmt::Write;
 
@@ -19,10 +19,16 @@ tables in `src/cut/families`, and a test keeps it current. [Formats](formats.md#
 and `[round_brilliant]`.
 
 W is the [diameter](formats.md#diameter-length-and-width): of a round outline, that of the circle through its corners; of any
-other, the shorter extent of the outline along x and y. Lengths are in percent of W unless the unit is named, and angles are
-in degrees from the girdle plane. The length is measured along y, which is up in pictures. \"Usual\" is the range of the
+other, the shorter extent of the outline along x and y. (With a `length_to_width` below 1, which lies outside of the usual ranges
+of all families but the heart, it stays the extent along x; of a heart it is always the shorter one.) Lengths are in percent of W unless the unit is named, and angles are
+in degrees from the girdle plane. \"Usual\" is the range of the
 editor's slider, with its source: \"published\" means that a page or a cutter's design gives it, \"ours\" that no source does.
 \"Possible\" is the range that the program accepts, as long as the facets have room.
+
+The key `length_to_width` is the extent of the outline along y, which is up in pictures, divided by that along x. Below 1, as the
+trade has it of hearts, the stone is wider than long. (Of a briolette it is the length of the drop along its axis.) What is
+measured of a stone is L/W, the longer extent divided by the shorter, so never below 1: in the table below, and the same in
+`info`, in reports and on cutters' sheets.
 
 All keys are required, except those that have a default and `total_depth`. The total depth follows from the other numbers, but
 it can be set: the numbers that it moves then change by one factor (angles by that of their tangents, the tangent ratio) until
@@ -48,7 +54,7 @@ The trade estimates the weight of a set diamond from its dimensions in mm: carat
 width and depth. The trade's k are for thin to medium girdles; thick girdles, high shoulders and bulging pavilions add up to
 10 % each.
 
-| family | facets without the girdle | length to width | depth, % of W | volume / (L W D) | the trade's | why it differs |
+| family | facets without the girdle | L/W, measured | depth, % of W | volume / (L W D) | the trade's | why it differs |
 |---|---|---|---|---|---|---|
 ";
 
@@ -110,7 +116,7 @@ fn weight(family: &Family) -> String {
         family.name,
         family.key,
         facets.sum::<usize>(),
-        size.y / size.x,
+        size.truncate().max_element() / size.truncate().min_element(),
         // Half the diameter is 1.
         50.0 * size.z,
         solid.volume / (size.x * size.y * size.z),
@@ -184,6 +190,37 @@ fn the_page_of_families_is_current() {
     let found = std::fs::read_to_string(FILE).unwrap_or_default();
     let differs = page.lines().zip(found.lines()).find(|(new, old)| new != old);
     assert!(page == found, "write docs/families.md anew (BRILLIANTEER_RECORD=1); it differs at {differs:?}");
+}
+
+#[test]
+fn length_to_width_is_one_number_of_a_family_in_info_on_sheets_and_on_the_page() {
+    on_random_cuts(|family, cut| {
+        let Some((stone, names)) = stone(cut) else { return Ok(false) };
+        let info = ProportionReport::of(&stone, &names).length_to_width;
+        let sheet = SheetFigures::of(&stone, &names).length_to_width;
+        prop_assert!((info - sheet).abs() < 1e-9, "{}: {info}, and {sheet} on the sheet", family.key);
+        // A drop is long along its axis.
+        let row = family.proportion("length_to_width").filter(|_| family.key != "briolette");
+        if let Some(own) = row.map(|row| (row.get)(cut)) {
+            let own = if row.is_some_and(|row| row.can_be_set()) { own.max(1.0 / own) } else { own };
+            prop_assert!((own - info).abs() < 1e-9, "{}: {own}, and {info} in info", family.key);
+        }
+        Ok(true)
+    });
+    let page = page();
+    let mut compared = 0;
+    for (family, _) in made() {
+        let Some((stone, names)) = stone(&family.first) else { continue };
+        let line = page.lines().find(|line| line.starts_with(&format!("| [{}](", family.name))).unwrap();
+        let printed: f64 = line.split('|').nth(3).unwrap().trim().parse().unwrap();
+        let info = ProportionReport::of(&stone, &names).length_to_width;
+        assert!((printed - info).abs() < 0.005 + 1e-9, "{}: {printed}, and {info} in info", family.key);
+        compared += 1;
+    }
+    // A heart alone is not convex.
+    assert_eq!(compared, made().count() - 1);
+    let trillion = Family::of_key("trillion").unwrap();
+    assert!((trillion.proportion("length_to_width").unwrap().get)(&trillion.first) > 1.04, "no square stone");
 }
 
 #[test]

@@ -170,28 +170,40 @@ fn facets_meet_in_points() {
 #[test]
 fn a_brilliant_has_the_facets_that_its_mains_make() {
     let counted = on_random_cuts(|family, cut| {
-        let count = |key: &str| family.proportion(key).map_or(0.0, |row| (row.get)(cut)) as usize;
-        // A heart has one main more than gaps between mains.
-        let (gaps, extra) = match family.key {
-            "oval" | "marquise" | "pear" | "cushion" => (4 * count("mains_per_quarter"), 0),
-            "trillion" => (3 * count("mains_per_side"), 0),
-            "heart" => (2 * count("mains_per_half"), 1),
-            _ => return Ok(false),
-        };
-        let Some(solid) = super::tests::Solid::of(cut) else { return Ok(false) };
-        let of = |tier: &str| solid.tiers.get(tier).copied().unwrap_or(0);
-        let found = ["table", "bezel", "star", "upper_half", "lower_half", "main"].map(of);
-        let mains = gaps + extra;
-        prop_assert_eq!(found, [1, mains, gaps, 2 * gaps, 2 * gaps, mains]);
-        // Seven upright facets to each main, and one more at a corner of the outline; fewer where the girdle closes.
-        let corners = [("marquise", 2), ("pear", 1), ("trillion", 3), ("heart", 2)];
-        let corners = corners.iter().find(|(key, _)| *key == family.key).map_or(0, |(_, corners)| *corners);
-        let whole = 7 * gaps + corners;
-        prop_assert!(of("girdle") <= whole && of("girdle") >= 2 * gaps, "{} of {whole}", of("girdle"));
-        // Along the lobes of a heart, halves cut deep into the girdle.
-        let is_thick = count("girdle_thickness") >= 6 && family.key != "heart";
-        prop_assert!(!is_thick || of("girdle") == whole, "{} of {whole}", of("girdle"));
-        Ok(true)
+        // Where there is no culet, all mains touch in a point.
+        let mut pointed = cut.clone();
+        family
+            .proportion("culet")
+            .filter(|row| row.can_be_set())
+            .iter()
+            .for_each(|row| row.set(&mut pointed, 0.0));
+        Ok(has_its_facets(family, cut)? && has_its_facets(family, &pointed)?)
     });
     assert_eq!(counted.iter().filter(|(_, count)| *count > 240).count(), 6, "{counted:?}");
+}
+
+/// Checks the number of facets of each tier of a brilliant; returns `false` for other families and cuts that make no stone.
+fn has_its_facets(family: &Family, cut: &Cut) -> Result<bool, TestCaseError> {
+    let count = |key: &str| family.proportion(key).map_or(0.0, |row| (row.get)(cut)) as usize;
+    // A heart has one main more than gaps between mains.
+    let (gaps, extra) = match family.key {
+        "oval" | "marquise" | "pear" | "cushion" => (4 * count("mains_per_quarter"), 0),
+        "trillion" => (3 * count("mains_per_side"), 0),
+        "heart" => (2 * count("mains_per_half"), 1),
+        _ => return Ok(false),
+    };
+    let Some(solid) = super::tests::Solid::of(cut) else { return Ok(false) };
+    let of = |tier: &str| solid.tiers.get(tier).copied().unwrap_or(0);
+    let found = ["table", "bezel", "star", "upper_half", "lower_half", "main"].map(of);
+    let mains = gaps + extra;
+    prop_assert_eq!(found, [1, mains, gaps, 2 * gaps, 2 * gaps, mains]);
+    // Seven upright facets to each main, and one more at a corner of the outline; fewer where the girdle closes.
+    let corners = [("marquise", 2), ("pear", 1), ("trillion", 3), ("heart", 2)];
+    let corners = corners.iter().find(|(key, _)| *key == family.key).map_or(0, |(_, corners)| *corners);
+    let whole = 7 * gaps + corners;
+    prop_assert!(of("girdle") <= whole && of("girdle") >= 2 * gaps, "{} of {whole}", of("girdle"));
+    // Along the lobes of a heart, halves cut deep into the girdle.
+    let is_thick = count("girdle_thickness") >= 6 && family.key != "heart";
+    prop_assert!(!is_thick || of("girdle") == whole, "{} of {whole}", of("girdle"));
+    Ok(true)
 }

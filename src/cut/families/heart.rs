@@ -1,4 +1,4 @@
-//! The heart: a brilliant with two lobes, a cleft and a point, of 58 facets, or 60 with a culet. It is not convex at
+//! The heart: a brilliant with two lobes, a cleft and a point, of 59 facets, or 60 with a culet. It is not convex at
 //! its cleft.
 //!
 //! Both halves are convex brilliants of the same construction, and meet in the plane x = 0. Each half has a bezel and

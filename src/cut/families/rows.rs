@@ -5,14 +5,15 @@ use super::super::family::BoundAt::Fixed;
 use super::super::family::{Bound, Proportion, Unit};
 use super::super::family_cut::number;
 
-/// Returns the row for the ratio of the stone's length to its width, which is 1 for a square or round outline.
+/// Returns the row for the ratio of the stone's length, along y, to its width, along x: 1 for a square or round outline, below
+/// 1 for one that is wider than long. What is measured on a stone as its length to width is never below 1.
 pub const fn length_to_width<const PLACE: usize>(usual: [f64; 2]) -> Proportion {
     Proportion {
         key: "length_to_width",
         name: "Length to width",
         unit: Unit::Ratio,
         of: "the length as a multiple of the width",
-        meaning: "The length of the outline as a multiple of its width.",
+        meaning: "The length of the outline, upward in pictures, as a multiple of its width; below 1 it is wider than long.",
         usual,
         step: 0.01,
         speed: 0.002,

@@ -142,8 +142,13 @@ fn length_to_width_is_as_given_and_half_the_diameter_is_one() {
         let Some(Solid { size, vertices, .. }) = Solid::of(cut) else { return Ok(false) };
         let expected = family.proportion("length_to_width").map_or(f64::NAN, |row| (row.get)(cut));
         if !expected.is_nan() {
-            // A drop is long along its axis, and its width is its diameter.
-            let found = if family.key == "briolette" { size.z / 2.0 } else { size.y / size.x };
+            let found = match family.key {
+                // A drop is long along its axis, and its width is its diameter.
+                "briolette" => size.z / 2.0,
+                // The length of a trillion follows, and is measured as that of any stone.
+                "trillion" => size.x / size.y,
+                _ => size.y / size.x,
+            };
             prop_assert!((found - expected).abs() < 1e-9, "{found} for {expected}");
         }
         // A stone that is read from another format is measured by its hull, and must have the same size.

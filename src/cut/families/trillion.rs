@@ -1,7 +1,7 @@
 //! The trillion: a brilliant on a triangle with bulged sides, 43 facets.
 //!
 //! Ranges: L/W 0.90 to 1.10 (yourjewel.com); 31 to 50 facets; library of cutters' designs: table 30 to 59, pavilion depth 38 to
-//! 51. The length follows from the bulge.
+//! 51. The length follows from the bulge; from a corner to the opposite side it is always the shorter extent of the outline.
 
 use super::super::facet_net::{FacetNet, NoRoom};
 use super::super::family::BoundAt::Fixed;
@@ -59,10 +59,11 @@ pub static TRILLION: Family = Family {
             key: "length_to_width",
             name: "Length to width",
             unit: Unit::Ratio,
-            of: "the length as a multiple of the width",
-            meaning: "The length of the outline, from a corner to the opposite side, as a multiple of its width.",
+            of: "the longer extent as a multiple of the shorter",
+            meaning: "The longer extent of the outline, along a side with two corners, as a multiple of the shorter, from a corner to the \
+                      opposite side.",
             get: |cut| match cut {
-                Cut::Family(cut) => length(cut),
+                Cut::Family(cut) => 1.0 / length(cut),
                 _ => f64::NAN,
             },
             ..Proportion::BLANK
@@ -71,7 +72,7 @@ pub static TRILLION: Family = Family {
     ],
 };
 
-/// Returns the length as a multiple of the width.
+/// Returns the extent from a corner to the opposite side as a multiple of the distance between two corners, below 1.
 fn length(cut: &FamilyCut) -> f64 {
     1.5 * INNER + bulge(cut) / 2.0
 }

@@ -4,7 +4,7 @@ use super::{Gear, TierPiece, fourteen_digits, gathered, named_once};
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, Indexed, MaterialRef, Tier, TierZone, Tiers, tier_stem};
 use crate::math::{Basis, Plane, Polytope, Symmetry};
 use crate::optics::line;
-use crate::scene::{Body, Specimen, SpecimenError};
+use crate::scene::{Specimen, SpecimenError};
 use glam::DVec3;
 use std::borrow::Cow;
 
@@ -83,12 +83,12 @@ pub fn as_tiers(specimen: &Specimen) -> Option<Tiers> {
 /// The reason why a body cannot be cut by tiers.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoTiers {
-    /// A mesh that is not convex.
-    #[error("tiers cut convex stones between planes, and this mesh is not convex")]
-    NotConvex,
-    /// A glass shape without flat facets.
-    #[error("tiers cut flat facets, and this glass shape is smooth")]
-    Smooth,
+    /// A solid that is no convex stone between planes, for the given reason.
+    #[error(
+        "tiers are planes that cut a convex stone, and {0}; `convert` writes its shape as .stl or .glb, and `info` lists its \
+         proportions"
+    )]
+    NotConvex(String),
     /// The tiers make no stone.
     #[error("cut by tiers: {0}")]
     Stone(#[from] SpecimenError),
@@ -104,8 +104,8 @@ pub fn in_tiers(specimen: &Specimen) -> Result<Cow<'_, Specimen>, NoTiers> {
     if matches!(specimen.design.cut, Cut::Tiers(_)) {
         return Ok(Cow::Borrowed(specimen));
     }
-    let why = if matches!(*specimen.body, Body::Glass(_)) { NoTiers::Smooth } else { NoTiers::NotConvex };
-    let tiers = as_tiers(specimen).ok_or(why)?;
+    let why = || NoTiers::NotConvex(specimen.why_not_convex().unwrap_or_default());
+    let tiers = as_tiers(specimen).ok_or_else(why)?;
     let cut = Cut::Tiers(tiers.with_own_meets());
     Ok(Cow::Owned(specimen.remade(Design { cut, ..specimen.design.clone() })?))
 }

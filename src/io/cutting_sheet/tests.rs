@@ -170,7 +170,9 @@ fn a_brilliant_and_its_planes_have_one_sheet_and_other_shapes_are_refused() {
     assert!(rows.iter().any(|row| row.starts_with("PAVILION|P2|40.75|96-12-24-36-48-60-72-84")), "{rows:#?}");
     let planes = Cut::Planes(TOLKOWSKY.facets().unwrap());
     assert_eq!(lines(&cutting_sheet(&specimen(planes, 2.417), false).unwrap()), rows);
-    for (name, why) in [("pill", "smooth"), ("heart", "not convex")] {
+    for (name, why) in
+        [("pill", "is curved; `convert`"), ("heart", "a heart is not convex at its cleft; `convert`")]
+    {
         let error = cutting_sheet(&library_cut(name), false).unwrap_err();
         assert!(matches!(&error, Failure::Input(text) if text.contains(why)), "{error}");
     }

@@ -23,11 +23,13 @@ pub struct HeartsReport<'a> {
 /// Measures the hearts and arrows of a stone in the program's viewer.
 ///
 /// # Errors
-/// Fails with [`Failure::Usage`] where the stone is no convex brilliant of eight mains, or [`Failure::Stopped`] when
+/// Fails with [`Failure::Input`] where the stone is no convex brilliant of eight mains, or [`Failure::Stopped`] when
 /// `watch` asks to stop.
 pub fn hearts<'a>(viewing: &Viewing<'a>, watch: Watch) -> Result<HeartsReport<'a>, Failure> {
-    let refused = |why: &dyn std::fmt::Display| Failure::Usage(format!("{}: {why}", viewing.file));
-    let not_convex = "hearts and arrows are measured of round brilliants, which are convex stones between planes; this is none";
+    let refused = |why: &dyn std::fmt::Display| Failure::Input(format!("{}: {why}", viewing.file));
+    let not_convex = viewing.specimen.why_not_convex().unwrap_or_default();
+    let not_convex =
+        format!("hearts and arrows are measured of round brilliants, which are convex, and {not_convex}");
     let stone = viewing.specimen.stone().map_err(|_| refused(&not_convex))?;
     let deviations = facet_deviations(stone).map_err(|why| refused(&why))?;
     let beams = viewing.beams(UNRESOLVED);

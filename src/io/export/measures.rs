@@ -54,7 +54,7 @@ impl Viewing<'_> {
 /// Takes the measures of a stone's light.
 ///
 /// # Errors
-/// Fails with [`Failure::Usage`] where exact beams do not fit, an error of `tell`, or [`Failure::Stopped`] when
+/// Fails with [`Failure::Input`] where the stone is not convex, [`Failure::Usage`] where exact beams do not fit, an error of `tell`, or [`Failure::Stopped`] when
 /// `watch` asks to stop.
 pub fn light_measures<'a>(
     viewing: &Viewing<'a>,
@@ -66,6 +66,13 @@ pub fn light_measures<'a>(
     let product = MeasuresProduct { settings: settings.clone(), medium: viewing.medium, derivatives: vec![] };
     let mut job = viewing.job(Film::NONE, Product::Measures(product), UNRESOLVED);
     job.quality.samples = None;
+    if let Some(why) = viewing.specimen.why_not_convex() {
+        return Err(Failure::Input(format!(
+            "{}: measures of light are sums over exact beams in convex stones between planes, and {why}; `measure` without this \
+             option lists the zones of the ASET",
+            viewing.file
+        )));
+    }
     renderer.plan(&job).map_err(|why| Failure::Usage(format!("{}: {why}", viewing.file)))?;
     let measures = renderer.run(&job, watch, &mut |part| note(&part, tell))?.measures()?.measures;
     Ok(MeasureReport { viewing: *viewing, settings, measures, weighted_return: None })

@@ -46,7 +46,7 @@ pub(super) fn measured(stone: &ReportedStone) -> Vec<[String; 2]> {
     let percent = |value: f64| format!("{} %", fixed(value, 2));
     let [width, length] = report.table;
     let pairs = [
-        ("Length to width", Some(fixed(report.length_to_width, 4))),
+        ("Outline, length to width", Some(fixed(report.length_to_width, 4))),
         ("Table, corner to corner", Some(percent(report.table_corners))),
         ("Table, width", Some(percent(width))),
         ("Table, length", Some(percent(length))),

@@ -113,7 +113,8 @@ impl<'a> ReportedStone<'a> {
             Ok(stone) => stone.polytope.facets().len().to_string(),
             Err(_) => "not between planes".to_owned(),
         };
-        let weight = specimen.carats().map_or("not known".to_owned(), |carats| format!("{carats:.3} ct"));
+        let unknown = || "not known: the material has no density, and one by name has".to_owned();
+        let weight = specimen.carats().map_or_else(unknown, |carats| format!("{carats:.3} ct"));
         let fact = |label: &str, value: String| [label.to_owned(), value];
         vec![
             fact("Material", specimen.material.name.clone()),

@@ -13,8 +13,7 @@ use exits::CountedExits;
 pub struct MeasureDerivatives {
     /// The measure of the traced light: its least value, except for contrast, whose bounds lie on both sides of it.
     pub value: f64,
-    /// The derivatives of `value` by each plane and by the index, as long as the stone keeps the symmetry of the
-    /// picture. Absorption per length and dispersion are held.
+    /// The derivatives of `value` by each plane and by the index. Absorption per length and dispersion are held.
     pub derivatives: PlaneDerivatives,
 }
 
@@ -43,8 +42,8 @@ impl MeasureName {
     ///
     /// They are the derivatives of the light that was followed, between the borders of domes, heads and horizon: light that
     /// crosses a border makes a measure jump, and a facet through which light ceases to leave makes a kink. Extinction jumps
-    /// also where another exit becomes the strongest of a cell. Neither is in the derivative. Where symmetry was traced, they
-    /// hold for changes that keep it. Their formulas are in docs/optics.md, "Derivatives".
+    /// also where another exit becomes the strongest of a cell. Neither is in the derivative. Their formulas are in
+    /// docs/optics.md, "Derivatives".
     pub fn derivatives(
         &self,
         beams: &Beams,
@@ -63,7 +62,7 @@ impl MeasureName {
         if !per_fan.is_empty() {
             derivatives.add(&beams.fan_derivatives(polytope, settings.indices, &per_fan));
         }
-        Some(MeasureDerivatives { value, derivatives })
+        Some(MeasureDerivatives { value, derivatives: beams.over_copies(polytope, derivatives) })
     }
 }
 
@@ -141,6 +140,47 @@ mod tests {
 
     fn values(beams: &Beams, stone: &Polytope, settings: &MeasureSettings) -> [f64; COUNT] {
         names().map(|name| name.derivatives(beams, stone, settings).unwrap().value)
+    }
+
+    /// Returns the largest difference of two lists of derivatives by planes; of those by normals, only the component
+    /// perpendicular to the normal counts.
+    fn apart(stone: &Polytope, a: &PlaneDerivatives, b: &PlaneDerivatives) -> f64 {
+        let by_normal = stone.planes().zip(a.normals.iter().zip(&b.normals)).map(|(plane, (a, b))| {
+            let change = *a - *b;
+            (change - plane.normal * plane.normal.dot(change)).length()
+        });
+        let by_offset = a.offsets.iter().zip(&b.offsets).map(|(a, b)| (a - b).abs());
+        by_normal.chain(by_offset).fold((a.index - b.index).abs(), f64::max)
+    }
+
+    #[test]
+    fn derivatives_by_single_planes_are_those_without_symmetry() {
+        let stone = Polytope::from_planes(&planes(&brilliant([0.0; 4]))).unwrap();
+        let mut settings = MeasureSettings::usual([2.4, 2.45]);
+        settings.domes = vec!["cos2".parse().unwrap(), "cos3".parse().unwrap()];
+        for tilt in [0.0, 0.2] {
+            let view = View { tilt, ..View::default() };
+            let [whole, parts] = [false, true].map(|symmetry| {
+                let options = BeamOptions { symmetry, ..BeamOptions::default() };
+                trace_bounces(&stone, Medium::clear(2.42), &view, &options, BOUNCES)
+            });
+            assert!(parts.symmetry.order() > 1 && whole.symmetry.order() == 1);
+            for name in names() {
+                let [whole, parts] = [&whole, &parts]
+                    .map(|beams| name.derivatives(beams, &stone, &settings).unwrap().derivatives);
+                let none = PlaneDerivatives {
+                    normals: vec![DVec3::ZERO; stone.facets().len()],
+                    offsets: vec![0.0; stone.facets().len()],
+                    index: 0.0,
+                };
+                let (error, size) = (apart(&stone, &whole, &parts), apart(&stone, &whole, &none));
+                assert!(error <= 1e-7 * size, "{name} at {tilt}: off by {error} of {size}");
+                let mut turned = parts.clone();
+                turned.offsets.rotate_left(1);
+                let off = apart(&stone, &whole, &turned);
+                assert!(size == 0.0 || off > 1e-4 * size, "{name}: the comparison cannot fail");
+            }
+        }
     }
 
     #[test]

@@ -23,7 +23,62 @@ fn an_audit_lists_candidates_alone_and_beside_the_stone_as_json() {
     assert!(!list(&desk.json("info --json --audit tolkowsky")["facets"]).is_empty(), "JSON has all");
     let (code, printed, stderr) = desk.run("info --audit pill cube tolkowsky --json");
     assert_eq!((code, printed.lines().count()), (0, 3), "{stderr}");
-    assert!(stderr.contains("only a convex stone"), "{stderr}");
+    assert!(
+        stderr.contains("pill: only a convex stone") && stderr.contains("a glass shape is curved"),
+        "{stderr}"
+    );
+    // A heart gets no candidates by its cleft: nothing of it is audited, and that is said.
+    let (code, printed, stderr) = desk.run("info --audit --json heart");
+    assert_eq!(
+        (code, &serde_json::from_str::<serde_json::Value>(&printed).unwrap()["audit"]),
+        (0, &().into())
+    );
+    for said in
+        ["a heart is not convex at its cleft", "slivers", "critical angles", "have not been looked at"]
+    {
+        assert!(stderr.contains(said), "{said}: {stderr}");
+    }
+}
+
+#[test]
+fn a_heart_is_refused_with_code_1_wherever_convex_stones_are_needed_and_the_reason_is_its_cleft() {
+    let desk = Desk::new();
+    for (line, told) in [
+        ("gradient heart", "compare the designs by `measure`"),
+        ("optimise heart --raise fire", "compare the designs by `measure`"),
+        ("sheet heart", "`convert` writes its shape"),
+        ("convert heart heart.asc", "write .toml, .obj"),
+        ("convert --meets heart heart.toml", "leave the option out"),
+        ("measure --measures heart", "`measure` without this option"),
+        ("measure --hearts heart", "round brilliants"),
+        ("measure --spread heart", "spread"),
+        ("measure --deviations heart", "deviations"),
+        ("measure --estimate heart", "classes"),
+    ] {
+        let stderr = desk.refused(line, 1);
+        assert!(stderr.contains("a heart is not convex at its cleft"), "{line}: {stderr}");
+        assert!(stderr.contains(told), "{line}: {stderr}");
+    }
+    // What an option alone excludes is the command line's fault.
+    desk.refused("gradient tolkowsky --by crown_angel", 2);
+    desk.refused("optimise tolkowsky --raise brightness", 2);
+    desk.refused("measure heart --tracer beam", 2);
+}
+
+#[test]
+fn mains_of_a_heart_are_counted_alike_with_a_culet_and_without() {
+    let desk = Desk::new();
+    let text = desk.done("cuts heart");
+    assert!(text.contains("culet = 0.0"));
+    desk.write("culet.toml", text.replace("culet = 0.0", "culet = 5.0"));
+    for (file, culets) in [("heart", 0), ("culet.toml", 1)] {
+        let tiers = desk.json(&format!("info --json {file}"))["tiers"].clone();
+        let count = |name: &str| {
+            let tier = list(&tiers).iter().find(|tier| tier["name"] == name);
+            tier.map_or(0, |tier| tier["facets"].as_u64().unwrap())
+        };
+        assert_eq!(["bezel", "main", "lower_half", "culet"].map(count), [9, 9, 16, culets], "{file}");
+    }
 }
 
 #[test]
@@ -130,6 +185,11 @@ fn rough_gives_size_weight_and_yield() {
     assert!(desk.refused("yield tolkowsky --weight -1", 2).contains("is not a weight"));
     assert!(desk.refused("yield tolkowsky --rough 9x9x3 --girdle-mm 4", 2).contains("does not fit"));
     assert!(desk.refused("yield tolkowsky", 2).contains("--rough"));
+    // A stone of one index has no density, and the line says what gives one.
+    let unknown = desk.done("yield tolkowsky --rough 9x9x6 --material 1.5");
+    assert!(unknown.contains("no density is known of index 1.5; name a material by --material"), "{unknown}");
+    assert!(desk.done("info tolkowsky --material 1.5").contains("name a material by --material"));
+    assert!(desk.done("info tolkowsky").contains(" ct\n"));
     let heart = desk.json("yield heart --weight 1 --json");
     near(at(&heart, "carats"), 1.0, 1e-9, "a heart is weighed by its volume");
     assert!(heart["finished"]["girdle_mm"].is_null());
@@ -229,7 +289,7 @@ fn spread_is_the_same_in_every_size_and_follows_the_girdle() {
     near(at(&small, "face_mm2"), at(&small, "mm2_per_carat"), 1e-9, "of one carat");
     assert!(of("oval")["weight_ratio"].is_null());
     assert!(desk.done("measure --spread tolkowsky").contains("mm²/ct"));
-    assert!(desk.refused("measure --spread heart", 2).contains("convex"));
+    assert!(desk.refused("measure --spread heart", 1).contains("convex"));
 }
 
 #[test]
@@ -247,12 +307,12 @@ fn a_class_is_an_estimate_of_brilliants_of_diamond_and_never_called_a_grade() {
     assert_eq!(of("ideal.asc --material diamond")["estimate_after_gia"]["class"], "EX");
     let table = desk.done("measure --estimate modern-ideal tolkowsky");
     assert!(table.contains("not a grade") && table.contains("Pavilion angle, °"), "{table}");
-    for (line, why) in [
-        ("modern-ideal --material ruby", "diamond"),
-        ("heart", "convex"),
-        ("princess --material diamond", "round brilliant"),
+    for (line, code, why) in [
+        ("modern-ideal --material ruby", 2, "diamond"),
+        ("heart", 1, "convex"),
+        ("princess --material diamond", 1, "round brilliant"),
     ] {
-        let stderr = desk.refused(&format!("measure --estimate {line}"), 2);
+        let stderr = desk.refused(&format!("measure --estimate {line}"), code);
         assert!(stderr.contains(why), "{line}: {stderr}");
     }
     assert!(desk.refused("measure --estimate tolkowsky --tilt 3", 2).contains("--tilt"));

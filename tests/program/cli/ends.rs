@@ -111,7 +111,8 @@ fn a_signal_ends_a_program_whose_output_nobody_reads() {
         }
         let output = export.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(code), "{name}");
-        assert_eq!(String::from_utf8(output.stderr).unwrap(), "error: stopped\n");
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(said, format!("note: the folder {name} was missing and has been made\nerror: stopped\n"));
         drop(unread);
     }
 }

@@ -180,3 +180,47 @@ fn a_command_line_at_fault_ends_with_code_2() {
     let wrong: Vec<_> = lines.map(|line| (desk.run(&line).0, line)).filter(|(code, _)| *code != 2).collect();
     assert!(wrong.is_empty() && !desk.at("out").exists(), "not code 2: {wrong:?}");
 }
+
+#[test]
+fn a_folder_that_was_missing_is_made_and_named_by_every_command() {
+    let desk = Desk::new();
+    for (folder, line) in [
+        ("a/b", "convert oval a/b/oval.stl"),
+        ("c", "sheet oval --out c/"),
+        ("d", "retarget oval --material ruby --rule critical-angle --no-light --out d/oval.toml"),
+        ("e", "export oval --views diagram --out e"),
+        ("f", "render oval --size 16 --samples 1 --out f/oval.png"),
+        ("g", "sweep tolkowsky --over table=50,55 --of leakage --unresolved 0.05 --out g/table.csv"),
+    ] {
+        let said_twice = [(); 2].map(|()| {
+            let output = desk.command(line).output().unwrap();
+            let stderr = String::from_utf8(output.stderr).unwrap();
+            assert!(output.status.success() && desk.at(folder).is_dir(), "{line}: {stderr}");
+            stderr
+        });
+        let note = format!("note: the folder {folder} was missing and has been made\n");
+        assert_eq!(said_twice.each_ref().map(|said| said.matches(&note).count()), [1, 0], "{said_twice:?}");
+    }
+}
+
+#[test]
+fn an_option_refuses_a_negative_value_by_its_own_name() {
+    let desk = Desk::new();
+    for (line, option, told) in [
+        ("export tolkowsky --stone -2mm", "--stone", "-2 mm must be from 0.1 to 1000 mm across"),
+        ("render tolkowsky --stone -2mm", "--stone", "-2 mm must be"),
+        ("gradient tolkowsky --stone -2ct", "--stone", "-2 ct is not a weight"),
+        ("optimise tolkowsky --stone -2", "--stone", "has no unit"),
+        ("yield tolkowsky --rough -2x3x4", "--rough", "a side of -2 mm must be from 0.1"),
+        ("yield tolkowsky --weight 1 --rough-weight -2", "--rough-weight", "more than 0"),
+        ("info tolkowsky --material -1.5", "--material", "-1.5 must be from 1"),
+        ("gradient tolkowsky --head -5", "--head", "0 to 90 degrees"),
+        ("optimise tolkowsky --angle-step -1", "--angle-step", "0.001 to 10"),
+        ("export tolkowsky --size -5", "--size", "-5 is not in 16"),
+        ("spin tolkowsky --frames -5", "--frames", "-5 is not in 2"),
+    ] {
+        let stderr = desk.refused(line, 2);
+        assert!(stderr.contains(told) && stderr.contains(option), "{line}: {stderr}");
+        assert!(!stderr.contains("unexpected argument"), "{line}: {stderr}");
+    }
+}

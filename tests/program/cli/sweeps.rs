@@ -367,6 +367,67 @@ fn a_gradient_is_the_slope_of_the_measures_beside_the_design() {
 }
 
 #[test]
+fn a_gradient_of_a_symmetric_stone_is_that_of_its_neighbours_without_the_symmetry() {
+    let desk = Desk::new();
+    let text = desk.done("cuts princess");
+    assert!(text.contains("length_to_width = 1.0"));
+    // A square princess is traced in one wedge of eight, its neighbours in one of four.
+    let slopes = |length: &str| {
+        desk.write(
+            "princess.toml",
+            text.replace("length_to_width = 1.0", &format!("length_to_width = {length}")),
+        );
+        let line = "gradient princess.toml --by length_to_width --of return-cos2 --of leakage --json";
+        let (code, printed, stderr) = desk.run(line);
+        assert_eq!(code, 0, "{stderr}");
+        let found: serde_json::Value = serde_json::from_str(&printed).unwrap();
+        ["return-cos2", "leakage"].map(|name| at(&found["measures"][name]["per"], "length_to_width"))
+    };
+    let [below, square, above] = ["0.999999", "1.0", "1.000001"].map(slopes);
+    for k in 0..2 {
+        near(square[k], 0.5 * (below[k] + above[k]), 0.05, &format!("{below:?} {square:?} {above:?}"));
+    }
+    assert!(square[0].abs() > 0.5, "{square:?}");
+}
+
+#[test]
+fn a_gradient_lists_both_slopes_where_the_planes_have_a_kink() {
+    let desk = Desk::new();
+    let text = desk.done("cuts asscher");
+    assert!(text.contains("length_to_width = 1.0"));
+    let slopes = |length: &str| {
+        desk.write(
+            "asscher.toml",
+            text.replace("length_to_width = 1.0", &format!("length_to_width = {length}")),
+        );
+        let line =
+            "gradient asscher.toml --by length_to_width --by table --of return-cos2 --unresolved 0.01 --json";
+        let (code, printed, stderr) = desk.run(line);
+        assert_eq!(code, 0, "{stderr}");
+        let found: serde_json::Value = serde_json::from_str(&printed).unwrap();
+        found["measures"]["return-cos2"]["per"].clone()
+    };
+    let square = slopes("1.0");
+    let [below, above] = ["below", "above"].map(|side| at(&square["length_to_width"], side));
+    assert!(square["table"].is_number(), "{square}");
+    assert!((below - above).abs() > 0.1, "{square}");
+    // Beside the kink there is one slope, that of its side.
+    for (length, own, other) in [("0.9995", below, above), ("1.001", above, below)] {
+        let slope = at(&slopes(length), "length_to_width");
+        assert!((slope - own).abs() < (slope - other).abs(), "{length}: {slope}, {square}");
+    }
+    let listed = desk.done("gradient asscher --of leakage --by length_to_width --unresolved 0.05");
+    for said in
+        ["length_to_width, below ", "length_to_width, above ", "length_to_width has a kink at this value"]
+    {
+        assert!(listed.contains(said), "{said}: {listed}");
+    }
+    // At a length to width of 1 the keel is a point, so that its share changes nothing, which is no kink.
+    let listed = desk.done("gradient emerald --of leakage --by length_to_width --by keel --unresolved 0.05");
+    assert!(!listed.contains("kink"), "{listed}");
+}
+
+#[test]
 fn a_table_in_parquet_holds_the_rows_of_one_in_csv() {
     use parquet::file::reader::{FileReader, SerializedFileReader};
     use parquet::record::Field;

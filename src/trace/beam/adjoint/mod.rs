@@ -9,6 +9,7 @@
 //! last beams to the first finds all derivatives of one sum (reverse accumulation: A. Griewank and A. Walther,
 //! Evaluating Derivatives, 2nd ed., 2008, chapter 3).
 
+mod copies;
 mod fan;
 mod pass;
 mod step;
@@ -87,8 +88,9 @@ impl Beams {
     ///
     /// They are the derivatives of the sum over the followed beams of the stored domain of the symmetry, each between
     /// its borders. Where a beam begins or ceases to leave the stone, or where its exit crosses a border of the
-    /// light, sums have kinks or jumps, which no derivative shows. Where the planes change and keep the symmetry, the
-    /// sum of the whole picture changes by the symmetry's order times as much. The coefficients of absorption are
+    /// light, sums have kinks or jumps, which no derivative shows. The sum of the whole picture changes by the symmetry's
+    /// order times as much where the planes change and keep the symmetry; [`over_copies`](Self::over_copies) finds the
+    /// derivatives by single planes. The coefficients of absorption are
     /// held constant.
     pub fn derivatives(&self, polytope: &Polytope, partials: &BeamPartials) -> PlaneDerivatives {
         ReversePass::new(self, polytope).run(partials)
