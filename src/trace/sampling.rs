@@ -47,8 +47,20 @@ pub struct SamplePass {
     pub strength: f64,
     /// The number of the pass.
     pub number: u32,
+    /// The share of each band that the pass represents.
+    pub share: ShareOfPass,
     /// The weight below which light goes on by chance; see [`Sampling::by_chance`].
     pub by_chance: f64,
+}
+
+/// The share of each band that a sample pass represents.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ShareOfPass {
+    /// The number of the pass's place, from [`Strata::place`]: the number of the share, plus `turns` for each time that all
+    /// shares have been taken before.
+    pub place: u32,
+    /// The number of shares of each band, at least 1.
+    pub turns: u32,
 }
 
 /// The parameters of the sample passes of a picture.
@@ -163,6 +175,7 @@ impl Sampling {
             whole: strata.response(),
             strength: self.strength,
             number,
+            share: ShareOfPass { place, turns: strata.turns() },
             by_chance: self.by_chance,
         }
     }
@@ -200,7 +213,11 @@ impl SamplePass {
 
     /// Returns the roulette of a ray through a pixel, in one band; `None` where all light is followed.
     pub fn roulette(&self, pixel: [u32; 2], band: usize) -> Option<Roulette> {
-        let number = u64::from(self.number) * self.responses.len() as u64 + band as u64;
+        let ShareOfPass { place, turns } = self.share;
+        let [whole, share] = [place / turns, place % turns].map(u64::from);
+        // Rays of neighbouring wavelengths have neighbouring numbers, so that the roulette is even for any part of a
+        // rainbow as well.
+        let number = (whole * self.responses.len() as u64 + band as u64) * u64::from(turns) + share;
         (self.by_chance > 0.0).then(|| Roulette::new(self.by_chance, pixel, number))
     }
 
@@ -222,5 +239,46 @@ impl SamplePass {
             fan: beside.fan.lerp(own.fan, self.strength) / length,
             shift: beside.shift.lerp(own.shift, self.strength),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::optics::Illuminant;
+
+    #[test]
+    fn the_roulette_is_even_over_any_part_of_the_spectrum() {
+        let (bands, passes, part) = (8_usize, 32_u32, 40);
+        let strata = Strata::new(bands as u32, passes, &Illuminant::D65, true);
+        let sampling = Sampling { by_chance: 0.1, ..Sampling::of(passes) };
+        let scene = Scene { instances: vec![], metals: vec![], unit_mm: 1.0 };
+        // The wavelengths of all rays of a pixel, each with its first random number, and with that of another order.
+        let mut rays: Vec<(f64, [f64; 2])> = (0..passes)
+            .flat_map(|number| {
+                let pass = sampling.pass(&scene, &strata, number);
+                let shares: Vec<Stratum> = strata.of_pass(number).collect();
+                (0..bands)
+                    .map(move |band| {
+                        let other = u64::from(number) * bands as u64 + band as u64;
+                        let drawn = [
+                            pass.roulette([3, 5], band).unwrap().draw(),
+                            Roulette::new(0.1, [3, 5], other).draw(),
+                        ];
+                        (shares[band].from_nm, drawn)
+                    })
+                    .collect::<Vec<_>>()
+            })
+            .collect();
+        rays.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let widest = |order: usize| {
+            let gap = |rays: &[(f64, [f64; 2])]| {
+                let mut drawn: Vec<f64> = rays.iter().map(|(_, drawn)| drawn[order]).collect();
+                drawn.sort_by(f64::total_cmp);
+                drawn.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max) * part as f64
+            };
+            rays.windows(part).map(gap).fold(0.0, f64::max)
+        };
+        assert!(widest(0) < 3.0 && widest(1) > 4.0, "{} {}", widest(0), widest(1));
     }
 }
