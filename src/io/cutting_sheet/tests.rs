@@ -329,7 +329,7 @@ fn every_cut_that_comes_with_the_program_has_a_sheet_or_says_why_not() {
             Ok(sheet) => drop(assert_printable(&sheet)),
             Err(error) => {
                 let said = error.to_string();
-                assert!(said.contains("smooth") || said.contains("not convex"), "{said}");
+                assert!(said.contains("is curved") || said.contains("not convex"), "{said}");
             }
         }
     }

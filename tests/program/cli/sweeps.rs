@@ -31,7 +31,7 @@ fn measures_are_intervals_around_the_figures_of_zones() {
     let list = desk.done("measure tolkowsky emerald --measures");
     assert_eq!(list.matches("return-cos2+glare").count(), 2, "{list}");
     for (line, code, told) in [
-        ("heart --measures", 2, "a convex stone between planes"),
+        ("heart --measures", 1, "not convex at its cleft"),
         ("tolkowsky --measures --tracer ray", 2, "no other tracer"),
         ("tolkowsky --measures --dome cos30", 2, "is no dome"),
         ("tolkowsky --dome cos", 2, "--measures"),
