@@ -198,10 +198,13 @@ pub fn main(editor: Option<EditorOpener>) -> ExitCode {
     let command = arguments.command.unwrap_or(Command::Edit { file: None, mesh: MeshArguments::default() });
     // The editor may be writing an export as well. Its autosaved work stays on disk for the next start.
     progress::end_on_signals();
-    report_made_folders(console::made_folder);
     let result = match command {
+        // The folders of the editor's own files are of no interest.
         Command::Edit { file, mesh } => edit(editor, file, mesh.options(), is_named),
-        command => command.run(),
+        command => {
+            report_made_folders(console::made_folder);
+            command.run()
+        }
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
