@@ -308,8 +308,8 @@ impl Editor {
     fn publish_state(&mut self) {
         let is_quiet = self.is_idle() && !self.studio.sharpens();
         let layout = self.model.workspace.layout;
-        let coarsest = self.views.gallery.coarsest();
-        if self.state_file.as_mut().is_some_and(|file| file.note(is_quiet, layout, coarsest)) {
+        let blocks = self.views.gallery.blocks();
+        if self.state_file.as_mut().is_some_and(|file| file.note(is_quiet, layout, blocks)) {
             self.ctx.request_repaint();
         }
     }

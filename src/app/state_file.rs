@@ -22,8 +22,16 @@ struct State {
     at_rest: bool,
     /// The layout of the views.
     layout: PaneLayout,
-    /// The factor by which pixels of the coarsest picture in sight are larger than those of the film.
-    coarsest: f64,
+    blocks: Blocks,
+}
+
+/// The factors by which pixels of pictures in sight are larger than those of the film.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Blocks {
+    /// The factor of the coarsest render; 1 where there is none.
+    pub renders: f64,
+    /// The factor of the coarsest of the other pictures; 1 where there is none.
+    pub others: f64,
 }
 
 /// Writes the file whenever the state has changed.
@@ -41,14 +49,13 @@ impl StateFile {
         Some(Self { path: path.into(), written: None, quiet_frames: 0 })
     }
 
-    /// Records a frame, at its end. `is_quiet` says that no work is going on; `coarsest` is the factor by which
-    /// pixels of the coarsest picture in sight are larger than those of the film.
+    /// Records a frame, at its end. `is_quiet` says that no work is going on; `blocks` are those of the pictures in sight.
     ///
     /// Returns whether one more frame is needed to find out whether the window is at rest.
-    pub fn note(&mut self, is_quiet: bool, layout: PaneLayout, coarsest: f64) -> bool {
+    pub fn note(&mut self, is_quiet: bool, layout: PaneLayout, blocks: Blocks) -> bool {
         self.quiet_frames = if is_quiet { self.quiet_frames.saturating_add(1) } else { 0 };
         let at_rest = self.quiet_frames >= QUIET_FRAMES;
-        let state = State { at_rest, layout, coarsest };
+        let state = State { at_rest, layout, blocks };
         // If the file cannot be written, the test that waits for it fails; no user has to know.
         if self.written != Some(state) && self.put(&state).is_ok() {
             self.written = Some(state);
@@ -72,7 +79,7 @@ mod tests {
         let path = folder.path().join("state.json");
         let mut file = StateFile { path: path.clone(), written: None, quiet_frames: 0 };
         let mut note = |is_quiet| {
-            let needs_another = file.note(is_quiet, PaneLayout::Two, 1.0);
+            let needs_another = file.note(is_quiet, PaneLayout::Two, Blocks { renders: 1.0, others: 1.0 });
             let text = std::fs::read(&path).unwrap();
             let state: serde_json::Value = serde_json::from_slice(&text).unwrap();
             (needs_another, state["at_rest"].as_bool().unwrap())

@@ -168,10 +168,12 @@ fn card_peak() -> Result<String, Failure> {
 fn timed_by(
     backend: &Backend,
     load: &Load,
-    work: impl FnMut() -> Result<(), Failure>,
+    mut work: impl FnMut() -> Result<(), Failure>,
 ) -> Result<(f64, Option<CardLine>), Failure> {
     let Some(gpu) = backend.gpu() else { return Ok((timed(work)?.0, None)) };
     let peak = card_use::peak(gpu)?;
+    // The first picture also compiles its shader, which takes a driver up to some seconds, once.
+    work()?;
     gpu.take_totals();
     let (milliseconds, runs) = timed(work)?;
     let load = (load.plane_tests, load.busy_lanes(gpu.lanes()));

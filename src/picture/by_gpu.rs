@@ -20,19 +20,18 @@ pub fn trace<E: From<Stopped> + From<GpuError>>(
     let (size, bands) = (shot.film.size[0], shot.scope.bands.len());
     let share = if glare == Glare::Included { 1.0 } else { 0.0 };
     gpu.scope(shot, watch, |first, pixels| {
-        let count = pixels.len() as u32 / size;
-        let mut rows = Rows::new(first, count, size, 2 * bands + 1);
-        for (y, line) in (first..).zip(pixels.chunks(size as usize)) {
-            let mut fill = |channel, value: &dyn Fn(&ScopePixel) -> f32| {
-                let to = rows.row_mut(y, channel).iter_mut();
-                to.zip(line).for_each(|(to, seen)| *to = f64::from(value(seen)));
-            };
-            for band in 0..bands {
-                fill(band, &|seen| seen.transmitted[band] + share * seen.surface[band]);
-                fill(bands + band, &|seen| seen.strongest[band]);
+        let mut rows = Rows::new(first, pixels.len() as u32 / size, size, 2 * bands + 1);
+        rows.fill_rows(|row, values| {
+            let line = &pixels[row * size as usize..][..size as usize];
+            for (channel, to) in values.chunks_mut(size as usize + 1).enumerate() {
+                let value = |seen: &ScopePixel| match channel.checked_sub(bands) {
+                    None => seen.transmitted[channel] + share * seen.surface[channel],
+                    Some(band) if band < bands => seen.strongest[band],
+                    Some(_) => seen.hit(),
+                };
+                to.iter_mut().zip(line).for_each(|(to, seen)| *to = f64::from(value(seen)));
             }
-            fill(2 * bands, &ScopePixel::hit);
-        }
+        });
         each(&rows)
     })
 }

@@ -5,6 +5,7 @@
 //! proportional to the length of a polygon's outline, not to its area.
 
 use glam::DVec2;
+use rayon::prelude::*;
 use std::ops::{Add, AddAssign, Mul, Sub};
 
 /// The value of a pixel: a number, or several numbers.
@@ -53,6 +54,16 @@ impl<V: Value> Rows<V> {
     pub fn row_mut(&mut self, y: u32, channel: usize) -> &mut [V] {
         let start = self.start(y, channel);
         &mut self.values[start..start + self.width as usize]
+    }
+
+    /// Calls `fill` for each row, on all cores, with the row's number counted from [`first`](Self::first) and its values:
+    /// channel by channel, each with one value more than the row has pixels.
+    pub fn fill_rows(&mut self, fill: impl Fn(usize, &mut [V]) + Sync)
+    where
+        V: Send,
+    {
+        let length = self.channels * Self::stride_of(self.width);
+        self.values.par_chunks_mut(length.max(1)).enumerate().for_each(|(row, values)| fill(row, values));
     }
 
     fn start(&self, y: u32, channel: usize) -> usize {

@@ -213,7 +213,15 @@ pub fn differ(shoot: &Shoot, twin: &Shoot, gpu: &Gpu) -> f64 {
 
 /// Returns the largest difference of a block's mean between two pictures, as a fraction of the brightest block.
 pub fn apart(exact: &Linear, card: &Linear) -> f64 {
+    differences(exact, card)[0]
+}
+
+/// Returns the differences of all blocks' means between two pictures, the largest first, as fractions of the brightest block.
+pub fn differences(exact: &Linear, card: &Linear) -> Vec<f64> {
     let (exact, card) = (blocks(exact), blocks(card));
     let scale = exact.iter().map(|b| b.max_element()).fold(0.0, f64::max);
-    exact.iter().zip(&card).map(|(a, b)| (*a - *b).abs().max_element()).fold(0.0, f64::max) / scale
+    let each = exact.iter().zip(&card).map(|(a, b)| (*a - *b).abs().max_element() / scale);
+    let mut all: Vec<f64> = each.collect();
+    all.sort_by(|a, b| b.total_cmp(a));
+    all
 }

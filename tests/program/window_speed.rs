@@ -429,12 +429,14 @@ fn the_window_shows_designs_while_they_are_turned() {
         stage.press(hold);
         let path = |step: u32| swing(hold, egui::vec2(1.5, 1.0), step);
         let rate = stage.changes(path, &[place], DRAG)[0];
-        let blocks = stage.state()["coarsest"].as_f64().unwrap_or(f64::NAN);
+        let state = stage.state();
+        let [renders, others] =
+            ["renders", "others"].map(|kind| state["blocks"][kind].as_f64().unwrap_or(f64::NAN));
         stage.release(path(23));
         let [across, down] = [place.width(), place.height()];
         println!(
             "{}: {rate:.1} renders of {across:.0} x {down:.0} points a second while it is turned, at the end in \
-             blocks of {blocks:.1} pixels",
+             blocks of {renders:.1} pixels, those of other pictures {others:.1}",
             design.display()
         );
     }

@@ -1,6 +1,8 @@
 //! The pictures that the views show, as textures.
 
 use crate::app::model::Model;
+use crate::app::shows::Shows;
+use crate::app::state_file::Blocks;
 use crate::app::studio::{Grade, Shot, Slot, TakenPicture, Which};
 use egui::{Color32, Context, Painter, Rect, TextureHandle, TextureOptions, pos2};
 use std::collections::HashMap;
@@ -42,13 +44,16 @@ impl Gallery {
         }
     }
 
-    /// Returns the factor by which pixels of the coarsest picture are larger than those of the film; 1 where there is
-    /// no picture.
-    pub fn coarsest(&self) -> f64 {
-        let times = |shown: &Shown| {
-            f64::from(shown.shot.film.size[0]) / shown.texture.size()[0] as f64 * shown.taken.coarser
+    /// Returns how much larger than the film's the pixels of the coarsest pictures are.
+    pub fn blocks(&self) -> Blocks {
+        let coarsest = |renders: bool| {
+            let own = self.traced.values().filter(|shown| (shown.shot.shows == Shows::Render) == renders);
+            let times = own.map(|shown| {
+                f64::from(shown.shot.film.size[0]) / shown.texture.size()[0] as f64 * shown.taken.coarser
+            });
+            times.fold(1.0, f64::max)
         };
-        self.traced.values().map(times).fold(1.0, f64::max)
+        Blocks { renders: coarsest(true), others: coarsest(false) }
     }
 
     /// Drops the pictures of a document, or of a comparison, that has ended. The studio may still answer with such a picture.

@@ -135,13 +135,14 @@ impl<E: From<Stopped> + From<GpuError>> ProgressiveImage<E> for ByCard<'_> {
     fn each_pixel(&self, each: &mut dyn FnMut(&RadiancePixel)) -> Result<(), E> {
         let per_pass = 1.0 / f64::from(self.passes.max(1));
         let share = per_pass / self.wavelengths as f64;
-        for sum in self.stage.read::<gpu_types::RadiancePixel>(self.rows.len() as u32)? {
+        let mut pixel = |sum: &gpu_types::RadiancePixel| {
             let [red, green, blue, cover] = sum.colour.map(f64::from);
             let [unresolved, absorbed, ..] = sum.rest.map(|x| f64::from(x) * share);
             let colour = DVec3::new(red, green, blue) * per_pass;
             each(&RadiancePixel { colour, cover: cover * share, unresolved, absorbed });
-        }
-        Ok(())
+        };
+        let count = self.rows.len() as u32;
+        Ok(self.stage.read(count, |pixels| pixels.iter().for_each(&mut pixel))?)
     }
 }
 

@@ -9,8 +9,9 @@ use crate::math::{Pose, PosedSolid};
 use crate::trace::{ScopeShot, Stopped, Watch};
 use glam::DVec2;
 
-/// The most pixels in a strip, whose buffer is smaller than the 128 MiB that all cards take.
-const PIXELS_AT_ONCE: u32 = 1 << 20;
+/// The most pixels in a strip. They occupy any card fully, and memory for more of them takes longer to get than the card
+/// takes to trace them.
+const PIXELS_AT_ONCE: u32 = 1 << 18;
 
 impl Gpu {
     /// Traces a picture some rows at a time, from the top, and calls `each` with the first row's number and the
@@ -39,7 +40,7 @@ impl Gpu {
                 };
                 stage.trace::<E>(&strip, &layer, &|done| watch(part(done)))?;
             }
-            each(first, &stage.read::<ScopePixel>(strip.len() as u32)?)?;
+            stage.read(strip.len() as u32, |pixels| each(first, pixels))??;
         }
         Ok(())
     }

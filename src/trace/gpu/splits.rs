@@ -92,8 +92,8 @@ fn lit(
         let added: Result<(), Broken> = image.add_pass(&pass, &unwatched);
         added.unwrap();
     }
-    let pixels: Vec<RadiancePixel> = image.stage.read(SIZE[1]).unwrap();
-    (bytemuck::cast_slice(&pixels).to_vec(), gpu.take_totals().count)
+    let bits = |pixels: &[RadiancePixel]| bytemuck::cast_slice(pixels).to_vec();
+    (image.stage.read(SIZE[1], bits).unwrap(), gpu.take_totals().count)
 }
 
 fn in_scope(gpu: &Gpu, specimen: &Specimen, throttle: Throttle, per_side: u32) -> (Vec<u32>, u32) {

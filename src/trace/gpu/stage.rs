@@ -12,6 +12,7 @@ use crate::trace::{Stopped, Watch};
 use bytemuck::Pod;
 use glam::DVec2;
 use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// The side of a tile, which one workgroup traces, in pixels.
@@ -81,6 +82,8 @@ pub(super) struct Stage<'a> {
     bound: wgpu::BindGroup,
     /// The number of bytes per pixel.
     width: u64,
+    /// The number of this stage, for the throttle.
+    number: u64,
 }
 
 impl<'a> Stage<'a> {
@@ -118,7 +121,10 @@ impl<'a> Stage<'a> {
             layout: &kernel.pipeline.get_bind_group_layout(0),
             entries: &all,
         });
-        let stage = Self { gpu, kernel, frame, cost, bands_at_once, frame_buffer, seen, back, bound, width };
+        static STAGES: AtomicU64 = AtomicU64::new(1);
+        let number = STAGES.fetch_add(1, Ordering::Relaxed);
+        let stage =
+            Self { gpu, kernel, frame, cost, bands_at_once, frame_buffer, seen, back, bound, width, number };
         // A dispatch without tiles runs first, so that copied data arrive, and drivers that compile late do so,
         // before times are measured.
         stage.submit(&Frame { tiles: [0, 0, 1, 1], ..frame }, 1)?;
@@ -140,7 +146,7 @@ impl<'a> Stage<'a> {
         let cost = f64::from(TILE * TILE) * (BESIDE + share * self.cost);
         let all = f64::from(tiles) * f64::from(layer.bands);
         let (mut pieces, mut done) = (Pieces::new(tiles, layer.bands, self.bands_at_once), 0);
-        self.kernel.throttle().open();
+        self.kernel.throttle().open(self.number);
         loop {
             let most = self.kernel.throttle().most() / cost;
             let Some(piece) = pieces.next(most) else { return Ok(()) };
@@ -180,8 +186,8 @@ impl<'a> Stage<'a> {
         Ok(start.elapsed())
     }
 
-    /// Reads the pixels of the first `count` rows back.
-    pub fn read<T: Pod>(&self, count: u32) -> Result<Vec<T>, GpuError> {
+    /// Reads the pixels of the first `count` rows back, and calls `each` with them.
+    pub fn read<T: Pod, R>(&self, count: u32, each: impl FnOnce(&[T]) -> R) -> Result<R, GpuError> {
         let bytes = u64::from(count) * u64::from(self.frame.film[0]) * self.width;
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         encoder.copy_buffer_to_buffer(&self.seen, 0, &self.back, 0, bytes);
@@ -189,10 +195,11 @@ impl<'a> Stage<'a> {
         self.back.map_async(wgpu::MapMode::Read, 0..bytes, |_| {});
         self.gpu.wait()?;
         let mapped = self.back.get_mapped_range(0..bytes).map_err(|e| self.gpu.failed(e.to_string()))?;
-        let seen = bytemuck::pod_collect_to_vec(&mapped);
+        // The pixels are handed out where the card's driver put them, because a copy takes longer than their way here.
+        let done = each(bytemuck::cast_slice(&mapped));
         drop(mapped);
         self.back.unmap();
-        Ok(seen)
+        Ok(done)
     }
 }
 

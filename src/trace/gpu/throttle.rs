@@ -18,14 +18,59 @@ const LEAST: f64 = 1.0;
 /// as heavy as estimated.
 const OPENING: f64 = 0.25;
 
+/// The factor by which a dispatch counts for less than the next one where a line is fitted to the times.
+const FADE: f64 = 0.9;
+
+/// The ratio of a dispatch's time to the expected one above which the card, or the picture, has changed.
+const CHANGED: f64 = 8.0;
+
 /// The limit of the work of one dispatch, from the measured times of earlier dispatches. Work is counted in estimated
 /// plane tests; only the ratio between dispatches matters.
+///
+/// A few rays may be so long, as between stones and metal, that their dispatch exceeds the budget however little work it
+/// has. Smaller dispatches would then only wait more often for such rays. So a line is fitted to the times, and where the
+/// time without work takes most of the budget, a dispatch gets so much work that the work takes as long as the wait.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Throttle {
     budget_s: f64,
     most: f64,
     /// The work per second of the last dispatch.
     speed: f64,
+    times: TimeLine,
+    /// The number of the picture, or part of one, that was traced last.
+    picture: u64,
+}
+
+/// The times of dispatches as a line over their work, by least squares in which newer dispatches weigh more.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct TimeLine {
+    count: f64,
+    /// The sums of work, time, squared work, and work times time.
+    sums: [f64; 4],
+}
+
+impl TimeLine {
+    fn add(&mut self, work: f64, took_s: f64) {
+        self.count = FADE * self.count + 1.0;
+        let new = [work, took_s, work * work, work * took_s];
+        self.sums = std::array::from_fn(|k| FADE * self.sums[k] + new[k]);
+    }
+
+    /// Returns the time without work, in seconds, and the time per work, neither below 0; `None` where all dispatches had about
+    /// the same work.
+    fn fitted(&self) -> Option<[f64; 2]> {
+        let [work, time, square, product] = self.sums.map(|sum| sum / self.count);
+        let spread = square - work * work;
+        if self.count < 1.5 || spread <= 1e-6 * square {
+            return None;
+        }
+        let slope = (product - work * time) / spread;
+        Some(match time - slope * work {
+            _ if slope <= 0.0 => [time, 0.0],
+            wait if wait < 0.0 => [0.0, time / work],
+            wait => [wait, slope],
+        })
+    }
 }
 
 impl Default for Throttle {
@@ -37,7 +82,7 @@ impl Default for Throttle {
 impl Throttle {
     /// Returns a throttle whose first dispatch is given at most `first` plane tests.
     pub fn new(budget_s: f64, first: f64) -> Self {
-        Self { budget_s, most: first, speed: f64::INFINITY }
+        Self { budget_s, most: first, speed: f64::INFINITY, times: TimeLine::default(), picture: 0 }
     }
 
     /// Returns the most work that the next dispatch may be given, above 0.
@@ -45,9 +90,13 @@ impl Throttle {
         self.most
     }
 
-    /// Begins another picture, or another part of one, with a cautious first dispatch by the speed measured so far.
-    pub fn open(&mut self) {
-        self.most = self.most.min(self.speed * self.budget_s * OPENING).max(LEAST);
+    /// Goes on with the picture, or the part of one, that has this number. Where another one was traced last, its first
+    /// dispatch is a cautious one by the speed measured so far.
+    pub fn open(&mut self, picture: u64) {
+        if self.picture != picture {
+            let most = self.most.min(self.speed * self.budget_s * OPENING).max(LEAST);
+            *self = Self { most, picture, times: TimeLine::default(), ..*self };
+        }
     }
 
     /// Records that a dispatch of this much work took this long.
@@ -55,11 +104,27 @@ impl Throttle {
         let took_s = took.as_secs_f64().max(1e-9);
         self.speed = work / took_s;
         let fits = self.budget_s / took_s;
+        let is_expected =
+            self.times.fitted().is_none_or(|[wait, slope]| took_s < CHANGED * (wait + slope * work));
+        if fits < 1.0 && !is_expected {
+            self.times = TimeLine::default();
+        }
+        self.times.add(work, took_s);
         if fits < 1.0 {
             // The aim is half the budget, so at least half of the work is left out.
-            self.most = self.most.min(work * 0.5 * fits).max(LEAST);
+            let less = self.most.min(work * 0.5 * fits);
+            self.most = less.max(self.worth_waiting(work)).min(2.0 * self.most).max(LEAST);
         } else if fits > 2.0 {
             self.most = self.most.max(work * (0.75 * fits).min(2.0));
+        }
+    }
+
+    /// Returns the work for which the waits of dispatches are worth while, at most twice that of the last one; 0 where the waits
+    /// leave room for work within the budget.
+    fn worth_waiting(&self, work: f64) -> f64 {
+        match self.times.fitted() {
+            Some([wait, slope]) if wait > 0.5 * self.budget_s => (2.0 * work).min(wait / slope),
+            _ => 0.0,
         }
     }
 }
@@ -97,11 +162,11 @@ mod tests {
             times in prop::collection::vec((0.0..1.0_f64, 0.0..100.0_f64, any::<bool>()), 1..60),
         ) {
             let mut throttle = Throttle::default();
-            for (part, took, opens) in times {
+            for (picture, (part, took, opens)) in (1..).zip(times) {
                 let before = throttle.most();
                 throttle.note(before * part, Duration::from_secs_f64(took));
                 if opens {
-                    throttle.open();
+                    throttle.open(picture);
                 }
                 prop_assert!(throttle.most() >= LEAST && throttle.most() <= 2.0 * before, "{throttle:?}");
             }
@@ -127,11 +192,53 @@ mod tests {
         }
     }
 
+    /// Returns the time that a device takes for ten seconds of work, where each dispatch also waits for its longest ray, for up
+    /// to `longest_s` seconds: by a spread that is even, or by one with few long waits. `None` where it takes a thousand times as
+    /// long.
+    fn in_all(longest_s: f64, is_even: bool, note: impl Fn(&mut Throttle, f64, f64)) -> Option<f64> {
+        let (mut throttle, mut done, mut seconds) = (Throttle::default(), 0.0, 0.0);
+        for k in 1.. {
+            let part = (f64::from(k) * 0.618_034).fract();
+            let wait = longest_s * if is_even { 0.25 + 0.75 * part } else { 0.01 / (1.01 - part) };
+            let work = throttle.most().min(1e11 - done);
+            let took = wait + 1e-10 * work;
+            note(&mut throttle, work, took);
+            (done, seconds) = (done + work, seconds + took);
+            if done >= 1e11 {
+                break;
+            }
+            if seconds > 1e4 {
+                return None;
+            }
+        }
+        Some(seconds)
+    }
+
+    proptest! {
+        #[test]
+        fn work_is_not_divided_in_vain_where_single_rays_take_longer_than_the_budget(
+            longest_s in 0.001..2.0_f64, is_even: bool,
+        ) {
+            let note = |throttle: &mut Throttle, work, took| throttle.note(work, Duration::from_secs_f64(took));
+            let seconds = in_all(longest_s, is_even, note).unwrap_or(f64::INFINITY);
+            prop_assert!(seconds < 100.0, "{seconds} s");
+        }
+    }
+
+    #[test]
+    fn a_throttle_that_knows_no_waits_would_hardly_come_to_an_end() {
+        let forgetful = |throttle: &mut Throttle, work, took| {
+            throttle.times = TimeLine::default();
+            throttle.note(work, Duration::from_secs_f64(took));
+        };
+        assert_eq!(in_all(0.5, true, forgetful), None);
+    }
+
     #[test]
     fn a_picture_four_times_as_heavy_as_its_estimate_begins_within_the_budget() {
         let mut throttle = Throttle::default();
         times(&mut throttle, 40, |work| work / 1e9);
-        throttle.open();
+        throttle.open(1);
         let heavier = times(&mut throttle, 10, |work| 4.0 * work / 1e9);
         assert!(heavier.iter().all(|&t| t <= BUDGET_S * 1.001), "{heavier:?}");
         let mutant = Throttle { most: 4.0 * throttle.most(), ..throttle };

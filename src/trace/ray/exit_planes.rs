@@ -5,7 +5,7 @@
 //! convex stone, limits how far the light can go. Only the other facets, those beside a cleft for example, can stop it
 //! before: they are the inner ones, and are tried one after the other.
 
-use super::search::Search;
+use super::search::{MOST_MARKED, Search};
 use crate::math::{Plane, TriangleMesh};
 use glam::DVec3;
 
@@ -14,6 +14,8 @@ const MOST_FACETS: usize = 192;
 
 /// The most inner facets, for the same reason.
 const MOST_INNER: usize = 48;
+
+const _: () = assert!(MOST_INNER <= MOST_MARKED);
 
 /// The greatest distance of the normals of two facets that lie in one plane.
 const SAME: f64 = 1e-9;
@@ -26,6 +28,8 @@ pub(super) struct ExitPlanes {
     planes: Vec<Plane>,
     search: Search,
     inner: Vec<InnerFacet>,
+    /// The planes of the inner facets.
+    search_inner: Search,
 }
 
 /// A facet beyond whose plane a part of the solid lies, or in whose plane another facet lies.
@@ -96,8 +100,10 @@ impl ExitPlanes {
             return None;
         }
         let planes: Vec<Plane> = outer.iter().map(|&facet| mesh.planes()[facet as usize]).collect();
-        let inner = inner.into_iter().map(|facet| InnerFacet::new(mesh, facet, slack)).collect();
-        Some(Self { outer, search: Search::new(&planes), planes, inner })
+        let inner: Vec<InnerFacet> =
+            inner.into_iter().map(|facet| InnerFacet::new(mesh, facet, slack)).collect();
+        let search_inner = Search::new(&inner.iter().map(|facet| facet.plane).collect::<Vec<_>>());
+        Some(Self { outer, search: Search::new(&planes), planes, inner, search_inner })
     }
 
     /// Returns the facet and the distance, not below 0, at which light inside leaves. Inner facets count from the distance
@@ -107,7 +113,11 @@ impl ExitPlanes {
             Some((facet, distance)) => (Some(facet), distance),
             None => (None, f64::INFINITY),
         };
-        for inner in &self.inner {
+        // Few of the inner facets have planes that are crossed so early.
+        let mut marked = self.search_inner.crossed((point, direction), first);
+        while marked != 0 {
+            let inner = &self.inner[marked.trailing_zeros() as usize];
+            marked &= marked - 1;
             if let Some(distance) = inner.crossed(point, direction, [behind, first]) {
                 (found, first) = (Some(inner.facet), distance);
             }

@@ -62,7 +62,9 @@ fn compared(given: &[[f32; 4]], found: &[[[u32; 4]; 3]], index_factor: f64) -> (
         let drawn = |off: f64| metals[k % metals.len()].0.sample(out, [u - off, v, w + off]);
         // Where the library's result depends on the last digits of f32, nothing can be compared.
         let (Some(own), Some(beside)) = (drawn(0.0), drawn(1e-6)) else { continue };
-        if own.direction.distance(beside.direction) > 1e-3 {
+        if own.direction.distance(beside.direction) > 1e-3
+            || (own.weight - beside.weight).abs() > 1e-3 * own.weight
+        {
             continue;
         }
         let [x, y, z, weight] = found[0].map(|bits| f64::from(f32::from_bits(bits)));
