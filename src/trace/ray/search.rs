@@ -16,12 +16,6 @@ const WIDEST: usize = 8;
 /// outside a plane, the ray meets that plane at once.
 const LEAST_GAP: f64 = 1e-290;
 
-/// The most planes of which a set is returned as the bits of a number: so many bits are exact in f64.
-pub(super) const MOST_MARKED: usize = 52;
-
-/// The part by which a distance is lengthened where no plane must be missed.
-const SLACK: f64 = 1e-9;
-
 /// Planes, coordinate by coordinate. Whole rows are filled up with zero normals, toward which no ray runs.
 #[derive(Debug, Clone)]
 pub(super) struct Search {
@@ -29,8 +23,6 @@ pub(super) struct Search {
     offset: Vec<f64>,
     /// The plane's number, in the bits of `tag_bits`.
     tag: Vec<f64>,
-    /// Two to the power of the plane's number; 0 beyond the first planes, of which sets are made.
-    mark: Vec<f64>,
     /// The low bits of a ratio's fraction; they hold the number of the ratio's plane. With 16,384 planes, two ratios
     /// that differ by less than 4e-12 of their size are confused; their facets then meet in an edge near that point.
     tag_bits: u64,
@@ -49,7 +41,6 @@ impl Search {
             normal: [column(&|p| p.normal.x), column(&|p| p.normal.y), column(&|p| p.normal.z)],
             offset: column(&|p| p.offset),
             tag: (0..whole as u64).map(f64::from_bits).collect(),
-            mark: (0..whole).map(|k| if k < MOST_MARKED { (1_u64 << k) as f64 } else { 0.0 }).collect(),
             tag_bits: whole.next_power_of_two() as u64 - 1,
             arch: Arch::new(),
         }
@@ -61,14 +52,6 @@ impl Search {
     #[inline]
     pub fn next(&self, point: DVec3, direction: DVec3) -> usize {
         self.plane(self.arch.dispatch(Next { search: self, point, direction }))
-    }
-
-    /// Returns the planes that a ray from a point behind them crosses after less than `most`, which is positive: bit k stands for
-    /// plane k. There may be [`MOST_MARKED`] planes at most. Rounding may add a plane that the ray crosses at `most` or hardly
-    /// later, and a plane hardly behind the point, but no plane is left out.
-    #[inline]
-    pub fn crossed(&self, (point, direction): (DVec3, DVec3), most: f64) -> u64 {
-        self.arch.dispatch(Crossed { search: self, point, direction, most: most * (1.0 + SLACK) }) as u64
     }
 
     /// Returns the facet by which a ray from a point outside enters; `None` where it misses.
@@ -139,35 +122,6 @@ impl WithSimd for Next<'_> {
             greatest = simd.max_f64s(tagged, greatest);
         }
         simd.reduce_max_f64s(greatest)
-    }
-}
-
-struct Crossed<'a> {
-    search: &'a Search,
-    point: DVec3,
-    direction: DVec3,
-    most: f64,
-}
-
-impl WithSimd for Crossed<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> f64 {
-        let (point, direction) = (splat(simd, self.point), splat(simd, self.direction));
-        let (zero, most) = (simd.splat_f64s(0.0), simd.splat_f64s(self.most));
-        let mut marks = zero;
-        let rows = self.search.rows::<S>();
-        for row in 0..rows.tag.len() {
-            let normal = rows.normal(row);
-            let speed = dot(simd, normal, direction);
-            let gap = simd.sub_f64s(rows.offset[row], dot(simd, normal, point));
-            let is_before = simd.less_than_f64s(gap, simd.mul_f64s(most, speed));
-            let is_crossed = simd.and_m64s(simd.greater_than_f64s(speed, zero), is_before);
-            let mark = S::as_simd_f64s(&self.search.mark).0[row];
-            marks = simd.add_f64s(marks, simd.select_f64s(is_crossed, mark, zero));
-        }
-        simd.reduce_sum_f64s(marks)
     }
 }
 
