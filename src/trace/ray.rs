@@ -7,7 +7,6 @@
 //! agree, they hardly agree by a shared mistake.
 
 mod camera;
-mod disc_search;
 mod dispersed_ray;
 mod exit_planes;
 mod facets;

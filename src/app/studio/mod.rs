@@ -68,6 +68,12 @@ impl Studio {
         &self.device_name
     }
 
+    /// Replaces the name of the device, so that pictures of the window are the same on every machine.
+    #[cfg(test)]
+    pub fn rename_device(&mut self, name: &str) {
+        self.device_name = name.to_owned();
+    }
+
     /// Replaces the current order; does nothing if the last order was equal.
     pub fn order(&mut self, order: Order) {
         if order == self.last {

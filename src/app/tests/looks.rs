@@ -27,6 +27,7 @@ fn arrows_first() -> Workspace {
 fn compare(bench: &mut Bench, name: &str) {
     // Drivers round edges of letters and lines differently by a shade.
     let options = SnapshotOptions::new().threshold(1.0).max_failed_pixels(60);
+    bench.harness.state_mut().studio.rename_device("processor");
     bench.harness.remove_cursor();
     bench.harness.run_steps(2);
     bench.harness.snapshot_options(name, &options);

@@ -5,7 +5,6 @@
 //! convex stone, limits how far the light can go. Only the other facets, those beside a cleft for example, can stop it
 //! before: they are the inner ones, and are tried one after the other.
 
-use super::disc_search::{Disc, DiscSearch, MOST_DISCS};
 use super::search::Search;
 use crate::math::{Plane, TriangleMesh};
 use glam::DVec3;
@@ -16,13 +15,8 @@ const MOST_FACETS: usize = 192;
 /// The most inner facets, for the same reason.
 const MOST_INNER: usize = 48;
 
-const _: () = assert!(MOST_INNER <= MOST_DISCS);
-
 /// The greatest distance of the normals of two facets that lie in one plane.
 const SAME: f64 = 1e-9;
-
-/// The part by which a disc is larger than the corners of its facet need, for triangles that are larger by the slack.
-const LARGER: f64 = 1e-3;
 
 /// The facets of a solid, as light inside meets them.
 #[derive(Debug)]
@@ -32,8 +26,6 @@ pub(super) struct ExitPlanes {
     planes: Vec<Plane>,
     search: Search,
     inner: Vec<InnerFacet>,
-    /// Discs around the inner facets, in the same order.
-    discs: DiscSearch,
 }
 
 /// A facet beyond whose plane a part of the solid lies, or in whose plane another facet lies.
@@ -42,8 +34,6 @@ struct InnerFacet {
     /// The place of the facet in the solid.
     facet: u32,
     plane: Plane,
-    /// A disc around the triangles.
-    disc: Disc,
     /// For each of its triangles, the planes through the sides, whose normals point out of the triangle and lie in its plane.
     triangles: Vec<[Plane; 3]>,
 }
@@ -61,13 +51,8 @@ impl InnerFacet {
                 Plane::new(normal, normal.dot(from) + slack)
             })
         };
-        let all = mesh.surface().triangles.iter().zip(mesh.facets());
-        let own: Vec<&[u32; 3]> = all.filter(|(_, of)| **of == facet).map(|(triangle, _)| triangle).collect();
-        let corners = || own.iter().copied().flatten().map(|&v| mesh.vertices()[v as usize]);
-        let middle = corners().sum::<DVec3>() / (3 * own.len()).max(1) as f64;
-        let radius = corners().map(|corner| corner.distance(middle)).fold(0.0, f64::max);
-        let disc = Disc { plane, middle, radius: radius * (1.0 + LARGER) };
-        Self { facet, plane, disc, triangles: own.into_iter().map(sides).collect() }
+        let own = mesh.surface().triangles.iter().zip(mesh.facets()).filter(|(_, of)| **of == facet);
+        Self { facet, plane, triangles: own.map(|(triangle, _)| sides(triangle)).collect() }
     }
 
     /// Returns the distance at which a ray crosses the facet from inside, above `after` and below `before`.
@@ -111,10 +96,8 @@ impl ExitPlanes {
             return None;
         }
         let planes: Vec<Plane> = outer.iter().map(|&facet| mesh.planes()[facet as usize]).collect();
-        let inner: Vec<InnerFacet> =
-            inner.into_iter().map(|facet| InnerFacet::new(mesh, facet, slack)).collect();
-        let discs = DiscSearch::new(&inner.iter().map(|facet| facet.disc).collect::<Vec<_>>());
-        Some(Self { outer, search: Search::new(&planes), planes, inner, discs })
+        let inner = inner.into_iter().map(|facet| InnerFacet::new(mesh, facet, slack)).collect();
+        Some(Self { outer, search: Search::new(&planes), planes, inner })
     }
 
     /// Returns the facet and the distance, not below 0, at which light inside leaves. Inner facets count from the distance
@@ -124,11 +107,7 @@ impl ExitPlanes {
             Some((facet, distance)) => (Some(facet), distance),
             None => (None, f64::INFINITY),
         };
-        // Few of the inner facets are so near to the ray.
-        let mut marked = self.discs.crossed((point, direction), first);
-        while marked != 0 {
-            let inner = &self.inner[marked.trailing_zeros() as usize];
-            marked &= marked - 1;
+        for inner in &self.inner {
             if let Some(distance) = inner.crossed(point, direction, [behind, first]) {
                 (found, first) = (Some(inner.facet), distance);
             }
