@@ -22,6 +22,8 @@ struct Waiting {
     weight: f32,
     first: First,
     chances: Chances,
+    // The side of the square of directions that the ray represents; 0 for one direction.
+    spread: f32,
 }
 
 var<private> sum: RadiancePixel;
@@ -31,6 +33,8 @@ var<private> present: u32;
 // far.
 var<private> chances: Chances;
 var<private> exits: u32;
+// The spread of the light that enters the present body.
+var<private> spread_before: f32;
 var<private> waiting: array<Waiting, MOST_WAITING>;
 var<private> count: u32;
 // The ray from the eye, as it would go on without any stone.
@@ -119,7 +123,7 @@ fn is_taken(ray: Ray, distance: f32) -> bool {
 // Handles light that leaves the present stone.
 fn leave(ray: Ray, weight: f32, is_surface: bool) {
     exits += 1u;
-    onward(ray, weight, 0.0, Left(present, NONE), chances_beyond(chances, exits));
+    onward(ray, weight, spread_before, Left(present, NONE), chances_beyond(chances, exits));
 }
 
 // Handles light that has left a body. Light that meets another body waits to be followed, and all other light is
@@ -130,7 +134,7 @@ fn onward(ray: Ray, weight: f32, spread: f32, left: Left, own: Chances) {
         if first.body != NONE || is_spent() {
             let kept = sieved(weight);
             if count < MOST_WAITING && kept > frame.limits.x {
-                waiting[count] = Waiting(ray, kept, first, own);
+                waiting[count] = Waiting(ray, kept, first, own, spread);
                 count += 1u;
             } else {
                 sum.rest.x += kept;
@@ -153,6 +157,7 @@ fn go(next: Waiting, wavelength: u32) {
         return;
     }
     chances = next.chances;
+    spread_before = next.spread;
     exits = 0u;
     begin_sieve(chances);
     if next.first.body >= MOST_BODIES {
@@ -193,7 +198,7 @@ fn light(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) id: 
         sum = RadiancePixel();
         turns = turns_before;
         response = responses[select(w, frame.counts.y, is_beside)];
-        var next = Waiting(straight, 1.0, first, chances_of_pixel(pixel, w));
+        var next = Waiting(straight, 1.0, first, chances_of_pixel(pixel, w), 0.0);
         // `go` is called at one place for all light, because compilers inline it with everything it calls, which
         // takes some of them long.
         loop {

@@ -12,7 +12,12 @@ const AWAY: f32 = 2e-6;
 // The lift of mirror images below the surface, as in metal_tracer.rs.
 const LIFT = vec2f(0.9, 0.01);
 const LEAST_SINE: f32 = 1e-6;
-const PARTS: f32 = 64.0;
+const PARTS: f32 = 32.0;
+// The widest side of the square of directions that a ray represents: the root of 4 pi / PARTS.
+const WIDEST: f32 = 0.626657;
+// The longest step of a hit, and the widest fan, as in metal_tracer.rs.
+const LONGEST_STEP: f32 = 4.0;
+const WIDEST_FAN: f32 = 0.3;
 // The squared length below which a vector has no direction.
 const SHORT: f32 = 1e-36;
 // The steps of the random numbers, as in lobe_luck.rs.
@@ -118,6 +123,12 @@ fn meets_metal(ray: Ray, before: f32) -> bool {
     return found;
 }
 
+// Returns the side of the square of directions that a ray represents after two rough surfaces. It is the twin of
+// `wider` in metal_tracer.rs.
+fn wider(own: f32, before: f32) -> f32 {
+    return min(sqrt(own * own + before * before), WIDEST);
+}
+
 // Returns a vector scaled to length 1, or `otherwise` where it has no direction.
 fn normal_or(v: vec3f, otherwise: vec3f) -> vec3f {
     let square = dot(v, v);
@@ -161,6 +172,52 @@ fn normals_at(triangle: u32, place: vec3f) -> array<vec3f, 2> {
     return array<vec3f, 2>(world_vector(flat), world_vector(normal_or(shading, flat)));
 }
 
+// Returns the change of the shading normal of a triangle of the present body along a step in its plane, in the world. It
+// is the twin of `change_of_normal` in src/math/shaded_mesh.rs.
+fn change_of_normal(triangle: u32, place: vec3f, world_step: vec3f) -> vec3f {
+    let t = triangles[triangle];
+    let corner = triangles[triangle + body.range.z];
+    let flat = vec3f(t.a.w, t.b.w, t.c.w);
+    let point = unplace(place);
+    let step = own_vector(world_step) / unit();
+    let a = t.a.xyz - point;
+    let b = t.b.xyz - point;
+    let c = t.c.xyz - point;
+    let shares = max(vec3f(dot(cross(b, c), flat), dot(cross(c, a), flat), dot(cross(a, b), flat)), vec3f(0.0));
+    let changes =
+        vec3f(dot(cross(step, b - c), flat), dot(cross(step, c - a), flat), dot(cross(step, a - b), flat));
+    let here = corner.a.xyz * shares.x + corner.b.xyz * shares.y + corner.c.xyz * shares.z;
+    let along = corner.a.xyz * changes.x + corner.b.xyz * changes.y + corner.c.xyz * changes.z;
+    let square = dot(here, here);
+    if square <= SHORT {
+        return vec3f(0.0);
+    }
+    return world_vector((along - here * (dot(along, here) / square)) * inverseSqrt(square));
+}
+
+// Returns a vector, shortened to `most` where it is longer.
+fn at_most(v: vec3f, most: f32) -> vec3f {
+    let length = length(v);
+    return select(v, v * (most / max(length, SHORT)), length > most);
+}
+
+// Returns the step in the plane with the normal `flat` by which the hit moves where the ray's origin is shifted. It is
+// the twin of `step_along` in metal_tracer.rs.
+fn step_along(shift: vec3f, direction: vec3f, flat: vec3f) -> vec3f {
+    let slope = dot(direction, flat);
+    if slope == 0.0 {
+        return vec3f(0.0);
+    }
+    return at_most(shift - direction * (dot(shift, flat) / slope), LONGEST_STEP * length(shift));
+}
+
+// Returns the fan of a ray that a mirror reflects. It is the twin of `mirrored_fan` in metal_tracer.rs.
+fn mirrored_fan(fan: vec3f, direction: vec3f, middle: vec3f, all_turn: vec3f) -> vec3f {
+    let turn = all_turn - middle * dot(middle, all_turn);
+    let along = middle * (dot(fan, middle) + dot(direction, turn)) + turn * dot(direction, middle);
+    return at_most(fan - along * 2.0, max(WIDEST_FAN, length(fan)));
+}
+
 // Reflects light at the body of metal that it meets first, and hands the reflected light on.
 fn reflect_by_metal(next: Waiting, wavelength: u32) {
     let own = next.chances;
@@ -192,11 +249,14 @@ fn reflect_by_metal(next: Waiting, wavelength: u32) {
     }
     let toward = above(right * found.direction.x + ahead * found.direction.y + up * found.direction.z, flat);
     let middle = normal_or(toward + out, up);
-    let fan = next.ray.fan - middle * (2.0 * dot(next.ray.fan, middle));
-    let ray = Ray(place, toward, fan, next.ray.shift + next.ray.fan * hit.distance);
+    let shift = next.ray.shift + next.ray.fan * hit.distance;
+    let step = step_along(shift, next.ray.direction, flat);
+    let turn = change_of_normal(hit.facet, place, step) * side;
+    let ray = Ray(place, toward, mirrored_fan(next.ray.fan, next.ray.direction, middle, turn), shift);
     let by = mixed_bits(vec2u(1u, 0u));
     let later =
         Chances(mixed_bits(own.luck ^ SALT), mixed_bits(own.roulette ^ by), own.number, own.reflections + 1u);
     let left = Left(next.first.body, hit.facet);
-    onward(ray, next.weight * found.weight, sqrt(found.solid_angle / PARTS), left, later);
+    let spread = wider(sqrt(found.solid_angle / PARTS), next.spread);
+    onward(ray, next.weight * found.weight, spread, left, later);
 }

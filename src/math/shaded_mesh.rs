@@ -142,6 +142,24 @@ impl ShadedMesh {
         let mixed: DVec3 = normals.into_iter().zip(shares).map(|(normal, share)| normal * share).sum();
         SurfaceNormals { flat, shading: mixed.try_normalize().unwrap_or(flat) }
     }
+
+    /// Returns the change of the shading normal from a point of a triangle along a short step in the triangle's plane, to
+    /// first order.
+    pub fn change_of_normal(&self, triangle: u32, point: DVec3, step: DVec3) -> DVec3 {
+        if self.surface.normals.is_empty() {
+            return DVec3::ZERO;
+        }
+        let corners = self.surface.corners[triangle as usize];
+        let [a, b, c] = corners.map(|v| self.surface.points[v as usize]);
+        let (flat, normals) = self.corner_normals(triangle);
+        let share = |p: DVec3, q: DVec3| (p - point).cross(q - point).dot(flat).max(0.0);
+        let change = |p: DVec3, q: DVec3| step.cross(p - q).dot(flat);
+        let mixed = |shares: [f64; 3]| normals.iter().zip(shares).map(|(n, share)| *n * share).sum::<DVec3>();
+        let here = mixed([share(b, c), share(c, a), share(a, b)]);
+        let along = mixed([change(b, c), change(c, a), change(a, b)]);
+        let Some(normal) = here.try_normalize() else { return DVec3::ZERO };
+        (along - normal * along.dot(normal)) / here.length()
+    }
 }
 
 impl ShadedSurface {
@@ -244,6 +262,20 @@ mod tests {
         // A normal on the other side, as one-sided files have it, counts as on this one.
         let turned = triangle(corners.map(|n| -n).to_vec());
         assert!(turned.normals(0, DVec3::X).shading.distance(corners[1]) < 1e-12);
+    }
+
+    #[test]
+    fn the_change_of_a_normal_is_the_difference_of_the_normals_at_both_ends_of_a_step() {
+        let corners = [DVec3::new(0.6, 0.0, 0.8), DVec3::new(0.0, 0.6, 0.8), DVec3::new(-0.28, 0.0, 0.96)];
+        let mesh = triangle(corners.to_vec());
+        for (point, way) in [(DVec3::new(0.3, 0.2, 0.0), DVec3::X), (DVec3::new(0.1, 0.6, 0.0), DVec3::new(0.6, -0.8, 0.0))] {
+            let step = way * 1e-5;
+            let [before, after] = [-0.5, 0.5].map(|part| mesh.normals(0, point + step * part).shading);
+            let change = mesh.change_of_normal(0, point, step);
+            assert!((after - before).length() > 1e-6);
+            assert!(change.distance(after - before) < 1e-10, "{change} {}", after - before);
+        }
+        assert_eq!(triangle(vec![]).change_of_normal(0, DVec3::X * 0.2, DVec3::X), DVec3::ZERO);
     }
 
     #[test]

@@ -37,6 +37,8 @@ pub struct SrgbEncoder {
     code: [u8; STEPS],
     /// The least linear value of each code; beyond code 255 NaN, which no value reaches.
     least: [f64; 257],
+    /// The linear value of each code.
+    exact: [f64; 256],
 }
 
 impl SrgbEncoder {
@@ -45,7 +47,8 @@ impl SrgbEncoder {
         let mut least = [f64::NAN; 257];
         (0..=255_u8).for_each(|code| least[usize::from(code)] = least_linear(code));
         let code = std::array::from_fn(|step| rounded(step as f64 / STEPS as f64));
-        Self { code, least }
+        let exact = std::array::from_fn(|code| linear_from_encoded(code as f64 / 255.0));
+        Self { code, least, exact }
     }
 
     /// Returns the 8-bit code of a linear component: [`encoded_from_linear`] clamped to 0..=1, times 255, rounded. NaN gives
@@ -56,6 +59,17 @@ impl SrgbEncoder {
         let step = ((linear * STEPS as f64) as usize).min(STEPS - 1);
         let code = self.code[step];
         code + u8::from(linear >= self.least[usize::from(code) + 1])
+    }
+
+    /// Returns the 8-bit code of a linear component as [`encode`](Self::encode) does, but rounded up where the component lies
+    /// more than `threshold` of the way from one code to the next, in linear light; `threshold` is above 0 and below 1.
+    /// The light of a code keeps that code.
+    #[inline]
+    pub fn encode_dithered(&self, linear: f64, threshold: f64) -> u8 {
+        let near = self.encode(linear);
+        let below = near - u8::from(near > 0 && linear < self.exact[usize::from(near)]);
+        let [low, high] = [below, below.saturating_add(1)].map(|code| self.exact[usize::from(code)]);
+        below + u8::from(below < 255 && linear - low > threshold * (high - low))
     }
 
     /// Returns the three codes of a colour.

@@ -46,6 +46,9 @@ const AT_ONCE: u32 = 1 << 20;
 /// Develops a picture to eight-bit sRGB: red, green, blue and cover, not premultiplied, row by row. Numbers out of their
 /// range count as the nearer end of it, and light that is NaN as dark.
 ///
+/// Light between two codes is rounded by a fixed pattern, so that the mean over neighbours is the light; the light of a code
+/// itself, such as that of a plain background, is never changed.
+///
 /// Without a background, glare beside the stones has light but no cover, which eight-bit pictures cannot hold. There,
 /// the cover is raised to the brightest encoded channel, so that over black the picture looks as it would have.
 pub fn develop(mut picture: &Linear, manner: &Develop) -> Vec<u8> {
@@ -88,8 +91,8 @@ pub fn develop_rows<L: LightRows, E: From<L::Error>>(
                 glare.add(y as usize, &mut row);
             }
             let behind = manner.background.row(y, height);
-            for (code, &pixel) in codes.as_chunks_mut().0.iter_mut().zip(&row) {
-                *code = encoded(shown(pixel, manner), behind, &encoder);
+            for (x, (code, &pixel)) in codes.as_chunks_mut().0.iter_mut().zip(&row).enumerate() {
+                *code = encoded(shown(pixel, manner), behind, dither(x as u32, y), &encoder);
             }
         });
         each(first, &mut out)?;
@@ -118,9 +121,17 @@ pub(super) fn shown([r, g, b, cover]: [f32; 4], manner: &Develop) -> [f32; 4] {
     [r, g, b, cover]
 }
 
-/// Encodes a pixel over the colour behind it, if there is one.
-fn encoded(pixel: [f32; 4], behind: Option<[f32; 3]>, encoder: &SrgbEncoder) -> [u8; 4] {
-    let opaque = |[r, g, b, _]: [f32; 4]| [r, g, b].map(|c| encoder.encode(f64::from(c)));
+/// Returns where between two codes the light of a pixel is rounded up, from 0.02 to 0.98, so that slow gradients show no
+/// bands. Neighbours differ as much as possible: the pattern is J. Jimenez's interleaved gradient noise (*Next Generation
+/// Post Processing in Call of Duty: Advanced Warfare*, SIGGRAPH courses 2014).
+fn dither(x: u32, y: u32) -> f64 {
+    let place = (0.067_110_56 * f64::from(x) + 0.005_837_15 * f64::from(y)).fract();
+    0.02 + 0.96 * (52.982_918_9 * place).fract()
+}
+
+/// Encodes a pixel over the colour behind it, if there is one. `threshold` is that of the pixel's place.
+fn encoded(pixel: [f32; 4], behind: Option<[f32; 3]>, threshold: f64, encoder: &SrgbEncoder) -> [u8; 4] {
+    let opaque = |[r, g, b, _]: [f32; 4]| [r, g, b].map(|c| encoder.encode_dithered(f64::from(c), threshold));
     if let Some(colour) = behind {
         let [r, g, b] = opaque(background::laid_over(pixel, colour));
         return [r, g, b, 255];
@@ -136,6 +147,7 @@ fn encoded(pixel: [f32; 4], behind: Option<[f32; 3]>, encoder: &SrgbEncoder) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::optics::linear_from_encoded;
 
     fn one(pixel: [f32; 4], manner: &Develop) -> [u8; 4] {
         let out = develop(&Linear { width: 1, height: 1, pixels: vec![pixel] }, manner);
@@ -176,6 +188,34 @@ mod tests {
             }
         }
         assert_eq!(one([0.0; 4], &clear), [0; 4]);
+    }
+
+    #[test]
+    fn a_slow_gradient_keeps_its_mean_and_the_light_of_a_code_keeps_its_code() {
+        let manner = Develop { bloom: None, tone: Tone::Linear, ..Develop::default() };
+        let code_light = |code: u8| linear_from_encoded(f64::from(code) / 255.0) as f32;
+        let plane = |light: f32| {
+            let picture = Linear { width: 64, height: 64, pixels: vec![[light, light, light, 1.0]; 64 * 64] };
+            develop(&picture, &manner)
+        };
+        for code in 0..=255 {
+            assert!(plane(code_light(code)).chunks(4).all(|pixel| pixel[0] == code), "{code}");
+        }
+        for part in [0.1, 0.25, 0.4, 0.5, 0.7, 0.9] {
+            for code in [3_u8, 20, 90, 200] {
+                let [low, high] = [code, code + 1].map(code_light);
+                let codes = plane(low + part * (high - low));
+                let light =
+                    codes.chunks(4).map(|pixel| f64::from(code_light(pixel[0]))).sum::<f64>() / 4096.0;
+                let found = (light - f64::from(low)) / f64::from(high - low);
+                assert!((found - f64::from(part)).abs() < 0.03, "{code}, {part}: {found}");
+                // No square of four by four pixels has one code alone in the middle between two.
+                let row = |k: usize| &codes[4 * 64 * k..4 * 64 * k + 16];
+                let of_square: Vec<_> = (0..4).flat_map(|k| row(k).chunks(4).map(|pixel| pixel[0])).collect();
+                let is_mixed = of_square.contains(&code) && of_square.contains(&(code + 1));
+                assert!(is_mixed || (part - 0.5).abs() > 0.3, "{code}, {part}");
+            }
+        }
     }
 
     #[test]

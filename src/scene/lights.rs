@@ -4,6 +4,8 @@
 use super::light::{Dome, Lamp, LampField, Light, PanoramaRef, SoftBox};
 use super::worlds::World;
 use crate::optics::Illuminant;
+use glam::DVec3;
+use std::f64::consts::TAU;
 use std::path::Path;
 
 /// The names of the lights that come with the program. The first is the default.
@@ -42,6 +44,32 @@ fn soft_box((azimuth, elevation): (f64, f64), (width, height): (f64, f64), radia
 
 fn lamp((azimuth, elevation): (f64, f64), radius: f64, radiance: f64) -> Lamp {
     Lamp { azimuth, elevation, radius, radiance, colour: None }
+}
+
+/// Half the width of a bulb, in metres.
+const BULB: f64 = 0.02;
+
+/// Rings of bulbs: the middle of each, in metres to the right of the eye, above it and behind it; the radius in metres;
+/// the number of bulbs; and the place of the first one, in steps from bulb to bulb.
+const RINGS: [([f64; 3], f64, u32, f64); 4] = [
+    ([0.0, 1.1, 1.5], 0.45, 10, 0.0),
+    ([0.0, 1.3, 1.5], 0.25, 6, 0.5),
+    ([-1.5, 1.0, 0.6], 0.3, 7, 0.0),
+    ([1.5, 1.0, 0.6], 0.3, 7, 0.0),
+];
+
+/// Returns the bulbs of all rings as lamps of this radiance and colour.
+fn bulbs(radiance: f64, colour: [u8; 3]) -> Vec<Lamp> {
+    let of_ring = |&([right, up, back], radius, count, first): &([f64; 3], f64, u32, f64)| {
+        (0..count).map(move |k| {
+            let (sin, cos) = (TAU * (f64::from(k) + first) / f64::from(count)).sin_cos();
+            let place = DVec3::new(right + radius * cos, up, back + radius * sin);
+            let away = place.length();
+            let at = (place.y.atan2(place.x).to_degrees(), (place.z / away).asin().to_degrees());
+            Lamp { colour: Some(colour), ..lamp(at, (BULB / away).atan().to_degrees(), radiance) }
+        })
+    };
+    RINGS.iter().flat_map(of_ring).collect()
 }
 
 impl Light {
@@ -196,16 +224,25 @@ impl Light {
         Self { panorama: Some(panorama), ..Self::named(&stem, "") }
     }
 
-    /// Returns a light that is a world alone, which the program draws: its best side lies behind the stones.
+    /// Returns the light of a world that the program draws, whose best side lies behind the stones. Bulbs hang above and
+    /// behind the eye in the room and before the city, so that stones have lamps to split; they are too small for the
+    /// world's map, and the world's picture does not reach so far back.
     pub fn of_world(world: World) -> Self {
         let description = match world {
             World::Sunset => {
                 "a sunset over water, seen behind the stones; the dusk lights them from the front"
             }
-            World::Room => "a living room at dusk: lamps, candles, a window",
-            World::City => "a city at night around a bay: windows, signs, lamps along the shore",
+            World::Room => "a living room at dusk: lamps, candles, a window, bulbs over the eye",
+            World::City => {
+                "a city at night around a bay: windows, signs, lamps along the shore, bulbs over the eye"
+            }
         };
-        Self { world: Some(world), ..Self::named(world.name(), description) }
+        let lamp = match world {
+            World::Sunset => vec![],
+            World::Room => bulbs(200.0, [255, 226, 186]),
+            World::City => bulbs(250.0, [255, 240, 220]),
+        };
+        Self { world: Some(world), lamp, ..Self::named(world.name(), description) }
     }
 
     /// Returns the same radiance from everywhere: a stone that absorbs no light is invisible in it.

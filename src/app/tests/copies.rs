@@ -239,7 +239,7 @@ fn a_scene_is_seen_in_its_perspective_and_the_next_design_as_before() {
     bench.harness.state_mut().model.workspace.bounces = 3;
     bench.harness.state_mut().act(FileAction::Ask(Then::Preset("free-diamond".to_owned())));
     bench.harness.run_steps(3);
-    assert_eq!(light(&bench), ("room".to_owned(), 1.7, 64));
+    assert_eq!(light(&bench), ("city".to_owned(), 1.5, 64));
     bench.harness.state_mut().act(FileAction::Ask(Then::Library("modern-ideal".to_owned())));
     bench.harness.run_steps(3);
     assert_eq!(light(&bench), ("studio".to_owned(), 0.0, 64));

@@ -1,7 +1,7 @@
 //! Traces pictures under light by point rays, through several stones and bodies of metal and from one to the next.
 
 use super::lobe_luck::LobeLuck;
-use super::metal_tracer::{MetalHit, MetalTracer, nearest_metal};
+use super::metal_tracer::{MetalHit, MetalTracer, nearest_metal, wider};
 use super::roulette::Sieve;
 use super::sight::{Met, nearest};
 use super::{Camera, Exit, InstanceTracer, Loss, MeetingRay, Roulette};
@@ -37,8 +37,8 @@ pub struct WaitingRay {
     /// The chance by which weak light goes on in solids that are not convex and to other bodies; `None` where all
     /// light is followed.
     pub roulette: Option<Roulette>,
-    /// The side, in radians, of the square of directions that the ray represents, because rough metal and frosted
-    /// facets spread light; 0 for one direction.
+    /// The side, in radians, of the square of directions that the ray represents, because all rough metal and all
+    /// frosted facets on its way spread light; 0 for one direction.
     pub spread: f64,
     left: LeftBody,
     /// The number of bounces inside stones so far.
@@ -178,7 +178,7 @@ impl SceneTracer {
                 ray: DispersedRay { origin, direction, fan, shift },
                 weight,
                 roulette: ray.roulette.map(|roulette| roulette.beyond(number)),
-                spread,
+                spread: wider(spread, ray.spread),
                 left: LeftBody::Stone(stone),
                 bounces: before + exit.bounce,
                 reflections: ray.reflections,
@@ -216,7 +216,7 @@ impl SceneTracer {
             ray: found.ray,
             weight: ray.weight * found.weight,
             roulette: ray.roulette.map(|roulette| roulette.beyond(1)),
-            spread: found.spread,
+            spread: wider(found.spread, ray.spread),
             left: LeftBody::Metal(hit.metal, hit.triangle),
             bounces: ray.bounces,
             reflections: ray.reflections + 1,

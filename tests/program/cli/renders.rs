@@ -149,7 +149,7 @@ fn a_pattern_is_seen_through_glass_with_the_strength_asked_for() {
     // The strength of a scene, and one that an option gives instead.
     let (_, description) = picture(&desk, "subtle-pill");
     assert!(
-        description.starts_with("Subtle pill; light room")
+        description.starts_with("Subtle pill; light sunset")
             && description.contains("strength 0.035: refracted and straight rays are mixed"),
         "{description}"
     );

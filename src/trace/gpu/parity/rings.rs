@@ -54,7 +54,7 @@ impl Shot {
         E: From<Stopped> + std::fmt::Debug,
     {
         let strata = Strata::new(self.wavelengths, 1, &Light::ring().spectrum, true);
-        let sampling = Sampling { by_chance: self.by_chance, stretches: false, ..Sampling::of(self.passes) };
+        let sampling = Sampling { by_chance: self.by_chance, ..Sampling::of(self.passes) };
         for number in 0..self.passes {
             image.add_pass(&sampling.pass(&self.scene, &strata, number), &unwatched).unwrap();
         }
