@@ -170,7 +170,8 @@ fn impossible(model: &Model) -> Option<RowMessage> {
     is_same_family.then(|| impossible::explain(given, last, model.session.edited, fault))
 }
 
-fn wrong(ui: &mut Ui, fault: &str) {
+/// Draws a message about what is wrong in the rows above it.
+pub fn wrong(ui: &mut Ui, fault: &str) {
     ui.label(RichText::new(fault).color(theme::bad(ui.visuals())));
 }
 
