@@ -112,7 +112,11 @@ pub enum Edit {
     /// Sets how plates move in renders.
     Movement(Movement),
     /// Sets the metal and the roughness of these bodies, by their numbers.
-    Finish { bodies: Vec<usize>, metal: Metal, roughness: f64 },
+    Finish {
+        bodies: Vec<usize>,
+        metal: Metal,
+        roughness: f64,
+    },
     /// Sets the numbers of the scene's ring; its metal and the places of its stones follow.
     Ring(Box<Ring>),
     /// Moves the copy of this number to a pose.

@@ -4,9 +4,7 @@ use crate::cut::{Design, MaterialRef};
 use crate::io::assembly::{Assembly, StonePlace};
 use crate::io::scene_file::{self, RingEntry, SceneFile};
 use crate::io::{Failure, FileError, library};
-use crate::scene::{
-    Companion, Companions, Copies, Pose, RingPlan, RingSeat, SceneRing, SeatKind, Specimen,
-};
+use crate::scene::{Companion, Companions, Copies, Pose, RingPlan, RingSeat, SceneRing, SeatKind, Specimen};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -100,7 +98,8 @@ impl Preset {
         let metals: Vec<_> = metals.map(|metal| metal.moved(&larger)).collect();
         let mut copies = Copies::at(poses, first.specimen.solid().vertices());
         copies.movement = scene.movement;
-        let companions = with_ring(Companions { stones, metals, ring: None }, &scene, seats, (&design, &copies))?;
+        let companions =
+            with_ring(Companions { stones, metals, ring: None }, &scene, seats, (&design, &copies))?;
         if !companions.is_empty() {
             let across = companions.across() / unit_mm;
             copies.room = Some(copies.reach(first.specimen.reach).max(across));

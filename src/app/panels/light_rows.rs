@@ -5,10 +5,9 @@ use crate::app::model::action::{Actions, Edit, FileAction, ViewAction};
 use crate::app::model::choosing::Purpose;
 use crate::app::model::command::Command;
 use crate::app::model::workspace::{WAVELENGTHS, Workspace};
-use crate::app::panels::rows::{Row, choice_row, named, skip_control};
+use crate::app::panels::rows::{Row, choice_row, colour_row};
 use crate::app::studio::BEHIND;
 use crate::io::background::BackgroundRef;
-use crate::optics::{encoded_from_linear, linear_from_encoded};
 use crate::picture::{Background, light_picture};
 use crate::render::USUAL_BOUNCES;
 use crate::scene::{LIGHTS, light};
@@ -172,28 +171,20 @@ fn plain_colours(before: Background, actions: &mut Actions, ui: &mut Ui) {
     match &mut now {
         Background::Transparent => {}
         Background::Plain(colour) => {
-            colour_row(ui, ("Back colour", "The colour of the background of renders."), colour);
+            picker(ui, ("Back colour", "The colour of the background of renders."), colour);
         }
         Background::Gradient { top, bottom } => {
-            colour_row(ui, ("Upper colour", "The colour at the upper border of renders."), top);
-            colour_row(ui, ("Lower colour", "The colour at the lower border of renders."), bottom);
+            picker(ui, ("Upper colour", "The colour at the upper border of renders."), top);
+            picker(ui, ("Lower colour", "The colour at the lower border of renders."), bottom);
         }
     }
     actions.push_changed(&before, now, |colours| ViewAction::Behind(Some(colours.to_string())));
 }
 
-/// Draws a row with a picker for a colour in linear light. A colour that is not picked stays as it is.
-fn colour_row(ui: &mut Ui, (name, meaning): (&str, &str), colour: &mut [f32; 3]) {
-    let shown = colour.map(|linear| encoded_from_linear(f64::from(linear)).clamp(0.0, 1.0));
-    let before = shown.map(|code| (code * 255.0).round() as u8);
-    let mut picked = before;
-    ui.horizontal(|ui| {
-        let label = named(ui, name, meaning);
-        skip_control(ui, 0.0);
-        ui.color_edit_button_srgb(&mut picked).labelled_by(label.id).on_hover_text(meaning);
-    });
-    if picked != before {
-        *colour = picked.map(|code| linear_from_encoded(f64::from(code) / 255.0) as f32);
+/// Draws a row with a picker for one of the colours.
+fn picker(ui: &mut Ui, row: (&str, &str), colour: &mut [f32; 3]) {
+    if let Some(picked) = colour_row(ui, row, colour.map(f64::from)) {
+        *colour = picked.map(|part| part as f32);
     }
 }
 

@@ -17,14 +17,26 @@ struct Shown {
 /// The numbers of a ring, in the order of the panel.
 const NUMBERS: [Shown; RING_NUMBERS.len()] = [
     Shown { key: "inner_diameter_mm", name: "Inner diameter", meaning: "The diameter of the finger's hole." },
-    Shown { key: "width_mm", name: "Band width", meaning: "The width of the band along the finger, opposite the head." },
-    Shown { key: "thickness_mm", name: "Band thickness", meaning: "The thickness of the band in its middle." },
+    Shown {
+        key: "width_mm",
+        name: "Band width",
+        meaning: "The width of the band along the finger, opposite the head.",
+    },
+    Shown {
+        key: "thickness_mm",
+        name: "Band thickness",
+        meaning: "The thickness of the band in its middle.",
+    },
     Shown {
         key: "comfort_mm",
         name: "Comfort",
         meaning: "The height by which the inside of the band rises from its middle to its edges.",
     },
-    Shown { key: "taper", name: "Taper", meaning: "The width of the band at the head, as a part of its width." },
+    Shown {
+        key: "taper",
+        name: "Taper",
+        meaning: "The width of the band at the head, as a part of its width.",
+    },
     Shown {
         key: "prong_diameter_mm",
         name: "Prong diameter",

@@ -76,9 +76,12 @@ fn metal_rows(metals: &[MetalInstance], actions: &mut Actions, ui: &mut Ui) {
         let (mut metal, mut roughness) = (first.metal, first.roughness);
         let meaning = "The metal, by its measured colour. Jewellers' alloys look a little paler.";
         choice_row(ui, &name("Metal"), meaning, metal.name(), |ui| {
-            Metal::NAMES.into_iter().for_each(|(name, each)| drop(ui.selectable_value(&mut metal, each, name)));
+            Metal::NAMES
+                .into_iter()
+                .for_each(|(name, each)| drop(ui.selectable_value(&mut metal, each, name)));
         });
-        let meaning = "The roughness of the metal's surface: 0 is a mirror, 0.1 polished, 0.4 brushed to satin.";
+        let meaning =
+            "The roughness of the metal's surface: 0 is a mirror, 0.1 polished, 0.4 brushed to satin.";
         Row { step: 0.01, ..Row::new(&name("Roughness"), meaning, ROUGHNESSES) }.show(ui, &mut roughness);
         let finish = |(metal, roughness)| Edit::Finish { bodies, metal, roughness };
         actions.push_changed(&(first.metal, first.roughness), (metal, roughness), finish);

@@ -47,9 +47,8 @@ impl SceneOut {
         let own = poses.iter().filter(|pose| is_loose(pose));
         let own = own.map(|pose| Entry::placed(&cuts[0], pose.turn, at_mm(pose)));
         let others = companions.stones.iter().filter(|stone| is_loose(&stone.pose));
-        let others = others.map(|Companion { specimen, pose }| {
-            Entry::placed(cut_of(specimen), pose.turn, at_mm(pose))
-        });
+        let others = others
+            .map(|Companion { specimen, pose }| Entry::placed(cut_of(specimen), pose.turn, at_mm(pose)));
         let in_mm = |metal: &MetalInstance| {
             let pose = turned.after(&metal.pose);
             Pose { at: at_mm(&pose), scale: pose.scale * unit_mm, ..pose }

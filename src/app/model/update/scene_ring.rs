@@ -112,9 +112,6 @@ fn seat(stones: &mut Vec<Companion>, specimen: &Arc<Specimen>, poses: impl Itera
     let first = stones.iter().position(is_of_kind).unwrap_or(stones.len());
     stones.retain(|stone| !is_of_kind(stone));
     let scale = specimen.unit_mm();
-    let seated = poses.map(|pose| Companion {
-        specimen: Arc::clone(specimen),
-        pose: Pose { scale, ..pose },
-    });
+    let seated = poses.map(|pose| Companion { specimen: Arc::clone(specimen), pose: Pose { scale, ..pose } });
     stones.splice(first..first, seated);
 }
