@@ -127,12 +127,15 @@ fn a_copy_of_air_hides_nothing_of_the_copy_behind_it() {
         for strength in STRENGTHS {
             let alone = pictures(&shoot(vec![rear(shape, 1.5)], strength));
             let both = pictures(&shoot(vec![front(shape, 1.0), rear(shape, 1.5)], strength));
+            let apart = |a: &Linear, b: &Linear, rounding: f64| {
+                let pairs = a.pixels.iter().zip(&b.pixels);
+                pairs.filter(|(a, b)| (colour(a) - colour(b)).abs().max_element() > rounding).count()
+            };
             for ((alone, rounding), (both, _)) in alone.iter().zip(&both) {
-                // Light that goes on from a border it has crossed in air may fall on another side of an edge, at single pixels.
-                let apart =
-                    |(a, b): (&[f32; 4], &[f32; 4])| (colour(a) - colour(b)).abs().max_element() > *rounding;
-                let count = alone.pixels.iter().zip(&both.pixels).filter(|pair| apart(*pair)).count();
-                assert!(count <= 4, "{strength}: {count} pixels differ");
+                // A border that light has crossed in air shifts it by rounding, which single pixels at edges show.
+                let count = apart(alone, both, *rounding);
+                println!("{strength}: {count} pixels differ, by up to {:.1e}", farthest(alone, both));
+                assert!(count <= 20, "{strength}: {count} of {} pixels differ", both.pixels.len());
             }
             // Layers, in which each copy refracts the background alone, would end in steps along the front copy's border.
             let front_alone = shoot(vec![front(shape, 1.0)], strength).by_rays().0;
@@ -144,7 +147,8 @@ fn a_copy_of_air_hides_nothing_of_the_copy_behind_it() {
                     layers.pixels[k] = front_alone.pixels[k];
                 }
             }
-            assert!(farthest(&alone[0].0, &layers) > 0.02, "{}", farthest(&alone[0].0, &layers));
+            let count = apart(&alone[0].0, &layers, 0.02);
+            assert!(count > 100, "{strength}: layers differ in {count} pixels");
         }
     }
 }
@@ -229,8 +233,8 @@ fn steps_at_the_border_of_a_copy_vanish_with_its_index() {
             // At a border light grazes, and at a facet's edge behind it changes sides: single pixels.
             all[all.len() - 4]
         };
-        let (weak, weaker) = (off(1.01), off(1.0001));
-        println!("steps of {weak:.1e} at an index of 1.01, of {weaker:.1e} at 1.0001");
-        assert!(weaker < 2e-3 && weaker < 0.1 * weak, "{weak} {weaker}");
+        let (weak, weaker) = (off(1.01), off(1.00001));
+        println!("steps of {weak:.1e} at an index of 1.01, of {weaker:.1e} at 1.00001");
+        assert!(weaker < 1e-3 && weaker < 0.02 * weak, "{weak} {weaker}");
     }
 }

@@ -2,8 +2,7 @@
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit};
-use crate::app::panels::design_panel::wrong;
-use crate::app::panels::rows::{Row, choice_row};
+use crate::app::panels::rows::{Row, choice_row, wrong};
 use crate::scene::{OuterShape, RING_NUMBERS, Ring, RingNumber, RingStyle};
 use egui::{CollapsingHeader, Ui};
 

@@ -5,6 +5,7 @@
 //! leave empty. Fields without a slider fill the columns of control and number ([`field_width`]).
 
 use crate::app::model::action::{Action, Actions};
+use crate::app::theme;
 use crate::optics::{encoded_from_linear, linear_from_encoded};
 use egui::emath::format_with_decimals_in_range;
 use egui::{
@@ -176,6 +177,11 @@ pub fn number_row(ui: &mut Ui, (name, meaning): (&str, &str), number: Number, va
         skip_control(ui, 0.0);
         number.show(ui, (NUMBER, label.id), value);
     });
+}
+
+/// Draws a message about what is wrong in the rows above it.
+pub fn wrong(ui: &mut Ui, fault: &str) {
+    ui.label(RichText::new(fault).color(theme::bad(ui.visuals())));
 }
 
 /// Draws a row with a picker for a colour in linear light, from 0 to 1; returns the colour if another is picked.

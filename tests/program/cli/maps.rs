@@ -149,7 +149,7 @@ fn a_map_read_from_a_render_of_the_template_is_the_programs_own_map() {
         (numbers[at], numbers[at + 1], numbers[at + 2])
     })
     .unwrap();
-    let view = "pill --material 1.5 --light dark.toml --size 96x64 --tilt 12 --perspective 6";
+    let view = "pill --material 1.5 --light dark.toml --size 80 --tilt 12 --perspective 6";
     desk.done(&format!(
         "render {view} --background template.exr --samples 64 --wavelengths 1 --no-jitter --bloom 0 --unadapted \
         --tracer ray --out render.exr"
@@ -161,14 +161,12 @@ fn a_map_read_from_a_render_of_the_template_is_the_programs_own_map() {
     let places = |(folder, stem): (&str, &str)| {
         let folder = desk.at(folder);
         let map = read(&paths(&folder, stem, 1, Coding::Float), &diffuse_path(&folder, stem));
-        assert_eq!(map.size, [96, 64]);
+        assert_eq!(map.size, [80, 80]);
         map.bands[0].places.clone()
     };
     let apart = |own: &[SourcePlace], foreign: &[SourcePlace]| {
         let pairs = own.iter().zip(foreign).filter(|(own, _)| own.weight > 0.5);
-        // The template is stretched over the picture.
-        let far =
-            |(a, b): (&SourcePlace, &SourcePlace)| f64::from((96.0 * (a.u - b.u)).hypot(64.0 * (a.v - b.v)));
+        let far = |(a, b): (&SourcePlace, &SourcePlace)| 80.0 * f64::from((a.u - b.u).hypot(a.v - b.v));
         let mut all: Vec<f64> = pairs.map(far).collect();
         all.sort_by(f64::total_cmp);
         let at = |part: f64| all[((all.len() - 1) as f64 * part) as usize];
@@ -180,7 +178,7 @@ fn a_map_read_from_a_render_of_the_template_is_the_programs_own_map() {
     let (mine, theirs) = (places(own), places(foreign));
     let (count, median, most) = apart(&mine, &theirs);
     let same = psnr(&preview(own), &preview(foreign));
-    let mirrored: Vec<SourcePlace> = mine.chunks(96).flat_map(|row| row.iter().rev().copied()).collect();
+    let mirrored: Vec<SourcePlace> = mine.chunks(80).flat_map(|row| row.iter().rev().copied()).collect();
     let (_, other, _) = apart(&mirrored, &theirs);
     println!("{same:.1} dB");
     assert!(count > 5000 && median < 0.05 && most < 0.3 && same > 35.0 && other > 5.0);
