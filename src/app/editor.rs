@@ -234,6 +234,7 @@ impl Editor {
             && !self.outside.is_looking_up()
             && session.search.running().is_none()
             && session.light.loading.is_none()
+            && session.ring.asked.is_none()
             && awaited.choosing.is_none()
             && awaited.opening.is_empty()
             && awaited.saving.is_none()

@@ -5,6 +5,7 @@ mod described;
 mod dialogs;
 mod drops;
 mod editor;
+mod glyphs;
 mod hands;
 mod icon;
 mod library_cuts;

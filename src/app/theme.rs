@@ -1,5 +1,6 @@
 //! Colours and spacing of the window, light and dark.
 
+use crate::app::glyphs;
 use crate::app::studio::Paper;
 use crate::picture::Inks;
 use egui::{Color32, Context, CornerRadius, FontId, Stroke, Style, TextStyle, Theme, Visuals, vec2};
@@ -49,6 +50,7 @@ pub fn apply(ctx: &Context) {
     for theme in [Theme::Dark, Theme::Light] {
         ctx.style_mut_of(theme, |style| styled(style, theme));
     }
+    ctx.add_glyph_rasterizer(glyphs::signs());
     // Typing in a field ends with a press elsewhere, be it a drag or a click.
     ctx.options_mut(|o| o.input_options.surrender_focus_on = egui::SurrenderFocusOn::Presses);
 }

@@ -1,6 +1,6 @@
 //! Companions: the stones of other designs, and the metal, that stand beside a design and its copies.
 
-use super::{Instance, MetalInstance, Specimen};
+use super::{Instance, MetalInstance, RingPlan, RingSeat, SceneRing, SeatKind, Specimen};
 use crate::math::Pose;
 use glam::DVec3;
 use std::sync::Arc;
@@ -21,7 +21,12 @@ pub struct Companions {
     pub stones: Vec<Companion>,
     /// The bodies of metal.
     pub metals: Vec<MetalInstance>,
+    /// The ring that one of the bodies of metal belongs to, if the program made it; the body's pose is the ring's.
+    pub ring: Option<SceneRing>,
 }
+
+/// Two places of a ring's stones that are nearer than this are one, in mm: rounding.
+const SAME_SEAT_MM: f64 = 1e-6;
 
 impl PartialEq for Companion {
     /// Stones are compared by pointer, because they are replaced and never changed.
@@ -31,14 +36,18 @@ impl PartialEq for Companion {
 }
 
 impl PartialEq for Companions {
-    /// Meshes are compared by pointer, because they are replaced and never changed.
+    /// Meshes are compared by pointer, because they are replaced and never changed. That of a ring is made anew where undo
+    /// comes back to it, so rings are compared by what they are made of.
     fn eq(&self, other: &Self) -> bool {
-        let is_same = |(a, b): (&MetalInstance, &MetalInstance)| {
-            Arc::ptr_eq(&a.mesh, &b.mesh) && (a.pose, a.metal, a.roughness) == (b.pose, b.metal, b.roughness)
+        let is_ring = |number| self.ring.as_ref().is_some_and(|ring| ring.metal == number);
+        let is_same = |(number, (a, b)): (usize, (&MetalInstance, &MetalInstance))| {
+            (is_ring(number) || Arc::ptr_eq(&a.mesh, &b.mesh))
+                && (a.pose, a.metal, a.roughness) == (b.pose, b.metal, b.roughness)
         };
         self.stones == other.stones
+            && self.ring == other.ring
             && self.metals.len() == other.metals.len()
-            && self.metals.iter().zip(&other.metals).all(is_same)
+            && self.metals.iter().zip(&other.metals).enumerate().all(is_same)
     }
 }
 
@@ -59,7 +68,41 @@ impl Companions {
         Self {
             stones: self.stones.iter().map(stone).collect(),
             metals: self.metals.iter().map(|metal| metal.clone().moved(pose)).collect(),
+            ring: self.ring.clone(),
         }
+    }
+
+    /// Returns the kind of the ring's seat whose stone lies at a place; `None` where no stone of the ring lies there.
+    pub fn seat_at(&self, at: DVec3) -> Option<SeatKind> {
+        let ring = self.ring.as_ref()?;
+        let pose = &self.metals.get(ring.metal)?.pose;
+        let is_there = |seat: &&RingSeat| pose.place(seat.pose.at).distance(at) < SAME_SEAT_MM * pose.scale;
+        ring.seats.iter().find(is_there).map(|seat| seat.kind)
+    }
+
+    /// Returns what the metal of the ring has to be made of now; `None` without a ring. The design's own stones are `own`,
+    /// and the first of them lies at `at`.
+    pub fn ring_plan(&self, own: &Arc<Specimen>, at: DVec3) -> Option<RingPlan> {
+        let mut ring = self.ring.as_ref()?.ring.clone();
+        let seated = |kind| {
+            let is_seated = |at: DVec3| self.seat_at(at) == Some(kind);
+            let beside = || self.stones.iter().find(|stone| is_seated(stone.pose.at));
+            match is_seated(at) {
+                true => Some(Arc::clone(own)),
+                false => beside().map(|stone| Arc::clone(&stone.specimen)),
+            }
+        };
+        let (stone, small_stone) = (seated(SeatKind::Main), seated(SeatKind::Small));
+        if let Some(small) = &small_stone {
+            ring.small_diameter_mm = small.design.diameter_mm;
+        }
+        Some(RingPlan { ring, stone, small_stone })
+    }
+
+    /// Returns the ring if its metal was made of what it has to be made of now; see [`ring_plan`](Self::ring_plan).
+    pub fn fitted_ring(&self, own: &Arc<Specimen>, at: DVec3) -> Option<&SceneRing> {
+        let plan = self.ring_plan(own, at)?;
+        self.ring.as_ref().filter(|ring| ring.made_of == plan)
     }
 
     /// Returns the stones as instances.

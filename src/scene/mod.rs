@@ -17,6 +17,7 @@ mod mounting;
 mod movement;
 mod overlap;
 mod panorama;
+mod scene_ring;
 mod scope;
 mod specimen;
 mod stone;
@@ -44,6 +45,7 @@ pub use mounting::{
 pub use movement::{Movement, UnknownMovement, has_wave};
 pub use overlap::overlapping;
 pub use panorama::{Panorama, PanoramaError};
+pub use scene_ring::{RingMetal, RingPlan, RingPlanError, SceneRing};
 pub use scope::{
     ASET_CONE, Backing, Band, Glare, MOST_BANDS, Scope, ScopeError, VIEWER_CONES_DEG, elevation_deg,
 };

@@ -30,6 +30,7 @@ mod licences;
 mod light;
 mod measures;
 mod mirror;
+mod overlapping;
 mod overlay;
 mod packets;
 mod patterns;

@@ -26,7 +26,8 @@ use crate::io::Failure;
 use crate::io::lighting::Lighting;
 use crate::io::mesh_options::MeshOptions;
 use crate::measure::Figures;
-use crate::scene::{Movement, Pose, Specimen};
+use crate::optics::Metal;
+use crate::scene::{Movement, Pose, Ring, RingMetal, RingPlan, Specimen};
 use crate::search::Goal;
 use glam::DVec2;
 use std::path::PathBuf;
@@ -110,6 +111,14 @@ pub enum Edit {
     LayOut(usize),
     /// Sets how plates move in renders.
     Movement(Movement),
+    /// Sets the metal and the roughness of these bodies, by their numbers.
+    Finish {
+        bodies: Vec<usize>,
+        metal: Metal,
+        roughness: f64,
+    },
+    /// Sets the numbers of the scene's ring; its metal and the places of its stones follow.
+    Ring(Box<Ring>),
     /// Moves the copy of this number to a pose.
     Copy(usize, Pose),
     /// Moves a stone of another design that stands beside the copies, by its number, to a pose in mm.
@@ -321,6 +330,8 @@ pub enum Computed {
     Audit(Arc<Specimen>, Result<Audit, Failure>),
     /// The light of the stones of this question, in the dialog that fits the design to another material.
     StoneLight(u64, Result<Vec<StoneLight>, Failure>),
+    /// The metal of the ring in the document of this number, made by this plan.
+    RingMetal(u64, Box<RingPlan>, Result<RingMetal, Failure>),
     /// A goal has been read from a file.
     Goal(PathBuf, Result<Box<Goal>, Failure>),
     /// The goal has been written to a file.

@@ -10,7 +10,7 @@ use crate::cut::{Cut, Design, Tiers};
 use crate::io::design_file::{self, ImportedDesign};
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{Failure, FileError, cut_file, library};
-use crate::scene::{Companions, Copies, Specimen, SpecimenError};
+use crate::scene::{Companions, Copies, RingPlan, Specimen, SpecimenError};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
@@ -190,6 +190,13 @@ impl Document {
         self.laid = (self.work.copies.clone(), self.work.companions.clone());
     }
 
+    /// Returns what the metal of the scene's ring has to be made of now; `None` without a ring, and while the design makes no
+    /// stone.
+    pub fn ring_plan(&self) -> Option<RingPlan> {
+        let first = self.work.copies.poses.first().filter(|_| !self.shows_last_possible())?;
+        self.work.companions.ring_plan(&self.specimen, first.at * self.specimen.unit_mm())
+    }
+
     /// Returns whether copies or their companions have been moved since they were read or last saved.
     pub fn has_moved_copies(&self) -> bool {
         (&self.laid.0, &self.laid.1) != (&self.work.copies, &self.work.companions)
@@ -224,6 +231,11 @@ impl Document {
     /// Ends a gesture: all that it changed becomes one step of undo. Returns whether it changed anything.
     pub fn settle(&mut self) -> bool {
         self.history.settle(&self.work)
+    }
+
+    /// Lets the last step of undo lead to the present work, without a new step, because a change followed from that step.
+    pub fn amend(&mut self) {
+        self.history.amend(&self.work);
     }
 
     /// Ends a step of undo with this design in the place of the present one. Returns whether the step differs from

@@ -11,7 +11,9 @@ use crate::measure::STANDARD_ERROR;
 use crate::optics::line;
 use crate::picture::named;
 use crate::render::{Renderer, Wanted};
-use crate::scene::{Companions, Copies, Glare, Movement, Pose, Side, Specimen, View, Viewpoint};
+use crate::scene::{
+    Companions, Copies, Glare, MetalInstance, Movement, Pose, SceneRing, Side, Specimen, View, Viewpoint,
+};
 use glam::DVec3;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -188,9 +190,22 @@ impl ExportPlan {
     pub fn scene_paths(&self) -> Vec<PathBuf> {
         let companions = &self.shot.companions;
         let more = (2..2 + kinds(companions).len()).map(|number| format!("cut-{number}.toml"));
-        let metals = (1..=companions.metals.len()).map(|number| format!("metal-{number}.obj"));
+        let metals = (1..=self.meshes().len()).map(|number| format!("metal-{number}.obj"));
         let parts = ["scene.toml", "cut.toml"].into_iter().map(str::to_owned).chain(more).chain(metals);
         parts.map(|part| self.folder.join(format!("{}-{part}", self.stem))).collect()
+    }
+
+    /// Returns the ring that the scene file describes by its numbers: one whose metal follows from its stones.
+    pub fn ring(&self) -> Option<&SceneRing> {
+        let Shot { specimen, copies, companions, .. } = &self.shot;
+        companions.fitted_ring(specimen, copies.first()?.at)
+    }
+
+    /// Returns the bodies of metal that the scene file names as meshes: all but that of [`ring`](Self::ring).
+    pub fn meshes(&self) -> Vec<&MetalInstance> {
+        let of_ring = self.ring().map(|ring| ring.metal);
+        let metals = self.shot.companions.metals.iter().enumerate();
+        metals.filter(|(number, _)| Some(*number) != of_ring).map(|(_, metal)| metal).collect()
     }
 
     /// Returns the file of the render, if it is selected.

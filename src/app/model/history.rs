@@ -30,6 +30,11 @@ impl<T: Clone + PartialEq> History<T> {
         true
     }
 
+    /// Replaces the last state that was settled, without a new step.
+    pub fn amend(&mut self, now: &T) {
+        self.present.clone_from(now);
+    }
+
     /// Returns the last state that was settled.
     pub fn present(&self) -> &T {
         &self.present
@@ -80,6 +85,14 @@ mod tests {
             [history.undo(), history.undo(), history.undo(), history.undo()],
             [Some(2), Some(1), Some(0), None]
         );
+    }
+
+    #[test]
+    fn an_amended_state_is_no_step_and_keeps_those_that_were_undone() {
+        let mut history = History::new(0);
+        assert!(history.settle(&1) && history.settle(&2) && history.undo() == Some(1));
+        history.amend(&5);
+        assert_eq!((history.redo(), history.undo(), history.undo()), (Some(2), Some(5), Some(0)));
     }
 
     #[test]

@@ -117,6 +117,13 @@ impl Model {
         self.document.work.companions.in_unit(1.0 / self.document.specimen().unit_mm())
     }
 
+    /// Returns why the scene's ring cannot be made as its numbers and stones are now; `None` where it can, or is being made.
+    pub fn ring_fault(&self) -> Option<&str> {
+        let (refused, why) = self.session.ring.refused.as_ref()?;
+        let plan = self.document.ring_plan()?;
+        (*refused == plan).then_some(why)
+    }
+
     /// Returns whether renders show the stone alone and at rest.
     pub fn is_alone(&self) -> bool {
         let Work { copies, companions, .. } = &self.document.work;

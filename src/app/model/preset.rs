@@ -2,9 +2,9 @@
 
 use crate::cut::{Design, MaterialRef};
 use crate::io::assembly::{Assembly, StonePlace};
-use crate::io::scene_file::{self, SceneFile};
+use crate::io::scene_file::{self, RingEntry, SceneFile};
 use crate::io::{Failure, FileError, library};
-use crate::scene::{Companion, Companions, Copies, Pose, Specimen};
+use crate::scene::{Companion, Companions, Copies, Pose, RingPlan, RingSeat, SceneRing, SeatKind, Specimen};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -68,7 +68,7 @@ impl Preset {
     }
 
     fn new(file: &Path, scene: SceneFile) -> Result<Self, Failure> {
-        let Assembly { scene: whole, places, remarks, .. } = Assembly::of(file, scene.clone())?;
+        let Assembly { scene: whole, places, ring, remarks, .. } = Assembly::of(file, scene.clone())?;
         let Some(first) = places.first() else {
             let label = file.display().to_string();
             let problem = format!(
@@ -78,22 +78,28 @@ impl Preset {
         };
         let design = design_of(first);
         let unit_mm = 0.5 * design.diameter_mm;
-        let is_first = |place: &StonePlace| Kind::of(place) == Kind::of(first);
+        let seats: Arc<[RingSeat]> = ring.map_or_else(Arc::default, |ring| ring.mounting.seats.into());
+        // The stones of the ring are the last of the scene, in the order of their seats.
+        let loose = places.len() - seats.len();
+        let seat = |number: usize| number.checked_sub(loose).map(|seat| seats[seat].kind);
+        let first_kind = Kind::of(first, seat(0));
         let in_mm = |pose: &Pose| Pose { scale: whole.unit_mm, ..Pose::STILL }.after(pose);
         let (mut poses, mut stones, mut made) = (vec![], vec![], vec![]);
-        for (instance, place) in whole.instances.iter().zip(&places) {
+        for (number, (instance, place)) in whole.instances.iter().zip(&places).enumerate() {
             let pose = in_mm(&instance.pose);
-            match is_first(place) {
+            let kind = Kind::of(place, seat(number));
+            match kind == first_kind {
                 true => poses.push(Pose { at: pose.at / unit_mm, scale: 1.0, ..pose }),
-                false => stones.push(Companion { specimen: specimen_of(place, &mut made)?, pose }),
+                false => stones.push(Companion { specimen: specimen_of(place, kind, &mut made)?, pose }),
             }
         }
         let metals = whole.metals.into_iter();
         let larger = Pose { scale: whole.unit_mm, ..Pose::STILL };
-        let metals = metals.map(|metal| metal.moved(&larger)).collect();
+        let metals: Vec<_> = metals.map(|metal| metal.moved(&larger)).collect();
         let mut copies = Copies::at(poses, first.specimen.solid().vertices());
         copies.movement = scene.movement;
-        let companions = Companions { stones, metals };
+        let companions =
+            with_ring(Companions { stones, metals, ring: None }, &scene, seats, (&design, &copies))?;
         if !companions.is_empty() {
             let across = companions.across() / unit_mm;
             copies.room = Some(copies.reach(first.specimen.reach).max(across));
@@ -102,13 +108,34 @@ impl Preset {
     }
 }
 
-/// The key of stones of one kind: their cut, material and size.
-#[derive(PartialEq)]
-struct Kind<'a>(*const Specimen, &'a MaterialRef, f64);
+/// Returns the companions with the ring of a scene, whose metal is the last of theirs.
+fn with_ring(
+    companions: Companions,
+    scene: &SceneFile,
+    seats: Arc<[RingSeat]>,
+    (design, copies): (&Design, &Copies),
+) -> Result<Companions, Failure> {
+    let (Some(RingEntry { ring, .. }), Some(metal)) = (&scene.ring, companions.metals.len().checked_sub(1))
+    else {
+        return Ok(companions);
+    };
+    let ring = SceneRing { ring: ring.clone(), made_of: RingPlan::default(), seats, metal };
+    let mut companions = Companions { ring: Some(ring), ..companions };
+    let own = Specimen::new(design.clone()).map_err(|error| Failure::Input(error.to_string()))?;
+    let plan = companions.ring_plan(&Arc::new(own), copies.poses[0].at * 0.5 * design.diameter_mm);
+    if let (Some(ring), Some(plan)) = (&mut companions.ring, plan) {
+        ring.made_of = plan;
+    }
+    Ok(companions)
+}
+
+/// The key of stones of one kind: their cut, material and size, and the kind of their seat if a ring holds them.
+#[derive(Clone, Copy, PartialEq)]
+struct Kind<'a>(*const Specimen, &'a MaterialRef, f64, Option<SeatKind>);
 
 impl<'a> Kind<'a> {
-    fn of(place: &'a StonePlace) -> Self {
-        Self(Arc::as_ptr(&place.specimen), &place.material, place.diameter_mm)
+    fn of(place: &'a StonePlace, seat: Option<SeatKind>) -> Self {
+        Self(Arc::as_ptr(&place.specimen), &place.material, place.diameter_mm, seat)
     }
 }
 
@@ -121,9 +148,9 @@ fn design_of(place: &StonePlace) -> Design {
 /// Returns the stone of a place; stones of one kind share it.
 fn specimen_of<'a>(
     place: &'a StonePlace,
+    kind: Kind<'a>,
     made: &mut Vec<(Kind<'a>, Arc<Specimen>)>,
 ) -> Result<Arc<Specimen>, Failure> {
-    let kind = Kind::of(place);
     if let Some((_, specimen)) = made.iter().find(|(other, _)| *other == kind) {
         return Ok(Arc::clone(specimen));
     }
@@ -171,7 +198,7 @@ mod tests {
             ("eternity", 27, 0, 1),
         ] {
             let preset = Preset::of_library(name).unwrap();
-            let Companions { stones: beside, metals: metal } = &preset.companions;
+            let Companions { stones: beside, metals: metal, .. } = &preset.companions;
             assert_eq!(
                 (preset.copies.poses.len(), beside.len(), metal.len()),
                 (copies, stones, metals),
@@ -182,7 +209,7 @@ mod tests {
             let (mut own, mut others) = (preset.copies.poses.iter(), beside.iter());
             for (instance, place) in assembly.scene.instances.iter().zip(&assembly.places) {
                 let corner = instance.pose.place(DVec3::new(0.3, -0.2, 0.1)) * assembly.scene.unit_mm;
-                let is_first = Kind::of(place) == Kind::of(&assembly.places[0]);
+                let is_first = Kind::of(place, None) == Kind::of(&assembly.places[0], None);
                 let at = match is_first {
                     true => own.next().unwrap().place(DVec3::new(0.3, -0.2, 0.1)) * unit_mm,
                     false => others.next().unwrap().pose.place(DVec3::new(0.3, -0.2, 0.1)),

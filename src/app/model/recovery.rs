@@ -3,7 +3,7 @@
 use super::work::{ReadMesh, Work};
 use crate::cut::Design;
 use crate::io::{Failure, cut_file};
-use crate::scene::{Companion, Companions, Copies, MetalInstance, Pose, Specimen};
+use crate::scene::{Companion, Companions, Copies, MetalInstance, Pose, SceneRing, Specimen};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -15,13 +15,17 @@ pub struct KeptCompanions {
     /// The text of each stone's cut file, and the stone's place.
     stones: Vec<(String, Pose)>,
     metals: Vec<MetalInstance>,
+    /// The ring; autosaves of earlier versions have none.
+    #[serde(default)]
+    ring: Option<SceneRing>,
 }
 
 impl KeptCompanions {
     /// Returns the companions in the form in which an autosave keeps them.
     pub fn of(companions: &Companions) -> Self {
         let stone = |stone: &Companion| (cut_file::write(&stone.specimen.design), stone.pose);
-        Self { stones: companions.stones.iter().map(stone).collect(), metals: companions.metals.clone() }
+        let Companions { stones, metals, ring } = companions;
+        Self { stones: stones.iter().map(stone).collect(), metals: metals.clone(), ring: ring.clone() }
     }
 
     /// Builds the bodies again. Stones whose texts are alike are one specimen.
@@ -47,7 +51,9 @@ impl KeptCompanions {
             };
             stones.push(Companion { specimen, pose: *pose });
         }
-        Ok(Companions { stones, metals: self.metals.clone() })
+        // A file may name a body that is not there.
+        let ring = self.ring.clone().filter(|ring| ring.metal < self.metals.len());
+        Ok(Companions { stones, metals: self.metals.clone(), ring })
     }
 }
 

@@ -22,6 +22,7 @@ use super::workspace::Workspace;
 use crate::app::studio::Order;
 use crate::io::Failure;
 use crate::io::lighting::Lighting;
+use crate::scene::RingPlan;
 use glam::DVec2;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -81,6 +82,15 @@ pub struct Awaited {
     pub copying: Option<&'static str>,
 }
 
+/// The state of the metal of the scene's ring.
+#[derive(Debug, Clone, Default)]
+pub struct RingMaking {
+    /// The plan by which metal is being made.
+    pub asked: Option<RingPlan>,
+    /// The last plan by which no metal could be made, and the reason.
+    pub refused: Option<(RingPlan, String)>,
+}
+
 /// The state of the autosave.
 #[derive(Debug, Clone)]
 pub struct SafeWork {
@@ -124,6 +134,7 @@ pub struct Session {
     pub picking: Option<MeetPick>,
     /// The reason why the meet of each tier could not be followed after the last change; `None` where it was.
     pub meet_faults: Vec<Option<String>>,
+    pub ring: RingMaking,
     /// The audit of the stone, while its list is open.
     pub audit: SessionAudit,
     /// The map of a measure, while it is open.
@@ -189,6 +200,7 @@ impl Session {
             tier: None,
             picking: None,
             meet_faults: vec![],
+            ring: RingMaking::default(),
             audit: SessionAudit::default(),
             map: MeasureMap::default(),
             tilt: MeasureTilt::default(),

@@ -8,7 +8,7 @@ use super::opening::FileRequest;
 use super::recovery::UnsavedWork;
 use super::saving::{SaveRequest, Stamp};
 use crate::app::studio::{Order, Shot};
-use crate::scene::Specimen;
+use crate::scene::{RingPlan, Specimen};
 use crate::search::Goal;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -46,6 +46,8 @@ pub enum Task {
     MakeCopy(CopyRequest),
     /// Make the audit of a stone, for the list of findings.
     Audit(Arc<Specimen>),
+    /// Make the metal of the ring in the document of this number.
+    MakeRing(u64, Box<RingPlan>),
     /// Measure the light of stones that are compared.
     MeasureLight(Box<LightRequest>),
     /// Stop measuring that light.

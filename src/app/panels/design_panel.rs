@@ -6,7 +6,7 @@ use crate::app::model::command::Command;
 use crate::app::model::document::Document;
 use crate::app::model::impossible::{self, RowMessage};
 use crate::app::model::workspace::PanelSide;
-use crate::app::panels::rows::{ANY, Row, explain, field_width, named};
+use crate::app::panels::rows::{ANY, Row, explain, field_width, named, wrong};
 use crate::app::panels::{copy_rows, light_rows, mesh_rows, scene_rows, side_panels, stone_rows, tier_rows};
 use crate::app::theme;
 use crate::cut::{Cut, Design, DesignError, MaterialRef, Proportion, Unit, Warning};
@@ -168,10 +168,6 @@ fn impossible(model: &Model) -> Option<RowMessage> {
     let (given, last) = (&model.document.work.design.cut, &model.document.specimen().design.cut);
     let is_same_family = given.family()?.key == last.family()?.key;
     is_same_family.then(|| impossible::explain(given, last, model.session.edited, fault))
-}
-
-fn wrong(ui: &mut Ui, fault: &str) {
-    ui.label(RichText::new(fault).color(theme::bad(ui.visuals())));
 }
 
 /// The greatest number of warnings that the panel shows.

@@ -5,10 +5,10 @@ use crate::app::model::action::{Actions, Edit, FileAction, ViewAction};
 use crate::app::model::choosing::Purpose;
 use crate::app::model::command::Command;
 use crate::app::model::workspace::{WAVELENGTHS, Workspace};
-use crate::app::panels::rows::{Row, choice_row};
+use crate::app::panels::rows::{Row, choice_row, colour_row};
 use crate::app::studio::BEHIND;
 use crate::io::background::BackgroundRef;
-use crate::picture::light_picture;
+use crate::picture::{Background, light_picture};
 use crate::render::USUAL_BOUNCES;
 use crate::scene::{LIGHTS, light};
 use egui::{Button, ColorImage, Id, Image, TextureHandle, TextureOptions, Ui, Vec2, vec2};
@@ -71,7 +71,10 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let counted = |bounces: f64| ViewAction::Bounces(bounces.round() as u32);
     bounces.edit(ui, actions, f64::from(workspace.bounces), counted);
     behind(workspace, actions, ui);
-    if workspace.behind.is_some() {
+    let background = workspace.background();
+    if let Some(BackgroundRef::Plain(colours)) = background {
+        plain_colours(colours, actions, ui);
+    } else if workspace.behind.is_some() {
         behind_how(workspace, model.document.specimen().unit_mm(), actions, ui);
     }
     let meaning =
@@ -137,11 +140,52 @@ fn behind(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
         for name in BackgroundRef::names() {
             ui.selectable_value(&mut behind, Some(name.to_owned()), name);
         }
+        for (name, colours) in [("one colour", ONE_COLOUR), ("two colours", TWO_COLOURS)] {
+            let is_chosen = is_plain(workspace.background(), colours);
+            if ui.selectable_label(is_chosen, name).clicked() && !is_chosen {
+                behind = Some(colours.to_string());
+            }
+        }
         if ui.button("From a file…").on_hover_text("A picture: .png, .jpg, .hdr or .exr.").clicked() {
             actions.push(FileAction::Choose(Purpose::Behind));
         }
     });
     actions.push_changed(&workspace.behind, behind, ViewAction::Behind);
+}
+
+/// The colour with which a background of one colour begins: that of light grey paper.
+const ONE_COLOUR: Background = Background::Plain([0.75; 3]);
+
+/// The colours with which a background of two colours begins: light grey above, darker below.
+const TWO_COLOURS: Background = Background::Gradient { top: [0.85; 3], bottom: [0.45; 3] };
+
+/// Returns whether a background has as many colours as another.
+fn is_plain(behind: Option<BackgroundRef>, other: Background) -> bool {
+    let Some(BackgroundRef::Plain(colours)) = behind else { return false };
+    std::mem::discriminant(&colours) == std::mem::discriminant(&other)
+}
+
+/// Draws the pickers for the colours of a plain background.
+fn plain_colours(before: Background, actions: &mut Actions, ui: &mut Ui) {
+    let mut now = before;
+    match &mut now {
+        Background::Transparent => {}
+        Background::Plain(colour) => {
+            picker(ui, ("Back colour", "The colour of the background of renders."), colour);
+        }
+        Background::Gradient { top, bottom } => {
+            picker(ui, ("Upper colour", "The colour at the upper border of renders."), top);
+            picker(ui, ("Lower colour", "The colour at the lower border of renders."), bottom);
+        }
+    }
+    actions.push_changed(&before, now, |colours| ViewAction::Behind(Some(colours.to_string())));
+}
+
+/// Draws a row with a picker for one of the colours.
+fn picker(ui: &mut Ui, row: (&str, &str), colour: &mut [f32; 3]) {
+    if let Some(picked) = colour_row(ui, row, colour.map(f64::from)) {
+        *colour = picked.map(|part| part as f32);
+    }
 }
 
 /// Draws the rows for the backplate's distance and the strength of refraction.

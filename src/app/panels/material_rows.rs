@@ -1,8 +1,8 @@
 //! Rows for the optical properties of a material of one's own: index, dispersion and colour.
 
-use crate::app::panels::rows::{Number, Row, named, number_row, skip_control};
+use crate::app::panels::rows::{Number, Row, colour_row, number_row};
 use crate::cut::{Cut, Design, MaterialRef};
-use crate::optics::{Absorption, Dispersion, Material, encoded_from_linear, line, linear_from_encoded};
+use crate::optics::{Absorption, Dispersion, Material, line};
 use egui::{CollapsingHeader, Id, Ui, UiBuilder};
 use std::ops::RangeInclusive;
 
@@ -85,21 +85,13 @@ fn refraction(known: &Material, ui: &mut Ui) -> Option<Material> {
 /// Draws the rows for the colour and for how strong it is; returns the absorption that a change of one makes.
 fn colour(design: &Design, known: &Material, ui: &mut Ui) -> Option<[Absorption; 2]> {
     let path = design.diameter_mm;
-    let shown = known.colour_after(path).to_array();
-    let before = shown.map(|linear| (encoded_from_linear(linear).clamp(0.0, 1.0) * 255.0).round() as u8);
-    let mut picked = before;
     let meaning =
         "The colour of daylight after a path inside as long as the stone is wide. White is a clear stone.";
+    let shown = known.colour_after(path).to_array();
     // The picker has an identity of its own, so that it stays open when a first colour makes other rows appear.
-    ui.scope_builder(UiBuilder::new().scope_id(Id::unique("body colour")), |ui| {
-        ui.horizontal(|ui| {
-            let label = named(ui, "Body colour", meaning);
-            skip_control(ui, 0.0);
-            ui.color_edit_button_srgb(&mut picked).labelled_by(label.id).on_hover_text(meaning);
-        });
-    });
-    if picked != before {
-        let linear = picked.map(|code| linear_from_encoded(f64::from(code) / 255.0));
+    let apart = UiBuilder::new().scope_id(Id::unique("body colour"));
+    let picked = ui.scope_builder(apart, |ui| colour_row(ui, ("Body colour", meaning), shown)).inner;
+    if let Some(linear) = picked {
         let absorption = Absorption::of_colour(linear.into(), path).ok()?;
         return Some([absorption.clone(), absorption]);
     }

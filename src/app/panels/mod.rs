@@ -15,6 +15,7 @@ pub mod map_window;
 pub mod material_rows;
 pub mod mesh_rows;
 pub mod pane_rows;
+mod ring_rows;
 pub mod rows;
 mod scale_fields;
 pub mod scene_rows;

@@ -5,6 +5,8 @@
 //! leave empty. Fields without a slider fill the columns of control and number ([`field_width`]).
 
 use crate::app::model::action::{Action, Actions};
+use crate::app::theme;
+use crate::optics::{encoded_from_linear, linear_from_encoded};
 use egui::emath::format_with_decimals_in_range;
 use egui::{
     Color32, ComboBox, DragValue, Label, Rect, RectAlign, Response, RichText, Slider, SliderClamping,
@@ -175,6 +177,26 @@ pub fn number_row(ui: &mut Ui, (name, meaning): (&str, &str), number: Number, va
         skip_control(ui, 0.0);
         number.show(ui, (NUMBER, label.id), value);
     });
+}
+
+/// Draws a message about what is wrong in the rows above it.
+pub fn wrong(ui: &mut Ui, fault: &str) {
+    ui.label(RichText::new(fault).color(theme::bad(ui.visuals())));
+}
+
+/// Draws a row with a picker for a colour in linear light, from 0 to 1; returns the colour if another is picked.
+///
+/// The picker shows and sets codes of 8 bits, so a colour that is not picked keeps all its decimals.
+pub fn colour_row(ui: &mut Ui, (name, meaning): (&str, &str), linear: [f64; 3]) -> Option<[f64; 3]> {
+    let before = linear.map(|part| (encoded_from_linear(part).clamp(0.0, 1.0) * 255.0).round() as u8);
+    let mut picked = before;
+    ui.horizontal(|ui| {
+        named(ui, name, meaning);
+        skip_control(ui, 0.0);
+        let button = ui.color_edit_button_srgb(&mut picked).on_hover_text(meaning);
+        spoken(&button, name);
+    });
+    (picked != before).then(|| picked.map(|code| linear_from_encoded(f64::from(code) / 255.0)))
 }
 
 /// The greatest height of a list that opens, points.

@@ -1,19 +1,21 @@
-//! Rows for a scene of several designs: its stones, of which one is edited, and its metal.
+//! Rows for a scene of several designs: its stones, of which one is edited, its metal, and the numbers of its ring.
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit};
 use crate::app::model::export::kinds;
-use crate::app::panels::rows::{field_width, named};
+use crate::app::panels::ring_rows;
+use crate::app::panels::rows::{Row, choice_row, field_width, named};
 use crate::cut::{Design, MaterialRef};
+use crate::optics::Metal;
 use crate::scene::MetalInstance;
 use egui::{Align, Button, Label, Layout, Role, Ui, WidgetInfo, vec2};
-use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 /// The width of the buttons that edit a stone, points.
 const EDIT: f32 = 44.0;
 
-/// Draws a row for each kind of stone, the one that is edited first, and for each metal.
+/// Draws a row for each kind of stone, the one that is edited first, and the rows for metal.
 pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let work = &model.document.work;
     let meaning = "The stone whose proportions, material and size stand in this panel.";
@@ -22,7 +24,11 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     for kind in kinds(&work.companions) {
         let is_of_kind = |place: &usize| Arc::ptr_eq(&stones[*place].specimen, kind);
         let places: Vec<usize> = (0..stones.len()).filter(is_of_kind).collect();
-        let meaning = "A stone of the scene. Drag it in a render to move it; it stops before others.";
+        let is_seated = work.companions.seat_at(stones[places[0]].pose.at).is_some();
+        let meaning = match is_seated {
+            true => "A stone of the scene's ring, which holds it in its seat.",
+            false => "A stone of the scene. Drag it in a render to move it; it stops before others.",
+        };
         let text = counted(places.len(), &kind.design);
         row(ui, "Beside it", meaning, &text, |ui| {
             let size = vec2(EDIT, ui.spacing().interact_size.y);
@@ -34,13 +40,51 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
             }
         });
     }
-    let mut metals: BTreeMap<(&str, &str), usize> = BTreeMap::new();
-    for MetalInstance { metal, label, .. } in &work.companions.metals {
-        *metals.entry((label, metal.name())).or_default() += 1;
+    metal_rows(&work.companions.metals, actions, ui);
+    ring_rows::show(model, actions, ui);
+}
+
+/// The range of the roughness of metal.
+const ROUGHNESSES: RangeInclusive<f64> = 0.0..=1.0;
+
+/// Bodies of metal of one shape and finish.
+struct MetalGroup<'a> {
+    first: &'a MetalInstance,
+    /// The numbers of the bodies.
+    bodies: Vec<usize>,
+}
+
+/// Draws a list of metals and a row for the roughness for all bodies of one shape and finish. Where there are several such
+/// groups, the names of their rows are numbered.
+fn metal_rows(metals: &[MetalInstance], actions: &mut Actions, ui: &mut Ui) {
+    let mut groups: Vec<MetalGroup> = vec![];
+    for (number, body) in metals.iter().enumerate() {
+        let is_alike = |first: &MetalInstance| {
+            Arc::ptr_eq(&first.mesh, &body.mesh)
+                && (first.metal, first.roughness) == (body.metal, body.roughness)
+        };
+        match groups.iter_mut().find(|group| is_alike(group.first)) {
+            Some(group) => group.bodies.push(number),
+            None => groups.push(MetalGroup { first: body, bodies: vec![number] }),
+        }
     }
-    for ((label, metal), count) in metals {
-        let text = format!("{}{label}, {metal}", times(count));
-        row(ui, "Metal", "A body of metal, which renders show.", &text, |_| {});
+    let count = groups.len();
+    for (place, MetalGroup { first, bodies }) in groups.into_iter().enumerate() {
+        let name = |name: &str| if count > 1 { format!("{name} {}", place + 1) } else { name.to_owned() };
+        let text = format!("{}{}", times(bodies.len()), first.label);
+        row(ui, &name("Metal body"), "A body of metal, which renders show.", &text, |_| {});
+        let (mut metal, mut roughness) = (first.metal, first.roughness);
+        let meaning = "The metal, by its measured colour. Jewellers' alloys look a little paler.";
+        choice_row(ui, &name("Metal"), meaning, metal.name(), |ui| {
+            Metal::NAMES
+                .into_iter()
+                .for_each(|(name, each)| drop(ui.selectable_value(&mut metal, each, name)));
+        });
+        let meaning =
+            "The roughness of the metal's surface: 0 is a mirror, 0.1 polished, 0.4 brushed to satin.";
+        Row { step: 0.01, ..Row::new(&name("Roughness"), meaning, ROUGHNESSES) }.show(ui, &mut roughness);
+        let finish = |(metal, roughness)| Edit::Finish { bodies, metal, roughness };
+        actions.push_changed(&(first.metal, first.roughness), (metal, roughness), finish);
     }
 }
 

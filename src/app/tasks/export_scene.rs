@@ -6,9 +6,9 @@ use crate::app::studio::Shot;
 use crate::app::studio::hung;
 use crate::io::background::BackgroundRef;
 use crate::io::mesh::write_shaded;
-use crate::io::scene_file::{self, DEFAULT_GAP_MM, Entry, MetalEntry, SceneFile};
+use crate::io::scene_file::{self, DEFAULT_GAP_MM, Entry, MetalEntry, RingEntry, SceneFile};
 use crate::io::{Failure, WriteError, cut_file, write};
-use crate::scene::{Companion, Companions, MetalInstance, Pose, Projection, Scene};
+use crate::scene::{Companion, Companions, MetalInstance, Pose, Projection, RingPlan, Scene, Specimen};
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -34,16 +34,27 @@ impl SceneOut {
         let middle = if is_alone { DVec3::ZERO } else { 0.5 * (low + high) };
         let kinds = kinds(&companions);
         let names: Vec<String> = paths.iter().map(|path| file_name(path)).collect();
+        let meshes = plan.meshes();
         let (cuts, metals) = names[1..].split_at(1 + kinds.len());
         let at_mm = |pose: &Pose| (pose.at - middle) * unit_mm;
-        let own = poses.iter().map(|pose| Entry::placed(&cuts[0], pose.turn, at_mm(pose)));
-        let others = companions.stones.iter().map(|Companion { specimen, pose }| {
-            let kind = kinds.iter().position(|kind| Arc::ptr_eq(kind, specimen)).unwrap_or_default();
-            Entry::placed(&cuts[1 + kind], pose.turn, at_mm(pose))
-        });
-        let placed = |(metal, name): (&MetalInstance, &String)| {
-            let pose = Pose { at: at_mm(&metal.pose), scale: metal.pose.scale * unit_mm, ..metal.pose };
-            MetalEntry::placed(name, (metal.metal, metal.roughness), &pose)
+        let cut_of = |specimen: &Arc<Specimen>| {
+            let kind = kinds.iter().position(|kind| Arc::ptr_eq(kind, specimen));
+            kind.map_or(&*cuts[0], |kind| &*cuts[1 + kind])
+        };
+        // A ring places its own stones.
+        let has_ring = plan.ring().is_some();
+        let is_loose = |pose: &Pose| !has_ring || companions.seat_at(pose.at).is_none();
+        let own = poses.iter().filter(|pose| is_loose(pose));
+        let own = own.map(|pose| Entry::placed(&cuts[0], pose.turn, at_mm(pose)));
+        let others = companions.stones.iter().filter(|stone| is_loose(&stone.pose));
+        let others = others
+            .map(|Companion { specimen, pose }| Entry::placed(cut_of(specimen), pose.turn, at_mm(pose)));
+        let in_mm = |metal: &MetalInstance| {
+            let pose = turned.after(&metal.pose);
+            Pose { at: at_mm(&pose), scale: pose.scale * unit_mm, ..pose }
+        };
+        let placed = |(metal, name): (&&MetalInstance, &String)| {
+            MetalEntry::placed(name, (metal.metal, metal.roughness), &in_mm(metal))
         };
         let is_picture = shot.behind.as_ref().is_some_and(BackgroundRef::is_picture);
         let scene = SceneFile {
@@ -60,12 +71,12 @@ impl SceneOut {
             angle_of_view: angle_of_view(shot, corners(shot, &poses, &companions), middle),
             exposure: shot.exposure,
             stones: own.chain(others).collect(),
-            metals: companions.metals.iter().zip(metals).map(placed).collect(),
-            ring: None,
+            metals: meshes.iter().zip(metals).map(placed).collect(),
+            ring: ring(plan, cut_of, in_mm),
         };
         let designs = std::iter::once(&shot.specimen).chain(kinds).map(|kind| cut_file::write(&kind.design));
-        let meshes = companions.metals.iter().map(|metal| write_shaded(metal.mesh.surface()));
-        let texts = std::iter::once(scene_file::write(&scene)).chain(designs).chain(meshes);
+        let surfaces = meshes.iter().map(|metal| write_shaded(metal.mesh.surface()));
+        let texts = std::iter::once(scene_file::write(&scene)).chain(designs).chain(surfaces);
         Self { files: paths.into_iter().zip(texts).collect() }
     }
 
@@ -80,6 +91,20 @@ impl SceneOut {
         }
         Ok(())
     }
+}
+
+/// Returns the entry of the ring that a plan describes by its numbers. `cut_of` returns the file of a stone's cut, and
+/// `in_mm` the place of a body of metal.
+fn ring<'a>(
+    plan: &ExportPlan,
+    cut_of: impl Fn(&Arc<Specimen>) -> &'a str,
+    in_mm: impl Fn(&MetalInstance) -> Pose,
+) -> Option<RingEntry> {
+    let Shot { specimen, copies, companions, .. } = &plan.shot;
+    let body = &companions.metals[plan.ring()?.metal];
+    let RingPlan { ring, stone, small_stone } = companions.ring_plan(specimen, copies.first()?.at)?;
+    let cuts = [stone, small_stone].map(|stone| stone.map(|stone| cut_of(&stone).to_owned()));
+    Some(RingEntry::placed(ring, cuts, (body.metal, body.roughness), &in_mm(body)))
 }
 
 /// Returns the name of a file without its folder.

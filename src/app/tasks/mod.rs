@@ -29,7 +29,7 @@ use crate::app::shows::Shows;
 use crate::app::studio::{Slot, TakenPicture, Wake};
 use crate::io::lighting::Lighting;
 use crate::io::{Failure, goal_file};
-use crate::scene::Specimen;
+use crate::scene::{RingPlan, Specimen};
 use crate::search::Goal;
 use autosave::Autosave;
 use egui::ColorImage;
@@ -56,6 +56,7 @@ enum Key {
     Export,
     Copy,
     Audit,
+    Ring,
     StoneLight,
     Search,
     Goal,
@@ -135,6 +136,7 @@ impl Outside {
             Task::StopExport => self.runner.stop(Key::Export),
             Task::MakeCopy(request) => self.make_copy(request),
             Task::Audit(specimen) => self.audit(specimen),
+            Task::MakeRing(document, plan) => self.make_ring(document, plan),
             Task::MeasureLight(request) => self.measure_light(*request),
             Task::StopLight => self.runner.stop(Key::StoneLight),
             Task::Search(request) => self.search(*request),
@@ -241,6 +243,15 @@ impl Outside {
         self.run(Key::Audit, failed, move |_| {
             let found = specimen.audit().map_err(|why| Failure::Input(why.to_string()));
             Computed::Audit(specimen, found)
+        });
+    }
+
+    fn make_ring(&mut self, document: u64, plan: Box<RingPlan>) {
+        let why = fault("making the ring failed");
+        let failed = Computed::RingMetal(document, plan.clone(), Err(why));
+        self.run(Key::Ring, failed, move |_| {
+            let made = plan.made().map_err(|error| Failure::Input(error.to_string()));
+            Computed::RingMetal(document, plan, made)
         });
     }
 

@@ -2,14 +2,27 @@
 
 use super::Bench;
 use super::copies::bench;
-use crate::app::model::workspace::Workspace;
+use crate::app::model::workspace::{PaneLayout, Workspace};
+use crate::app::setup::Setup;
 use crate::app::studio::{Shot, Smoothing};
 use crate::cut::MaterialRef;
-use crate::optics::{Absorption, line};
+use crate::io::cut_file;
+use crate::math::Basis;
+use crate::optics::{Material, encoded_from_linear, line, linear_from_encoded};
 use crate::picture::Bloom;
-use crate::scene::LIGHTS;
-use egui::{Key, Modifiers, Role};
+use crate::scene::{LIGHTS, Light, light};
+use crate::trace::DispersedRay;
+use crate::trace::environment::{Environment, EnvironmentMap};
+use egui::{
+    Color32, ColorImage, Context, FullOutput, ImageData, Key, Modifiers, Rect, Role, Shape, TextureId,
+    TexturesDelta,
+};
 use egui_kittest::kittest::Queryable;
+use egui_kittest::{Harness, TestRenderer};
+use glam::{DVec2, DVec3};
+use std::collections::HashMap;
+use std::f64::consts::PI;
+use std::sync::{Arc, Mutex};
 
 fn workspace(bench: &Bench) -> &Workspace {
     &bench.editor().model.workspace
@@ -75,16 +88,9 @@ fn rows_of_the_material_make_one_of_the_users_own() {
     assert!((material(&bench).dispersion.abbe_number().unwrap() - 20.0).abs() < 0.05);
     bench.type_number("Dispersion B-G", "0.05");
     assert!((material(&bench).dispersion.dispersion_b_g() - 0.05).abs() < 1e-4);
-    // The picker of the colour is there by its name; a coloured glass has a length in which half of the light is lost.
-    let picker = bench.harness.query_all_by_label("Body colour").count();
-    assert!(
-        picker > 0 && bench.harness.query_by_role_and_label(Role::SpinButton, "Half-light path").is_none()
-    );
-    let colour = Absorption::of_colour(glam::DVec3::new(0.2, 0.5, 0.9), 40.0).unwrap();
-    let mut own = material(&bench);
-    own.absorption = [colour.clone(), colour];
-    bench.harness.state_mut().act(crate::app::model::action::Edit::Material(MaterialRef::Custom(own)));
-    bench.harness.run_steps(3);
+    // A coloured glass has a length in which half of the light is lost.
+    assert!(bench.harness.query_by_role_and_label(Role::SpinButton, "Half-light path").is_none());
+    bench.pick_colour("Body colour", [120, 190, 240]);
     bench.type_number("Half-light path", "12");
     assert!((material(&bench).half_length().unwrap() - 12.0).abs() < 1e-6);
     // Further undoing changes nothing.
@@ -116,6 +122,181 @@ fn a_gem_has_the_same_rows_under_a_heading() {
         bench.harness.run_steps(3);
     }
     assert!(bench.editor().model.document.work.design.material == before, "undone");
+}
+
+#[test]
+fn the_colour_of_a_gem_is_picked_and_stands_in_its_saved_cut_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let mut bench = bench("tolkowsky");
+    bench.harness.get_by_label("Index and colour").scroll_to_me();
+    bench.harness.run_steps(super::SCROLLED);
+    bench.click("Index and colour");
+    bench.harness.run_steps(super::SCROLLED);
+    let before = bench.editor().model.document.specimen().material.clone();
+    bench.pick_colour("Body colour", [230, 80, 60]);
+    let design = bench.editor().model.document.work.design.clone();
+    let material = bench.editor().model.document.specimen().material.clone();
+    // The colour is that of a path as long as the stone is wide; a picker has steps of 1/255.
+    let shown = |material: &Material| {
+        let codes = material.colour_after(design.diameter_mm).to_array().map(encoded_from_linear);
+        codes.map(|code| (255.0 * code).round() as i32)
+    };
+    let is_picked = |material: &Material| {
+        shown(material).iter().zip([230, 80, 60]).all(|(code, picked)| (code - picked).abs() <= 1)
+    };
+    assert!(is_picked(&material) && !is_picked(&before), "{:?}, {:?}", shown(&material), shown(&before));
+    assert_eq!(material.dispersion, before.dispersion, "the colour changes no index");
+    assert!(material.colour_is_illustrative);
+    bench.choices.lock().unwrap().push(path.clone());
+    bench.harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    bench.wait(|editor| editor.model.document.path().is_some() && !editor.model.document.is_changed());
+    let saved = cut_file::read(&path).unwrap();
+    assert_eq!(saved, design);
+    assert!(is_picked(&saved.material.material().unwrap()));
+    let steps = bench.editor().model.document.steps();
+    assert!(steps.0);
+    while bench.editor().model.document.steps().0 {
+        bench.harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+        bench.harness.run_steps(3);
+    }
+    assert_eq!(bench.editor().model.document.specimen().material, before, "undone");
+}
+
+/// The textures that a window has been given.
+#[derive(Clone, Default)]
+struct KeptTextures(Arc<Mutex<HashMap<TextureId, Arc<ColorImage>>>>);
+
+impl TestRenderer for KeptTextures {
+    fn handle_delta(&mut self, delta: &mut TexturesDelta) {
+        let mut kept = self.0.lock().unwrap();
+        let set = std::mem::take(&mut delta.set);
+        for (id, given) in set.into_iter().flat_map(|(id, all)| all.into_iter().map(move |given| (id, given)))
+        {
+            let ImageData::Color(image) = given.image;
+            // Letters come in parts; all else is given whole.
+            if given.pos.is_none() {
+                kept.insert(id, image);
+            }
+        }
+        delta.clear();
+    }
+
+    fn render(&mut self, _: &Context, _: &FullOutput) -> Result<image::RgbaImage, String> {
+        Err("this window keeps its textures and draws nothing".to_owned())
+    }
+}
+
+/// Returns the places in the window where textures are drawn.
+fn drawn(shape: &Shape) -> Vec<(TextureId, Rect)> {
+    match shape {
+        Shape::Vec(shapes) => shapes.iter().flat_map(drawn).collect(),
+        other => vec![(other.texture_id(), other.visual_bounding_rect())],
+    }
+}
+
+/// Opens the list of lights and returns the picture in the entry of each light.
+fn thumbnails() -> Vec<Arc<ColorImage>> {
+    let kept = KeptTextures::default();
+    let workspace = Workspace { layout: PaneLayout::One, ..Workspace::default() };
+    let builder = Harness::builder().with_size(egui::vec2(860.0, 1240.0)).renderer(kept.clone());
+    let mut bench = Bench::built(Setup { workspace, ..Setup::default() }, builder);
+    bench.harness.run_steps(3);
+    let textures = |bench: &Bench| {
+        let shapes = bench.harness.output().shapes.iter();
+        shapes.flat_map(|clipped| drawn(&clipped.shape)).collect::<Vec<_>>()
+    };
+    let is_light = |bench: &Bench, id: TextureId| {
+        let manager = bench.harness.ctx.tex_manager();
+        manager.read().meta(id).is_some_and(|meta| meta.name.starts_with("light "))
+    };
+    assert!(!textures(&bench).iter().any(|(id, _)| is_light(&bench, *id)), "the list is closed");
+    bench.harness.get_by_role_and_label(Role::ComboBox, "Light").scroll_to_me();
+    bench.harness.run_steps(super::SCROLLED);
+    bench.harness.get_by_role_and_label(Role::ComboBox, "Light").click();
+    bench.harness.run_steps(4);
+    let picture = |name: &str| {
+        bench.harness.get_by_role_and_label(Role::Button, name).scroll_to_me();
+        bench.harness.run_steps(super::SCROLLED);
+        let entry = bench.harness.get_by_role_and_label(Role::Button, name).rect();
+        let within: Vec<_> = textures(&bench)
+            .into_iter()
+            .filter(|(id, rect)| is_light(&bench, *id) && entry.contains(rect.center()))
+            .collect();
+        assert_eq!(within.len(), 1, "{name}: one picture stands in its entry");
+        assert!(within[0].1.width() > 30.0 && entry.contains_rect(within[0].1), "{name}: {within:?}");
+        Arc::clone(&kept.0.lock().unwrap()[&within[0].0])
+    };
+    LIGHTS.map(picture).to_vec()
+}
+
+/// Returns the mean colour of a picture of all directions, each weighed by its solid angle, in linear light.
+fn mean_of_picture(image: &ColorImage) -> DVec3 {
+    let [width, height] = image.size;
+    let row = |y: usize| {
+        let weight = ((y as f64 + 0.5) / height as f64 * PI).sin();
+        let pixels = image.pixels[y * width..(y + 1) * width].iter();
+        let linear = |pixel: &Color32| {
+            [pixel.r(), pixel.g(), pixel.b()].map(|c| linear_from_encoded(f64::from(c) / 255.0))
+        };
+        (weight * width as f64, pixels.map(|pixel| weight * DVec3::from(linear(pixel))).sum::<DVec3>())
+    };
+    let (weights, sums): (Vec<f64>, Vec<DVec3>) = (0..height).map(row).unzip();
+    sums.into_iter().sum::<DVec3>() / weights.into_iter().sum::<f64>()
+}
+
+/// Returns the mean over all directions of the light that renders look up, without its lamps, each colour rolled off as in the
+/// list's pictures.
+fn mean_of_light(name: &str) -> DVec3 {
+    const COUNT: usize = 40_000;
+    let map = EnvironmentMap::new(&Light { lamp: vec![], field: vec![], ..light(name).unwrap() }, None);
+    let basis = Basis { right: DVec3::X, up: DVec3::Y, toward: DVec3::Z };
+    let around = Environment { map: &map, basis, eye: basis, head: 0.0, backplate: None, backdrop: true };
+    let colour = |k: usize| {
+        let z = 1.0 - (2.0 * k as f64 + 1.0) / COUNT as f64;
+        let way = DVec2::from_angle(k as f64 * PI * (3.0 - 5.0_f64.sqrt())) * (1.0 - z * z).sqrt();
+        let ray = DispersedRay {
+            origin: DVec3::ZERO,
+            direction: way.extend(z),
+            fan: DVec3::ZERO,
+            shift: DVec3::ZERO,
+        };
+        // The list's pictures are 36 pixels high, from the zenith to the nadir.
+        let all = around.radiance_around(&ray, PI / 36.0);
+        let colour = DVec3::new(all.y, all.z, all.w) + DVec3::splat(all.x);
+        colour / (DVec3::ONE + colour)
+    };
+    (0..COUNT).map(colour).sum::<DVec3>() / COUNT as f64
+}
+
+#[test]
+fn every_light_in_the_list_has_a_picture_in_the_mean_colour_of_its_own_light() {
+    let pictures = thumbnails();
+    let share = |colour: DVec3| colour / colour.element_sum();
+    let mut coloured = 0;
+    for (k, (name, picture)) in LIGHTS.into_iter().zip(&pictures).enumerate() {
+        assert!(picture.pixels.iter().all(|pixel| pixel.a() == 255), "{name}");
+        for (other, before) in LIGHTS.into_iter().zip(&pictures[..k]) {
+            assert!(before.pixels != picture.pixels, "{name} has the picture of {other}");
+        }
+        let (seen, lit) = (mean_of_picture(picture), mean_of_light(name));
+        assert!(share(seen).distance(share(lit)) < 0.02, "{name}: {seen} instead of {lit}");
+        let light = light(name).unwrap();
+        // A lamp is drawn larger than it is, so that it can be seen.
+        let has_lamps = !light.lamps().is_empty();
+        let off = (seen - lit).abs().max_element() / lit.max_element();
+        assert!(has_lamps || off < 0.08, "{name}: {seen} instead of {lit}");
+        // The pictures of nearly all other lights would be too bright, too dark or of another colour in its place.
+        let is_seen = |other: &&Arc<ColorImage>| {
+            let seen = mean_of_picture(other);
+            share(seen).distance(share(lit)) > 0.02
+                || (seen - lit).abs().max_element() > 0.08 * lit.max_element()
+        };
+        let noticed = pictures.iter().filter(|other| !Arc::ptr_eq(other, picture)).filter(is_seen).count();
+        assert!(noticed >= 9, "{name}: {noticed} of 11");
+        coloured += usize::from(share(lit).distance(DVec3::splat(1.0 / 3.0)) > 0.02);
+    }
+    assert!(coloured >= 3, "worlds have colours");
 }
 
 #[test]

@@ -21,6 +21,7 @@ mod looks;
 mod maps;
 mod reading;
 mod recorder;
+mod rings;
 mod scenes;
 mod searching;
 mod tier_hand;
@@ -37,7 +38,7 @@ use crate::app::tasks::files::Chooser;
 use crate::app::views::gallery::Shown;
 use crate::cut::{Cut, RoundBrilliant};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
@@ -204,6 +205,29 @@ impl Bench {
         self.harness.event(egui::Event::Text(number.to_owned()));
         self.harness.run_steps(1);
         self.harness.key_press(egui::Key::Enter);
+        self.harness.run_steps(3);
+    }
+
+    /// Opens the colour picker of this name, types the codes of a colour from 0 to 255, and closes the picker.
+    pub fn pick_colour(&mut self, name: &str, codes: [u8; 3]) {
+        self.harness.get_by_role_and_label(egui::Role::ColorWell, name).scroll_to_me();
+        self.harness.run_steps(SCROLLED);
+        self.harness.get_by_role_and_label(egui::Role::ColorWell, name).click();
+        self.harness.run_steps(4);
+        for (channel, code) in ["R ", "G ", "B "].into_iter().zip(codes) {
+            let field = self
+                .harness
+                .query_all_by_role(egui::Role::SpinButton)
+                .find(|node| node.accesskit_node().value().is_some_and(|value| value.starts_with(channel)));
+            field.expect("the picker is open").click();
+            self.harness.run_steps(2);
+            self.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+            self.harness.event(egui::Event::Text(code.to_string()));
+            self.harness.run_steps(1);
+            self.harness.key_press(egui::Key::Enter);
+            self.harness.run_steps(3);
+        }
+        self.harness.key_press(egui::Key::Escape);
         self.harness.run_steps(3);
     }
 

@@ -28,7 +28,10 @@ pub fn carried(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneV
     let held = match is_start && can_hold && !ui.input(|i| i.modifiers.shift) {
         true => {
             let from = ui.input(|i| i.pointer.press_origin());
-            from.and_then(|at| found(cx, sight, at)).map(|found| (cx.pane, found.number))
+            let found = from.and_then(|at| found(cx, sight, at));
+            // A ring holds its stones, so that a drag there turns the view.
+            let found = found.filter(|found| cx.model.companions().seat_at(found.pose.at).is_none());
+            found.map(|found| (cx.pane, found.number))
         }
         false => before,
     };

@@ -69,7 +69,7 @@ pub(super) fn ring<'a>(
     };
     let stones = mounting.seats.iter().filter_map(member).collect();
     let mesh = ShadedMesh::new(mounting.surface()).map_err(|error| refused(error.to_string()))?;
-    let label = format!("{} ring", entry.ring.style.name());
+    let label = entry.ring.label();
     let (metal, roughness) = (entry.metal, entry.roughness);
     let metal = MetalInstance { mesh: Arc::new(mesh), pose, metal, roughness, label };
     Ok(RingParts { stones, metal, mounting })

@@ -1,9 +1,9 @@
 //! A ring in a scene file.
 
-use super::shared::leaning;
+use super::shared::{Angles, leaning};
 use crate::cut::{MaterialRef, Size};
 use crate::optics::Metal;
-use crate::scene::Ring;
+use crate::scene::{Pose, Ring};
 use glam::{DQuat, DVec3};
 
 /// A ring of the program's own making in a scene, with its stones.
@@ -38,6 +38,32 @@ pub struct RingEntry {
 }
 
 impl RingEntry {
+    /// Makes an entry of a ring with its main stone and its small stones as their cut files say, if it has such stones. The
+    /// pose carries the ring from its own frame to its place, in mm.
+    pub fn placed(
+        ring: Ring,
+        [stone, small_stone]: [Option<String>; 2],
+        (metal, roughness): (Metal, f64),
+        pose: &Pose,
+    ) -> Self {
+        let Angles { turn, tilt, azimuth } = Angles::of(pose.turn);
+        Self {
+            ring,
+            metal,
+            roughness,
+            stone,
+            material: None,
+            size: None,
+            small_stone,
+            small_material: None,
+            turn,
+            tilt,
+            azimuth,
+            at_mm: pose.at,
+            line: 0,
+        }
+    }
+
     /// Returns the rotation from the ring's frame, whose head lies in the direction +z, to the world's.
     pub fn turned(&self) -> DQuat {
         leaning(self.turn, self.tilt, self.azimuth)

@@ -1,7 +1,7 @@
 //! The numbers that describe a ring: key, unit and range of each, in one row. `Ring::default` has their usual values;
 //! docs/formats.md gives their meanings.
 
-use super::{Ring, RingError};
+use super::{Ring, RingError, RingStyle};
 
 /// A number that describes a ring, such as the width of its band.
 pub struct RingNumber {
@@ -13,37 +13,52 @@ pub struct RingNumber {
     pub unit: &'static str,
     /// Returns the value that a ring has.
     pub get: fn(&Ring) -> f64,
+    /// Gives a ring another value.
+    pub set: fn(&mut Ring, f64),
+    /// Returns whether the metal of a ring of this style depends on the number.
+    pub matters: fn(RingStyle) -> bool,
+}
+
+/// Makes a row of a field of [`Ring`], whose name is its key.
+macro_rules! number {
+    ($field:ident, $least:literal to $most:literal, $unit:literal, $matters:expr) => {
+        RingNumber {
+            key: stringify!($field),
+            range: [$least, $most],
+            unit: $unit,
+            get: |ring| ring.$field,
+            set: |ring, value| ring.$field = value,
+            matters: $matters,
+        }
+    };
+}
+
+fn always(_: RingStyle) -> bool {
+    true
+}
+
+fn with_prongs(style: RingStyle) -> bool {
+    style.prongs() > 0
+}
+
+fn with_stones(style: RingStyle) -> bool {
+    style != RingStyle::Band
 }
 
 /// The numbers that describe a ring, in the order of its fields.
 pub const RING_NUMBERS: [RingNumber; 12] = [
-    RingNumber {
-        key: "inner_diameter_mm",
-        range: [12.0, 26.0],
-        unit: "mm",
-        get: |ring| ring.inner_diameter_mm,
-    },
-    RingNumber { key: "width_mm", range: [1.0, 12.0], unit: "mm", get: |ring| ring.width_mm },
-    RingNumber { key: "thickness_mm", range: [0.8, 4.0], unit: "mm", get: |ring| ring.thickness_mm },
-    RingNumber { key: "comfort_mm", range: [0.05, 1.5], unit: "mm", get: |ring| ring.comfort_mm },
-    RingNumber { key: "taper", range: [0.4, 1.0], unit: "", get: |ring| ring.taper },
-    RingNumber {
-        key: "prong_diameter_mm",
-        range: [0.4, 2.0],
-        unit: "mm",
-        get: |ring| ring.prong_diameter_mm,
-    },
-    RingNumber { key: "notch", range: [0.2, 0.45], unit: "", get: |ring| ring.notch },
-    RingNumber { key: "grip_mm", range: [0.1, 2.0], unit: "mm", get: |ring| ring.grip_mm },
-    RingNumber { key: "culet_gap_mm", range: [0.05, 5.0], unit: "mm", get: |ring| ring.culet_gap_mm },
-    RingNumber { key: "rail_diameter_mm", range: [0.3, 2.0], unit: "mm", get: |ring| ring.rail_diameter_mm },
-    RingNumber {
-        key: "small_diameter_mm",
-        range: [0.8, 4.0],
-        unit: "mm",
-        get: |ring| ring.small_diameter_mm,
-    },
-    RingNumber { key: "small_gap_mm", range: [0.08, 1.0], unit: "mm", get: |ring| ring.small_gap_mm },
+    number!(inner_diameter_mm, 12.0 to 26.0, "mm", always),
+    number!(width_mm, 1.0 to 12.0, "mm", always),
+    number!(thickness_mm, 0.8 to 4.0, "mm", always),
+    number!(comfort_mm, 0.05 to 1.5, "mm", always),
+    number!(taper, 0.4 to 1.0, "", always),
+    number!(prong_diameter_mm, 0.4 to 2.0, "mm", with_prongs),
+    number!(notch, 0.2 to 0.45, "", with_prongs),
+    number!(grip_mm, 0.1 to 2.0, "mm", with_prongs),
+    number!(culet_gap_mm, 0.05 to 5.0, "mm", with_stones),
+    number!(rail_diameter_mm, 0.3 to 2.0, "mm", with_prongs),
+    number!(small_diameter_mm, 0.8 to 4.0, "mm", RingStyle::has_small),
+    number!(small_gap_mm, 0.08 to 1.0, "mm", RingStyle::has_small),
 ];
 
 impl RingNumber {

@@ -134,7 +134,7 @@ pub struct MetalPart {
 }
 
 /// The kind of stone in a seat.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SeatKind {
     /// The main stone, which prongs hold in the middle of the head.
     Main,
@@ -143,7 +143,7 @@ pub enum SeatKind {
 }
 
 /// The place of a stone in a ring.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RingSeat {
     /// The kind of its stone.
     pub kind: SeatKind,
@@ -165,6 +165,11 @@ pub struct Mounting {
 }
 
 impl Ring {
+    /// Returns the name of the ring's body of metal.
+    pub fn label(&self) -> String {
+        format!("{} ring", self.style.name())
+    }
+
     /// Returns the radius of the finger's hole, in mm.
     pub(super) fn hole(&self) -> f64 {
         0.5 * self.inner_diameter_mm

@@ -3,6 +3,9 @@
 use super::desk::*;
 use crate::maps::read;
 use brillianteer::io::refraction::{Coding, diffuse_path, paths};
+use brillianteer::picture::SourcePlace;
+use glam::DVec3;
+use std::path::Path;
 
 #[test]
 fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_preview() {
@@ -108,4 +111,75 @@ fn a_scenes_mixture_is_left_aside_and_that_is_told() {
     let line = "refraction-map wavy-plate --size 32 --samples 1 --wavelengths 2 --format tiled --out maps";
     let (code, _, stderr) = outcome(line, &desk.command(line).output().unwrap());
     assert!(code == 0 && stderr.contains("strength of 0.2 is ignored"), "{code}: {stderr}");
+}
+
+/// Returns the numbers of a template in 16 bits, 0 to 1, as a renderer reads them that is told that they are no colours.
+fn codes(path: &Path) -> (usize, Vec<f32>) {
+    let mut decoder = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(path).unwrap()));
+    decoder.set_transformations(png::Transformations::IDENTITY);
+    let mut reader = decoder.read_info().unwrap();
+    let mut data = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut data).unwrap();
+    assert_eq!((info.color_type, info.bit_depth), (png::ColorType::Rgb, png::BitDepth::Sixteen));
+    let code = |pair: &[u8]| f32::from(u16::from_be_bytes([pair[0], pair[1]])) / 65_535.0;
+    (info.width as usize, data.chunks_exact(2).map(code).collect())
+}
+
+/// Returns the peak signal to noise of one picture in linear light against another, in dB.
+fn psnr(a: &[DVec3], b: &[DVec3]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let error: f64 = a.iter().zip(b).map(|(a, b)| a.distance_squared(*b) / 3.0).sum();
+    10.0 * (a.len() as f64 / error).log10()
+}
+
+#[test]
+fn a_map_read_from_a_render_of_the_template_is_the_programs_own_map() {
+    let desk = Desk::new();
+    // A glass without dispersion, in the dark, so that all light comes from the template.
+    let dark = "name = \"dark\"\n[[lamp]]\nazimuth = 0\nelevation = 90\nradius = 0.01\nradiance = 1e-9\n";
+    desk.write("dark.toml", dark);
+    desk.done(
+        "render cube.toml --background #c08040-#204080 --size 96 --samples 4 --wavelengths 4 --out photo.png",
+    );
+    desk.done("refraction-template template.png --coding gradient --size 1024");
+    // The template hangs behind the glass as linear light: what other programs call Non-Color.
+    let (side, numbers) = codes(&desk.at("template.png"));
+    exr::prelude::write_rgb_file(desk.at("template.exr"), side, side, |x, y| {
+        let at = 3 * (y * side + x);
+        (numbers[at], numbers[at + 1], numbers[at + 2])
+    })
+    .unwrap();
+    let view = "pill --material 1.5 --light dark.toml --size 80 --tilt 12 --perspective 6";
+    desk.done(&format!(
+        "render {view} --background template.exr --samples 64 --wavelengths 1 --no-jitter --bloom 0 --unadapted \
+        --tracer ray --out render.exr"
+    ));
+    let to = "--span 1 --background photo.png --format exr,preview --out";
+    desk.done(&format!("refraction-import render.exr --coding gradient {to} foreign"));
+    desk.done(&format!("refraction-map {view} --samples 1 --wavelengths 1 {to} own"));
+    let (own, foreign) = (("own", "pill-tilt-12-perspective-6"), ("foreign", "render"));
+    let places = |(folder, stem): (&str, &str)| {
+        let folder = desk.at(folder);
+        let map = read(&paths(&folder, stem, 1, Coding::Float), &diffuse_path(&folder, stem));
+        assert_eq!(map.size, [80, 80]);
+        map.bands[0].places.clone()
+    };
+    let apart = |own: &[SourcePlace], foreign: &[SourcePlace]| {
+        let pairs = own.iter().zip(foreign).filter(|(own, _)| own.weight > 0.5);
+        let far = |(a, b): (&SourcePlace, &SourcePlace)| 80.0 * f64::from((a.u - b.u).hypot(a.v - b.v));
+        let mut all: Vec<f64> = pairs.map(far).collect();
+        all.sort_by(f64::total_cmp);
+        let at = |part: f64| all[((all.len() - 1) as f64 * part) as usize];
+        println!("{} places, {:.4}, {:.4}, {:.4} pixels apart", all.len(), at(0.5), at(0.9), at(0.99));
+        (all.len(), at(0.5), at(0.9))
+    };
+    let preview =
+        |(folder, stem): (&str, &str)| png(&desk.at(format!("{folder}/{stem}-refraction-preview.png"))).1;
+    let (mine, theirs) = (places(own), places(foreign));
+    let (count, median, most) = apart(&mine, &theirs);
+    let same = psnr(&preview(own), &preview(foreign));
+    let mirrored: Vec<SourcePlace> = mine.chunks(80).flat_map(|row| row.iter().rev().copied()).collect();
+    let (_, other, _) = apart(&mirrored, &theirs);
+    println!("{same:.1} dB");
+    assert!(count > 5000 && median < 0.05 && most < 0.3 && same > 35.0 && other > 5.0);
 }

@@ -5,10 +5,10 @@ use crate::app::model::Model;
 use crate::app::model::audit::SessionAudit;
 use crate::app::model::document::Document;
 use crate::app::model::preset::{PRESETS, Preset};
+use crate::app::model::session::RingMaking;
 use crate::app::model::task::Task;
 use crate::app::shows::Shows;
 use crate::app::studio::Which;
-use crate::io::background::BackgroundRef;
 
 /// Begins to work on another document, under the present light.
 pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
@@ -25,6 +25,7 @@ pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
     session.tier = None;
     session.picking = None;
     session.meet_faults.clear();
+    session.ring = RingMaking::default();
     session.audit = SessionAudit::default();
     session.map.begin();
     // The figures in the session are those of the stone before.
@@ -110,9 +111,7 @@ pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset, alo
     begin(model, tasks, document);
     let reach = model.reach(Shows::Render);
     let Model { workspace, session, document } = model;
-    // The workspace cannot hold plain colours.
-    let behind = scene.background.as_ref().filter(|behind| !matches!(behind, BackgroundRef::Plain(_)));
-    workspace.enter_scene(behind.map(ToString::to_string), wavelengths);
+    workspace.enter_scene(scene.background.as_ref().map(ToString::to_string), wavelengths);
     if alone == Alone::Render {
         workspace.enlarge_render();
     }

@@ -23,13 +23,28 @@ impl MovedStone {
             Self::Companion(number) => work.companions.stones.get_mut(number).map(|stone| &mut stone.pose),
         }
     }
+
+    /// Returns whether the stone sits in a ring of the scene.
+    fn is_seated(self, document: &Document) -> bool {
+        let Work { copies, companions, .. } = &document.work;
+        let at_mm = match self {
+            Self::Copy(number) => {
+                copies.poses.get(number).map(|pose| pose.at * document.specimen().unit_mm())
+            }
+            Self::Companion(number) => companions.stones.get(number).map(|stone| stone.pose.at),
+        };
+        at_mm.is_some_and(|at| companions.seat_at(at).is_some())
+    }
 }
 
-/// Moves a stone to a pose, unless it would overlap another stone there. Copies without companions always move,
+/// Moves a stone to a pose, unless a ring holds it or it would overlap another stone there. Copies without companions always move,
 /// because copies that would meet are put into layers behind one another.
 pub fn move_to(document: &mut Document, stone: MovedStone, pose: Pose) {
     let has_companions = !document.work.companions.is_empty();
     let was_apart = has_companions && are_apart(document);
+    if stone.is_seated(document) {
+        return;
+    }
     let Some(at) = stone.pose(&mut document.work) else { return };
     let before = std::mem::replace(at, pose);
     if was_apart
@@ -90,8 +105,7 @@ pub fn take_up(model: &mut Model, number: usize) {
         room: copies.room.map(|room| room * own_mm / unit_mm),
         movement: copies.movement,
     };
-    let metals = companions.metals.clone();
-    let companions = Companions { stones: left.chain(others).collect(), metals };
+    let companions = Companions { stones: left.chain(others).collect(), ..companions.clone() };
     document.take_up(taken.design.clone(), copies, companions);
     // Each of these refers to the stone before.
     (session.held, session.tier, session.picking) = (None, None, None);

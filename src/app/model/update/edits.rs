@@ -1,6 +1,7 @@
 //! Edits: changes of the work.
 
 use super::companions::{self, MovedStone};
+use super::scene_ring;
 use crate::app::model::Model;
 use crate::app::model::action::Edit;
 use crate::app::model::extent;
@@ -49,6 +50,13 @@ pub fn edit(model: &mut Model, edit: Edit) {
         Edit::Head(degrees) => work.head = degrees,
         Edit::LayOut(count) => lay_out(model, count),
         Edit::Movement(movement) => work.copies.movement = movement,
+        Edit::Finish { bodies, metal, roughness } => {
+            let metals = &mut work.companions.metals;
+            for (_, body) in metals.iter_mut().enumerate().filter(|(number, _)| bodies.contains(number)) {
+                (body.metal, body.roughness) = (metal, roughness);
+            }
+        }
+        Edit::Ring(ring) => scene_ring::set(model, *ring),
         Edit::Copy(copy, pose) => {
             companions::move_to(&mut model.document, MovedStone::Copy(copy), pose);
         }

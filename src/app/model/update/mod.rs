@@ -8,6 +8,7 @@ mod edits;
 mod files;
 mod fitting;
 mod safe;
+mod scene_ring;
 mod searching;
 #[cfg(test)]
 mod tests;
@@ -25,6 +26,7 @@ pub fn update(model: &mut Model, action: Action) -> Vec<Task> {
     let mut tasks = vec![];
     perform(model, &mut tasks, action);
     searching::follow(model, &mut tasks);
+    scene_ring::follow(model, &mut tasks);
     files::wanted(model, &mut tasks);
     want_audit(model, &mut tasks);
     want_sweeps(model);
@@ -109,6 +111,7 @@ fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
             session.tilt.sweep.take(number, &points);
         }
         Computed::Audit(specimen, Ok(found)) => session.audit.take(&specimen, found),
+        Computed::RingMetal(document, plan, made) => scene_ring::take(model, document, *plan, made),
         Computed::StoneLight(number, light) => fitting::take_light(model, number, light),
         Computed::Goal(path, Ok(goal)) => searching::take_goal(model, &path, *goal),
         Computed::GoalSaved(path, Ok(())) => session.notes.say(&format!("{} saved", path.display())),
