@@ -17,7 +17,7 @@ const PARTS: f32 = 32.0;
 const WIDEST: f32 = 0.626657;
 // The longest step of a hit, and the widest fan, as in metal_tracer.rs.
 const LONGEST_STEP: f32 = 4.0;
-const WIDEST_FAN: f32 = 0.3;
+const WIDEST_BEND: f32 = 0.3;
 // The squared length below which a vector has no direction.
 const SHORT: f32 = 1e-36;
 // The steps of the random numbers, as in lobe_luck.rs.
@@ -215,7 +215,7 @@ fn step_along(shift: vec3f, direction: vec3f, flat: vec3f) -> vec3f {
 fn mirrored_fan(fan: vec3f, direction: vec3f, middle: vec3f, all_turn: vec3f) -> vec3f {
     let turn = all_turn - middle * dot(middle, all_turn);
     let along = middle * (dot(fan, middle) + dot(direction, turn)) + turn * dot(direction, middle);
-    return at_most(fan - along * 2.0, max(WIDEST_FAN, length(fan)));
+    return at_most(fan - along * 2.0, max(WIDEST_BEND, length(fan)));
 }
 
 // Reflects light at the body of metal that it meets first, and hands the reflected light on.
