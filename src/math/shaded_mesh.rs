@@ -268,7 +268,9 @@ mod tests {
     fn the_change_of_a_normal_is_the_difference_of_the_normals_at_both_ends_of_a_step() {
         let corners = [DVec3::new(0.6, 0.0, 0.8), DVec3::new(0.0, 0.6, 0.8), DVec3::new(-0.28, 0.0, 0.96)];
         let mesh = triangle(corners.to_vec());
-        for (point, way) in [(DVec3::new(0.3, 0.2, 0.0), DVec3::X), (DVec3::new(0.1, 0.6, 0.0), DVec3::new(0.6, -0.8, 0.0))] {
+        for (point, way) in
+            [(DVec3::new(0.3, 0.2, 0.0), DVec3::X), (DVec3::new(0.1, 0.6, 0.0), DVec3::new(0.6, -0.8, 0.0))]
+        {
             let step = way * 1e-5;
             let [before, after] = [-0.5, 0.5].map(|part| mesh.normals(0, point + step * part).shading);
             let change = mesh.change_of_normal(0, point, step);

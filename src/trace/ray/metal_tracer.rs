@@ -224,9 +224,10 @@ mod tests {
 
     #[test]
     fn a_round_mirror_opens_a_fan_as_the_rays_at_its_ends_say() {
-        for (normal, side) in
-            [(DVec3::new(0.36, -0.48, 0.8), DVec3::X), (DVec3::new(0.64, 0.48, 0.6), DVec3::new(0.6, 0.8, 0.0))]
-        {
+        for (normal, side) in [
+            (DVec3::new(0.36, -0.48, 0.8), DVec3::X),
+            (DVec3::new(0.64, 0.48, 0.6), DVec3::new(0.6, 0.8, 0.0)),
+        ] {
             // The ray runs along -z, and meets a ball with radius 1 after a distance of 1.
             let (shift, fan) = (side * 1e-5, DVec3::Y * 2e-5);
             let mirrored = |part: f64| {
