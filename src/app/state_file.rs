@@ -22,12 +22,12 @@ struct State {
     at_rest: bool,
     /// The layout of the views.
     layout: PaneLayout,
-    blocks: Blocks,
+    blocks: BlockSizes,
 }
 
 /// The factors by which pixels of pictures in sight are larger than those of the film.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-pub struct Blocks {
+pub struct BlockSizes {
     /// The factor of the coarsest render; 1 where there is none.
     pub renders: f64,
     /// The factor of the coarsest of the other pictures; 1 where there is none.
@@ -52,7 +52,7 @@ impl StateFile {
     /// Records a frame, at its end. `is_quiet` says that no work is going on; `blocks` are those of the pictures in sight.
     ///
     /// Returns whether one more frame is needed to find out whether the window is at rest.
-    pub fn note(&mut self, is_quiet: bool, layout: PaneLayout, blocks: Blocks) -> bool {
+    pub fn note(&mut self, is_quiet: bool, layout: PaneLayout, blocks: BlockSizes) -> bool {
         self.quiet_frames = if is_quiet { self.quiet_frames.saturating_add(1) } else { 0 };
         let at_rest = self.quiet_frames >= QUIET_FRAMES;
         let state = State { at_rest, layout, blocks };
@@ -79,7 +79,8 @@ mod tests {
         let path = folder.path().join("state.json");
         let mut file = StateFile { path: path.clone(), written: None, quiet_frames: 0 };
         let mut note = |is_quiet| {
-            let needs_another = file.note(is_quiet, PaneLayout::Two, Blocks { renders: 1.0, others: 1.0 });
+            let needs_another =
+                file.note(is_quiet, PaneLayout::Two, BlockSizes { renders: 1.0, others: 1.0 });
             let text = std::fs::read(&path).unwrap();
             let state: serde_json::Value = serde_json::from_slice(&text).unwrap();
             (needs_another, state["at_rest"].as_bool().unwrap())

@@ -2,7 +2,7 @@
 
 use crate::app::model::Model;
 use crate::app::shows::Shows;
-use crate::app::state_file::Blocks;
+use crate::app::state_file::BlockSizes;
 use crate::app::studio::{Grade, Shot, Slot, TakenPicture, Which};
 use egui::{Color32, Context, Painter, Rect, TextureHandle, TextureOptions, pos2};
 use std::collections::HashMap;
@@ -45,7 +45,7 @@ impl Gallery {
     }
 
     /// Returns how much larger than the film's the pixels of the coarsest pictures are.
-    pub fn blocks(&self) -> Blocks {
+    pub fn blocks(&self) -> BlockSizes {
         let coarsest = |renders: bool| {
             let own = self.traced.values().filter(|shown| (shown.shot.shows == Shows::Render) == renders);
             let times = own.map(|shown| {
@@ -53,7 +53,7 @@ impl Gallery {
             });
             times.fold(1.0, f64::max)
         };
-        Blocks { renders: coarsest(true), others: coarsest(false) }
+        BlockSizes { renders: coarsest(true), others: coarsest(false) }
     }
 
     /// Drops the pictures of a document, or of a comparison, that has ended. The studio may still answer with such a picture.
