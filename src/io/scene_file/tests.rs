@@ -246,6 +246,7 @@ fn what_is_written_reads_back_as_the_same_scene() {
         let lineless = |mut scene: SceneFile| {
             scene.stones.iter_mut().for_each(|entry| entry.line = 0);
             scene.metals.iter_mut().for_each(|entry| entry.line = 0);
+            scene.ring.iter_mut().for_each(|entry| entry.line = 0);
             scene
         };
         let scene = lineless(parse(text, "x.toml", None).unwrap());
