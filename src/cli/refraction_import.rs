@@ -73,9 +73,10 @@ pub struct RefractionImport {
 
 impl RefractionTemplate {
     pub fn run(&self) -> Result<(), Failure> {
-        if is_standard(&self.file) || self.file.is_dir() {
+        let is_png = self.file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+        if is_standard(&self.file) || self.file.is_dir() || !is_png {
             let path = self.file.display();
-            return Err(Failure::Usage(format!("{path}: give the name of a file, such as template.png")));
+            return Err(Failure::Usage(format!("{path}: give the name of a PNG file, such as template.png")));
         }
         write_template(&self.file, self.coding.template(), self.size)?;
         written(&self.file)

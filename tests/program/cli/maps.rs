@@ -133,6 +133,16 @@ fn psnr(a: &[DVec3], b: &[DVec3]) -> f64 {
 }
 
 #[test]
+fn a_template_is_written_as_png_alone() {
+    let desk = Desk::new();
+    for name in ["template.jpg", "template", "-"] {
+        let stderr = desk.refused(&format!("refraction-template {name}"), 2);
+        assert!(stderr.contains(&format!("{name}: give the name of a PNG file")), "{stderr}");
+    }
+    assert!(!desk.at("template.jpg").exists());
+}
+
+#[test]
 fn a_map_read_from_a_render_of_the_template_is_the_programs_own_map() {
     let desk = Desk::new();
     // A glass without dispersion, in the dark, so that all light comes from the template.
