@@ -25,9 +25,9 @@ pub struct SceneRing {
 pub struct RingPlan {
     /// The ring's numbers.
     pub ring: Ring,
-    /// The main stone, in its size.
+    /// The stone in the main seat, with the diameter of its design; `None` where the style has no such seat.
     pub stone: Option<Arc<Specimen>>,
-    /// One of the small stones, whose diameter is `small_diameter_mm`.
+    /// One of the small stones, all of the diameter `small_diameter_mm`; `None` where the style has none.
     pub small_stone: Option<Arc<Specimen>>,
 }
 
@@ -49,12 +49,12 @@ pub enum RingPlanError {
     /// A stone has no planes that prongs could hold.
     #[error("{key}: {error}")]
     Stone {
-        /// The key of the stone.
+        /// The key under which a scene file names the stone.
         key: &'static str,
-        /// The error.
+        /// The reason why the stone has no planes.
         error: NotConvex,
     },
-    /// The metal is no surface.
+    /// The triangles of the metal cannot be traced.
     #[error(transparent)]
     Surface(#[from] ShadedSurfaceError),
 }

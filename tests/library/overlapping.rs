@@ -52,7 +52,7 @@ fn front(shape: Shape, index: f64) -> Instance {
     stone(shape, index, DVec3::new(0.15, 0.12, 0.6))
 }
 
-/// Returns the copy behind it.
+/// Returns the farther copy, of an index, which the nearer one covers in part.
 fn rear(shape: Shape, index: f64) -> Instance {
     stone(shape, index, DVec3::new(-0.15, -0.12, -0.6))
 }

@@ -111,7 +111,7 @@ pub enum Edit {
     LayOut(usize),
     /// Sets how plates move in renders.
     Movement(Movement),
-    /// Sets the metal and the roughness of these bodies, by their numbers.
+    /// Sets the metal and the roughness of bodies, which are given by their places in the scene's list of metal.
     Finish {
         bodies: Vec<usize>,
         metal: Metal,

@@ -50,7 +50,7 @@ const ROUGHNESSES: RangeInclusive<f64> = 0.0..=1.0;
 /// Bodies of metal of one shape and finish.
 struct MetalGroup<'a> {
     first: &'a MetalInstance,
-    /// The numbers of the bodies.
+    /// The places of all bodies of the group in the scene's list of metal.
     bodies: Vec<usize>,
 }
 

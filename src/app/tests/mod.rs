@@ -194,6 +194,15 @@ impl Bench {
         self.harness.run_steps(4);
     }
 
+    /// Replaces the text of the field that has the focus, and presses Enter.
+    fn replace_text(&mut self, text: &str) {
+        self.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+        self.harness.event(egui::Event::Text(text.to_owned()));
+        self.harness.run_steps(1);
+        self.harness.key_press(egui::Key::Enter);
+        self.harness.run_steps(3);
+    }
+
     /// Types a number into the field of this name.
     pub fn type_number(&mut self, name: &str, number: &str) {
         let field = self.harness.get_by_role_and_label(egui::Role::SpinButton, name);
@@ -201,11 +210,7 @@ impl Bench {
         self.harness.run_steps(2);
         self.harness.get_by_role_and_label(egui::Role::SpinButton, name).click();
         self.harness.run_steps(2);
-        self.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-        self.harness.event(egui::Event::Text(number.to_owned()));
-        self.harness.run_steps(1);
-        self.harness.key_press(egui::Key::Enter);
-        self.harness.run_steps(3);
+        self.replace_text(number);
     }
 
     /// Opens the colour picker of this name, types the codes of a colour from 0 to 255, and closes the picker.
@@ -221,11 +226,7 @@ impl Bench {
                 .find(|node| node.accesskit_node().value().is_some_and(|value| value.starts_with(channel)));
             field.expect("the picker is open").click();
             self.harness.run_steps(2);
-            self.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-            self.harness.event(egui::Event::Text(code.to_string()));
-            self.harness.run_steps(1);
-            self.harness.key_press(egui::Key::Enter);
-            self.harness.run_steps(3);
+            self.replace_text(&code.to_string());
         }
         self.harness.key_press(egui::Key::Escape);
         self.harness.run_steps(3);

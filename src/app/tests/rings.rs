@@ -110,7 +110,7 @@ fn exported(bench: &mut Bench, folder: &Path) -> std::path::PathBuf {
     folder.join("mine-scene.toml")
 }
 
-/// Opens an exported scene.
+/// Opens a scene file in an editor of its own, and waits until its metal is there.
 fn reopened(path: &Path) -> Bench {
     let mut bench = bench(&path.to_string_lossy());
     bench.wait(|editor| !editor.model.document.work.companions.metals.is_empty());

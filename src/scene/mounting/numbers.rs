@@ -13,7 +13,7 @@ pub struct RingNumber {
     pub unit: &'static str,
     /// Returns the value that a ring has.
     pub get: fn(&Ring) -> f64,
-    /// Gives a ring another value.
+    /// Sets the number of a ring, whether it is in its range or not.
     pub set: fn(&mut Ring, f64),
     /// Returns whether the metal of a ring of this style depends on the number.
     pub matters: fn(RingStyle) -> bool,

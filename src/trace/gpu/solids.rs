@@ -23,8 +23,8 @@ const FEW: usize = 192;
 const MOST_TURNS_IN_SOFTWARE: usize = 60_000;
 
 /// The number of loop turns after which, on a card, the light of a ray in one wavelength counts as unresolved, where
-/// turns are counted, so that even the smallest dispatch is short. Among the many stones of a halo ring, whose rays part from
-/// one another, so many turns take a tenth of a second on an NVIDIA H200, and 0.02 % of the light is unresolved.
+/// turns are counted, so that the smallest dispatches are short. Four times as many took up to half a second in a halo ring
+/// on an NVIDIA H200; this number leaves 0.02 % of that picture's light unresolved.
 const MOST_TURNS: u32 = 1 << 14;
 
 /// The same number on a software driver. Turns that are not counted fit into the difference.

@@ -1,8 +1,8 @@
 //! Finds where light leaves a solid of triangles with few facets, without a search among all its triangles.
 //!
-//! A facet whose plane has the whole solid behind it, and holds no other facet, is an outer facet. Light inside cannot cross the plane of an outer facet
-//! without leaving, and where it crosses the plane it leaves by that facet. So the nearest of these planes, found as in a
-//! convex stone, limits how far the light can go. Only the other facets, those beside a cleft for example, can stop it
+//! A facet whose plane has the whole solid behind it, and holds no other facet, is an outer facet. Light inside cannot
+//! cross the plane of an outer facet without leaving, and where it crosses the plane it leaves by that facet. So the nearest
+//! of these planes, found as in a convex stone, limits how far the light can go. Only the other facets, those beside a cleft for example, can stop it
 //! before: they are the inner ones, and are tried one after the other.
 
 use super::search::Search;
