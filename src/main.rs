@@ -9,6 +9,8 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 fn main() -> ExitCode {
     have_runtime_folder();
+    #[cfg(target_os = "linux")]
+    spare_memory_on_many_cores();
     brillianteer::cli::main(editor())
 }
 
@@ -29,6 +31,26 @@ fn editor() -> Option<brillianteer::cli::EditorOpener> {
     });
     #[cfg(not(feature = "app"))]
     None
+}
+
+/// The number of threads from which memory is spared.
+#[cfg(target_os = "linux")]
+const MANY_THREADS: usize = 8;
+
+/// Asks the system for pages of 4 KiB alone where many threads will trace light.
+///
+/// Every thread fills pages of its own. With huge pages of 2 MiB, a thread takes 3 to 5 MiB however little it holds: 200 MiB
+/// for 64 threads. With few threads, huge pages cost little and save a tenth of the time of short commands.
+#[cfg(target_os = "linux")]
+fn spare_memory_on_many_cores() {
+    // Rayon reads the same variable. It is asked for its number only later, because that starts its threads.
+    let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|number| number.parse().ok());
+    let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = asked.filter(|&threads| threads > 0).unwrap_or_else(cores);
+    if threads >= MANY_THREADS {
+        // Where the system refuses, the program only takes more memory.
+        let _ = rustix::thread::disable_transparent_huge_pages(true);
+    }
 }
 
 /// Sets `XDG_RUNTIME_DIR`, the folder for sockets, where the session does not set it, as under cron, in containers and after

@@ -4,7 +4,7 @@ use super::atomic::{WriteError, write};
 use crate::picture::{Layer, paint};
 use crate::scene::Film;
 use crate::trace::Watch;
-use exr::block::writer::ChunksWriter;
+use exr::block::writer::{ChunksWriter, ParallelBlocksCompressor};
 use exr::block::{BlockIndex, UncompressedBlock};
 use exr::error::{Error, UnitResult};
 use exr::math::{RoundingMode, Vec2};
@@ -14,11 +14,22 @@ use exr::meta::attribute::{
 };
 use exr::meta::header::Header;
 use exr::prelude::{Compression, LineOrder, Text};
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use smallvec::smallvec;
 use std::path::Path;
 
 /// The side of the file's tiles, in pixels. Rows are held until they make a row of tiles.
 pub(super) const TILE: usize = 64;
+
+/// The most threads that compress tiles. Each holds a tile of all channels and its compressed copy, so that memory does
+/// not grow with the number of cores; the painter that fills the tiles keeps no more than this many threads busy.
+const COMPRESSING: usize = 8;
+
+/// Starts the threads that compress tiles.
+fn compressing_threads() -> Result<ThreadPool, ThreadPoolBuildError> {
+    let threads = rayon::current_num_threads().min(COMPRESSING);
+    ThreadPoolBuilder::new().num_threads(threads).thread_name(|k| format!("compressing {k}")).build()
+}
 
 /// Paints a layer and writes its channels, as 32-bit numbers that are linear in energy.
 ///
@@ -96,7 +107,9 @@ impl ExrImage<'_> {
                         fill(&mut ExrFile { path, size, order, pending: vec![], rows: 0, blocks: 0, write });
                     if filled.is_ok() { Ok(()) } else { Err(Error::Aborted) }
                 };
-                if let Some(mut threads) = chunks.parallel_blocks_compressor(&meta) {
+                let threads =
+                    ParallelBlocksCompressor::new_with_thread_pool(&meta, chunks, compressing_threads);
+                if let Some(mut threads) = threads {
                     return fill(&mut |number, block| threads.add_block_to_compression_queue(number, block));
                 }
                 let mut alone = chunks.sequential_blocks_compressor(&meta);

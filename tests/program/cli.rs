@@ -15,6 +15,8 @@ mod renders;
 mod reports;
 mod searching;
 mod spins;
+#[cfg(target_os = "linux")]
+mod starts;
 mod streams;
 mod sweeps;
 

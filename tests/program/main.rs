@@ -12,5 +12,6 @@ mod cli;
 #[path = "../common/maps.rs"]
 mod maps;
 mod refraction_page;
+mod watchdog;
 mod window;
 mod window_speed;

@@ -9,6 +9,7 @@ mod drawing;
 mod noise;
 mod room;
 mod sunset;
+mod table;
 mod waves;
 
 use super::panorama::Panorama;

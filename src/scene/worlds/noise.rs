@@ -3,7 +3,6 @@
 //! Gradient noise after K. Perlin, *An Image Synthesizer*, SIGGRAPH 1985, with the fade of *Improving Noise*, 2002.
 
 use glam::{DMat2, DVec2, DVec3};
-use rayon::prelude::*;
 
 /// The number of directions that a corner's gradient may have.
 const DIRECTIONS: usize = 16;
@@ -50,7 +49,7 @@ fn mixed(x: i64, y: i64, seed: u32) -> u32 {
 }
 
 /// Returns the greatest whole number that is not above `x`: quicker than `floor` where the processor has no instruction for it.
-fn whole(x: f64) -> i64 {
+pub(super) fn whole(x: f64) -> i64 {
     let near = x as i64;
     near - i64::from(x < near as f64)
 }
@@ -117,42 +116,4 @@ pub(super) fn curve(colours: &[DVec3], x: f64) -> DVec3 {
     let [a, b, c, d] = [k.saturating_sub(1), k, (k + 1).min(last), (k + 2).min(last)].map(|i| colours[i]);
     let smooth = b + 0.5 * f * (c - a + f * (2.0 * a - 5.0 * b + 4.0 * c - d + f * (3.0 * (b - c) + d - a)));
     smooth.max(DVec3::ZERO)
-}
-
-/// A ring of values by azimuth, or a map by azimuth and elevation, interpolated between its entries, for values that
-/// would take too long to compute for every pixel.
-pub(super) struct Table<T> {
-    across: usize,
-    down: usize,
-    entries: Vec<T>,
-}
-
-impl<T> Table<T>
-where
-    T: Copy + Send + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
-{
-    /// Fills a table with the values of `entry` for places from 0 to 1. Across, the table is a ring.
-    pub(super) fn new([across, down]: [usize; 2], entry: impl Fn(f64, f64) -> T + Sync) -> Self {
-        let at = |k: usize| {
-            let (x, y) = (k % across, k / across);
-            entry((x as f64 + 0.5) / across as f64, y as f64 / (down - 1).max(1) as f64)
-        };
-        Self { across, down, entries: (0..across * down).into_par_iter().map(at).collect() }
-    }
-
-    /// Returns the value at a place from 0 to 1, between the four entries around it.
-    pub(super) fn at(&self, x: f64, y: f64) -> T {
-        let u = (x - whole(x) as f64) * self.across as f64 - 0.5;
-        let v = y.clamp(0.0, 1.0) * (self.down - 1) as f64;
-        let (i, j) = (whole(u), (v as usize).min(self.down - 1));
-        let (fu, fv) = (u - i as f64, v - j as f64);
-        // Beyond half an entry at either end, the other end continues the ring.
-        let left = if i < 0 { self.across - 1 } else { (i as usize).min(self.across - 1) };
-        let right = if left + 1 < self.across { left + 1 } else { 0 };
-        let row = |j: usize| {
-            let of = |i: usize| self.entries[j * self.across + i];
-            of(left) * (1.0 - fu) + of(right) * fu
-        };
-        row(j) * (1.0 - fv) + row((j + 1).min(self.down - 1)) * fv
-    }
 }

@@ -5,7 +5,8 @@
 //! *Measurement of the Roughness of the Sea Surface from Photographs of the Sun's Glitter*, 1954). Waves wider than
 //! the footprint are drawn as shapes; the finer ones add to the spread of slopes.
 
-use super::noise::{Table, curve, fractal, noise, ramp};
+use super::noise::{curve, fractal, noise, ramp};
+use super::table::Table;
 use super::waves::{WaterPoint, Waves, swells};
 use glam::{DMat2, DVec2, DVec3};
 use std::sync::LazyLock;
@@ -67,7 +68,7 @@ pub(super) fn radiance(d: DVec3, footprint: f64) -> DVec3 {
 }
 
 /// The sky of reflections, by azimuth and the root of the sine of the elevation.
-static MIRRORED: LazyLock<Table<DVec3>> = LazyLock::new(|| {
+static MIRRORED: LazyLock<Table> = LazyLock::new(|| {
     Table::new([1024, 128], |x, y| {
         let (sin, cos) = (std::f64::consts::TAU * x).sin_cos();
         let z = y * y;
@@ -77,7 +78,7 @@ static MIRRORED: LazyLock<Table<DVec3>> = LazyLock::new(|| {
 });
 
 /// The tops of the ranges of hills by azimuth, as sines of their elevation: the farthest first.
-static RANGES: LazyLock<Table<DVec3>> = LazyLock::new(|| Table::new([8192, 1], |x, _| ranges(x)));
+static RANGES: LazyLock<Table> = LazyLock::new(|| Table::new([8192, 1], |x, _| ranges(x)));
 
 fn around(d: DVec3) -> f64 {
     d.y.atan2(d.x) / std::f64::consts::TAU

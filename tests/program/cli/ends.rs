@@ -227,7 +227,7 @@ fn most_memory(program: &mut Child) -> f64 {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn large_pictures_are_not_held_in_memory() {
+fn large_pictures_are_not_held_in_memory_however_many_threads_there_are() {
     let desk = Desk::new();
     for (line, most) in [
         // Its light takes 16 bytes a pixel, 256 MiB here, and beams add up 32 bytes for each pixel of 1008 rows.
@@ -236,9 +236,13 @@ fn large_pictures_are_not_held_in_memory() {
         // Its 17 channels take 4 bytes a pixel, 272 MiB here.
         ("export tolkowsky --size 2048 --views aset --format exr", 200.0),
     ] {
-        let mut program = desk.command(line).stdout(Stdio::null()).spawn().unwrap();
-        let held = most_memory(&mut program);
-        assert_eq!(program.wait().unwrap().code(), Some(0));
-        assert!((10.0..most).contains(&held), "{line}: {held} MiB");
+        for threads in ["2", "64"] {
+            let mut command = desk.command(line);
+            command.env("RAYON_NUM_THREADS", threads).stdout(Stdio::null());
+            let mut program = command.spawn().unwrap();
+            let held = most_memory(&mut program);
+            assert_eq!(program.wait().unwrap().code(), Some(0));
+            assert!((10.0..most).contains(&held), "{line}, {threads} threads: {held} MiB");
+        }
     }
 }
