@@ -7,10 +7,10 @@ use brillianteer::io::library::SCENES;
 use brillianteer::scene::LIGHTS;
 use std::process::Stdio;
 
-/// The numbers of threads of the starts.
+/// The numbers of threads, which the starts take in turn.
 const THREADS: [usize; 2] = [16, 32];
 
-/// Returns how often each line is started with each number of threads. The variable `BRILLIANTEER_STARTS` asks for more.
+/// Returns how often each line is started. The variable `BRILLIANTEER_STARTS` asks for more than once.
 fn starts() -> usize {
     std::env::var("BRILLIANTEER_STARTS").ok().and_then(|number| number.parse().ok()).unwrap_or(1)
 }
@@ -33,7 +33,7 @@ fn lines() -> Vec<String> {
             "export tolkowsky --size 32 --out all --format png,svg,exr",
             "spin oval --light sunset --frames 3 --size 24 --wavelengths 3 --samples 1 --out a.png",
             "measure princess --measures",
-            "sweep tolkowsky --vary crown_angle=33:35:3 --of light-return",
+            "sweep tolkowsky --over crown_angle=33:35:1 --of fire",
             "info heart --facets",
         ]
         .map(str::to_owned),
@@ -45,8 +45,9 @@ fn lines() -> Vec<String> {
 fn no_start_waits_for_ever_with_many_threads() {
     let desk = Desk::new();
     let mut stuck = vec![];
+    let mut turns = THREADS.into_iter().cycle();
     for line in lines() {
-        for threads in THREADS.into_iter().cycle().take(THREADS.len() * starts()) {
+        for threads in turns.by_ref().take(starts()) {
             let mut command = desk.command(&line);
             command.env("RAYON_NUM_THREADS", threads.to_string()).stdout(Stdio::null()).stderr(Stdio::null());
             match ended(&mut command.spawn().unwrap()) {
