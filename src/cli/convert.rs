@@ -4,7 +4,7 @@ use super::console::say;
 use super::meets::KnownMeets;
 use super::mesh_options::MeshArguments;
 use super::specimen::LoadedSpecimen;
-use crate::cut::{Cut, Design};
+use crate::cut::{Cut, Design, Size};
 use crate::io::Failure;
 use crate::io::design_file::{self, DesignFormat};
 use clap::Args;
@@ -24,6 +24,9 @@ pub struct Convert {
     /// move each tier to the distance that follows. A cut by proportions is turned into tiers first, named P1, G1, C1, T
     #[arg(long)]
     meets: bool,
+    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
+    stone: Option<Size>,
     #[command(flatten)]
     mesh: MeshArguments,
 }
@@ -39,7 +42,8 @@ impl Convert {
                 endings.join(", ")
             ))
         })?;
-        let mut specimen = LoadedSpecimen::load(&self.input, self.mesh.options())?;
+        let mut specimen =
+            LoadedSpecimen::load(&self.input, self.mesh.sized(self.stone))?.made_of(None, self.stone)?;
         if self.meets {
             specimen = followed(specimen)?;
         }

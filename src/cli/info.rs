@@ -7,7 +7,7 @@ use super::meets::KnownMeets;
 use super::mesh_options::MeshArguments;
 use super::specimen::{LoadedSpecimen, load_assembly, weight};
 use crate::cut::{
-    AlongAxes, Audit, Cut, MaterialRef, MeshHeights, ProportionReport, Spread, Unit, tier_stem,
+    AlongAxes, Audit, Cut, MaterialRef, MeshHeights, ProportionReport, Size, Spread, Unit, tier_stem,
 };
 use crate::io::Failure;
 use crate::io::STANDARD;
@@ -39,6 +39,9 @@ pub struct Info {
     /// A material's name, or an index, instead of the file's; of a scene, for every stone
     #[arg(long, value_name = "MATERIAL")]
     material: Option<String>,
+    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's; of a scene, for every stone
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
+    stone: Option<Size>,
     /// List every facet as well
     #[arg(long)]
     facets: bool,
@@ -56,10 +59,10 @@ pub struct Info {
 
 impl Info {
     pub fn run(&self) -> Result<(), Failure> {
-        let (mesh, material) = (self.mesh.options(), self.material.as_deref());
+        let (mesh, material) = (self.mesh.sized(self.stone), self.material.as_deref());
         each_file(&self.files, |file| {
             if is_scene(file) {
-                let assembly = load_assembly(file, material, None, mesh)?;
+                let assembly = load_assembly(file, material, self.stone, mesh)?;
                 for (name, is_asked) in [("--meets", self.meets), ("--audit", self.audit)] {
                     if is_asked {
                         let file = file.display();
@@ -70,7 +73,7 @@ impl Info {
                 }
                 return self.print_as(&scene_json(&assembly), || scene_table(&assembly));
             }
-            let specimen = LoadedSpecimen::load(file, mesh)?.made_of(material, None)?;
+            let specimen = LoadedSpecimen::load(file, mesh)?.made_of(material, self.stone)?;
             let mut value = described(&specimen)?;
             let meets = self.meets.then(|| KnownMeets::of(&specimen)).flatten();
             if self.meets && meets.is_none() {

@@ -1,7 +1,8 @@
 //! The options of every command that reads meshes.
 
+use crate::cut::Size;
 use crate::cut::from_mesh::Up;
-use crate::io::mesh_options::{MeshForm, MeshOptions};
+use crate::io::mesh_options::{MeshForm, MeshOptions, MeshUnit};
 use clap::{Args, ValueEnum};
 use glam::DVec3;
 
@@ -15,12 +16,24 @@ pub struct MeshArguments {
     /// The form in which the triangles of a mesh are read [default: as found]
     #[arg(long = "as", value_name = "FORM", value_enum)]
     form: Option<MeshForm>,
+    /// The unit of a mesh: mm, cm, m, in, um, or its length, such as 0.5mm [default: as the file states, m in glTF, else mm]
+    #[arg(long, value_name = "UNIT", allow_hyphen_values = true)]
+    unit: Option<MeshUnit>,
 }
 
 impl MeshArguments {
     /// Returns the mesh options, with defaults for those that are not given.
     pub fn options(self) -> MeshOptions {
-        MeshOptions { up: self.up.unwrap_or_default(), form: self.form.unwrap_or_default() }
+        MeshOptions {
+            up: self.up.unwrap_or_default(),
+            form: self.form.unwrap_or_default(),
+            unit: self.unit.unwrap_or_default(),
+        }
+    }
+
+    /// Returns the mesh options for a stone of this size, if it is given.
+    pub fn sized(self, size: Option<Size>) -> MeshOptions {
+        self.options().sized(size)
     }
 
     /// Returns the options as command-line words, with numbers in a fixed form.
@@ -31,7 +44,12 @@ impl MeshArguments {
         });
         let form = self.form.and_then(|form| form.to_possible_value()).map(|form| form.get_name().to_owned());
         let words = |option: &str, value: Option<String>| value.map(|value| [option.to_owned(), value]);
-        words("--up", up).into_iter().chain(words("--as", form)).flatten().collect()
+        let unit = self.unit.map(|unit| unit.to_string());
+        [words("--up", up), words("--as", form), words("--unit", unit)]
+            .into_iter()
+            .flatten()
+            .flatten()
+            .collect()
     }
 }
 

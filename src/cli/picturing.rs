@@ -78,8 +78,12 @@ impl<'a> PictureSetup<'a> {
         file: &Path,
         viewpoint: Viewpoint,
     ) -> Result<Self, Failure> {
-        let mut assembly =
-            load_assembly(file, options.material.as_deref(), options.stone, options.mesh.options())?;
+        let mut assembly = load_assembly(
+            file,
+            options.material.as_deref(),
+            options.stone,
+            options.mesh.sized(options.stone),
+        )?;
         if let Some(seconds) = options.moment {
             let seconds = within("moment", seconds, 0.0, 1e5)?;
             assembly = assembly.at_moment(seconds, options.movement)?;

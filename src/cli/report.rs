@@ -55,7 +55,7 @@ impl ReportArguments {
         let mut renderer = Renderer::new(Card::None);
         let mut specimens = vec![];
         for file in &self.files {
-            specimens.push(light.specimen(file, self.mesh.options())?);
+            specimens.push(light.specimen(file, self.mesh.sized(light.stone))?);
         }
         let mut viewings = vec![];
         for specimen in &specimens {
@@ -136,9 +136,10 @@ mod tests {
     #[test]
     fn a_report_says_what_makes_it_again() {
         let said = command(
-            "a.toml b.stl -o x.pdf --date today --paper letter --stone 1.5ct --pixels 99 --up -y --as faceted",
+            "a.toml b.stl -o x.pdf --date today --paper letter --stone 1.5ct --pixels 99 --up -y --as faceted --unit in",
         );
-        let again = "brillianteer report a.toml b.stl --stone 1.5ct --pixels 99 --up 0,-1,0 --as faceted";
+        let again =
+            "brillianteer report a.toml b.stl --stone 1.5ct --pixels 99 --up 0,-1,0 --as faceted --unit in";
         assert_eq!(said, again);
         assert_eq!(
             command(&again["brillianteer report ".len()..].replace("b.stl", "b.stl -o y.html")),

@@ -4,6 +4,7 @@ use super::batch::{distinct, each_file};
 use super::console::{json, print, written};
 use super::mesh_options::MeshArguments;
 use super::specimen::{LoadedSpecimen, stem};
+use crate::cut::Size;
 use crate::io::cutting_sheet::{SheetFormat, cutting_sheet, write};
 use crate::io::{Failure, is_standard};
 use crate::picture::PaperSize;
@@ -34,6 +35,9 @@ pub struct SheetArguments {
     /// A material's name, or an index, instead of the file's
     #[arg(long, value_name = "MATERIAL")]
     material: Option<String>,
+    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
+    stone: Option<Size>,
     #[command(flatten)]
     mesh: MeshArguments,
 }
@@ -42,8 +46,8 @@ impl SheetArguments {
     pub fn run(&self) -> Result<(), Failure> {
         let format = if self.json { None } else { Some(self.format()?) };
         each_file(&self.files, |file| {
-            let specimen =
-                LoadedSpecimen::load(file, self.mesh.options())?.made_of(self.material.as_deref(), None)?;
+            let specimen = LoadedSpecimen::load(file, self.mesh.sized(self.stone))?
+                .made_of(self.material.as_deref(), self.stone)?;
             let sheet = cutting_sheet(&specimen, self.left_handed)?;
             let Some((format, is_folder)) = format else {
                 let mut value = json!({ "file": specimen.path });

@@ -50,7 +50,7 @@ mod warning;
 pub use audit::{Audit, AuditSubject, Finding, FindingKind, FindingUnit};
 pub use beyond_gear::BeyondGear;
 pub use class_estimate::{BrilliantProportions, ClassEstimate, ClassLimit, CutClass, NearbyClass};
-pub use design::{DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFault};
+pub use design::{DEFAULT_DIAMETER_MM, DIAMETERS_MM, Design, DesignError, MAX_PLANES, PlaneFault};
 pub use facet_net::NoRoom;
 pub use facet_zones::FacetZones;
 pub use families::{BY_TIERS, FAMILIES, GROUPS};

@@ -8,8 +8,9 @@ use serde::Serialize;
 /// A round outline's corners lie at least this part of the largest radius from its middle.
 const ON_CIRCLE: f64 = 0.99;
 
-/// The width of a round outline is at least this part of its diameter.
-pub(super) const ROUND: f64 = 0.95;
+/// The width of a round outline is at least this part of its diameter: midway between an octagon, which is 0.924 wide, and a
+/// heptagon or decagon of 0.951, so that noise does not decide which is round.
+pub(super) const ROUND: f64 = 0.937;
 
 /// The part of the corners of the girdle's facets that lie beyond each of its edges.
 ///
@@ -30,13 +31,14 @@ pub struct Outline {
     pub length: f64,
     /// The least distance between two parallel lines that hold the stone, seen along the axis. Where the outline is its own
     /// mirror image and this direction is oblique to it, as on a kite, it is the smaller of the extents along the mirror
-    /// line and square to it.
+    /// line and square to it. Of directions that are almost equally narrow, the longer one counts
+    /// ([`Calipers::of_stone`]).
     pub width: f64,
     /// The length by which sizes and percentages are measured.
     ///
     /// For a round stone it is the diameter of the circle that holds the corners of its outline; for any other it is the
     /// width. A stone is round if all corners of its outline lie on that circle to within 1 % of its radius, and its width
-    /// is at least 95 % of its diameter: one of ten sides is, one of eight is not.
+    /// is at least 93.7 % of its diameter: one of ten sides is, one of eight is not.
     pub diameter: f64,
     /// The height z of the girdle's lower edge.
     pub girdle_bottom: f64,
@@ -63,7 +65,7 @@ impl Outline {
         // A solid so thin that rounding leaves no outline is measured along its axes.
         let outline = hull(stone.vertices().iter().map(|v| v.truncate()).collect());
         let Calipers { length, width, middle, .. } =
-            Calipers::along_mirror(&outline).unwrap_or_else(|| Calipers {
+            Calipers::of_stone(&outline).unwrap_or_else(|| Calipers {
                 length: across.max_element(),
                 width: across.truncate().min_element(),
                 across: DVec2::X,
@@ -72,7 +74,7 @@ impl Outline {
         let (girdle_bottom, girdle_top) = girdle(stone, SAME_CORNER * width);
         let facet = table(stone);
         let flat = |facet| hull(stone.corners(facet).map(DVec3::truncate).collect());
-        let table = facet.and_then(|facet| Calipers::along_mirror(&flat(facet)));
+        let table = facet.and_then(|facet| Calipers::of_stone(&flat(facet)));
         Self {
             length,
             width,

@@ -263,6 +263,8 @@ fn specimens(
     for (number, entry) in scene.stones.iter().enumerate() {
         if !specimens.contains_key(&entry.cut) {
             let at = |message: &str| at_entry(file, number, entry, &format!("cut: {message}"));
+            let mut same = scene.stones.iter().filter(|other| other.cut == entry.cut);
+            let mesh = if same.all(|other| other.size.is_some()) { mesh.sized(entry.size) } else { mesh };
             let read = built(file, &entry.cut, mesh).map_err(|failure| failed(failure, &at))?;
             remarks.extend(read.remarks);
             specimens.insert(entry.cut.clone(), Arc::new(read.made));

@@ -120,8 +120,11 @@ pub fn read_with(path: &Path, options: MeshOptions) -> Result<ImportedDesign, Fi
         DesignFormat::Toml => text::utf8(bytes).and_then(|text| cut_file::design(&text)).map(with_warnings),
     }
     .map_err(named)?;
-    if options != MeshOptions::default() {
-        brought.notes.push("--up and --as are for meshes and have no effect on this design".to_owned());
+    if options.is_given() {
+        brought.notes.push(
+            "the direction up, the form and the unit are for meshes and have no effect on this design"
+                .to_owned(),
+        );
     }
     Ok(brought)
 }

@@ -159,7 +159,7 @@ pub(crate) fn across_the_width(stone: &Stone) -> Basis {
     };
     let axis = if width(DVec3::X) <= width(DVec3::Y) { DVec3::X } else { DVec3::Y };
     let outline = hull(vertices.iter().map(|v| v.truncate()).collect());
-    let narrowest = Calipers::along_mirror(&outline).map_or(axis, |found| found.across.extend(0.0));
+    let narrowest = Calipers::of_stone(&outline).map_or(axis, |found| found.across.extend(0.0));
     let right = if width(axis) <= NEARLY_NARROWEST * width(narrowest) { axis } else { narrowest };
     Basis { right, up: DVec3::Z, toward: right.cross(DVec3::Z) }
 }

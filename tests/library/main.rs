@@ -29,6 +29,7 @@ mod laws;
 mod licences;
 mod light;
 mod measures;
+mod mesh_noise;
 mod mirror;
 mod overlapping;
 mod overlay;

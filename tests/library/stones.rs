@@ -242,7 +242,7 @@ fn what_another_program_writes_is_found_by_its_shape() {
         for format in FORMATS {
             for way in [Way::Stripped, Way::StrippedAndTurned] {
                 let came = fate(&specimen, format, way, dice.turn());
-                // Without its size the stone gets the size that any mesh gets.
+                // Where the file's unit gives the stone no plausible size, it gets the size that any such mesh gets.
                 let same_size = Design { diameter_mm: 6.5, ..specimen.design.clone() };
                 let came =
                     came.or_else(|_| fate(&Specimen::new(same_size).unwrap(), format, way, dice.turn()));
@@ -295,7 +295,8 @@ fn a_statement_that_no_longer_holds_is_told() {
             warnings.iter().any(|w| w.contains("its shape has changed since that was written")),
             "{warnings:?}"
         );
-        assert_eq!(back.design.diameter_mm, 6.5);
+        // The unit of the file, mm or m, still tells the size.
+        assert!((back.design.diameter_mm - 5.2).abs() < 1e-5, "{}", back.design.diameter_mm);
     }
     let broken = String::from_utf8(bytes(DesignFormat::Obj)).unwrap().replace("up=z d=5.2", "up=w d=5.2");
     let (back, _, warnings) = read(DesignFormat::Obj, broken.into_bytes(), Up::Found);
@@ -321,8 +322,10 @@ fn a_cube_stands_and_an_octahedron_stands_on_its_point() {
         (0..8).map(|k| [k & 1, (k >> 1) & 1, (k >> 2) & 1].map(|bit| f64::from(bit) * 2.0 - 1.0)).collect();
     let sides: [&[usize]; 6] =
         [&[0, 2, 3, 1], &[4, 5, 7, 6], &[0, 1, 5, 4], &[2, 6, 7, 3], &[0, 4, 6, 2], &[1, 3, 7, 5]];
-    // In mm, in m, and away from the origin the stone is the same.
-    for (scale, shift) in [(3.0, DVec3::ZERO), (0.003, DVec3::ZERO), (3.0, DVec3::new(100.0, -7.0, 20.0))] {
+    // In mm, in m, and away from the origin the stone is the same, but in m its size is not known.
+    for (scale, shift, side_mm) in
+        [(3.0, DVec3::ZERO, 6.0_f64), (0.003, DVec3::ZERO, 6.5), (3.0, DVec3::new(100.0, -7.0, 20.0), 6.0)]
+    {
         let (stone, notes, warnings) =
             read(DesignFormat::Obj, obj(&cube, &sides, |v| scale * v + shift), Up::Found);
         let figures = Figures::of(&stone);
@@ -330,7 +333,7 @@ fn a_cube_stands_and_an_octahedron_stands_on_its_point() {
             (figures.table[0] - 1.0).abs() < 1e-9 && (figures.length_to_width - 1.0).abs() < 1e-9,
             "{figures:?}"
         );
-        assert!((figures.volume_mm3 - 6.5_f64.powi(3)).abs() < 1e-6, "{figures:?}");
+        assert!((figures.volume_mm3 - side_mm.powi(3)).abs() < 1e-6, "{figures:?}");
         assert!(warnings.is_empty() && stone.warnings.is_empty(), "{warnings:?} {:?}", stone.warnings);
         assert!(!notes.iter().any(|note| note.contains("doubt")), "{notes:?}");
     }
@@ -372,7 +375,6 @@ fn a_cube_stands_and_an_octahedron_stands_on_its_point() {
 #[test]
 fn a_stone_is_found_lying_on_its_side_upside_down_and_with_y_up() {
     let specimen = tolkowsky();
-    let six_and_a_half = Specimen::new(Design { diameter_mm: 6.5, ..specimen.design.clone() }).unwrap();
     let quarter = std::f64::consts::FRAC_PI_2;
     let ways = [
         ("y up", DQuat::from_rotation_x(-quarter)),
@@ -384,13 +386,13 @@ fn a_stone_is_found_lying_on_its_side_upside_down_and_with_y_up() {
         let foreign = || stripped(format, written(&specimen, format).unwrap().bytes);
         for (name, turn) in ways {
             let (back, notes, _) = read(format, turned(format, foreign(), turn), Up::Found);
-            let why = Figures::of(&six_and_a_half).differ(&Figures::of(&back), false);
+            let why = Figures::of(&specimen).differ(&Figures::of(&back), false);
             assert_eq!(why, None, "{name} as {}", format.ending());
             assert!(!notes.iter().any(|note| note.contains("doubt")), "{name}: {notes:?}");
         }
         // A given direction is taken as up even where it is wrong.
         let (back, ..) = read(format, foreign(), Up::Given(DVec3::X));
-        assert!(Figures::of(&six_and_a_half).differ(&Figures::of(&back), false).is_some());
+        assert!(Figures::of(&specimen).differ(&Figures::of(&back), false).is_some());
     }
 }
 

@@ -1,20 +1,27 @@
-//! Rows that set how the open mesh is read: as flat facets or as triangles, and which way its table faces.
+//! Rows that set how the open mesh is read: as flat facets or as triangles, which way its table faces, and how long its
+//! unit is.
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, FileAction};
 use crate::app::panels::rows::{choice_row, named};
 use crate::cut::Cut;
 use crate::cut::from_mesh::Up;
-use crate::io::mesh_options::{MeshForm, MeshOptions};
+use crate::io::mesh_options::{MeshForm, MeshOptions, MeshUnit};
 use egui::Ui;
 use glam::DVec3;
+
+/// The choice by which the program finds out.
+const AUTOMATIC: &str = "Automatic";
 
 const MEANING: &str = "The direction in the mesh file that the table faces. The mesh is read again when you change \
     it.";
 
+const UNIT_MEANING: &str = "The length of one unit of the mesh file, from which the size of the stone follows. Automatic: as \
+    the file states; else metres in glTF and mm in other formats. The mesh is read again when you change it.";
+
 /// The directions that can be chosen.
 const DIRECTIONS: [(&str, Up); 7] = [
-    ("Automatic", Up::Found),
+    (AUTOMATIC, Up::Found),
     ("+x", Up::Given(DVec3::X)),
     ("−x", Up::Given(DVec3::NEG_X)),
     ("+y", Up::Given(DVec3::Y)),
@@ -41,6 +48,27 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     });
     row.on_hover_text(MEANING);
     actions.push_changed(&options.up, up, |up| FileAction::ReadMesh(MeshOptions { up, ..options }));
+    unit(options, actions, ui);
+}
+
+/// Draws the row of units; the sign is that of the unit, as it is given on the command line.
+fn unit(options: MeshOptions, actions: &mut Actions, ui: &mut Ui) {
+    let mut unit = options.unit;
+    let row = choice_row(ui, "Unit", UNIT_MEANING, &unit_name(unit), |ui| {
+        ui.selectable_value(&mut unit, MeshUnit::Found, AUTOMATIC);
+        for (name, mm) in MeshUnit::NAMED {
+            ui.selectable_value(&mut unit, MeshUnit::Millimetres(mm), name);
+        }
+    });
+    row.on_hover_text(UNIT_MEANING);
+    actions.push_changed(&options.unit, unit, |unit| FileAction::ReadMesh(MeshOptions { unit, ..options }));
+}
+
+fn unit_name(unit: MeshUnit) -> String {
+    match unit {
+        MeshUnit::Millimetres(_) => unit.to_string(),
+        MeshUnit::Found | MeshUnit::Unneeded => AUTOMATIC.to_owned(),
+    }
 }
 
 /// Draws the row of forms; the chosen form is marked, or the form of the cut where none was chosen.

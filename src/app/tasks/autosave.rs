@@ -4,7 +4,7 @@ use crate::app::model::recovery::{KeptScene, RecoveredWork, UnsavedWork};
 use crate::app::model::work::ReadMesh;
 use crate::cut::from_mesh::Up;
 use crate::cut::{Cut, Design};
-use crate::io::mesh_options::{MeshForm, MeshOptions};
+use crate::io::mesh_options::{MeshForm, MeshOptions, MeshUnit};
 use crate::io::{WriteError, cut_file, design_file, write};
 use crate::math::Plane;
 use crate::scene::{Copies, MOST_STONES};
@@ -48,6 +48,9 @@ struct KeptMesh {
     /// The direction in which the table faces, if the user gave one.
     up: Option<DVec3>,
     form: MeshForm,
+    /// The unit of the file; autosave files of older versions lack it.
+    #[serde(default)]
+    unit: MeshUnit,
     is_doubtful: bool,
     diameter_mm: f64,
 }
@@ -63,14 +66,15 @@ impl KeptMesh {
                 Up::Found | Up::FoundBy(_) | Up::Known(_) | Up::Posed(_) => None,
             },
             form: mesh.options.form,
+            unit: mesh.options.unit,
             is_doubtful: mesh.is_doubtful,
             diameter_mm: mesh.diameter_mm,
         }
     }
 
     fn read_mesh(self) -> ReadMesh {
-        let Self { path, up, form, is_doubtful, diameter_mm } = self;
-        let options = MeshOptions { up: up.map_or(Up::Found, Up::Given), form };
+        let Self { path, up, form, unit, is_doubtful, diameter_mm } = self;
+        let options = MeshOptions { up: up.map_or(Up::Found, Up::Given), form, unit };
         ReadMesh { path, options, is_doubtful, diameter_mm }
     }
 }
@@ -254,7 +258,8 @@ mod tests {
         let specimen = crate::scene::Specimen::new(heart).unwrap();
         design_file::write(&specimen, DesignFormat::Glb, &path).unwrap();
         for form in [MeshForm::Triangles, MeshForm::Faceted] {
-            let options = MeshOptions { up: Up::Given(DVec3::new(0.0, 0.6, 0.8)), form };
+            let up = Up::Given(DVec3::new(0.0, 0.6, 0.8));
+            let options = MeshOptions { up, form, unit: MeshUnit::Millimetres(500.0) };
             let work = Document::open(&path, options).unwrap().work;
             let mut safe = Autosave::new(folder.path().join("safe"));
             safe.keep(&alone(&work, Some(&path))).unwrap();

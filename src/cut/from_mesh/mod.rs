@@ -53,7 +53,7 @@ pub fn from_mesh(found: &Faceted, up: Up) -> Result<FromMesh, FromMeshError> {
         None => even::centroid(&found.polytope),
     };
     let parts = even::FacetParts::about(found, middle);
-    let Aim { axis, table, doubt } = aim(&found.polytope, &parts, up)?;
+    let Aim { axis, table, doubt } = aim(&found.polytope, &parts, up, found.deviation.max(found.tolerance))?;
     let even = even::evened(&parts, axis, posed.is_some());
     let upright = match posed {
         Some(pose) => outline::as_posed(&even, &pose),

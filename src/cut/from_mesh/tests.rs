@@ -219,7 +219,7 @@ fn symmetry_counts_the_same_however_a_stone_lies() {
             tolerance: 1e-6,
             change: None,
         };
-        aim::evenness(&even::FacetParts::about(&found, DVec3::ZERO), turn * DVec3::Z)
+        aim::evenness(&even::FacetParts::about(&found, DVec3::ZERO), turn * DVec3::Z).even
     };
     for turn in [DQuat::IDENTITY, DQuat::from_rotation_x(1.0), DQuat::from_rotation_y(1.7)] {
         assert!((counted(turn) - 1.0).abs() < 1e-12, "{turn}: {}", counted(turn));

@@ -277,7 +277,7 @@ impl<'a> Shape<'a> {
             }
             // The same diameter by which a mesh is scaled: see `MeshShape`.
             SolidRef::Triangles(_) => {
-                let found = Calipers::along_mirror(&corners);
+                let found = Calipers::of_stone(&corners);
                 let least = (high - low).truncate().min_element();
                 (None, found.map_or(least, |found| diameter(&corners, found.middle, found.width)))
             }

@@ -3,7 +3,7 @@
 use super::file::{self, MaterialHint, MeshFile};
 use super::place::{MeshPlace, MeshRemarks, axes, doubtful};
 use crate::cut::from_mesh::{FromMesh, Up, directions, from_mesh};
-use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MaterialRef, MeshShape, is_printable};
+use crate::cut::{Cut, Design, MaterialRef, MeshShape, is_printable};
 use crate::io::design_file::ImportedDesign;
 use crate::io::file_error::{Fault, FileError};
 use crate::io::mesh_options::{MeshForm, MeshOptions};
@@ -26,7 +26,7 @@ pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<Importe
         file::parse(bytes, &label, path.parent())?;
     let mended = surface.mend().map_err(|error| FileError::new(&label, error))?;
     let name = Some(name).filter(|name| is_printable(name)).unwrap_or_else(|| "stone".to_owned());
-    let file = File { hint, name, place: MeshPlace::of(format, options.up, statement) };
+    let file = File { hint, name, place: MeshPlace::of(format, options, statement) };
     let mut brought = match options.form {
         MeshForm::Triangles => file.triangles(mended.surface, None),
         MeshForm::Faceted => {
@@ -92,7 +92,7 @@ impl File {
         remarks.is_doubtful = made.doubt.is_some();
         remarks.notes.extend(found.change.map(|change| changed(&change, found.tolerance, scale)));
         remarks.notes.extend(made.doubt.map(|doubt| doubtful(made.up, doubt.other)));
-        let brought = self.brought(Cut::Planes(facets), scale, remarks);
+        let brought = self.brought(Cut::Planes(facets), scale, remarks)?;
         brought.design.check().map_err(Fault::whole)?;
         Ok(brought)
     }
@@ -118,20 +118,20 @@ impl File {
         }
         remarks.notes.extend(why.map(str::to_owned));
         remarks.notes.push(format!("it is traced as {} triangles", shape.surface().triangles.len()));
-        Ok(self.brought(Cut::Mesh(shape), scale, remarks))
+        self.brought(Cut::Mesh(shape), scale, remarks)
     }
 
     /// Makes the design of a cut, with `scale` girdle radii per unit of the file.
-    fn brought(self, cut: Cut, scale: f64, remarks: MeshRemarks) -> ImportedDesign {
+    fn brought(self, cut: Cut, scale: f64, mut remarks: MeshRemarks) -> Result<ImportedDesign, Fault> {
+        let diameter_mm = self.place.diameter_mm(scale, &mut remarks)?;
         let MeshRemarks { mut notes, mut warnings, is_doubtful } = remarks;
-        let diameter_mm = self.place.diameter_mm.unwrap_or(DEFAULT_DIAMETER_MM);
         let (material, why) = self.material(0.5 * diameter_mm * scale);
         match why {
             Ok(note) => notes.extend(note),
             Err(warning) => warnings.push(warning),
         }
         let design = Design { name: self.name, source: None, notes: None, material, diameter_mm, cut };
-        ImportedDesign { notes, warnings, doubt: Some(is_doubtful), ..ImportedDesign::of(design) }
+        Ok(ImportedDesign { notes, warnings, doubt: Some(is_doubtful), ..ImportedDesign::of(design) })
     }
 
     /// Returns the material that the file states, with a note where it states none, or a warning where the library

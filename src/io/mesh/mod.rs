@@ -6,7 +6,7 @@
 //!    stone;
 //! 2. the triangles are mended into a closed surface ([`math::mending`](crate::math::mending)), whose facets are found
 //!    ([`math::faceting`](crate::math::faceting));
-//! 3. `place` decides which way is up, and the size of the stone;
+//! 3. `place` decides which way is up, and `size` the size of the stone;
 //! 4. `design` makes a stone of the facets ([`cut::from_mesh`](crate::cut::from_mesh)), or of the triangles where the solid is
 //!    not convex, and collects notes and warnings.
 //!
@@ -17,6 +17,7 @@ mod export;
 mod file;
 mod metal;
 mod place;
+mod size;
 
 pub use design::read;
 pub use export::{FINENESS, Stated, stated_in_stl, write_glb, write_obj, write_ply, write_stl};
