@@ -1,6 +1,6 @@
 //! `gradient`: prints how the measures of a design change with its numbers.
 
-use super::console::{json, print};
+use super::console::{json, print, say};
 use super::measure_taking::MeasureTaking;
 use super::progress::WorkProgress;
 use crate::cut::{Cut, ScaledSide, Unit};
@@ -57,6 +57,9 @@ impl GradientArguments {
             error if error.is_of_design() => Failure::Input(format!("{file}: {error}")),
             error => Failure::Usage(format!("{file}: {error}")),
         })?;
+        if let Some(why) = found.stone.measures.cut_short(measures.iter().copied()) {
+            say(&format!("warning: {file}: {why}; the derivatives are those of the light that was followed"));
+        }
         if self.json {
             return print(&json(&value(&file, &keys, &found)));
         }

@@ -49,8 +49,7 @@ pub fn text(goal: &Goal, search: &DesignSearch, outcome: &SearchOutcome, others:
         let _ = writeln!(text, "Limits");
     }
     for ((name, before), (_, after)) in start.figures.iter().zip(&outcome.best.figures) {
-        let (low, high) =
-            goal.limit.get(name).map_or((f64::NEG_INFINITY, f64::INFINITY), |limit| limit.ends());
+        let (low, high) = search.objective().ends_of(name);
         let [least, most] = [low, high].map(|end| rounded(end, 6));
         let ends = match (low.is_finite(), high.is_finite()) {
             (true, true) => format!("from {least} to {most}"),
@@ -59,6 +58,14 @@ pub fn text(goal: &Goal, search: &DesignSearch, outcome: &SearchOutcome, others:
         };
         let _ = writeln!(text, "  {name:<38}{before:>12.4}{after:>18.4}{:>+15.4}   {ends}", after - before);
     }
+    let [before, after] = outcome.audits.each_ref().map(|audit| audit.findings.len());
+    let _ = writeln!(text, "Audit");
+    let mut count = |name: &str, [before, after]: [usize; 2]| {
+        let by = after as i64 - before as i64;
+        let _ = writeln!(text, "  {name:<38}{before:>12}{after:>18}{by:>+15}");
+    };
+    count("findings", [before, after]);
+    outcome.findings().into_iter().for_each(|(kind, counts)| count(kind.name(), counts));
     let corners = search.objective().kept_corners();
     if let (Cut::Tiers(_), true) = (&outcome.design.cut, corners > 0) {
         let miss = |design| search.objective().miss_of_meets(design);
@@ -130,6 +137,15 @@ pub fn json_value(
         "held": search.objective().held().iter().map(|number| number.key.to_string()).collect::<Vec<String>>(),
         "limits": limits,
         "keeps_limits": outcome.keeps_limits,
+        "audit": json!({
+            "before": outcome.audits[0].findings.len(),
+            "after": outcome.audits[1].findings.len(),
+            "kinds": outcome.findings().into_iter().map(|(kind, [before, after])| json!({
+                "kind": kind,
+                "before": before,
+                "after": after,
+            })).collect::<Vec<Value>>(),
+        }),
         "kept_corners": search.objective().kept_corners(),
         "miss_of_meets": search.objective().miss_of_meets(&outcome.design),
         "appraised": outcome.appraised,

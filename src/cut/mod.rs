@@ -47,7 +47,9 @@ mod tier_change;
 mod tiers;
 mod warning;
 
-pub use audit::{Audit, AuditSubject, Finding, FindingKind, FindingUnit};
+pub use audit::{
+    Audit, AuditSubject, Finding, FindingKind, FindingUnit, NEAR_MISS, SMALL_FACET, SmallestParts,
+};
 pub use beyond_gear::BeyondGear;
 pub use class_estimate::{BrilliantProportions, ClassEstimate, ClassLimit, CutClass, NearbyClass};
 pub use design::{DEFAULT_DIAMETER_MM, DIAMETERS_MM, Design, DesignError, MAX_PLANES, PlaneFault};

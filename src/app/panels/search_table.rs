@@ -92,6 +92,9 @@ fn numbers(model: &Model, report: &SearchReport, ui: &mut Ui) {
         let texts = [format!("{before:.4}"), format!("{after:.4}"), format!("{:+.4}", after - before)];
         line(ui, name, texts);
     }
+    let [before, after] = report.outcome.audits.each_ref().map(|audit| audit.findings.len());
+    let by = after as i64 - before as i64;
+    line(ui, "findings of the audit", [before.to_string(), after.to_string(), format!("{by:+}")]);
 }
 
 fn line(ui: &mut Ui, name: &str, texts: [String; 3]) {

@@ -1,6 +1,6 @@
 //! The measures of a view's light, and their JSON.
 
-use super::event::Reporter;
+use super::event::{Event, Reporter};
 use super::figures::seen_from;
 use super::viewing::{Viewing, note};
 use crate::io::Failure;
@@ -75,6 +75,9 @@ pub fn light_measures<'a>(
     }
     renderer.plan(&job).map_err(|why| Failure::Usage(format!("{}: {why}", viewing.file)))?;
     let measures = renderer.run(&job, watch, &mut |part| note(&part, tell))?.measures()?.measures;
+    if let Some(why) = measures.cut_short(MeasureName::all(&settings)) {
+        tell(Event::Warning(&format!("{}: {why}", viewing.file)))?;
+    }
     Ok(MeasureReport { viewing: *viewing, settings, measures, weighted_return: None })
 }
 
@@ -106,6 +109,7 @@ impl MeasureReport<'_> {
             "wlr": self.weighted_return,
             "spread_deg": self.measures.spread_deg,
             "unresolved": self.measures.unresolved,
+            "cut_short": self.measures.is_cut_short,
             "material": material.name,
             "index": viewing.medium.index,
             "indices_of_colours": self.settings.indices,
