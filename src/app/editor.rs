@@ -2,7 +2,7 @@
 
 use super::hands::Hands;
 use super::model::action::{Actions, Computed, FileAction, FrameEnd, NoteAction, ViewAction};
-use super::model::opening::{FileRequest, OpeningPurpose};
+use super::model::opening::{FileRequest, Opening, OpeningPurpose};
 use super::model::ordering::Seen;
 use super::model::task::WindowTask;
 use super::model::workspace::Workspace;
@@ -251,7 +251,9 @@ impl Editor {
         self.run();
         self.views.paper = theme::paper(&ctx);
         menus::bar(&self.model, &mut self.actions, ui);
-        menus::status(&self.model.session, &self.studio, self.painted_by, ui);
+        let state = self.state();
+        let painters = (self.studio.device_name(), self.painted_by);
+        menus::status(&self.model.session, &state, painters, ui);
         self.run();
         if !self.model.workspace.hides_panels && !self.model.is_at_bench() {
             side_panels::show(&self.model, &mut self.actions, ui);
@@ -280,17 +282,37 @@ impl Editor {
         self.order(&seen);
         self.name_window();
         self.publish_state();
+        if self.state() != state {
+            // The status line of this frame was drawn before the new order.
+            ctx.request_repaint();
+        }
+    }
+
+    /// Returns in a word or two what the window waits for.
+    fn state(&self) -> String {
+        let session = &self.model.session;
+        let opening = session.awaited.opening.last().map(Opening::message);
+        let lighting = || session.light.loading.as_ref().map(|_| "loading the light…".to_owned());
+        opening.or_else(|| self.studio.preparing()).or_else(lighting).unwrap_or_else(|| {
+            let is_busy = !self.studio.is_idle() || self.outside.is_looking_up();
+            let state = match (is_busy, self.studio.sharpens()) {
+                (true, _) => "tracing…",
+                (false, true) => "sharpening…",
+                (false, false) => "done",
+            };
+            state.to_owned()
+        })
     }
 
     fn end_frame(&mut self) {
-        let fitted = Arc::clone(self.model.session.framing.fitted());
+        let fits = self.model.session.framing.fits();
         let is_gesture = self.views.is_handle_dragged()
             || self.ctx.egui_is_using_pointer()
             || self.ctx.text_edit_focused();
         let now = self.ctx.input(|i| i.time);
         self.run();
         self.act(Action::Frame(FrameEnd { now, is_gesture }));
-        if !Arc::ptr_eq(&fitted, self.model.session.framing.fitted()) {
+        if fits != self.model.session.framing.fits() {
             // The views of this frame were laid out for the stone as it was fitted before.
             self.ctx.request_repaint();
         }

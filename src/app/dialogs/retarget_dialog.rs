@@ -1,6 +1,6 @@
 //! The dialog that fits the design to another material: each tier before and after, and the light of both.
 
-use super::answers::{answer, buttons_alone};
+use super::answers::{answer, body, buttons_alone};
 use crate::app::model::action::{Actions, DialogAction};
 use crate::app::model::fitting::{FitOptions, FitRule, RetargetForm, StoneLight};
 use crate::app::panels::rows::{Number, choice_row, number_row};
@@ -23,23 +23,24 @@ const FACTOR: &str = "The factor of the tangents. Without a number that is typed
 
 /// Draws the dialog.
 pub fn show(form: &RetargetForm, actions: &mut Actions, ui: &mut Ui) {
-    ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 60.0));
-    ui.heading("Fit to another material");
-    ui.add_space(4.0);
-    options(form, actions, ui);
-    ui.add_space(6.0);
-    match &form.found {
-        Ok(found) => {
-            tiers(found, ui);
-            light(form, ui);
-            for note in &found.notes {
-                ui.add(Label::new(RichText::new(sentence(note)).weak().small()).wrap());
+    body(ui, WIDTH, |ui| {
+        ui.heading("Fit to another material");
+        ui.add_space(4.0);
+        options(form, actions, ui);
+        ui.add_space(6.0);
+        match &form.found {
+            Ok(found) => {
+                tiers(found, ui);
+                light(form, ui);
+                for note in &found.notes {
+                    ui.add(Label::new(RichText::new(sentence(note)).weak().small()).wrap());
+                }
+            }
+            Err(why) => {
+                ui.label(RichText::new(sentence(&why.to_string())).color(theme::bad(ui.visuals())));
             }
         }
-        Err(why) => {
-            ui.label(RichText::new(sentence(&why.to_string())).color(theme::bad(ui.visuals())));
-        }
-    }
+    });
     let answers = [DialogAction::Apply, DialogAction::Leave];
     match form.found.as_ref().is_ok_and(|found| !found.tiers.is_empty()) {
         true => answer(actions, answers, buttons_alone(ui, &["Apply", "Cancel"])),

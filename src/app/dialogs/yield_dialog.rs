@@ -1,6 +1,6 @@
 //! The dialog of size and yield: the stone that a piece of rough gives, or that has a weight.
 
-use super::answers::{answer, buttons_alone};
+use super::answers::{answer, body, buttons_alone};
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, DialogAction};
 use crate::app::model::fitting::{SizeBy, YieldForm, YieldOptions};
@@ -33,19 +33,20 @@ const SIDES: [(&str, &str); 3] = [
 
 /// Draws the dialog.
 pub fn show(model: &Model, form: &YieldForm, actions: &mut Actions, ui: &mut Ui) {
-    ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 60.0));
-    ui.heading("Size and yield");
-    ui.add_space(4.0);
-    let mut options = form.options;
-    numbers(&mut options, ui);
-    actions.push_changed(&form.options, options, DialogAction::Size);
-    ui.add_space(8.0);
-    match &form.found {
-        Ok(found) => results(model, &form.options, found, ui),
-        Err(why) => {
-            ui.label(RichText::new(why.to_string()).color(theme::bad(ui.visuals())));
+    body(ui, WIDTH, |ui| {
+        ui.heading("Size and yield");
+        ui.add_space(4.0);
+        let mut options = form.options;
+        numbers(&mut options, ui);
+        actions.push_changed(&form.options, options, DialogAction::Size);
+        ui.add_space(8.0);
+        match &form.found {
+            Ok(found) => results(model, &form.options, found, ui),
+            Err(why) => {
+                ui.label(RichText::new(why.to_string()).color(theme::bad(ui.visuals())));
+            }
         }
-    }
+    });
     // A design cannot keep a girdle thickness in mm, so its size can be taken over only where the girdle is that of
     // the design.
     let answers = [DialogAction::Apply, DialogAction::Leave];

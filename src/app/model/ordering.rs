@@ -74,7 +74,7 @@ impl Orders<'_> {
             return None;
         }
         let eye = *workspace.eye(pane);
-        let view = workspace.view(pane);
+        let view = self.model.view(pane);
         let fit = self.model.fit(shows, &view);
         let specimen = self.model.stone(which)?;
         if shows == Shows::Diagram && specimen.stone().is_err() {

@@ -23,7 +23,7 @@ pub fn export_plan(model: &Model) -> ExportPlan {
         file if file.is_file() => std::path::absolute(&file).unwrap_or(file),
         name => name,
     };
-    let reach = (!model.is_alone()).then(|| model.reach(Shows::Render));
+    let room = model.room();
     let selection = session.selection.clone();
     let (folder, stem) = (document.folder().join("out"), document.stem());
     let sheet_files = vec![];
@@ -33,7 +33,7 @@ pub fn export_plan(model: &Model) -> ExportPlan {
         upright,
         linked,
         own,
-        reach,
+        room,
         selection,
         movement,
         light,
@@ -59,7 +59,7 @@ fn aspects(model: &Model) -> (PictureAspect, Vec<(Shows, PictureAspect)>) {
     for pane in panes {
         let shows = workspace.panes[pane].shows;
         if shows.is_seen() && own.iter().all(|(other, _)| *other != shows) {
-            own.push((shows, PictureAspect { view: workspace.view(pane), turn: workspace.eye(pane).turn }));
+            own.push((shows, PictureAspect { view: model.view(pane), turn: workspace.eye(pane).turn }));
         }
     }
     let side = |shows: Shows| shows.side().unwrap_or(linked.view.side);

@@ -100,10 +100,6 @@ impl Preset {
         copies.movement = scene.movement;
         let companions =
             with_ring(Companions { stones, metals, ring: None }, &scene, seats, (&design, &copies))?;
-        if !companions.is_empty() {
-            let across = companions.across() / unit_mm;
-            copies.room = Some(copies.reach(first.specimen.reach).max(across));
-        }
         Ok(Self { copies, companions, design, scene, remarks, wavelengths: None })
     }
 }

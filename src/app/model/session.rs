@@ -181,7 +181,7 @@ impl Session {
     pub fn new(document: &Document, workspace: &Workspace) -> Result<Self, Failure> {
         let first = Lighting::load(FIRST_LIGHT)?;
         Ok(Self {
-            framing: Framing::new(document.specimen()),
+            framing: Framing::of(document),
             views: ViewHistory::new(workspace),
             light: LoadedLight {
                 name: FIRST_LIGHT.to_owned(),

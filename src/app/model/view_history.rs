@@ -52,6 +52,15 @@ impl ViewHistory {
         Self { history: History::new(state.clone()), last: (state, 0.0) }
     }
 
+    /// Writes the lengths of all states in another unit, of which `factor` make one of the unit before.
+    pub fn in_unit(&mut self, factor: f64) {
+        for state in self.history.each_mut().chain([&mut self.last.0]) {
+            state.distance *= factor;
+            let own = state.panes.iter_mut().filter_map(|pane| pane.own.as_mut());
+            own.chain([&mut state.eye]).for_each(|eye| eye.centre *= factor);
+        }
+    }
+
     /// Records the workspace between two gestures, at the time `now`, seconds.
     pub fn note(&mut self, workspace: &Workspace, now: f64) {
         let state = ViewState::of(workspace);

@@ -5,12 +5,13 @@ use super::rows::{ANY, NUMBER, Number, choice_row, named};
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::measure_map::{MapAxis, MapOptions, MeasureMap, no_stone};
+use crate::app::scrolled::scrolled;
 use crate::cut::{Cut, Design};
 use crate::measure::measure_words;
 use egui::{Context, Pos2, RichText, Ui, Vec2, Window, pos2, vec2};
 
 /// The size of the window at first, and at least, points.
-const SIZES: [Vec2; 2] = [vec2(560.0, 600.0), vec2(420.0, 440.0)];
+const SIZES: [Vec2; 2] = [vec2(560.0, 600.0), vec2(420.0, 260.0)];
 
 /// The first place of the window's upper left corner, points: right of the design panel, whose fields it does not
 /// cover.
@@ -30,7 +31,14 @@ pub fn show(model: &Model, actions: &mut Actions, ctx: &Context) {
         .default_size(SIZES[0])
         .min_size(SIZES[1])
         .default_pos(PLACE);
-    window.show(ctx, |ui| contents(model, actions, ui));
+    window.show(ctx, |ui| {
+        let room = ui.available_height();
+        scrolled(ui, "map", room, |ui| {
+            // The map takes what is left of the room, and no less than a map needs.
+            ui.set_max_height(room);
+            contents(model, actions, ui);
+        });
+    });
     actions.push_if(!is_open, crate::app::model::command::Command::Map);
 }
 

@@ -141,6 +141,12 @@ impl Shot {
         Job::of_pane(product, Quality { samples: Some(samples), ..Quality::of_pictures(true) })
     }
 
+    /// Returns whether a background hangs behind what a shot shows.
+    pub fn hangs(&self, background: &BackgroundRef) -> bool {
+        self.behind.as_ref() == Some(background)
+            || (self.shows.is_pane() && self.pane_background() == *background)
+    }
+
     /// Returns the background of a shot whose picture needs one.
     pub fn pane_background(&self) -> BackgroundRef {
         backdrop(self.behind.as_ref())

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::app::liquid::Liquid;
+use crate::app::model::workspace::Pane;
 use crate::picture::RefractionMap;
 use crate::picture::liquid_glass::PaneQuality;
 
@@ -255,4 +256,27 @@ fn looking_up_keeps_up_with_the_window() {
         took.sort_by(f64::total_cmp);
         println!("{shows:?} {size:?}: {:.1} ms, the slowest {:.1} ms", took[20], took[39]);
     }
+}
+
+#[test]
+fn a_world_that_is_being_drawn_is_shown_coarsely_at_once_and_the_status_line_says_so() {
+    let pane = Pane { shows: Shows::Render, own: None, is_near: false };
+    let behind = Some("sunset".to_owned());
+    let workspace = Workspace {
+        layout: PaneLayout::One,
+        panes: [pane; 4],
+        wavelengths: 3,
+        behind,
+        ..Workspace::default()
+    };
+    let mut bench = Bench::sized(Setup { workspace, ..Setup::default() }, egui::vec2(700.0, 300.0));
+    bench.harness.run_steps(2);
+    assert!(bench.harness.query_by_label_contains("done ·").is_none(), "an order is on its way");
+    bench.wait(|editor| editor.views.gallery.traced.contains_key(&(0, Which::Present)));
+    // The whole world takes many times as long as a coarse one with a picture before it.
+    assert_eq!(bench.editor().studio.preparing().as_deref(), Some("drawing the sunset…"));
+    assert!(bench.harness.query_by_label_contains("drawing the sunset… ·").is_some());
+    let shown = &bench.editor().views.gallery.traced[&(0, Which::Present)];
+    let corner = shown.taken.image.pixels[0];
+    assert!(shown.grade == Grade::Rough && corner.a() == 255 && corner.b() > 0, "{corner:?}");
 }

@@ -313,3 +313,25 @@ fn another_light_is_drawn_at_random_and_undone() {
     pick(&mut bench, "Light", "office");
     assert_eq!(bench.editor().model.document.work.light, "office");
 }
+
+#[test]
+fn what_is_under_the_pointer_is_outlined_on_facets_and_not_on_glass() {
+    let outlines = |scene: &str| {
+        let mut bench = bench(scene);
+        bench.harness.run_steps(3);
+        let at = shot(&bench).copies[0].at;
+        let at = super::copies::at(&bench, at.x, at.y);
+        bench.harness.hover_at(at);
+        bench.harness.run_steps(3);
+        assert!(!bench.editor().model.session.message.is_empty(), "{scene}: something is under the pointer");
+        let shapes = bench.harness.output().shapes.iter();
+        let single = shapes.flat_map(|clipped| super::single_shapes(&clipped.shape));
+        let is_outline = |shape: &egui::Shape| match shape {
+            egui::Shape::LineSegment { stroke, .. } => stroke.color == egui::Color32::from_white_alpha(220),
+            _ => false,
+        };
+        single.filter(is_outline).count()
+    };
+    assert_eq!(outlines("subtle-pill"), 0);
+    assert!(outlines("trilogy") > 2);
+}

@@ -57,6 +57,31 @@ const PATIENCE: Duration = Duration::from_secs(600);
 /// Number of frames that scrolling takes.
 const SCROLLED: usize = 24;
 
+/// Returns how far the painted triangles of a shape reach beyond the rectangle around its points, points.
+pub fn farthest_outside(shape: &egui::Shape) -> f32 {
+    use egui::epaint::{ClippedShape, Primitive, TessellationOptions, Tessellator};
+    let clipped = ClippedShape::new(egui::Rect::EVERYTHING, shape.clone());
+    let mut tessellator = Tessellator::new(1.0, TessellationOptions::default(), [1, 1], vec![]);
+    let mut painted = vec![];
+    tessellator.tessellate_clipped_shape(clipped, &mut painted);
+    let rect = shape.visual_bounding_rect();
+    let of = |primitive: egui::ClippedPrimitive| match primitive.primitive {
+        Primitive::Mesh(mesh) => mesh.vertices,
+        Primitive::Callback(_) => vec![],
+    };
+    let beyond = |at: egui::Pos2| rect.distance_to_pos(at);
+    painted.into_iter().flat_map(of).map(|vertex| beyond(vertex.pos)).fold(0.0, f32::max)
+}
+
+/// Returns the single shapes of a shape, without texts.
+pub fn single_shapes(shape: &egui::Shape) -> Vec<egui::Shape> {
+    match shape {
+        egui::Shape::Vec(shapes) => shapes.iter().flat_map(single_shapes).collect(),
+        egui::Shape::Text(_) | egui::Shape::Noop => vec![],
+        other => vec![other.clone()],
+    }
+}
+
 impl Bench {
     /// Opens an editor without a file, a graphics card or an autosave.
     pub fn new() -> Self {

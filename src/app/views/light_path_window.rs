@@ -52,7 +52,7 @@ fn contents(model: &Model, tools: &mut ViewTools, ui: &mut Ui) {
         );
         return;
     }
-    let view = model.workspace.view(pane);
+    let view = model.view(pane);
     let specimen = model.document.specimen();
     match tools.probe.of(specimen).path(&view, at) {
         Some(path) => {

@@ -2,6 +2,7 @@
 //! click there ends it.
 
 use super::pane_context::PaneContext;
+use crate::app::menus::menu_button;
 use crate::app::model::Model;
 use crate::app::model::action::{Action, Edit, ViewAction};
 use crate::app::model::command::Command;
@@ -118,7 +119,8 @@ pub fn show(cx: &mut PaneContext, ui: &mut Ui, width: f32) {
         }
     }
     if shown < modes.len() {
-        let menu = ui.menu_button(RichText::new(rest_label(modes.len() - shown)).small(), |ui| {
+        let rest = RichText::new(rest_label(modes.len() - shown)).small();
+        let menu = menu_button(ui, rest, |ui| {
             for (k, (name, mode)) in chips().skip(shown) {
                 if chip(ui, name, mode) {
                     ended = Some(k);

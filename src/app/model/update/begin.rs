@@ -18,7 +18,7 @@ pub fn begin(model: &mut Model, tasks: &mut Vec<Task>, mut document: Document) {
     document.begin(&light, exposure, work.head);
     model.document = document;
     let Model { document, workspace, session } = model;
-    session.framing.renew(document.specimen());
+    session.framing.renew(document);
     session.motion.rest();
     workspace.rest();
     session.held = None;

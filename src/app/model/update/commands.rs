@@ -160,7 +160,7 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
             model.session.picking = None;
             if model.document.work.companions != beside {
                 // The step may have changed which stone of the scene is edited.
-                model.session.framing.renew(model.document.specimen());
+                model.session.framing.follow(&model.document);
             }
         }
         other => look(model, other),
@@ -224,7 +224,7 @@ fn look(model: &mut Model, command: Command) {
         Command::Tiers => workspace.shows_tiers = !workspace.shows_tiers,
         Command::ResetView => {
             workspace.reset_view();
-            session.framing.renew(document.specimen());
+            session.framing.renew(document);
         }
         Command::LightPath => session.followed.is_open = !session.followed.is_open,
         Command::New => session.dialog = Some(Dialog::Cuts),
@@ -236,7 +236,7 @@ fn look(model: &mut Model, command: Command) {
 
 /// Fits the views to the present stone and moves the eye of the active view by `look`.
 fn seen(model: &mut Model, look: impl FnOnce(&mut Eye)) {
-    model.session.framing.renew(model.document.specimen());
+    model.session.framing.renew(&model.document);
     let active = model.active();
     look(model.workspace.eye_mut(active));
 }

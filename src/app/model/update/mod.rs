@@ -24,13 +24,34 @@ use std::sync::Arc;
 /// Changes a model by an action; returns the tasks that follow from it.
 pub fn update(model: &mut Model, action: Action) -> Vec<Task> {
     let mut tasks = vec![];
+    let before = scene_unit(model);
     perform(model, &mut tasks, action);
+    keep_eyes(model, before);
     searching::follow(model, &mut tasks);
     scene_ring::follow(model, &mut tasks);
     files::wanted(model, &mut tasks);
     want_audit(model, &mut tasks);
     want_sweeps(model);
     tasks
+}
+
+/// Returns the number of the document and the unit of its lengths in views, in mm, where it is a scene of several
+/// designs; `None` where it is not.
+fn scene_unit(model: &Model) -> Option<(u64, f64)> {
+    let is_scene = !model.document.work.companions.is_empty();
+    is_scene.then(|| (model.session.begun, model.document.specimen().unit_mm()))
+}
+
+/// Leaves the eyes where they are in a scene, in mm, where the design has another size now or another stone of the
+/// scene is edited.
+fn keep_eyes(model: &mut Model, before: Option<(u64, f64)>) {
+    if let (Some((document, was)), Some((present, is))) = (before, scene_unit(model))
+        && document == present
+        && was != is
+    {
+        model.workspace.eyes_in_unit(was / is);
+        model.session.views.in_unit(was / is);
+    }
 }
 
 fn perform(model: &mut Model, tasks: &mut Vec<Task>, action: Action) {
@@ -140,7 +161,7 @@ fn end_frame(model: &mut Model, tasks: &mut Vec<Task>, end: FrameEnd) {
     if end.is_gesture {
         return;
     }
-    model.session.framing.settle(model.document.specimen());
+    model.session.framing.settle(&model.document);
     model.workspace.eye.settle();
     model.workspace.panes.iter_mut().filter_map(|p| p.own.as_mut()).for_each(super::eye::Eye::settle);
     model.session.views.note(&model.workspace, end.now);
