@@ -5,6 +5,7 @@ use super::measure_taking::MeasureTaking;
 use super::progress::WorkProgress;
 use crate::cut::{Cut, ScaledSide, Unit};
 use crate::io::Failure;
+use crate::math::signed;
 use crate::measure::{Interval, MeasureName};
 use crate::render::{GradedStone, LEAST_TIER_DEG, MeasureGradient, RenderError, Sweep, SweepError, SweepKey};
 use clap::Args;
@@ -133,7 +134,7 @@ fn table(sweep: &Sweep, keys: &[SweepKey], found: &GradedStone) -> String {
         };
         let name = if unit.is_empty() { key.to_string() } else { format!("{key}, {unit}") };
         let mut slopes = |name: String, of: &dyn Fn(&MeasureGradient) -> f64| {
-            row(name, found.iter().map(|each| format!("{:+.4}", 100.0 * of(each))).collect());
+            row(name, found.iter().map(|each| signed(100.0 * of(each), 4)).collect());
         };
         if found.iter().all(|each| each.sides[k].is_none()) {
             slopes(name, &|each| each.per[k]);

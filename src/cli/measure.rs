@@ -10,6 +10,7 @@ use super::progress::WorkProgress;
 use super::specimen::LoadedSpecimen;
 use crate::io::Failure;
 use crate::io::export::{FigureReport, MeasureReport, Reporter, Viewing, hearts, light_measures, measure};
+use crate::math::{fixed, signed};
 use crate::measure::{
     ClassDeviations, FaceUpSize, FacetDeviation, PatternSettings, facet_deviations, pupil_deg,
 };
@@ -216,12 +217,18 @@ fn table_of_deviations(path: &str, classes: &[ClassDeviations]) -> String {
     for each in classes {
         let worst = |of: &FacetDeviation, spread: f64| match spread < NOT_SHOWN_DEG {
             true => "-".to_owned(),
-            false => format!("{} {:+.3}", of.facet, of.by_deg),
+            false => format!("{} {}", of.facet, signed(of.by_deg, 3)),
         };
         let turned = worst(&each.worst_azimuth, each.azimuth_spread_deg);
         let leant = worst(&each.worst_slope, each.slope_spread_deg);
         let [azimuth, slope] = [each.azimuth_spread_deg, each.slope_spread_deg];
-        let _ = write!(text, "\n{:<12}{azimuth:>9.3}{turned:>24}{slope:>9.3}{leant:>24}", each.class);
+        let _ = write!(
+            text,
+            "\n{:<12}{:>9}{turned:>24}{:>9}{leant:>24}",
+            each.class,
+            fixed(azimuth, 3),
+            fixed(slope, 3)
+        );
     }
     text
 }

@@ -8,6 +8,8 @@ mod batch;
 mod bench;
 mod console;
 mod convert;
+#[cfg(test)]
+mod documents;
 mod estimate_list;
 mod export;
 mod gradient;

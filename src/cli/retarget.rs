@@ -7,6 +7,7 @@ use super::specimen::{LoadedSpecimen, asked_material, note_colour};
 use crate::cut::{Design, RetargetError, RetargetRule, Retargeted, ScaleError, retarget};
 use crate::io::Failure;
 use crate::io::design_file::{self, DesignFormat};
+use crate::math::fixed;
 use crate::measure::Measured;
 use crate::optics::line;
 use crate::render::{MeasureError, MeasureOptions, measure};
@@ -217,7 +218,7 @@ impl RetargetArguments {
         );
         for tier in &found.tiers {
             let margin = match tier.after_deg < 0.0 {
-                true => format!("{:.2}", -tier.after_deg - to),
+                true => fixed(-tier.after_deg - to, 2),
                 false => String::new(),
             };
             let (name, facets, before, after) = (&tier.name, tier.facets, tier.before_deg, tier.after_deg);

@@ -20,6 +20,7 @@ mod family_body;
 mod family_cut;
 pub mod from_mesh;
 mod frosting;
+mod girdle_at_mains;
 mod glass;
 mod glass_solid;
 mod glass_table;

@@ -4,7 +4,7 @@
 
 use crate::common::meshes::{moved, stripped, turned};
 use brillianteer::cut::from_mesh::Up;
-use brillianteer::cut::{Cut, Design, FacetZones, Outline};
+use brillianteer::cut::{Cut, Design, FacetZones, Outline, ProportionReport, SheetFigures};
 use brillianteer::io::design_file::{self, DesignFormat, written};
 use brillianteer::io::mesh_options::MeshOptions;
 use brillianteer::io::{asc, cut_file, library, mesh};
@@ -484,4 +484,35 @@ fn the_whole_library_comes_back() {
             lost.iter().for_each(|why| println!("    {why}"));
         }
     }
+}
+
+#[test]
+fn proportions_that_a_design_gives_are_those_that_are_measured_on_its_stone() {
+    let mut count = 0;
+    for (name, text) in library::CUTS {
+        let design = cut_file::parse(text, name).unwrap();
+        let specimen = Specimen::new(design).unwrap();
+        let Ok(stone) = specimen.stone() else { continue };
+        let cut = &specimen.design.cut;
+        let report = ProportionReport::of(&stone.polytope, stone.names());
+        // A culet cuts off the point down to which some families count the pavilion.
+        let has_culet = cut.proportion("culet").is_some_and(|row| (row.get)(cut) > 0.0);
+        for (key, measured) in [
+            ("crown_height", report.crown_height),
+            ("girdle_thickness", report.girdle_thickness),
+            ("pavilion_depth", report.pavilion_depth),
+            ("total_depth", report.total_depth),
+        ] {
+            let given = cut.proportion(key).map(|row| (row.get)(cut)).filter(|given| given.is_finite());
+            let Some(given) = given.filter(|_| key != "pavilion_depth" || !has_culet) else { continue };
+            assert!((given - measured).abs() < 1e-6, "{name}: {key}: {given} is given, {measured} measured");
+            count += 1;
+        }
+        let (along, sheet) = (report.along_axes, SheetFigures::of(&stone.polytope, stone.names()));
+        assert_eq!(
+            [along.pavilion_to_width, along.girdle_to_width, along.crown_to_width, along.height_to_width],
+            [sheet.pavilion_to_width, sheet.girdle_to_width, sheet.crown_to_width, sheet.height_to_width]
+        );
+    }
+    assert!(count > 60, "{count}");
 }

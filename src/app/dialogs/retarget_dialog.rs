@@ -7,6 +7,7 @@ use crate::app::panels::rows::{Number, choice_row, number_row};
 use crate::app::panels::stone_rows::material_choice;
 use crate::app::theme;
 use crate::cut::Retargeted;
+use crate::math::signed;
 use egui::{Grid, Label, RichText, ScrollArea, Ui, vec2};
 
 /// The width of the dialog, points.
@@ -100,7 +101,7 @@ fn tiers(found: &Retargeted, ui: &mut Ui) {
                 ui.label(tier.facets.to_string());
                 ui.label(format!("{:.2}°", tier.before_deg));
                 ui.label(format!("{:.2}°", tier.after_deg));
-                let margin_text = RichText::new(format!("{margin:+.2}°"));
+                let margin_text = RichText::new(format!("{}°", signed(margin, 2)));
                 let is_leaking = margin < 0.0;
                 let colour = theme::caution(ui.visuals());
                 match tier.after_deg < 0.0 {

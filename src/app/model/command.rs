@@ -30,7 +30,7 @@ pub enum Command by keys {
     Top: "T", "Top", "Looks at the table.";
     Side: "S", "Side", "Looks along the girdle.";
     Bottom: "B", "Bottom", "Looks at the culet.";
-    Free: "F", "Previous tilt", "Goes back to the tilt that the view had before.";
+    PreviousTilt: "F", "Previous tilt", "Goes back to the last tilt before top, side or bottom.";
     Fit: "0", "Fit to view", "Shows the whole stone.";
     Perspective: "P", "Perspective",
         "Shows the stone of this view from nearby instead of along parallel rays.";
@@ -100,7 +100,7 @@ pub const MENUS: [Menu; 6] = [
     Menu {
         title: "View",
         groups: &[
-            &[Top, Side, Bottom, Free, Fit],
+            &[Top, Side, Bottom, PreviousTilt, Fit],
             &[Perspective, EyeLeans],
             &[One, Two, Four],
             &[Wireframe, Facets, Bounces, Unresolved, Total, Strongest, Glare],

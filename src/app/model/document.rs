@@ -24,6 +24,8 @@ pub struct Document {
     /// The copies and their companions as they were opened, or as they were last written as a scene.
     laid: (Copies, Companions),
     path: Option<PathBuf>,
+    /// The name of the scene whose stone is edited.
+    scene: Option<String>,
     stamp: Stamp,
     /// True where the file no longer exists.
     is_lost: bool,
@@ -59,6 +61,11 @@ fn adopt_meets(design: &mut Design) {
     }
 }
 
+/// Returns the name of a file for a name that people read.
+fn file_name(name: &str) -> String {
+    name.to_lowercase().replace([' ', '/'], "-")
+}
+
 /// The light that the program starts with.
 pub const FIRST_LIGHT: &str = "studio";
 
@@ -87,6 +94,7 @@ impl Document {
             saved: design.clone(),
             laid: Default::default(),
             path,
+            scene: None,
             stamp,
             is_lost: false,
             specimen,
@@ -289,10 +297,20 @@ impl Document {
         self.path.as_deref()
     }
 
-    /// Returns the title of the document: the name of its file, or that of the design.
+    /// Sets the name of the scene whose stone is edited.
+    pub fn call_scene(&mut self, name: &str) {
+        self.scene = Some(name.to_owned());
+    }
+
+    /// Returns the name of the scene whose stone is edited, or that of the design.
+    pub fn name(&self) -> &str {
+        self.scene.as_deref().unwrap_or(&self.work.design.name)
+    }
+
+    /// Returns the title of the document: the name of its file, of its scene, or of the design.
     pub fn title(&self) -> String {
         let file = self.path.as_deref().and_then(Path::file_name).map(|n| n.to_string_lossy().into_owned());
-        file.unwrap_or_else(|| self.work.design.name.clone())
+        file.unwrap_or_else(|| self.name().to_owned())
     }
 
     /// Returns the folder of the document's file, or the present folder where there is no file.
@@ -301,10 +319,15 @@ impl Document {
         self.path.as_deref().and_then(Path::parent).map_or_else(here, Path::to_owned)
     }
 
-    /// Returns the name for files of the document, without an ending: that of its file, or one made of the design's name.
+    /// Returns the name for files of the document, without an ending: that of its file, or one made of its own name.
     pub fn stem(&self) -> String {
         let file = self.path.as_deref().and_then(Path::file_stem).map(|n| n.to_string_lossy().into_owned());
-        file.unwrap_or_else(|| self.work.design.name.to_lowercase().replace([' ', '/'], "-"))
+        file.unwrap_or_else(|| file_name(self.name()))
+    }
+
+    /// Returns the name for a file of the design alone, without an ending.
+    pub fn design_stem(&self) -> String {
+        file_name(&self.work.design.name)
     }
 
     /// Returns the design as it was last saved.

@@ -122,7 +122,7 @@ impl Orders<'_> {
             document: session.begun,
             marks: DrawnMarks::default(),
             specimen,
-            title: document.work.design.name.clone(),
+            title: document.name().to_owned(),
             shows,
             strongest: workspace.strongest,
             glare: workspace.glare(),

@@ -10,6 +10,7 @@ use crate::app::panels::rows::{ANY, Row, explain, field_width, named, wrong};
 use crate::app::panels::{copy_rows, light_rows, mesh_rows, scene_rows, side_panels, stone_rows, tier_rows};
 use crate::app::theme;
 use crate::cut::{Cut, Design, DesignError, MaterialRef, Proportion, Unit, Warning};
+use crate::math::fixed;
 use crate::scene::{Copies, SpecimenError};
 use egui::{
     Button, Panel, Rect, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo,
@@ -289,7 +290,7 @@ fn derived(ui: &mut Ui, rows: &[&Proportion], cut: &Cut, is_graded: bool) {
             let value = (row.get)(cut);
             let text = match row.nothing.filter(|_| value <= 0.0) {
                 Some(word) => word.to_owned(),
-                None => format!("{value:6.2}{}", row.unit),
+                None => format!("{:>6}{}", fixed(value, 2), row.unit),
             };
             let is_excellent =
                 is_graded && row.excellent.is_some_and(|[least, most]| (least..=most).contains(&value));

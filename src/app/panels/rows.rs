@@ -6,6 +6,7 @@
 
 use crate::app::model::action::{Action, Actions};
 use crate::app::theme;
+use crate::math::fixed;
 use crate::optics::{encoded_from_linear, linear_from_encoded};
 use egui::emath::format_with_decimals_in_range;
 use egui::{
@@ -226,8 +227,10 @@ fn written(number: f64, places: RangeInclusive<usize>, fits: &dyn Fn(&str) -> bo
         return UNKNOWN.to_owned();
     }
     let most = *places.end();
+    // A number that shows as 0 has no sign.
+    let number = if fixed(number, most).starts_with('-') { number } else { number.abs() };
     let usual = format_with_decimals_in_range(number, places);
-    let shorter = (0..most).rev().map(|places| format!("{number:.places$}"));
+    let shorter = (0..most).rev().map(|places| fixed(number, places));
     std::iter::once(usual).chain(shorter).find(|text| fits(text)).unwrap_or_else(|| format!("{number:.0e}"))
 }
 

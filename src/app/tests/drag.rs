@@ -68,7 +68,7 @@ fn the_views_follow_the_hand() {
     // This starts with a tilted stone: near a tilt of 0 the view would snap to 0.
     drag("tilt", false, |editor, k| {
         if k == 0 {
-            editor.model.workspace.eye.free();
+            editor.model.workspace.eye.lean = glam::DVec2::new(-0.25, -0.55);
         }
         editor.model.workspace.eye.drag(Side::Table, DVec2::new(0.004, 0.002));
     });

@@ -64,7 +64,7 @@ fn a_lower_crown() {
 #[ignore = "writes a picture into docs/images/editor"]
 fn a_tilt_with_wireframe() {
     let mut bench = window("tolkowsky.toml", &Workspace::default());
-    bench.harness.key_press(egui::Key::F);
+    bench.harness.state_mut().model.workspace.eye.lean = glam::DVec2::new(-0.25, -0.55);
     bench.settle();
     bench.harness.key_press(egui::Key::W);
     take(&mut bench, "tilt");

@@ -225,3 +225,22 @@ fn what_stands_beside_a_stone_is_found_after_a_crash() {
         "one for all"
     );
 }
+
+#[test]
+fn a_scene_has_its_own_name_in_the_window_and_in_the_names_of_files() {
+    let model = begun("halo-ring");
+    assert_eq!(
+        (model.document.title(), model.document.design_stem()),
+        ("Halo ring".into(), "modern-ideal".into())
+    );
+    let plan = export_plan(&model);
+    assert_eq!((plan.stem.as_str(), plan.shot.title.as_str()), ("halo-ring", "Halo ring"));
+    // The view of a scene is tilted by some fraction of a degree, which the names of files round.
+    for (_, viewing) in plan.parts() {
+        let suffix = viewing.viewpoint.suffix();
+        assert!(
+            suffix.split('-').all(|part| part.split_once('.').is_none_or(|(_, digits)| digits.len() < 4)),
+            "{suffix}"
+        );
+    }
+}

@@ -272,7 +272,7 @@ impl<'a> Shape<'a> {
         let (girdle, across) = match body {
             SolidRef::Convex(stone) => {
                 let outline = Outline::of(stone);
-                let thickness = outline.girdle_top - outline.girdle_bottom;
+                let thickness = outline.girdle_thickness();
                 (Some(ShapeGirdle { stone, thickness }), outline.diameter)
             }
             // The same diameter by which a mesh is scaled: see `MeshShape`.

@@ -9,7 +9,7 @@ use crate::io::file_error::{Fault, FileError};
 use crate::io::mesh_options::{MeshForm, MeshOptions};
 use crate::math::faceting::{Change, Faceted, SurfaceKind, TooCurved, faceted_hull, facets};
 use crate::math::mending::Mending;
-use crate::math::{Surface, TriangleMesh};
+use crate::math::{Surface, TriangleMesh, signed};
 use glam::{DQuat, DVec3};
 use std::path::Path;
 
@@ -60,10 +60,11 @@ fn changed(change: &Change, tolerance: f64, scale: f64) -> String {
     let [deepest, tolerance] = [change.deepest, tolerance].map(|length| scale * length);
     format!(
         "the mesh bends inward at {} edges, by up to {sharpest:.1} degrees, and is read as the convex stone that it \
-         stands for: the volume changes by {volume:+.3} %, the deepest point of the mesh lies {deepest:.4} girdle radii \
+         stands for: the volume changes by {} %, the deepest point of the mesh lies {deepest:.4} girdle radii \
          below the stone's facets, and corners within {tolerance:.1e} girdle radii of a plane share a facet; --as \
          triangles keeps the mesh as it is",
-        change.bent
+        change.bent,
+        signed(volume, 3)
     )
 }
 

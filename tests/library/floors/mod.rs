@@ -430,3 +430,29 @@ fn the_editors_model_knows_no_window_and_no_thread() {
     assert_eq!(windows("use egui::Ui; struct A(Arc<Mutex<u8>>);"), ["egui", "Arc<Mutex"]);
     assert!(windows("regui(); // as egui does").is_empty());
 }
+
+/// Returns the places in a text where a format writes a number with its sign, without `math::signed`.
+fn signs_of_their_own(text: &str) -> Vec<&str> {
+    let specs =
+        text.match_indices('{').filter_map(|(at, _)| text[at..].split_once('}').map(|(spec, _)| spec));
+    let is_signed = |spec: &&str| {
+        let Some((name, format)) = spec[1..].split_once(':') else { return false };
+        name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '.'))
+            && format.trim_start_matches(['<', '>', '^']).starts_with('+')
+    };
+    specs.filter(is_signed).collect()
+}
+
+#[test]
+fn differences_are_written_by_one_function_that_knows_no_negative_zero() {
+    assert_eq!(
+        signs_of_their_own(r#"format!("{by:+.2} {:>+9.3} {x:.2} {{ a: b }}")"#),
+        ["{by:+.2", "{:>+9.3"]
+    );
+    for path in sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src")) {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let is_home = path.ends_with("math/decimals.rs");
+        let found = signs_of_their_own(&text);
+        assert!(is_home || found.is_empty(), "{}: {found:?}: use math::signed", path.display());
+    }
+}

@@ -97,6 +97,7 @@ pub fn begin_scene(model: &mut Model, tasks: &mut Vec<Task>, preset: Preset, alo
     (document.work.copies, document.work.companions) = (copies, companions);
     document.work.remarks = remarks.into();
     document.keep_copies();
+    document.call_scene(&scene.name);
     model.workspace.last = None;
     let work = &model.document.work;
     let before = model.workspace.light_after_scene((work.light.clone(), work.exposure));

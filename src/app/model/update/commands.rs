@@ -32,6 +32,7 @@ impl Model {
             Command::Tiers | Command::BenchMode => self.has_tiers(),
             Command::LayOut => self.document.work.copies.poses.len() > 1 && self.can_move(),
             Command::Play => self.can_move(),
+            Command::PreviousTilt => self.workspace.eye(self.active()).last.is_some(),
             Command::Split | Command::NoCompare => self.session.compared.is_some(),
             _ => true,
         }
@@ -189,7 +190,7 @@ fn look(model: &mut Model, command: Command) {
         Command::Top => seen(model, Eye::top),
         Command::Side => seen(model, Eye::side),
         Command::Bottom => seen(model, Eye::bottom),
-        Command::Free => seen(model, Eye::free),
+        Command::PreviousTilt => seen(model, Eye::back),
         Command::Fit => seen(model, Eye::fit),
         Command::Perspective => {
             let pane = &mut workspace.panes[active];

@@ -171,7 +171,7 @@ pub fn choose(model: &mut Model, tasks: &mut Vec<Task>, purpose: Purpose) {
 fn suggested(model: &Model) -> String {
     let document = &model.document;
     let is_design = document.path().is_some_and(holds_designs);
-    if is_design { document.title() } else { format!("{}.toml", document.stem()) }
+    if is_design { document.title() } else { format!("{}.toml", document.design_stem()) }
 }
 
 fn answered(model: &mut Model, tasks: &mut Vec<Task>, question: Question, choice: Choice) {
