@@ -2,7 +2,7 @@
 
 use crate::cut::Size;
 use crate::cut::from_mesh::Up;
-use crate::io::mesh_options::{MeshForm, MeshOptions, MeshUnit};
+use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use clap::{Args, ValueEnum};
 use glam::DVec3;
 
@@ -19,15 +19,20 @@ pub struct MeshArguments {
     /// The unit of a mesh: mm, cm, m, in, um, or its length, such as 0.5mm [default: as the file states, m in glTF, else mm]
     #[arg(long, value_name = "UNIT", allow_hyphen_values = true)]
     unit: Option<MeshUnit>,
+    /// The solid that is read of a mesh that has several: its number, its name, or all [default: the largest]
+    #[arg(long, value_name = "PART", value_parser = part)]
+    part: Option<MeshPart>,
 }
 
 impl MeshArguments {
     /// Returns the mesh options, with defaults for those that are not given.
     pub fn options(self) -> MeshOptions {
+        let Self { up, form, unit, part } = self;
         MeshOptions {
-            up: self.up.unwrap_or_default(),
-            form: self.form.unwrap_or_default(),
-            unit: self.unit.unwrap_or_default(),
+            up: up.unwrap_or_default(),
+            form: form.unwrap_or_default(),
+            unit: unit.unwrap_or_default(),
+            part: part.unwrap_or_default(),
         }
     }
 
@@ -44,12 +49,19 @@ impl MeshArguments {
         });
         let form = self.form.and_then(|form| form.to_possible_value()).map(|form| form.get_name().to_owned());
         let words = |option: &str, value: Option<String>| value.map(|value| [option.to_owned(), value]);
-        let unit = self.unit.map(|unit| unit.to_string());
-        [words("--up", up), words("--as", form), words("--unit", unit)]
-            .into_iter()
-            .flatten()
-            .flatten()
-            .collect()
+        let [unit, part] = [self.unit.map(|unit| unit.to_string()), self.part.map(|part| part.to_string())];
+        let all =
+            [words("--up", up), words("--as", form), words("--unit", unit), words("--part", part)];
+        all.into_iter().flatten().flatten().collect()
+    }
+}
+
+/// Parses the value of `--part`; any text may be a name.
+fn part(text: &str) -> Result<MeshPart, String> {
+    match MeshPart::from(text) {
+        MeshPart::Found => Err("give the number or the name of a body, or all".to_owned()),
+        part => Ok(part),
+    }
     }
 }
 
@@ -102,5 +114,18 @@ mod tests {
             let message = up(&[&format!("--up={bad}")]).unwrap_err();
             assert!(message.contains("give x, -x, y, -y, z, -z, or three numbers"), "{bad}: {message}");
         }
+    }
+
+    #[test]
+    fn a_part_is_a_number_a_name_or_all() {
+        let given = |text: &str| Command::try_parse_from(["b", "--part", text]).map(|c| c.mesh);
+        for (text, part) in
+            [("2", MeshPart::Number(2)), ("all", MeshPart::All), ("Stone 1", MeshPart::Named("Stone 1"))]
+        {
+            let mesh = given(text).unwrap();
+            assert_eq!(mesh.options().part, part);
+            assert_eq!(mesh.words(), ["--part", text]);
+        }
+        assert!(given("").unwrap_err().to_string().contains("the number or the name of a body, or all"));
     }
 }

@@ -94,7 +94,7 @@ const EXIT_CODES: &str = "Exit codes: 0 done, 1 an input is at fault, 2 the comm
     standard input.";
 
 /// The hint after an error about options or files that the editor does not take.
-const EDITOR_TAKES: &str = "the editor takes one FILE and no options but --up, --as and --unit, which are for meshes; \
+const EDITOR_TAKES: &str = "the editor takes one FILE and no options but --up, --as, --unit and --part, which are for meshes; \
     `brillianteer export`, `render`, `measure` and `info` take several files, and a material, a view and a light";
 
 #[derive(Debug, Subcommand)]

@@ -15,7 +15,7 @@ use number::Token;
 use std::borrow::Cow;
 use std::fmt::Write;
 
-mod number;
+pub(super) mod number;
 #[cfg(test)]
 mod tests;
 

@@ -21,6 +21,8 @@ pub struct BuiltDesign {
     pub made: Specimen,
     /// Notes and warnings, each with the path, as they are printed.
     pub remarks: Vec<String>,
+    /// How the remarks call the solids of a mesh that has several; empty for any other design.
+    pub parts: Vec<String>,
 }
 
 impl Deref for BuiltDesign {
@@ -68,14 +70,14 @@ impl BuiltDesign {
 
     fn of(
         path: String,
-        ImportedDesign { design, notes, warnings, .. }: ImportedDesign,
+        ImportedDesign { design, notes, warnings, parts, .. }: ImportedDesign,
     ) -> Result<Self, Failure> {
         let made = Specimen::new(design).map_err(|e| Failure::Input(format!("{path}: {e}")))?;
         let notes = notes.iter().map(|note| format!("note: {path}: {note}"));
         let unusual = made.unusual.iter().map(ToString::to_string);
         let warnings = warnings.into_iter().chain(unusual).chain(made.warnings.iter().cloned());
         let remarks = notes.chain(warnings.map(|w| format!("warning: {path}: {w}"))).collect();
-        Ok(Self { path, made, remarks })
+        Ok(Self { path, made, remarks, parts })
     }
 }
 

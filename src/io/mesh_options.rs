@@ -1,11 +1,13 @@
 //! The options by which a mesh is read, since its file states neither which way its table faces, nor whether its
-//! triangles stand for flat facets, nor, in most formats, how long its unit is.
+//! triangles stand for flat facets, nor which of several solids is meant, nor, in most formats, how long its unit is.
 
 use crate::cut::Size;
 use crate::cut::from_mesh::Up;
 use serde::{Deserialize, Serialize};
-use std::fmt;
+use std::collections::BTreeSet;
+use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
+use std::sync::{Mutex, PoisonError};
 
 /// The options by which a mesh is read as a stone. By default all are found from its shape and its format.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -16,6 +18,8 @@ pub struct MeshOptions {
     pub form: MeshForm,
     /// The unit of the file, from which the size of the stone follows.
     pub unit: MeshUnit,
+    /// The solid that is read of a mesh that has several.
+    pub part: MeshPart,
 }
 
 impl MeshOptions {
@@ -30,7 +34,57 @@ impl MeshOptions {
     /// Returns whether any option is given that only meshes have.
     pub fn is_given(self) -> bool {
         let is_unit_given = matches!(self.unit, MeshUnit::Millimetres(_));
-        self.up != Up::Found || self.form != MeshForm::Found || is_unit_given
+        self.up != Up::Found || self.form != MeshForm::Found || self.part != MeshPart::Found || is_unit_given
+    }
+}
+
+/// The solid that is read of a mesh that has several.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub enum MeshPart {
+    /// The largest one that is more than a box.
+    #[default]
+    Found,
+    /// All of them, as one stone.
+    All,
+    /// The one with this number, from 1, in the order of the file.
+    Number(usize),
+    /// The one with this name in the file.
+    Named(&'static str),
+}
+
+/// The names that have been asked for. Options are copied freely, so that a name is kept until the program ends; a person asks
+/// for few.
+static NAMES: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
+
+impl From<&str> for MeshPart {
+    /// Reads what a person writes: `all`, a number, or a name. An empty text stands for the one that is found.
+    fn from(text: &str) -> Self {
+        match (text.trim(), text.trim().parse()) {
+            ("", _) => Self::Found,
+            ("all", _) => Self::All,
+            (_, Ok(number)) => Self::Number(number),
+            (name, Err(_)) => {
+                let mut names = NAMES.lock().unwrap_or_else(PoisonError::into_inner);
+                let known = names.get(name).copied();
+                Self::Named(known.unwrap_or_else(|| {
+                    let kept: &'static str = Box::leak(name.into());
+                    names.insert(kept);
+                    kept
+                }))
+            }
+        }
+    }
+}
+
+impl Display for MeshPart {
+    /// Writes the text that is read as this part.
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Found => Ok(()),
+            Self::All => f.write_str("all"),
+            Self::Number(number) => write!(f, "{number}"),
+            Self::Named(name) => f.write_str(name),
+        }
     }
 }
 
@@ -133,5 +187,19 @@ mod tests {
         let inch = MeshUnit::Millimetres(25.4);
         assert_eq!(of(inch).sized(size).unit, inch);
         assert!(of(inch).is_given() && !of(MeshUnit::Found).sized(size).is_given());
+    }
+
+    #[test]
+    fn a_part_is_read_as_it_is_written() {
+        for (text, part) in [
+            ("", MeshPart::Found),
+            ("all", MeshPart::All),
+            (" 12 ", MeshPart::Number(12)),
+            ("Stone 2", MeshPart::Named("Stone 2")),
+            ("-1", MeshPart::Named("-1")),
+        ] {
+            assert_eq!(MeshPart::from(text), part);
+            assert_eq!(MeshPart::from(part.to_string().as_str()), part);
+        }
     }
 }

@@ -15,6 +15,8 @@ mod cutters;
 #[cfg(feature = "interchange")]
 pub mod cutting_sheet;
 #[cfg(feature = "interchange")]
+mod decoding;
+#[cfg(feature = "interchange")]
 pub mod design_file;
 mod drawing_png;
 #[cfg(feature = "exr")]
@@ -23,6 +25,8 @@ pub mod export;
 mod exr;
 mod failure;
 mod file_error;
+#[cfg(feature = "interchange")]
+mod foreign;
 #[cfg(feature = "interchange")]
 pub mod gcs;
 #[cfg(feature = "interchange")]

@@ -164,7 +164,8 @@ fn cutters_xml() {
 /// Reads a mesh, mends it and finds its facets.
 fn mesh(bytes: &[u8]) {
     let Ok(file) = mesh::parse(bytes.to_vec(), "x", None) else { return };
-    let Ok(mended) = file.surface.mend() else { return };
+    let Ok((mended, _)) = file.surface.mend_closed() else { return };
+    mended.parts.iter().for_each(|part| drop(mended.part(part)));
     match facets(mended.surface) {
         SurfaceKind::Convex(found) => drop(from_mesh(&found, Up::Found)),
         SurfaceKind::Concave(surface) => drop(TriangleMesh::new(surface)),

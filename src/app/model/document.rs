@@ -128,13 +128,15 @@ impl Document {
     /// # Errors
     /// Fails where the file cannot be read, is no design, or makes no stone.
     pub fn open(path: &Path, mesh: MeshOptions) -> Result<Self, FileError> {
-        let ImportedDesign { mut design, notes, warnings, doubt } = design_file::read_with(path, mesh)?;
+        let ImportedDesign { mut design, notes, warnings, doubt, parts } =
+            design_file::read_with(path, mesh)?;
         adopt_meets(&mut design);
         let mut document = Self::new(design, Some(path.to_owned()))
             .map_err(|error| FileError::new(path.display(), error))?;
         document.work.remarks = warnings.into_iter().chain(notes).collect();
         let diameter_mm = document.work.design.diameter_mm;
-        let read = |is_doubtful| ReadMesh { path: path.to_owned(), options: mesh, is_doubtful, diameter_mm };
+        let read =
+            |is_doubtful| ReadMesh { path: path.to_owned(), options: mesh, parts, is_doubtful, diameter_mm };
         document.work.mesh = doubt.map(read);
         document.history = History::new(document.work.clone());
         Ok(document)

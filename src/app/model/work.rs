@@ -31,6 +31,8 @@ pub struct Work {
 pub struct ReadMesh {
     pub path: PathBuf,
     pub options: MeshOptions,
+    /// How each solid of the file is called, where it has several.
+    pub parts: Vec<String>,
     /// True where the shape does not show clearly which way the table faces.
     pub is_doubtful: bool,
     /// The diameter of the stone when it was read, mm.

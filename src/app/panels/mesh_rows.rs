@@ -1,12 +1,12 @@
-//! Rows that set how the open mesh is read: as flat facets or as triangles, which way its table faces, and how long its
-//! unit is.
+//! Rows that set how the open mesh is read: as flat facets or as triangles, which way its table faces, how long its unit
+//! is, and which of several bodies it is.
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, FileAction};
 use crate::app::panels::rows::{choice_row, named};
 use crate::cut::Cut;
 use crate::cut::from_mesh::Up;
-use crate::io::mesh_options::{MeshForm, MeshOptions, MeshUnit};
+use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use egui::Ui;
 use glam::DVec3;
 
@@ -18,6 +18,8 @@ const MEANING: &str = "The direction in the mesh file that the table faces. The 
 
 const UNIT_MEANING: &str = "The length of one unit of the mesh file, from which the size of the stone follows. Automatic: as \
     the file states; else metres in glTF and mm in other formats. The mesh is read again when you change it.";
+const WHICH: &str =
+    "The body that is read of a file that has several. The mesh is read again when you change it.";
 
 /// The directions that can be chosen.
 const DIRECTIONS: [(&str, Up); 7] = [
@@ -49,6 +51,10 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     row.on_hover_text(MEANING);
     actions.push_changed(&options.up, up, |up| FileAction::ReadMesh(MeshOptions { up, ..options }));
     unit(options, actions, ui);
+    let parts = model.document.work.mesh.as_ref().map_or(&[][..], |mesh| &mesh.parts);
+    if !parts.is_empty() {
+        part(parts, options, actions, ui);
+    }
 }
 
 /// Draws the row of units; the sign is that of the unit, as it is given on the command line.
@@ -69,6 +75,24 @@ fn unit_name(unit: MeshUnit) -> String {
         MeshUnit::Millimetres(_) => unit.to_string(),
         MeshUnit::Found | MeshUnit::Unneeded => AUTOMATIC.to_owned(),
     }
+}
+
+/// Draws the row that chooses one of the bodies in the file, or all of them.
+fn part(parts: &[String], options: MeshOptions, actions: &mut Actions, ui: &mut Ui) {
+    let mut chosen = options.part;
+    let numbered = parts.iter().enumerate().map(|(place, name)| (name.as_str(), MeshPart::Number(place + 1)));
+    let all =
+        [("Automatic", MeshPart::Found)].into_iter().chain(numbered).chain([("All as one", MeshPart::All)]);
+    let all: Vec<(&str, MeshPart)> = all.collect();
+    let name = all.iter().find(|(_, part)| *part == chosen).map(|(name, _)| (*name).to_owned());
+    let name = name.unwrap_or_else(|| chosen.to_string());
+    let row = choice_row(ui, "Body", WHICH, &name, |ui| {
+        for (name, part) in all {
+            ui.selectable_value(&mut chosen, part, name);
+        }
+    });
+    row.on_hover_text(WHICH);
+    actions.push_changed(&options.part, chosen, |part| FileAction::ReadMesh(MeshOptions { part, ..options }));
 }
 
 /// Draws the row of forms; the chosen form is marked, or the form of the cut where none was chosen.

@@ -4,7 +4,7 @@ use crate::app::model::recovery::{KeptScene, RecoveredWork, UnsavedWork};
 use crate::app::model::work::ReadMesh;
 use crate::cut::from_mesh::Up;
 use crate::cut::{Cut, Design};
-use crate::io::mesh_options::{MeshForm, MeshOptions, MeshUnit};
+use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use crate::io::{WriteError, cut_file, design_file, write};
 use crate::math::Plane;
 use crate::scene::{Copies, MOST_STONES};
@@ -51,6 +51,11 @@ struct KeptMesh {
     /// The unit of the file; autosave files of older versions lack it.
     #[serde(default)]
     unit: MeshUnit,
+    /// The solid that was chosen of several, in words; empty for the one that the program finds.
+    #[serde(default)]
+    part: String,
+    #[serde(default)]
+    parts: Vec<String>,
     is_doubtful: bool,
     diameter_mm: f64,
 }
@@ -67,15 +72,18 @@ impl KeptMesh {
             },
             form: mesh.options.form,
             unit: mesh.options.unit,
+            part: mesh.options.part.to_string(),
+            parts: mesh.parts.clone(),
             is_doubtful: mesh.is_doubtful,
             diameter_mm: mesh.diameter_mm,
         }
     }
 
     fn read_mesh(self) -> ReadMesh {
-        let Self { path, up, form, unit, is_doubtful, diameter_mm } = self;
-        let options = MeshOptions { up: up.map_or(Up::Found, Up::Given), form, unit };
-        ReadMesh { path, options, is_doubtful, diameter_mm }
+        let Self { path, up, form, unit, part, parts, is_doubtful, diameter_mm } = self;
+        let part = MeshPart::from(part.as_str());
+        let options = MeshOptions { up: up.map_or(Up::Found, Up::Given), form, unit, part };
+        ReadMesh { path, options, parts, is_doubtful, diameter_mm }
     }
 }
 
@@ -259,7 +267,7 @@ mod tests {
         design_file::write(&specimen, DesignFormat::Glb, &path).unwrap();
         for form in [MeshForm::Triangles, MeshForm::Faceted] {
             let up = Up::Given(DVec3::new(0.0, 0.6, 0.8));
-            let options = MeshOptions { up, form, unit: MeshUnit::Millimetres(500.0) };
+            let options = MeshOptions { up, form, unit: MeshUnit::Millimetres(500.0), part: MeshPart::Number(1) };
             let work = Document::open(&path, options).unwrap().work;
             let mut safe = Autosave::new(folder.path().join("safe"));
             safe.keep(&alone(&work, Some(&path))).unwrap();

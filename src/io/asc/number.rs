@@ -2,7 +2,7 @@
 
 /// The kind of a token: a number in one of its spellings, or a word.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Token {
+pub(in crate::io) enum Token {
     /// A number as the format has it.
     Number(f64),
     /// Digits, one comma and digits: a number with a decimal comma, or two numbers.

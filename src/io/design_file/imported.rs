@@ -13,11 +13,13 @@ pub struct ImportedDesign {
     pub warnings: Vec<String>,
     /// For a mesh, true where its shape leaves a doubt which way its table faces; `None` for other designs.
     pub doubt: Option<bool>,
+    /// How messages call the solids of a mesh that has several, in the order of their numbers; empty for any other design.
+    pub parts: Vec<String>,
 }
 
 impl ImportedDesign {
     /// Wraps a design without notes and warnings.
     pub fn of(design: Design) -> Self {
-        Self { design, notes: vec![], warnings: vec![], doubt: None }
+        Self { design, notes: vec![], warnings: vec![], doubt: None, parts: vec![] }
     }
 }

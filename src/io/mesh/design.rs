@@ -1,6 +1,7 @@
 //! Makes stones from meshes: a convex stone becomes planes, any other triangles.
 
 use super::file::{self, MaterialHint, MeshFile};
+use super::parts::{ChosenPart, left_open};
 use super::place::{MeshPlace, MeshRemarks, axes, doubtful};
 use crate::cut::from_mesh::{FromMesh, Up, directions, from_mesh};
 use crate::cut::{Cut, Design, MaterialRef, MeshShape, is_printable};
@@ -8,7 +9,7 @@ use crate::io::design_file::ImportedDesign;
 use crate::io::file_error::{Fault, FileError};
 use crate::io::mesh_options::{MeshForm, MeshOptions};
 use crate::math::faceting::{Change, Faceted, SurfaceKind, TooCurved, faceted_hull, facets};
-use crate::math::mending::Mending;
+use crate::math::mending::{Mended, SurfaceError};
 use crate::math::{Surface, TriangleMesh, signed};
 use glam::{DQuat, DVec3};
 use std::path::Path;
@@ -22,25 +23,38 @@ const USUAL: &str = "diamond";
 /// Fails where the mesh makes no stone; the error has the path and the place.
 pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<ImportedDesign, FileError> {
     let label = path.display().to_string();
-    let MeshFile { format, surface, hint, statement, warnings, name, .. } =
+    let MeshFile { format, surface, hint, statement, mut notes, mut warnings, name, .. } =
         file::parse(bytes, &label, path.parent())?;
-    let mended = surface.mend().map_err(|error| FileError::new(&label, error))?;
+    let (mended, open) =
+        surface.mend_closed().map_err(|error| unmended(&warnings, &error).in_file(&label))?;
+    notes.extend(told_of(&mended));
+    warnings.extend(left_open(&open));
+    let chosen = ChosenPart::of(&mended, options.part, statement.is_some()).map_err(|f| f.in_file(&label))?;
+    notes.extend(chosen.notes);
     let name = Some(name).filter(|name| is_printable(name)).unwrap_or_else(|| "stone".to_owned());
     let file = File { hint, name, place: MeshPlace::of(format, options, statement) };
     let mut brought = match options.form {
-        MeshForm::Triangles => file.triangles(mended.surface, None),
+        MeshForm::Triangles => file.triangles(chosen.surface, None),
         MeshForm::Faceted => {
-            faceted_hull(mended.surface).map_err(impossible).and_then(|found| file.planes(&found))
+            faceted_hull(chosen.surface).map_err(impossible).and_then(|found| file.planes(&found))
         }
-        MeshForm::Found => match facets(mended.surface) {
+        MeshForm::Found => match facets(chosen.surface) {
             SurfaceKind::Convex(found) => file.planes(&found),
             SurfaceKind::Concave(surface) => file.triangles(surface, Some(NOT_CONVEX)),
         },
     }
     .map_err(|fault| fault.in_file(&label))?;
-    brought.notes.splice(0..0, told_of(&mended.mending));
+    brought.notes.splice(0..0, notes);
     brought.warnings.splice(0..0, warnings);
-    Ok(brought)
+    Ok(ImportedDesign { parts: chosen.parts, ..brought })
+}
+
+/// Returns the fault of a surface that cannot be mended, behind the warnings about what was left out of it: they may be the
+/// cause.
+fn unmended(warnings: &[String], error: &SurfaceError) -> Fault {
+    Fault::whole(
+        warnings.iter().map(|warning| format!("{warning}; ")).collect::<String>() + &error.to_string(),
+    )
 }
 
 /// The note on a mesh that is traced as triangles without a request for that.
@@ -158,14 +172,17 @@ fn unsaid() -> String {
 }
 
 /// Returns notes on the repairs of a mesh, where they exceed those that any file of triangles needs.
-fn told_of(mending: &Mending) -> Vec<String> {
+fn told_of(mended: &Mended) -> Vec<String> {
+    let mending = &mended.mending;
+    // A solid inside another is turned as well, as if it were a cavity.
+    let turned = if mended.parts.iter().any(|part| part.within.is_some()) { 0 } else { mending.turned };
     let count = |count: usize, what: &str| (count > 0).then(|| format!("{count} {what}"));
     let crack = (mending.crack > 0.0)
         .then(|| format!("cracks of up to {:.1e} of its unit were closed", mending.crack));
     [
         count(mending.copies, "copies of triangles are left out"),
         count(mending.degenerate, "triangles without an area are left out"),
-        count(mending.turned, "triangles that faced inward are turned"),
+        count(turned, "triangles that faced inward are turned"),
         count(mending.seams, "pieces were made of triangles whose edges had corners on them"),
         crack,
     ]

@@ -29,7 +29,7 @@ struct Room {
 }
 
 const ROOMS: [Room; 8] = [
-    Room { folder: "math/mending", door: &["Mended", "Mending", "SurfaceError"] },
+    Room { folder: "math/mending", door: &["Mended", "Mending", "OpenPiece", "SolidPart", "SurfaceError"] },
     Room {
         folder: "math/faceting",
         door: &[

@@ -99,6 +99,36 @@ fn the_size_of_a_mesh_is_told_and_may_be_given_by_its_unit_or_by_the_stone() {
 }
 
 #[test]
+fn one_of_several_bodies_is_chosen_by_its_number_or_name_in_every_command() {
+    let desk = Desk::new();
+    let body = |name: &str, height: u32, x: u32| {
+        let base = format!("v {x} -1 0\nv {} 0 0\nv {x} 1 0\nv {}.0 0 0\n", x + 1, x - 1);
+        let faces = "f -2 -3 -4 -5\nf -5 -4 -1\nf -4 -3 -1\nf -3 -2 -1\nf -2 -5 -1\n";
+        format!("o {name}\n{base}v {x} 0 {height}\n{faces}")
+    };
+    desk.write(
+        "two.obj",
+        &(body("low", 1, 5) + &body("high", 4, 20) + "v 0 0 9\nv 1 0 9\nv 0 1 9\nf -1 -2 -3\n"),
+    );
+    for command in COMMANDS {
+        for (part, read) in [("", "2 is read"), (" --part 1", "1 is read"), (" --part LOW", "1 is read")] {
+            let command = format!("{}{part}", command.replace("FILE", "two.obj"));
+            let (code, _, stderr) = desk.run(&command);
+            let list = "2 separate bodies are in the file: 1 `low` (6 triangles); 2 `high`";
+            assert!(code == 0 && stderr.contains(list) && stderr.contains(read), "{command}: {stderr}");
+            assert!(stderr.contains("is no closed surface and is left out"), "{command}: {stderr}");
+        }
+    }
+    let (code, _, stderr) = desk.run("info --part 3 two.obj");
+    assert!(
+        code != 0 && stderr.contains("two.obj: there is no body 3 in the file, which has 1 `low`"),
+        "{stderr}"
+    );
+    let (_, _, stderr) = desk.run("info two.obj");
+    assert!(stderr.contains("note: two.obj: --part NUMBER, --part NAME or --part all chooses"), "{stderr}");
+}
+
+#[test]
 fn what_is_kept_of_a_design_is_told_for_each_format_of_meshes() {
     let desk = Desk::new();
     for (line, kept) in [
