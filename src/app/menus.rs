@@ -6,6 +6,7 @@ use super::model::command::{Command, MENUS, Menu};
 use super::model::dialog::Then;
 use super::model::preset::{Known, PRESETS};
 use super::model::session::{HeldKeys, Session};
+use super::panels::row_focus;
 use super::scrolled::scrolled;
 use super::setup::PaintedBy;
 use crate::io::library::SCENES;
@@ -135,10 +136,10 @@ fn opened_before(model: &Model, actions: &mut Actions, ui: &mut Ui) {
 
 fn scenes_of_glass(actions: &mut Actions, ui: &mut Ui) {
     menu_button(ui, "Scene of glass", |ui| {
-        for Known { name, title, .. } in PRESETS {
+        for Known { name, title, .. } in &PRESETS {
             let about = "A preset that recreates a published demonstration of spectral refraction.";
-            let entry = ui.button(title).on_hover_text(about);
-            choose(actions, ui, &entry, FileAction::Ask(Then::Preset(name.to_owned())));
+            let entry = ui.button(*title).on_hover_text(about);
+            choose(actions, ui, &entry, FileAction::Ask(Then::Preset((*name).to_owned())));
         }
     });
 }
@@ -198,7 +199,7 @@ pub fn keys(model: &Model, actions: &mut Actions, ctx: &Context, is_picture_focu
         let is_meant =
             |c: &Command| c.shortcuts().any(|s| s.logical_key == key && modifiers.matches_exact(s.modifiers));
         let Some(command) = Command::ALL.into_iter().find(is_meant) else { continue };
-        if !modifiers.command && ctx.text_edit_focused() {
+        if !modifiers.command && !is_function(key) && row_focus::holds_keys(ctx) {
             continue;
         }
         // Space presses the button that has the focus, and follows a ray in the picture that has it where there are no copies
@@ -212,11 +213,16 @@ pub fn keys(model: &Model, actions: &mut Actions, ctx: &Context, is_picture_focu
     }
 }
 
+/// Returns whether a key types nothing, so that it acts wherever the focus is.
+fn is_function(key: Key) -> bool {
+    key.name().strip_prefix('F').is_some_and(|number| number.parse::<u8>().is_ok())
+}
+
 /// Returns the state of the held keys that change what views show.
 pub fn held_keys(ctx: &Context) -> HeldKeys {
     HeldKeys { other: is_down(ctx, Key::C), three: is_down(ctx, Key::Z) }
 }
 
 fn is_down(ctx: &Context, key: Key) -> bool {
-    !ctx.text_edit_focused() && ctx.input(|i| i.key_down(key) && i.modifiers.is_none())
+    !row_focus::holds_keys(ctx) && ctx.input(|i| i.key_down(key) && i.modifiers.is_none())
 }

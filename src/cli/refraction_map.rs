@@ -141,6 +141,7 @@ impl RefractionMaps {
             places: self.places,
             shades: self.picture.wavelengths,
             adapted: !self.picture.unadapted,
+            strength: studio.strength,
         };
         let film = Film::new(self.picture.size, pixel);
         let product = Product::RefractionMap(product);

@@ -122,7 +122,9 @@ fn keys(actions: &mut Actions, ui: &mut Ui) {
             };
             line("drag".into(), "Tilts the stone; with Shift or the right button turns it about its axis.");
             line("wheel".into(), "Zooms at the pointer; the middle button moves the picture.");
-            line("double click".into(), "Shows one view alone.");
+            line("double click".into(), "Shows one view alone. On the name or the slider of a row, it sets the row's default.");
+            line("Tab".into(), "Goes from number to number. A digit over a slider begins its number, Return takes it, and \
+                Escape restores the one before. Space holds a number that has a padlock.");
             line("arrows".into(), "Tilt the view that has the focus by 1°, with Shift by 5°. With Alt they move the \
                 picture. Comma and full stop turn the stone, + and - zoom, and Space follows the ray in the middle.");
             line("C held".into(), "Shows the other design of a comparison.");

@@ -3,7 +3,7 @@
 use super::answers::{answer, body, buttons_alone};
 use crate::app::model::action::{Actions, DialogAction};
 use crate::app::model::fitting::{FitOptions, FitRule, RetargetForm, StoneLight};
-use crate::app::panels::rows::{Number, choice_row, number_row};
+use crate::app::panels::rows::{ChoiceRow, Number, number_row};
 use crate::app::panels::stone_rows::material_choice;
 use crate::app::theme;
 use crate::cut::Retargeted;
@@ -52,10 +52,10 @@ pub fn show(form: &RetargetForm, actions: &mut Actions, ui: &mut Ui) {
 /// Draws the choices: the new material, the rule and its factor.
 fn options(form: &RetargetForm, actions: &mut Actions, ui: &mut Ui) {
     let mut options = form.options.clone();
-    if let Some(material) = material_choice(ui, ("New material", MATERIAL), &options.material) {
+    if let Some(material) = material_choice(ui, ("New material", MATERIAL), &options.material, None) {
         options.material = material;
     }
-    choice_row(ui, "Rule", RULE, options.rule.name(), |ui| {
+    ChoiceRow::new("Rule", RULE, options.rule.name()).show(ui, |ui| {
         for rule in FitRule::ALL {
             if ui.selectable_label(rule == options.rule, rule.name()).on_hover_text(rule.meaning()).clicked()
             {
@@ -67,7 +67,7 @@ fn options(form: &RetargetForm, actions: &mut Actions, ui: &mut Ui) {
         let own = form.found.as_ref().map_or(1.0, |found| found.factor);
         let before = options.factor.unwrap_or(own);
         let mut factor = before;
-        let number = Number { decimals: 4, speed: 0.001, range: 0.1..=10.0, unit: "" };
+        let number = Number { decimals: 4, speed: 0.001, range: 0.1..=10.0, unit: "", default: None };
         number_row(ui, ("Factor", FACTOR), number, &mut factor);
         if factor != before {
             options.factor = Some(factor);

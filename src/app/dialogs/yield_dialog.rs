@@ -4,7 +4,7 @@ use super::answers::{answer, body, buttons_alone};
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, DialogAction};
 use crate::app::model::fitting::{SizeBy, YieldForm, YieldOptions};
-use crate::app::panels::rows::{Number, choice_row, number_row};
+use crate::app::panels::rows::{ChoiceRow, Number, number_row};
 use crate::app::theme;
 use crate::cut::{Finished, FitLimit, Rough};
 use egui::{Grid, RichText, Ui, vec2};
@@ -58,9 +58,10 @@ pub fn show(model: &Model, form: &YieldForm, actions: &mut Actions, ui: &mut Ui)
 
 /// Draws the rows in which numbers are typed: the rough or the weight, and the girdle.
 fn numbers(options: &mut YieldOptions, ui: &mut Ui) {
-    let mm = |range: RangeInclusive<f64>| Number { decimals: 3, speed: 0.02, range, unit: " mm" };
-    let ct = || Number { decimals: 3, speed: 0.02, range: CARATS, unit: " ct" };
-    choice_row(ui, "Size by", "The rough or a weight sets the size.", options.by.name(), |ui| {
+    let mm =
+        |range: RangeInclusive<f64>| Number { decimals: 3, speed: 0.02, range, unit: " mm", default: None };
+    let ct = || Number { decimals: 3, speed: 0.02, range: CARATS, unit: " ct", default: None };
+    ChoiceRow::new("Size by", "The rough or a weight sets the size.", options.by.name()).show(ui, |ui| {
         for by in SizeBy::ALL {
             if ui.selectable_label(by == options.by, by.name()).on_hover_text(by.meaning()).clicked() {
                 options.by = by;

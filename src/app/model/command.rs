@@ -56,6 +56,8 @@ pub enum Command by keys {
     LayOut: "Space", "Scatter copies", "Scatters the copies in renders anew.";
     NextBehind: "G", "Next background", "Puts the next world or pattern behind renders.";
     AnotherLight: "Shift+G", "Another light", "Lights renders by another light and turns it, both at random.";
+    ResetLight: "", "Reset light",
+        "Sets light, background and head as they were when the document was opened.";
     Tiers: "Shift+T", "Table of tiers",
         "Opens a table below the views, in which tiers are added, placed and named.";
     BenchMode: "Shift+B", "Bench mode",
@@ -105,7 +107,7 @@ pub const MENUS: [Menu; 6] = [
             &[One, Two, Four],
             &[Wireframe, Facets, Bounces, Unresolved, Total, Strongest, Glare],
             &[LightPath],
-            &[Play, LayOut, NextBehind, AnotherLight],
+            &[Play, LayOut, NextBehind, AnotherLight, ResetLight],
             &[Tiers, BenchMode, Audit, Map, Search],
             &[Panels, FullScreen],
             &[ResetView, ResetLayout],

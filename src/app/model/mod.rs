@@ -13,6 +13,7 @@ pub mod cut_search;
 pub mod cutting;
 pub mod dialog;
 pub mod document;
+pub mod document_origin;
 pub mod export;
 pub mod export_sheet;
 pub mod exporting;
@@ -35,6 +36,7 @@ pub mod ordering;
 pub mod plan;
 pub mod preset;
 pub mod recovery;
+pub mod render_settings;
 pub mod saving;
 pub mod scene_fit;
 pub mod session;
@@ -48,10 +50,12 @@ pub use action::Action;
 pub use task::Task;
 pub use update::update;
 
+use crate::app::liquid::{LightMotion, Liquid};
 use crate::app::shows::Shows;
 use crate::app::studio::Which;
+use crate::cut::Cut;
 use crate::io::Failure;
-use crate::scene::{Companions, Pose, Specimen, View};
+use crate::scene::{Companions, Copies, Pose, Specimen, View};
 use document::Document;
 use framing::FramingFit;
 use glam::DVec3;
@@ -74,17 +78,13 @@ pub struct Model {
 }
 
 impl Model {
-    /// Opens the first design in a workspace as it was kept, but without the settings of a scene that was open.
+    /// Opens the first design in a workspace as it was kept, but without what was seen of the document that was open.
     ///
     /// # Errors
     /// Fails only where the program itself is broken: it comes with the cut and the light that it starts with.
     pub fn new(mut workspace: Workspace) -> Result<Self, Failure> {
-        let mut document = Document::first()?;
-        workspace.face_up();
-        (workspace.light, workspace.exposure) =
-            workspace.light_after_scene((workspace.light.clone(), workspace.exposure));
-        workspace.rest();
-        document.begin(&workspace.light, workspace.exposure, workspace.head);
+        let document = Document::first()?;
+        workspace.begin_views();
         let session = Session::new(&document, &workspace)?;
         Ok(Self { document, workspace, session })
     }
@@ -152,6 +152,19 @@ impl Model {
     pub fn is_alone(&self) -> bool {
         let Work { copies, companions, .. } = &self.document.work;
         copies.is_one_at_rest() && companions.is_empty() && self.session.motion.seconds == 0.0
+    }
+
+    /// Returns whether the document is a scene: several bodies, or a shape of glass, which is nothing without what is around it.
+    pub fn is_scene(&self) -> bool {
+        let Work { design, copies, companions, .. } = &self.document.work;
+        matches!(design.cut, Cut::Glass(_)) || *copies != Copies::default() || !companions.is_empty()
+    }
+
+    /// Returns the pane of liquid glass under its present light.
+    pub fn liquid(&self) -> Liquid {
+        let own = self.document.work.settings.liquid;
+        let moving = self.session.liquid_light.filter(|_| own.light_motion != LightMotion::Fixed);
+        Liquid { light_from: moving.unwrap_or(own.light_from), ..own }
     }
 
     /// Returns whether time can go on in renders: copies tumble only where no companion is in their way.

@@ -77,12 +77,14 @@ mod tests {
     use crate::app::model::update;
     use crate::app::model::workspace::Workspace;
     use crate::io::export::OutputFormat;
-    use crate::scene::Side;
+    use crate::scene::{Copies, Side};
 
     #[test]
     fn a_plate_alone_is_exported_in_the_phase_and_the_frame_in_which_it_is_shown() {
         let mut model = Model::new(Workspace::default()).unwrap();
         update(&mut model, FileAction::Ask(Then::Library("plate".to_owned())).into());
+        model.document.work.copies = Copies::default();
+        model.workspace.begin_views();
         let at_rest = export_plan(&model).shot(Shows::Render, 64);
         model.session.motion = Motion::at(0.7);
         let plan = export_plan(&model);

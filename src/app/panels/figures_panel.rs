@@ -20,7 +20,7 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui, widths: RangeIncl
     Panel::right("figures").resizable(true).default_size(280.0).size_range(widths).show(ui, |ui| {
         side_panels::head(actions, ui, PanelSide::Figures);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            pane_rows::show(&model.workspace, actions, ui);
+            pane_rows::show(model, actions, ui);
             ui.add_space(8.0);
             let whole = ui.scope(|ui| {
                 figures(model, actions, ui);

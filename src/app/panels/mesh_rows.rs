@@ -3,7 +3,7 @@
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, FileAction};
-use crate::app::panels::rows::{choice_row, named};
+use crate::app::panels::rows::{ChoiceRow, named};
 use crate::cut::Cut;
 use crate::cut::from_mesh::Up;
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
@@ -43,12 +43,11 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let Some(options) = model.mesh_options() else { return };
     form(&model.document.work.design.cut, options, actions, ui);
     let mut up = options.up;
-    let row = choice_row(ui, "Table faces", MEANING, &direction_name(up), |ui| {
+    ChoiceRow::new("Table faces", MEANING, &direction_name(up)).show(ui, |ui| {
         for (name, direction) in DIRECTIONS {
             ui.selectable_value(&mut up, direction, name);
         }
     });
-    row.on_hover_text(MEANING);
     actions.push_changed(&options.up, up, |up| FileAction::ReadMesh(MeshOptions { up, ..options }));
     unit(options, actions, ui);
     let parts = model.document.work.mesh.as_ref().map_or(&[][..], |mesh| &mesh.parts);

@@ -263,7 +263,11 @@ fn setting(
         |ui: &mut Ui, value: &mut f64, column: usize, (decimals, speed, unit): (usize, f64, &str)| {
             let width = WIDTHS[column];
             cell(ui, width, |ui| {
-                let shown = Number { decimals, speed, range: ANY, unit }.show(ui, (width - 8.0, grip), value);
+                let shown = Number { decimals, speed, range: ANY, unit, default: None }.show(
+                    ui,
+                    (width - 8.0, grip),
+                    value,
+                );
                 spoken(&shown, &format!("{} of {called}", HEADS[column].0));
             });
         };
@@ -283,7 +287,7 @@ fn setting(
 fn frosting((place, tier, called): (usize, &Tier, &str), grip: Id, ui: &mut Ui) -> Option<TierChange> {
     let (mut frosting, width) = (tier.frosting, WIDTHS[8]);
     cell(ui, width, |ui| {
-        let number = Number { decimals: 2, speed: 0.005, range: FROSTINGS, unit: "" };
+        let number = Number { decimals: 2, speed: 0.005, range: FROSTINGS, unit: "", default: None };
         let shown = number.show(ui, (width - 8.0, grip), &mut frosting);
         spoken(&shown, &format!("Frosting of {called}"));
     });

@@ -1,6 +1,6 @@
 //! The plot against tilt of one measure, toward several azimuths, each with the band in which it certainly lies.
 
-use super::rows::choice_row;
+use super::rows::ChoiceRow;
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::measure_tilt::{AZIMUTHS, MOST_TILT, TiltCurve, TiltOptions};
@@ -26,7 +26,7 @@ pub fn choices(options: &TiltOptions, actions: &mut Actions, ui: &mut Ui) {
     let mut now = options.clone();
     let shown = options.measure.map_or_else(|| ZONES.to_owned(), measure_words::name);
     let meaning = options.measure.map_or("The figures above at each tilt.", measure_words::meaning);
-    choice_row(ui, "Plotted", meaning, &shown, |ui| {
+    ChoiceRow::new("Plotted", meaning, &shown).show(ui, |ui| {
         ui.selectable_value(&mut now.measure, None, ZONES);
         for measure in measure_words::all() {
             let entry = ui.selectable_value(&mut now.measure, Some(measure), measure_words::name(measure));

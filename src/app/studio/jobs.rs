@@ -124,6 +124,7 @@ impl Shot {
             places: detail.places,
             shades: detail.shades,
             adapted: true,
+            strength: self.strength,
         };
         let quality = Quality { samples: Some(detail.samples), ..Quality::of_pictures(true) };
         self.job(Product::RefractionMap(product), quality)

@@ -113,9 +113,12 @@ fn four_cubes() {
 #[ignore = "writes a picture into docs/images/editor"]
 fn what_lies_behind() {
     let shown = [Shows::Render, Shows::Refraction, Shows::LiquidGlass, Shows::TracedPane];
-    let mut workspace = Workspace { behind: Some("page".into()), ..Workspace::default() };
-    workspace.panes.iter_mut().zip(shown).for_each(|(pane, shows)| pane.shows = shows);
-    draw(&mut window("cube.toml", &workspace), "backgrounds");
+    let mut bench = window("cube.toml", &Workspace::default());
+    bench.leave_one();
+    let model = &mut bench.harness.state_mut().model;
+    model.document.work.settings.background = Some("page".into());
+    model.workspace.panes.iter_mut().zip(shown).for_each(|(pane, shows)| pane.shows = shows);
+    draw(&mut bench, "backgrounds");
 }
 
 #[test]

@@ -232,11 +232,11 @@ fn the_fields_of_a_panel_stand_in_one_column() {
     let path = folder.path().join("planes.toml");
     std::fs::write(&path, cut_file::write(&tiers)).unwrap();
     for file in [None, pill, Some(path)] {
-        let mut workspace = Bench::small();
-        workspace.behind = Some("grid".into());
-        let mut bench =
-            Bench::sized(Setup { file: file.clone(), workspace, ..Setup::default() }, vec2(1200.0, 900.0));
+        let setup = Setup { file: file.clone(), workspace: Bench::small(), ..Setup::default() };
+        let mut bench = Bench::sized(setup, vec2(1200.0, 900.0));
         bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
+        bench.harness.state_mut().model.document.work.settings.background = Some("grid".into());
+        bench.harness.run_steps(3);
         let numbers = fields(&bench, Role::SpinButton);
         let numbers: Vec<_> = numbers.into_iter().filter(|(name, _)| !name.contains("Angle")).collect();
         assert!(numbers.len() > 5, "{numbers:?}");
@@ -269,8 +269,9 @@ fn nothing_is_red_while_nothing_is_wrong() {
     // A small window, because renders take long.
     let mut bench = Bench::sized(setup, vec2(900.0, 300.0));
     bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
-    let workspace = &mut bench.harness.state_mut().model.workspace;
-    (workspace.behind, workspace.strength) = (Some("grid".into()), 0.5);
+    bench.leave_one();
+    let settings = &mut bench.harness.state_mut().model.document.work.settings;
+    (settings.background, settings.strength) = (Some("grid".into()), 0.5);
     bench.look();
     bench.harness.state_mut().model.session.notes.warn("it was saved, but not all of it".into());
     let editor = bench.harness.state_mut();

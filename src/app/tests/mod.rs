@@ -22,6 +22,8 @@ mod maps;
 mod reading;
 mod recorder;
 mod rings;
+mod row_defaults;
+mod row_keys;
 mod scenes;
 mod searching;
 mod tier_hand;
@@ -29,7 +31,9 @@ mod tiers;
 mod views;
 
 use crate::app::editor::Editor;
+use crate::app::model::Model;
 use crate::app::model::choosing::{Choice, Question};
+use crate::app::model::render_settings::RenderSettings;
 use crate::app::model::workspace::{PaneLayout, Workspace};
 use crate::app::setup::Setup;
 use crate::app::shows::Shows;
@@ -37,6 +41,7 @@ use crate::app::studio::{Grade, Shot, Slot, Which};
 use crate::app::tasks::files::Chooser;
 use crate::app::views::gallery::Shown;
 use crate::cut::{Cut, RoundBrilliant};
+use crate::scene::Copies;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::path::PathBuf;
@@ -129,6 +134,14 @@ impl Bench {
             .with_step_dt(1.0 / 60.0)
             .build_eframe(|context| Editor::new(context, setup).unwrap());
         Self { harness, choices, opened }
+    }
+
+    /// Leaves of a scene of glass one shape at rest, without a background, under the program's light, in all views of the layout.
+    pub fn leave_one(&mut self) {
+        let Model { document, workspace, session } = &mut self.harness.state_mut().model;
+        (document.work.copies, document.work.settings) = (Copies::default(), RenderSettings::default());
+        workspace.begin_views();
+        session.motion.rest();
     }
 
     pub fn editor(&self) -> &Editor {

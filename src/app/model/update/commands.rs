@@ -1,7 +1,7 @@
 //! Commands: when each is possible or switched on, and its effect.
 
 use super::begin::compare_no_more;
-use super::{dialogs, edits, files, fitting, searching};
+use super::{begin, dialogs, edits, files, fitting, searching};
 use crate::app::model::Model;
 use crate::app::model::action::{DialogAction, Edit, FileAction};
 use crate::app::model::choosing::Purpose;
@@ -10,7 +10,9 @@ use crate::app::model::compare::Compared;
 use crate::app::model::dialog::{AboutForm, Dialog, Then};
 use crate::app::model::eye::Eye;
 use crate::app::model::meet_pick::MeetPick;
+use crate::app::model::render_settings::SettingChange;
 use crate::app::model::task::{Task, WindowTask};
+use crate::app::model::work::Work;
 use crate::app::model::workspace::PaneLayout;
 use crate::cut::Cut;
 use crate::picture::DrawnMarks;
@@ -89,9 +91,10 @@ impl Model {
         let workspace = &self.workspace;
         let overlay = |name| workspace.overlay.as_deref() == Some(name);
         match command {
-            Command::One => workspace.layout == PaneLayout::One,
-            Command::Two => workspace.layout == PaneLayout::Two,
-            Command::Four => workspace.layout == PaneLayout::Four,
+            // A view that is shown alone is one view, whatever the layout to which it goes back.
+            Command::One => workspace.shown().len() == 1,
+            Command::Two => workspace.shown().len() == 2,
+            Command::Four => workspace.shown().len() == 4,
             Command::Perspective => workspace.panes[self.active()].is_near,
             Command::EyeLeans => workspace.eye(self.active()).eye_leans,
             Command::Wireframe => overlay("wireframe"),
@@ -141,6 +144,7 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
         Command::Retarget => fitting::open_retarget(model, tasks),
         Command::Yield => fitting::open_yield(model),
         Command::AnotherLight => another_light(model),
+        Command::ResetLight => edits::edit(model, Edit::ResetLight),
         Command::LayOut => edits::edit(model, Edit::LayOut(model.document.work.copies.poses.len())),
         Command::Search => searching::toggle(model, tasks),
         Command::Undo if model.meet_pick().is_some() => {
@@ -149,7 +153,7 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
         }
         Command::Undo | Command::Redo => {
             searching::interrupt(model, tasks);
-            let beside = model.document.work.companions.clone();
+            let Work { companions: beside, origin, .. } = model.document.work.clone();
             if command == Command::Undo {
                 model.document.undo()
             } else {
@@ -159,7 +163,10 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
             edits::note_meet_faults(model);
             // The step may have reordered the tiers.
             model.session.picking = None;
-            if model.document.work.companions != beside {
+            if model.document.work.origin != origin {
+                begin::come_back(model, tasks, origin);
+                edits::note_meet_faults(model);
+            } else if model.document.work.companions != beside {
                 // The step may have changed which stone of the scene is edited.
                 model.session.framing.follow(&model.document);
             }
@@ -173,11 +180,11 @@ pub fn run(model: &mut Model, tasks: &mut Vec<Task>, command: Command) {
 fn another_light(model: &mut Model) {
     model.session.lights_drawn += 1;
     let [place, turn] = [0, 1].map(|k| scattered(2 * model.session.lights_drawn + k));
-    let present = &model.document.work.light;
-    let others: Vec<&str> = LIGHTS.into_iter().filter(|name| *name != present).collect();
+    let settings = &mut model.document.work.settings;
+    let others: Vec<&str> = LIGHTS.into_iter().filter(|name| *name != settings.light).collect();
     let name = others[(place * others.len() as f64) as usize % others.len()];
-    model.workspace.light_turn = (360.0 * turn - 180.0).round();
-    edits::edit(model, Edit::Light(name.to_owned()));
+    settings.light_turn = (360.0 * turn - 180.0).round();
+    edits::edit(model, Edit::Setting(SettingChange::Light(name.to_owned())));
 }
 
 /// Carries out a command that changes only the views.
@@ -217,7 +224,7 @@ fn look(model: &mut Model, command: Command) {
         Command::Split => workspace.is_split = !workspace.is_split,
         Command::NoCompare => compare_no_more(model),
         Command::Play => session.motion.is_on = !session.motion.is_on,
-        Command::NextBehind => workspace.next_behind(),
+        Command::NextBehind => document.work.settings.next_background(),
         Command::Panels => workspace.hides_panels = !workspace.hides_panels,
         Command::BenchMode => workspace.cutting.is_open = !workspace.cutting.is_open,
         Command::Audit => workspace.shows_audit = !workspace.shows_audit,

@@ -99,7 +99,7 @@ fn noted(model: &mut Model, note: NoteAction) {
 }
 
 fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
-    let Model { workspace, session, .. } = model;
+    let Model { session, .. } = model;
     match computed {
         Computed::Light(name, loaded) => {
             match loaded {
@@ -110,8 +110,6 @@ fn computed_is(model: &mut Model, tasks: &mut Vec<Task>, computed: Computed) {
                 Err(why) => session.notes.trouble(format!("{why}; the light stays as it was")),
             }
             (session.light.tried, session.light.loading) = (name, None);
-            // The next start begins with the last light that could be loaded.
-            workspace.light.clone_from(&session.light.name);
         }
         Computed::Figures(which, order, grade, figures) => {
             // The document or the comparison may have ended after the figures were ordered.
@@ -165,11 +163,12 @@ fn end_frame(model: &mut Model, tasks: &mut Vec<Task>, end: FrameEnd) {
     model.workspace.eye.settle();
     model.workspace.panes.iter_mut().filter_map(|p| p.own.as_mut()).for_each(super::eye::Eye::settle);
     model.session.views.note(&model.workspace, end.now);
-    match model.session.search.running() {
+    let has_changed = match model.session.search.running() {
         // All changes by a search become one step when it ends.
         Some(running) => model.document.settle_with(running.before()),
         None => model.document.settle(),
     };
+    model.session.notes.settle(has_changed);
     if model.session.safe.noted != model.document.work {
         safe::note(model, tasks);
     }
