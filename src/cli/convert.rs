@@ -1,5 +1,6 @@
 //! `convert`: writes a stone's design in another format.
 
+use super::comments;
 use super::console::say;
 use super::meets::KnownMeets;
 use super::mesh_options::MeshArguments;
@@ -27,6 +28,9 @@ pub struct Convert {
     /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
     #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
     stone: Option<Size>,
+    /// Write over the file that is read even if its comments are lost
+    #[arg(long)]
+    drop_comments: bool,
     #[command(flatten)]
     mesh: MeshArguments,
 }
@@ -42,6 +46,9 @@ impl Convert {
                 endings.join(", ")
             ))
         })?;
+        if !self.drop_comments {
+            comments::keep(&self.input, &self.output, "give another name, or --drop-comments")?;
+        }
         let mut specimen =
             LoadedSpecimen::load(&self.input, self.mesh.sized(self.stone))?.made_of(None, self.stone)?;
         if self.meets {

@@ -63,7 +63,7 @@ impl ExportArguments {
         let all: Vec<Outputs> = self.files.iter().map(|file| self.outputs(file, &pictures)).collect();
         self.distinct(&all)?;
         all.iter().try_for_each(Outputs::check)?;
-        each_file(&self.files, |file| {
+        each_file(&self.files, false, |file| {
             let specimen = self.light.specimen(file, self.mesh.sized(self.light.stone))?;
             let mut renderer = Renderer::new(Card::Machine);
             let mut viewing = self.light.viewing(&specimen, &self.view, &renderer)?;

@@ -60,7 +60,7 @@ pub struct Info {
 impl Info {
     pub fn run(&self) -> Result<(), Failure> {
         let (mesh, material) = (self.mesh.sized(self.stone), self.material.as_deref());
-        each_file(&self.files, |file| {
+        each_file(&self.files, self.json, |file| {
             if is_scene(file) {
                 let assembly = load_assembly(file, material, self.stone, mesh)?;
                 for (name, is_asked) in [("--meets", self.meets), ("--audit", self.audit)] {
@@ -154,7 +154,9 @@ fn scene_table(assembly: &Assembly) -> String {
     if let Some(light) = &assembly.light {
         let _ = writeln!(text, "  {:<28}{}", "light", light.display());
     }
-    let _ = writeln!(text, "  {:<28}{}", "weight", weight_of_all(assembly));
+    if !assembly.scene.instances.is_empty() {
+        let _ = writeln!(text, "  {:<28}{}", "weight", weight_of_all(assembly));
+    }
     assembly.ring.iter().for_each(|ring| ring_rows(ring, &mut text));
     let _ = write!(text, "\n  {:<20}{:<20}{:>8}{:>12}", "cut", "material", "mm", "weight");
     let _ = write!(text, "{:>9}{:>9}{:>9}", "x mm", "y mm", "z mm");

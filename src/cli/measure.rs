@@ -93,7 +93,7 @@ impl Measure {
             ));
         }
         let scoped = self.scope.as_deref().map_or_else(|| Ok(Scoped::aset()), scoped)?;
-        each_file(&self.files, |file| {
+        each_file(&self.files, self.json, |file| {
             let specimen = self.light.specimen(file, self.mesh.sized(self.light.stone))?;
             if self.deviations {
                 return self.list_deviations(&specimen);

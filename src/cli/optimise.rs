@@ -1,5 +1,6 @@
 //! `optimise`: finds a better design by a goal, and prints which measures rose and which fell.
 
+use super::comments;
 use super::console::{print, say, written};
 use super::optimise_text::{json_value, text};
 use super::options::number;
@@ -144,6 +145,7 @@ impl OptimiseArguments {
         let format = self.format()?;
         let plot = self.plot.as_deref().map(PlotFile::new).transpose()?;
         self.out.iter().chain(&self.plot).try_for_each(|path| check_writable(path))?;
+        self.out.iter().try_for_each(|out| comments::keep(&self.file, out, "give another name"))?;
         let specimen = LoadedSpecimen::load(&self.file, crate::io::mesh_options::MeshOptions::default())?;
         let specimen = specimen.made_of(self.material.as_deref(), self.stone)?;
         let path = specimen.path.clone();

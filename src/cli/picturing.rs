@@ -86,7 +86,11 @@ impl<'a> PictureSetup<'a> {
         )?;
         if let Some(seconds) = options.moment {
             let seconds = within("moment", seconds, 0.0, 1e5)?;
-            assembly = assembly.at_moment(seconds, options.movement)?;
+            let refused = |error: Failure| match error {
+                Failure::Input(message) => Failure::Input(format!("{message} (leave out --moment)")),
+                other => other,
+            };
+            assembly = assembly.at_moment(seconds, options.movement).map_err(refused)?;
         }
         assembly.scene.instances.iter().for_each(|stone| note_colour(&stone.material));
         let own = assembly.light.as_ref().map(|light| light.display().to_string());

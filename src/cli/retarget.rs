@@ -1,5 +1,6 @@
 //! `retarget`: fits a design to another material, and measures the light of both.
 
+use super::comments;
 use super::console::{json, print, say};
 use super::mesh_options::MeshArguments;
 use super::options::{checked_wavelength, extrapolation, number};
@@ -99,6 +100,7 @@ impl RetargetArguments {
             })
         });
         let format = format.transpose()?;
+        self.out.iter().try_for_each(|out| comments::keep(&self.file, out, "give another name"))?;
         let specimen = LoadedSpecimen::load(&self.file, self.mesh.options())?;
         let path = specimen.path.clone();
         let (material, _) = asked_material(&self.material)?;

@@ -35,12 +35,15 @@ impl LoadedSpecimen {
     /// Reads a design, or takes by its name a cut that comes with the program, and builds the stone. Prints notes and
     /// warnings about it.
     pub fn load(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
-        let BuiltDesign { path, made, remarks, parts } = BuiltDesign::load(file, mesh)?;
+        let BuiltDesign { path, made, remarks, parts, has_other_reading } = BuiltDesign::load(file, mesh)?;
         remarks.iter().for_each(|remark| say(remark));
         if !parts.is_empty() {
             say(&format!(
                 "note: {path}: --part NUMBER, --part NAME or --part all chooses what is read of it"
             ));
+        }
+        if has_other_reading {
+            say(&format!("note: {path}: --as and --up choose how it is read"));
         }
         Ok(Self { path, made })
     }

@@ -234,7 +234,9 @@ impl Assembly {
 
     /// Returns the weight of all stones together, in carats; `None` if one has no density.
     pub fn carats(&self) -> Option<f64> {
-        self.scene.instances.iter().map(|stone| stone.carats(self.scene.unit_mm)).sum()
+        // A sum of no numbers begins at -0.
+        let mut stones = self.scene.instances.iter().map(|stone| stone.carats(self.scene.unit_mm));
+        stones.try_fold(0.0, |sum, carats| Some(sum + carats?))
     }
 }
 

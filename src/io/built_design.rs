@@ -23,6 +23,8 @@ pub struct BuiltDesign {
     pub remarks: Vec<String>,
     /// How the remarks call the solids of a mesh that has several; empty for any other design.
     pub parts: Vec<String>,
+    /// True for a mesh that other options would read in another way, as its remarks say.
+    pub has_other_reading: bool,
 }
 
 impl Deref for BuiltDesign {
@@ -70,14 +72,14 @@ impl BuiltDesign {
 
     fn of(
         path: String,
-        ImportedDesign { design, notes, warnings, parts, .. }: ImportedDesign,
+        ImportedDesign { design, notes, warnings, parts, has_other_reading, .. }: ImportedDesign,
     ) -> Result<Self, Failure> {
         let made = Specimen::new(design).map_err(|e| Failure::Input(format!("{path}: {e}")))?;
         let notes = notes.iter().map(|note| format!("note: {path}: {note}"));
         let unusual = made.unusual.iter().map(ToString::to_string);
         let warnings = warnings.into_iter().chain(unusual).chain(made.warnings.iter().cloned());
         let remarks = notes.chain(warnings.map(|w| format!("warning: {path}: {w}"))).collect();
-        Ok(Self { path, made, remarks, parts })
+        Ok(Self { path, made, remarks, parts, has_other_reading })
     }
 }
 

@@ -130,7 +130,7 @@ pub fn write(
     if pages.len() > 1 && super::is_standard(path) {
         let count = pages.len();
         return Err(Failure::Usage(format!(
-            "--out -: the sheet has {count} pages; write it as pdf, or to a file"
+            "the sheet has {count} pages, and standard output takes one; write it as pdf, or to a file"
         )));
     }
     let mut files = vec![];

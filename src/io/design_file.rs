@@ -126,10 +126,7 @@ pub fn read_with(path: &Path, options: MeshOptions) -> Result<ImportedDesign, Fi
     }
     .map_err(named)?;
     if options.is_given() {
-        brought.notes.push(
-            "the direction up, the form, the unit and the body are for meshes and have no effect on this design"
-                .to_owned(),
-        );
+        brought.notes.push("the options of meshes have no effect on this design".to_owned());
     }
     Ok(brought)
 }

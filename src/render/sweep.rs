@@ -3,7 +3,7 @@
 use super::job::{Job, MeasuresProduct, Product, Quality};
 use super::renderer::{RenderError, Renderer, TakenMeasures};
 use super::sweep_key::{PERCENT_OF_SIDE, SweepKey};
-use super::{Card, Unfit, Wanted};
+use super::{Card, Wanted};
 use crate::cut::{
     Cut, Design, DesignError, MachineSetting, MaterialError, MaterialRef, MeetError, Proportion, ScaleError,
     scaled,
@@ -196,13 +196,7 @@ pub enum SweepError {
 impl SweepError {
     /// Returns whether the design is at fault, whatever is varied and measured.
     pub fn is_of_design(&self) -> bool {
-        matches!(
-            self,
-            Self::NotConvex(_)
-                | Self::Specimen(_)
-                | Self::FacetComes { .. }
-                | Self::Render(RenderError::Unfit(Unfit::Frosted))
-        )
+        matches!(self, Self::NotConvex(_) | Self::Specimen(_) | Self::FacetComes { .. })
     }
 }
 

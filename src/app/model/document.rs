@@ -114,7 +114,7 @@ impl Document {
     /// # Errors
     /// Fails where the file cannot be read, is no design, or makes no stone.
     pub fn open(path: &Path, mesh: MeshOptions) -> Result<Self, FileError> {
-        let ImportedDesign { mut design, notes, warnings, doubt, parts } =
+        let ImportedDesign { mut design, notes, warnings, doubt, parts, .. } =
             design_file::read_with(path, mesh)?;
         adopt_meets(&mut design);
         let mut document = Self::new(design, Some(path.to_owned()))

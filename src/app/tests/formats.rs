@@ -146,7 +146,7 @@ fn a_solid_that_is_not_convex_is_shown_by_rays_and_measured() {
             && editor.model.session.measured.figures.contains_key(&Which::Present)
     });
     assert!(bench.harness.query_by_label_contains("Triangles of a mesh").is_some());
-    assert!(bench.harness.query_by_label_contains("it is not convex; --as faceted reads").is_some());
+    assert!(bench.harness.query_by_label_contains("it is not convex; read as a faceted stone").is_some());
     let picture = bench.picture(0);
     assert!(picture.iter().any(|p| p != &picture[0]));
     let figures = &bench.editor().model.session.measured.figures[&Which::Present];

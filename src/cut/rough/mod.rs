@@ -74,8 +74,8 @@ pub enum RoughError {
     },
     /// A thickness of the girdle where the body has no girdle between planes.
     #[error(
-        "the girdle of a stone that is not convex keeps its share of the size; leave out --girdle-mm, or change the girdle in \
-         the cut file"
+        "the girdle of a stone that is not convex keeps its share of the size; give no thickness of the girdle, or change the girdle \
+         in the cut file"
     )]
     GirdleOfMesh,
     /// A body within a smooth surface.

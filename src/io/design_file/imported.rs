@@ -15,11 +15,15 @@ pub struct ImportedDesign {
     pub doubt: Option<bool>,
     /// How messages call the solids of a mesh that has several, in the order of their numbers; empty for any other design.
     pub parts: Vec<String>,
+    /// True for a mesh whose notes say that other [`MeshOptions`](crate::io::mesh_options::MeshOptions) read it in another
+    /// way.
+    pub has_other_reading: bool,
 }
 
 impl ImportedDesign {
     /// Wraps a design without notes and warnings.
     pub fn of(design: Design) -> Self {
-        Self { design, notes: vec![], warnings: vec![], doubt: None, parts: vec![] }
+        let parts = vec![];
+        Self { design, notes: vec![], warnings: vec![], doubt: None, parts, has_other_reading: false }
     }
 }

@@ -102,7 +102,7 @@ impl MeasureReport<'_> {
         let interval = |of: Interval| json!({ "least": of.least, "most": of.most });
         let measures: Map<String, Value> =
             self.by_name().map(|(name, of)| (name.to_string(), interval(of))).collect();
-        json!({
+        let mut value = json!({
             "file": viewing.file,
             "name": viewing.specimen.design.name,
             "measures": measures,
@@ -121,6 +121,10 @@ impl MeasureReport<'_> {
             "rock_deg": self.settings.pattern.and_then(|pattern| pattern.rock_deg),
             "polarised": viewing.polarised,
             "view": seen_from(&viewing.viewpoint),
-        })
+        });
+        if viewing.specimen.body.is_frosted() {
+            value["as_polished"] = json!(true);
+        }
+        value
     }
 }

@@ -58,12 +58,12 @@ fn unmended(warnings: &[String], error: &SurfaceError) -> Fault {
 }
 
 /// The note on a mesh that is traced as triangles without a request for that.
-const NOT_CONVEX: &str = "it is not convex; --as faceted reads the convex stone around it";
+const NOT_CONVEX: &str = "it is not convex; read as a faceted stone it would be the convex stone around it";
 
 /// Returns the message on why a mesh cannot be read as a faceted stone, and what to do.
 fn impossible(error: TooCurved) -> Fault {
     Fault::whole(format!(
-        "it cannot be read as a faceted stone: {error}; save a coarser mesh, or read it with --as triangles"
+        "it cannot be read as a faceted stone: {error}; save a coarser mesh, or read it as triangles"
     ))
 }
 
@@ -75,8 +75,8 @@ fn changed(change: &Change, tolerance: f64, scale: f64) -> String {
     format!(
         "the mesh bends inward at {} edges, by up to {sharpest:.1} degrees, and is read as the convex stone that it \
          stands for: the volume changes by {} %, the deepest point of the mesh lies {deepest:.4} girdle radii \
-         below the stone's facets, and corners within {tolerance:.1e} girdle radii of a plane share a facet; --as \
-         triangles keeps the mesh as it is",
+         below the stone's facets, and corners within {tolerance:.1e} girdle radii of a plane share a facet; read as \
+         triangles the mesh would stay as it is",
         change.bent,
         signed(volume, 3)
     )
@@ -105,6 +105,7 @@ impl File {
             "{count} facets were found; no corner lies farther from them than {deviation:.1e} girdle radii"
         ));
         remarks.is_doubtful = made.doubt.is_some();
+        remarks.has_other_reading = found.change.is_some() || made.doubt.is_some();
         remarks.notes.extend(found.change.map(|change| changed(&change, found.tolerance, scale)));
         remarks.notes.extend(made.doubt.map(|doubt| doubtful(made.up, doubt.other)));
         let brought = self.brought(Cut::Planes(facets), scale, remarks)?;
@@ -131,6 +132,7 @@ impl File {
         if let (Some(known), Some(diameter_mm)) = (self.place.scale, &mut self.place.diameter_mm) {
             *diameter_mm *= known / scale;
         }
+        remarks.has_other_reading = why.is_some();
         remarks.notes.extend(why.map(str::to_owned));
         remarks.notes.push(format!("it is traced as {} triangles", shape.surface().triangles.len()));
         self.brought(Cut::Mesh(shape), scale, remarks)
@@ -139,14 +141,15 @@ impl File {
     /// Makes the design of a cut, with `scale` girdle radii per unit of the file.
     fn brought(self, cut: Cut, scale: f64, mut remarks: MeshRemarks) -> Result<ImportedDesign, Fault> {
         let diameter_mm = self.place.diameter_mm(scale, &mut remarks)?;
-        let MeshRemarks { mut notes, mut warnings, is_doubtful } = remarks;
+        let MeshRemarks { mut notes, mut warnings, is_doubtful, has_other_reading } = remarks;
         let (material, why) = self.material(0.5 * diameter_mm * scale);
         match why {
             Ok(note) => notes.extend(note),
             Err(warning) => warnings.push(warning),
         }
         let design = Design { name: self.name, source: None, notes: None, material, diameter_mm, cut };
-        Ok(ImportedDesign { notes, warnings, doubt: Some(is_doubtful), ..ImportedDesign::of(design) })
+        let doubt = Some(is_doubtful);
+        Ok(ImportedDesign { notes, warnings, doubt, has_other_reading, ..ImportedDesign::of(design) })
     }
 
     /// Returns the material that the file states, with a note where it states none, or a warning where the library
@@ -265,7 +268,7 @@ mod tests {
         assert!(matches!(open(ball.clone(), MeshForm::Found).unwrap().design.cut, Cut::Mesh(_)));
         let error = open(ball, MeshForm::Faceted).unwrap_err().to_string();
         assert!(
-            error.contains("cannot be read as a faceted stone") && error.contains("--as triangles"),
+            error.contains("cannot be read as a faceted stone") && error.contains("read it as triangles"),
             "{error}"
         );
     }

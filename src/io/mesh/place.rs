@@ -24,6 +24,8 @@ pub(super) struct MeshRemarks {
     pub warnings: Vec<String>,
     /// True where the table may face another way than the direction that was taken.
     pub is_doubtful: bool,
+    /// True where notes say how else the mesh may be read.
+    pub has_other_reading: bool,
 }
 
 /// The known direction and size of a stone before its shape is examined.
@@ -135,15 +137,14 @@ fn changes(statement: &Statement, up: DVec3, scale: f64, is_size_kept: bool) -> 
 
 /// Returns the note on a direction that was found, where another is nearly as likely.
 pub(super) fn doubtful(up: DVec3, other: DVec3) -> String {
-    let option = axis(other);
     format!(
-        "its shape does not show clearly which way its table faces: {} was chosen, and {option} is nearly as \
-            likely; --up {option} chooses that, as does Table faces in the editor",
-        axis(up)
+        "its shape does not show clearly which way its table faces: {} was chosen, and {} is nearly as likely",
+        axis(up),
+        axis(other)
     )
 }
 
-/// Returns a direction in the form that `--up` takes.
+/// Returns a direction in the form in which it can be given.
 fn axis(direction: DVec3) -> String {
     let named = [("x", DVec3::X), ("y", DVec3::Y), ("z", DVec3::Z)];
     let is = |(name, axis): &(&str, DVec3)| match () {

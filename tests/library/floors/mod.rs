@@ -399,6 +399,46 @@ fn a_room_that_shows_its_inside_and_a_guest_that_reaches_there_would_be_seen() {
     assert_eq!(taken_from("use crate::io::mesh_options::Up;", "io::mesh"), [""; 0]);
 }
 
+/// Returns the texts of code that name a flag of the command line.
+fn flags(text: &str) -> Vec<String> {
+    let code = untested(text);
+    let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
+    let flag = |line: &str| {
+        let mut pieces = line.split("--").skip(1);
+        pieces.any(|rest| rest.starts_with(|c: char| c.is_ascii_lowercase()))
+    };
+    lines.filter(|line| flag(line)).map(|line| line.trim().to_owned()).collect()
+}
+
+#[test]
+fn a_text_that_names_a_flag_would_be_seen() {
+    assert_eq!(
+        flags("let a = \"leave out --moment\";\n// --up\nb - -c;\n"),
+        ["let a = \"leave out --moment\";"]
+    );
+    assert!(flags("a;\n#[cfg(test)]\nmod tests {\n    \"--up\";\n}\n").is_empty());
+}
+
+#[test]
+fn no_text_of_the_library_names_a_flag() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let is_of_program = |path: &Path| {
+        let inside = path.strip_prefix(&src).unwrap();
+        ["cli", "app", "main.rs"].iter().any(|part| inside.starts_with(part))
+            || inside.components().any(|part| part.as_os_str().to_string_lossy().starts_with("tests"))
+    };
+    let files: Vec<PathBuf> = sources(&src).into_iter().filter(|path| !is_of_program(path)).collect();
+    assert!(files.len() > 100);
+    let found: Vec<String> = files
+        .iter()
+        .flat_map(|path| {
+            let named = flags(&std::fs::read_to_string(path).unwrap());
+            named.into_iter().map(move |text| format!("{}: {text}", path.display()))
+        })
+        .collect();
+    assert!(found.is_empty(), "the program adds flags to what the library says: {found:#?}");
+}
+
 #[test]
 fn an_import_that_runs_up_would_be_seen() {
     assert_eq!(imports("use crate::picture::Film; use crate::io; // and crate::cli"), ["picture", "io"]);

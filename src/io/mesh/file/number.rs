@@ -1,6 +1,6 @@
 //! NumberReader of text formats, with a decimal point, or with the decimal comma that some programs write in some countries.
 
-use crate::io::asc::number::Token;
+use crate::io::numbers::Token;
 use crate::io::file_error::Fault;
 
 /// The most characters of a token that a message quotes.

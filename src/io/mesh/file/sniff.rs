@@ -1,6 +1,6 @@
 //! Recognises the mesh format of a file by its first bytes.
 
-use crate::io::asc::number::Token;
+use crate::io::numbers::Token;
 use crate::io::decoding::{in_utf8, with_line_feeds};
 
 /// The mesh formats that are read.
