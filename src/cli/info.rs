@@ -6,6 +6,7 @@ use super::console::{json, print, say};
 use super::meets::KnownMeets;
 use super::mesh_options::MeshArguments;
 use super::specimen::{LoadedSpecimen, load_assembly, weight};
+use crate::cut::from_mesh::FacetError;
 use crate::cut::{
     AlongAxes, Audit, Cut, MaterialRef, MeshHeights, ProportionReport, Size, Spread, Unit, tier_stem,
 };
@@ -275,11 +276,12 @@ fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
     value["edges"] = json!(polytope.edge_count());
     value["vertices"] = json!(polytope.vertices().iter().map(|v| v.to_array()).collect::<Vec<_>>());
     let facets = polytope.facets().iter().zip(stone.names());
-    value["facets"] = facets.map(|(facet, name)| facet_json(polytope, facet, name)).collect();
+    value["facets"] =
+        facets.map(|(facet, name)| facet_json(polytope, facet, name, specimen.error(name))).collect();
     Ok(value)
 }
 
-fn facet_json(polytope: &Polytope, facet: &Facet, name: &str) -> Value {
+fn facet_json(polytope: &Polytope, facet: &Facet, name: &str, error: Option<&FacetError>) -> Value {
     let n = facet.plane.normal;
     let across = n.truncate();
     let mut value = json!({
@@ -292,6 +294,10 @@ fn facet_json(polytope: &Polytope, facet: &Facet, name: &str) -> Value {
         "area": polytope.facet_area(facet),
         "corners": facet.outline,
     });
+    if let Some(error) = error {
+        value["slope_error_deg"] = json!(error.slope_deg);
+        value["azimuth_error_deg"] = json!(error.azimuth_deg);
+    }
     if facet.frosting > 0.0 {
         value["frosting"] = json!(facet.frosting);
     }
@@ -403,13 +409,22 @@ fn size_of_solid(
 /// Returns a line for each facet, below a line of headings; `None` of a body without facets to list.
 fn facet_table(value: &Value) -> Option<String> {
     let facets = value["facets"].as_array()?;
+    let is_scan = facets.iter().any(|facet| facet["slope_error_deg"].is_number());
     let mut text = format!("  {:<18}{:>10}{:>11}{:>12}", "facet", "slope deg", "azimuth", "area");
+    if is_scan {
+        let _ = write!(text, "{:>14}{:>14}", "slope error", "azimuth error");
+    }
     for facet in facets {
         let number = |key: &str| facet[key].as_f64().unwrap_or(f64::NAN);
         let name = facet["name"].as_str().unwrap_or_default();
         let (slope, azimuth) = (number("slope_deg"), shown_azimuth(number("azimuth_deg")));
         let area = number("area");
         let _ = write!(text, "\n  {name:<18}{slope:>10.4}{azimuth:>11}{area:>12.6}");
+        if is_scan {
+            let error =
+                |key: &str| facet[key].as_f64().map_or_else(|| "-".to_owned(), |error| fixed(error, 4));
+            let _ = write!(text, "{:>14}{:>14}", error("slope_error_deg"), error("azimuth_error_deg"));
+        }
     }
     Some(text)
 }

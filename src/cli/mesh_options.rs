@@ -1,7 +1,7 @@
 //! The options of every command that reads meshes.
 
 use crate::cut::Size;
-use crate::cut::from_mesh::Up;
+use crate::cut::from_mesh::{Evening, Up};
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use clap::{Args, ValueEnum};
 use glam::DVec3;
@@ -22,17 +22,22 @@ pub struct MeshArguments {
     /// The solid that is read of a mesh that has several: its number, its name, or all [default: the largest]
     #[arg(long, value_name = "PART", value_parser = part)]
     part: Option<MeshPart>,
+    /// Keep the facets of a mesh as they are found. Otherwise a mesh that is symmetric except for its noise becomes a stone that is
+    /// exactly symmetric, with a note
+    #[arg(long)]
+    as_found: bool,
 }
 
 impl MeshArguments {
     /// Returns the mesh options, with defaults for those that are not given.
     pub fn options(self) -> MeshOptions {
-        let Self { up, form, unit, part } = self;
+        let Self { up, form, unit, part, as_found } = self;
         MeshOptions {
             up: up.unwrap_or_default(),
             form: form.unwrap_or_default(),
             unit: unit.unwrap_or_default(),
             part: part.unwrap_or_default(),
+            evening: if as_found { Evening::AsFound } else { Evening::WhereLikely },
         }
     }
 
@@ -52,7 +57,8 @@ impl MeshArguments {
         let [unit, part] = [self.unit.map(|unit| unit.to_string()), self.part.map(|part| part.to_string())];
         let all =
             [words("--up", up), words("--as", form), words("--unit", unit), words("--part", part)];
-        all.into_iter().flatten().flatten().collect()
+        let as_found = self.as_found.then(|| "--as-found".to_owned());
+        all.into_iter().flatten().flatten().chain(as_found).collect()
     }
 }
 

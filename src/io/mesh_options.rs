@@ -2,7 +2,7 @@
 //! triangles stand for flat facets, nor which of several solids is meant, nor, in most formats, how long its unit is.
 
 use crate::cut::Size;
-use crate::cut::from_mesh::Up;
+use crate::cut::from_mesh::{Evening, Up};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::fmt::{self, Display, Formatter};
@@ -20,6 +20,8 @@ pub struct MeshOptions {
     pub unit: MeshUnit,
     /// The solid that is read of a mesh that has several.
     pub part: MeshPart,
+    /// Whether planes are given the symmetry that they have except for noise.
+    pub evening: Evening,
 }
 
 impl MeshOptions {
@@ -34,7 +36,7 @@ impl MeshOptions {
     /// Returns whether any option is given that only meshes have.
     pub fn is_given(self) -> bool {
         let is_unit_given = matches!(self.unit, MeshUnit::Millimetres(_));
-        self.up != Up::Found || self.form != MeshForm::Found || self.part != MeshPart::Found || is_unit_given
+        Self { unit: MeshUnit::Found, ..self } != Self::default() || is_unit_given
     }
 }
 

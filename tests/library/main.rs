@@ -38,6 +38,7 @@ mod patterns;
 mod polytope;
 mod reference;
 mod refraction;
+mod scans;
 mod searching;
 mod sharing;
 mod sheet;

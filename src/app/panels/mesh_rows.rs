@@ -5,7 +5,7 @@ use crate::app::model::Model;
 use crate::app::model::action::{Actions, FileAction};
 use crate::app::panels::rows::{ChoiceRow, named};
 use crate::cut::Cut;
-use crate::cut::from_mesh::Up;
+use crate::cut::from_mesh::{Evening, Up};
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use egui::Ui;
 use glam::DVec3;
@@ -54,18 +54,20 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     if !parts.is_empty() {
         part(parts, options, actions, ui);
     }
+    if matches!(model.document.work.design.cut, Cut::Planes(_)) {
+        as_found(options, actions, ui);
+    }
 }
 
 /// Draws the row of units; the sign is that of the unit, as it is given on the command line.
 fn unit(options: MeshOptions, actions: &mut Actions, ui: &mut Ui) {
     let mut unit = options.unit;
-    let row = choice_row(ui, "Unit", UNIT_MEANING, &unit_name(unit), |ui| {
+    ChoiceRow::new("Unit", UNIT_MEANING, &unit_name(unit)).show(ui, |ui| {
         ui.selectable_value(&mut unit, MeshUnit::Found, AUTOMATIC);
         for (name, mm) in MeshUnit::NAMED {
             ui.selectable_value(&mut unit, MeshUnit::Millimetres(mm), name);
         }
     });
-    row.on_hover_text(UNIT_MEANING);
     actions.push_changed(&options.unit, unit, |unit| FileAction::ReadMesh(MeshOptions { unit, ..options }));
 }
 
@@ -85,13 +87,24 @@ fn part(parts: &[String], options: MeshOptions, actions: &mut Actions, ui: &mut 
     let all: Vec<(&str, MeshPart)> = all.collect();
     let name = all.iter().find(|(_, part)| *part == chosen).map(|(name, _)| (*name).to_owned());
     let name = name.unwrap_or_else(|| chosen.to_string());
-    let row = choice_row(ui, "Body", WHICH, &name, |ui| {
+    ChoiceRow::new("Body", WHICH, &name).show(ui, |ui| {
         for (name, part) in all {
             ui.selectable_value(&mut chosen, part, name);
         }
     });
-    row.on_hover_text(WHICH);
     actions.push_changed(&options.part, chosen, |part| FileAction::ReadMesh(MeshOptions { part, ..options }));
+}
+
+/// Draws the row by which facets stay as they were found.
+fn as_found(options: MeshOptions, actions: &mut Actions, ui: &mut Ui) {
+    let was = options.evening == Evening::AsFound;
+    let mut is = was;
+    ui.checkbox(&mut is, "Keep facets as found").on_hover_text(
+        "Otherwise a mesh that is symmetric except for its noise becomes exactly symmetric. The mesh is read again when \
+         you change it.",
+    );
+    let evening = if is { Evening::AsFound } else { Evening::WhereLikely };
+    actions.push_changed(&was, is, |_| FileAction::ReadMesh(MeshOptions { evening, ..options }));
 }
 
 /// Draws the row of forms; the chosen form is marked, or the form of the cut where none was chosen.

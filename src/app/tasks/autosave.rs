@@ -2,7 +2,7 @@
 
 use crate::app::model::recovery::{KeptScene, RecoveredWork, UnsavedWork};
 use crate::app::model::work::ReadMesh;
-use crate::cut::from_mesh::Up;
+use crate::cut::from_mesh::{Evening, Up};
 use crate::cut::{Cut, Design};
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use crate::io::{WriteError, cut_file, design_file, write};
@@ -56,6 +56,9 @@ struct KeptMesh {
     part: String,
     #[serde(default)]
     parts: Vec<String>,
+    /// Whether the facets were evened; autosave files of older versions lack this.
+    #[serde(default)]
+    evening: Evening,
     is_doubtful: bool,
     diameter_mm: f64,
 }
@@ -74,15 +77,16 @@ impl KeptMesh {
             unit: mesh.options.unit,
             part: mesh.options.part.to_string(),
             parts: mesh.parts.clone(),
+            evening: mesh.options.evening,
             is_doubtful: mesh.is_doubtful,
             diameter_mm: mesh.diameter_mm,
         }
     }
 
     fn read_mesh(self) -> ReadMesh {
-        let Self { path, up, form, unit, part, parts, is_doubtful, diameter_mm } = self;
+        let Self { path, up, form, unit, part, parts, evening, is_doubtful, diameter_mm } = self;
         let part = MeshPart::from(part.as_str());
-        let options = MeshOptions { up: up.map_or(Up::Found, Up::Given), form, unit, part };
+        let options = MeshOptions { up: up.map_or(Up::Found, Up::Given), form, unit, part, evening };
         ReadMesh { path, options, parts, is_doubtful, diameter_mm }
     }
 }
@@ -302,8 +306,13 @@ mod tests {
         let specimen = crate::scene::Specimen::new(heart).unwrap();
         design_file::write(&specimen, DesignFormat::Glb, &path).unwrap();
         for form in [MeshForm::Triangles, MeshForm::Faceted] {
-            let up = Up::Given(DVec3::new(0.0, 0.6, 0.8));
-            let options = MeshOptions { up, form, unit: MeshUnit::Millimetres(500.0), part: MeshPart::Number(1) };
+            let options = MeshOptions {
+                up: Up::Given(DVec3::new(0.0, 0.6, 0.8)),
+                form,
+                unit: MeshUnit::Millimetres(500.0),
+                part: MeshPart::Number(1),
+                evening: Evening::AsFound,
+            };
             let work = Document::open(&path, options).unwrap().work;
             let mut safe = Autosave::new(folder.path().join("safe"));
             safe.keep(&alone(&work, Some(&path))).unwrap();

@@ -5,7 +5,7 @@ use crate::app::model::action::FileAction;
 use crate::app::model::dialog::{Dialog, Then};
 use crate::app::model::document::Document;
 use crate::app::model::opening::{FileRequest, Opening, OpeningPurpose};
-use crate::cut::from_mesh::Up;
+use crate::cut::from_mesh::{Evening, Up};
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::mesh_options::{MeshForm, MeshOptions, MeshPart, MeshUnit};
 use crate::scene::Specimen;
@@ -21,7 +21,13 @@ fn scan(folder: &Path) -> PathBuf {
 }
 
 const UP: MeshOptions =
-    MeshOptions { up: Up::Given(DVec3::NEG_Y), form: MeshForm::Found, unit: MeshUnit::Found, part: MeshPart::Found };
+    MeshOptions {
+        up: Up::Given(DVec3::NEG_Y),
+        form: MeshForm::Found,
+        unit: MeshUnit::Found,
+        part: MeshPart::Found,
+        evening: Evening::WhereLikely,
+    };
 
 #[test]
 fn a_mesh_that_is_opened_after_a_question_is_read_as_it_was_asked_for() {

@@ -3,14 +3,14 @@
 use super::file::{self, MaterialHint, MeshFile};
 use super::parts::{ChosenPart, left_open};
 use super::place::{MeshPlace, MeshRemarks, axes, doubtful};
-use crate::cut::from_mesh::{FromMesh, Up, directions, from_mesh};
+use crate::cut::from_mesh::{Evening, FacetError, FromMesh, Up, directions, from_mesh};
 use crate::cut::{Cut, Design, MaterialRef, MeshShape, is_printable};
 use crate::io::design_file::ImportedDesign;
 use crate::io::file_error::{Fault, FileError};
 use crate::io::mesh_options::{MeshForm, MeshOptions};
-use crate::math::faceting::{Change, Faceted, SurfaceKind, TooCurved, faceted_hull, facets};
+use crate::math::faceting::{Change, Faceted, NotFaceted, SurfaceKind, faceted_hull, facets, is_noisy};
 use crate::math::mending::{Mended, SurfaceError};
-use crate::math::{Surface, TriangleMesh, signed};
+use crate::math::{Surface, Symmetry, TriangleMesh, signed};
 use glam::{DQuat, DVec3};
 use std::path::Path;
 
@@ -32,7 +32,8 @@ pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<Importe
     let chosen = ChosenPart::of(&mended, options.part, statement.is_some()).map_err(|f| f.in_file(&label))?;
     notes.extend(chosen.notes);
     let name = Some(name).filter(|name| is_printable(name)).unwrap_or_else(|| "stone".to_owned());
-    let file = File { hint, name, place: MeshPlace::of(format, options, statement) };
+    let evening = options.evening;
+    let file = File { hint, name, place: MeshPlace::of(format, options, statement), evening };
     let mut brought = match options.form {
         MeshForm::Triangles => file.triangles(chosen.surface, None),
         MeshForm::Faceted => {
@@ -40,7 +41,10 @@ pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<Importe
         }
         MeshForm::Found => match facets(chosen.surface) {
             SurfaceKind::Convex(found) => file.planes(&found),
-            SurfaceKind::Concave(surface) => file.triangles(surface, Some(NOT_CONVEX)),
+            SurfaceKind::Concave(surface) => {
+                let why = if is_noisy(&surface) { HIDDEN } else { NOT_CONVEX };
+                file.triangles(surface, Some(why))
+            }
         },
     }
     .map_err(|fault| fault.in_file(&label))?;
@@ -60,10 +64,17 @@ fn unmended(warnings: &[String], error: &SurfaceError) -> Fault {
 /// The note on a mesh that is traced as triangles without a request for that.
 const NOT_CONVEX: &str = "it is not convex; read as a faceted stone it would be the convex stone around it";
 
+/// The note on a scan whose facets are not found.
+const HIDDEN: &str = "its noise hides its facets; a scan with less noise or more corners would show them";
+
 /// Returns the message on why a mesh cannot be read as a faceted stone, and what to do.
-fn impossible(error: TooCurved) -> Fault {
+fn impossible(error: NotFaceted) -> Fault {
+    let instead = match error {
+        NotFaceted::Curved => "save a coarser mesh",
+        NotFaceted::Noisy => "scan it with less noise or more corners",
+    };
     Fault::whole(format!(
-        "it cannot be read as a faceted stone: {error}; save a coarser mesh, or read it as triangles"
+        "it cannot be read as a faceted stone: {error}; {instead}, or read it as triangles"
     ))
 }
 
@@ -82,11 +93,50 @@ fn changed(change: &Change, tolerance: f64, scale: f64) -> String {
     )
 }
 
+/// Returns the note on how well the facets of a scan are known; `None` for other meshes.
+fn known_to(errors: &[FacetError]) -> Option<String> {
+    let mut slopes: Vec<f64> = errors.iter().map(|error| error.slope_deg).collect();
+    slopes.sort_by(f64::total_cmp);
+    let (least, most) = (slopes.first()?, slopes.last()?);
+    let median = slopes[slopes.len() / 2];
+    Some(format!(
+        "its noise leaves the slopes with standard errors of {least:.1e} to {most:.1e} degrees, in the median {median:.1e}"
+    ))
+}
+
+/// Returns the note on a stone that was given a symmetry; `None` where it was left as found.
+fn evened(symmetry: &Symmetry) -> Option<String> {
+    const FOLDS: [&str; 11] = [
+        "twofold",
+        "threefold",
+        "fourfold",
+        "fivefold",
+        "sixfold",
+        "sevenfold",
+        "eightfold",
+        "ninefold",
+        "tenfold",
+        "elevenfold",
+        "twelvefold",
+    ];
+    let turns = symmetry.turns as usize;
+    let fold =
+        (turns > 1).then(|| FOLDS.get(turns - 2).map_or(format!("{turns}-fold"), |fold| (*fold).to_owned()));
+    let parts: Vec<String> = fold.into_iter().chain(symmetry.mirror.map(|_| "mirror".to_owned())).collect();
+    (!parts.is_empty()).then(|| {
+        format!(
+            "it was evened to {}, which it has except for its noise; --as-found keeps the facets as found",
+            parts.join(", ")
+        )
+    })
+}
+
 /// The statements of a file besides its shape, and the place of its stone.
 struct File {
     hint: Option<MaterialHint>,
     name: String,
     place: MeshPlace,
+    evening: Evening,
 }
 
 impl File {
@@ -94,8 +144,8 @@ impl File {
         let mut remarks = MeshRemarks::default();
         let surface = found.surface.moved(found.centre);
         let up = self.place.up(&surface, || directions(&found.polytope), &mut remarks);
-        let made = from_mesh(found, up).map_err(Fault::whole)?;
-        let FromMesh { mut facets, pose, .. } = made;
+        let made = from_mesh(found, up, self.evening).map_err(Fault::whole)?;
+        let FromMesh { mut facets, pose, errors, .. } = made;
         // A known size goes before the width that was found.
         let scale = self.place.scale.unwrap_or(pose.scale);
         let rescaled = scale / pose.scale;
@@ -104,11 +154,13 @@ impl File {
         remarks.notes.push(format!(
             "{count} facets were found; no corner lies farther from them than {deviation:.1e} girdle radii"
         ));
+        remarks.notes.extend(known_to(&errors));
+        remarks.notes.extend(evened(&made.evened));
         remarks.is_doubtful = made.doubt.is_some();
         remarks.has_other_reading = found.change.is_some() || made.doubt.is_some();
         remarks.notes.extend(found.change.map(|change| changed(&change, found.tolerance, scale)));
         remarks.notes.extend(made.doubt.map(|doubt| doubtful(made.up, doubt.other)));
-        let brought = self.brought(Cut::Planes(facets), scale, remarks)?;
+        let brought = ImportedDesign { errors, ..self.brought(Cut::Planes(facets), scale, remarks)? };
         brought.design.check().map_err(Fault::whole)?;
         Ok(brought)
     }

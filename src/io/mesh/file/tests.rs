@@ -10,7 +10,7 @@ mod real;
 
 use super::statement::Measures;
 use super::*;
-use crate::cut::from_mesh::{FromMesh, Up, from_mesh};
+use crate::cut::from_mesh::{Evening, FromMesh, Up, from_mesh};
 use crate::cut::{Cut, Design, MaterialRef};
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::{cut_file, write_glb, write_obj, write_ply, write_stl};
@@ -134,7 +134,8 @@ fn a_stone_posed_from_a_file_is_the_one_that_was_written() {
         (write_glb(&body, "x", 3e-3, (&clear, None)).unwrap(), 1e-6),
     ];
     for (bytes, within) in files {
-        let FromMesh { facets, deviation, .. } = from_mesh(&faceted(&open(bytes)), Up::Found).unwrap();
+        let FromMesh { facets, deviation, .. } =
+            from_mesh(&faceted(&open(bytes)), Up::Found, Evening::default()).unwrap();
         let names: Vec<&String> = facets.iter().map(|(name, _)| name).collect();
         assert_eq!(names, stone.names().iter().collect::<Vec<_>>());
         let normal = |((_, a), b): (&(String, Plane), &Plane)| (a.normal - b.normal).length();

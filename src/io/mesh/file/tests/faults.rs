@@ -121,7 +121,7 @@ proptest! {
         }
         let mended = parse(bytes, "f", None).ok().and_then(|file| file.surface.mend().ok());
         if let Some(SurfaceKind::Convex(found)) = mended.map(|mended| facets(mended.surface)) {
-            let _ = from_mesh(&found, Up::Found);
+            let _ = from_mesh(&found, Up::Found, Evening::default());
         }
     }
 
