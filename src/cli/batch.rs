@@ -49,7 +49,7 @@ pub fn each_file(
 /// Reports the failure of one file of several.
 pub fn report_failure(file: &Path, failure: &Failure, is_json: bool) -> Result<(), Failure> {
     let (name, message) = (file.display().to_string(), failure.to_string());
-    let named = if message.contains(&name) { message.clone() } else { format!("{name}: {message}") };
+    let named = if message.starts_with(&name) { message.clone() } else { format!("{name}: {message}") };
     say(&format!("error: {named}"));
     if is_json { print(&json!({ "file": name, "error": message }).to_string()) } else { Ok(()) }
 }

@@ -159,8 +159,10 @@ fn scene_table(assembly: &Assembly) -> String {
         let _ = writeln!(text, "  {:<28}{}", "weight", weight_of_all(assembly));
     }
     assembly.ring.iter().for_each(|ring| ring_rows(ring, &mut text));
-    let _ = write!(text, "\n  {:<20}{:<20}{:>8}{:>12}", "cut", "material", "mm", "weight");
-    let _ = write!(text, "{:>9}{:>9}{:>9}", "x mm", "y mm", "z mm");
+    if !assembly.scene.instances.is_empty() {
+        let _ = write!(text, "\n  {:<20}{:<20}{:>8}{:>12}", "cut", "material", "mm", "weight");
+        let _ = write!(text, "{:>9}{:>9}{:>9}", "x mm", "y mm", "z mm");
+    }
     for (stone, place) in assembly.scene.instances.iter().zip(&assembly.places) {
         let weight = stone.carats(assembly.scene.unit_mm);
         let weight = weight.map_or("not known".to_owned(), |carats| format!("{carats:.3} ct"));

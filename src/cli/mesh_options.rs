@@ -55,8 +55,7 @@ impl MeshArguments {
         let form = self.form.and_then(|form| form.to_possible_value()).map(|form| form.get_name().to_owned());
         let words = |option: &str, value: Option<String>| value.map(|value| [option.to_owned(), value]);
         let [unit, part] = [self.unit.map(|unit| unit.to_string()), self.part.map(|part| part.to_string())];
-        let all =
-            [words("--up", up), words("--as", form), words("--unit", unit), words("--part", part)];
+        let all = [words("--up", up), words("--as", form), words("--unit", unit), words("--part", part)];
         let as_found = self.as_found.then(|| "--as-found".to_owned());
         all.into_iter().flatten().flatten().chain(as_found).collect()
     }
@@ -67,7 +66,6 @@ fn part(text: &str) -> Result<MeshPart, String> {
     match MeshPart::from(text) {
         MeshPart::Found => Err("give the number or the name of a body, or all".to_owned()),
         part => Ok(part),
-    }
     }
 }
 

@@ -3,7 +3,7 @@
 
 use brillianteer::cut::{
     BrilliantProportions, ClassEstimate, Crown, CutClass, LowerHalf, PUBLISHED_RANGES, Pavilion,
-    RoundBrilliant, TOLKOWSKY,
+    RoundBrilliant,
 };
 use brillianteer::measure::{brilliant_proportions, facet_deviations};
 use brillianteer::scene::Stone;
@@ -149,12 +149,14 @@ fn values_are_rounded_as_reports_round_them_and_a_border_is_told() {
     assert_eq!(class(&charted(75.0, 34.5, 40.8)), CutClass::Poor);
 }
 
-/// Returns the designs at the corners of the ranges of GIA's classes, one step beyond those of F, where a class is only worse.
+/// Returns the designs at the corners of the ranges of GIA's classes: the ends of those of F, or where there are none, one
+/// step beyond those of VG.
 fn corners_of_the_ranges() -> Vec<RoundBrilliant> {
     let ends = |key: &str| {
         let range = PUBLISHED_RANGES.iter().find(|range| range.key == key).unwrap();
         let widest = range.classes.iter().rev().find(|[least, _]| least.is_finite()).unwrap();
-        [widest[0] - range.step, widest[1] + range.step]
+        let beyond = if range.classes[3][0].is_finite() { 0.0 } else { range.step };
+        [widest[0] - beyond, widest[1] + beyond]
     };
     let keys =
         ["table", "crown_angle", "pavilion_angle", "star_length", "lower_half_length", "girdle_thickness"];
@@ -167,7 +169,8 @@ fn corners_of_the_ranges() -> Vec<RoundBrilliant> {
             star_length: at(3),
             lower_half: LowerHalf::Radial(at(4)),
             girdle_thickness: at(5),
-            ..TOLKOWSKY
+            girdle_facets: 96,
+            culet: 0.0,
         }
     };
     (0..1 << keys.len()).map(corner).collect()

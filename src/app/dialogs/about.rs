@@ -144,7 +144,8 @@ mod tests {
     fn gather(shape: &Shape, rectangles: &mut Vec<Rect>, rules: &mut Vec<Rect>) {
         match shape {
             Shape::Vec(shapes) => shapes.iter().for_each(|shape| gather(shape, rectangles, rules)),
-            Shape::Rect(rectangle) => rectangles.push(rectangle.rect),
+            // A blurred rectangle is a shadow.
+            Shape::Rect(rectangle) if rectangle.blur_width == 0.0 => rectangles.push(rectangle.rect),
             Shape::LineSegment { points: [a, b], .. } if a.y == b.y => {
                 rules.push(Rect::from_two_pos(*a, *b));
             }

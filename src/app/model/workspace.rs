@@ -216,9 +216,6 @@ impl Workspace {
     /// Writes the places of all eyes in another unit, of which `factor` make one of the unit before.
     pub fn eyes_in_unit(&mut self, factor: f64) {
         self.distance *= factor;
-        if let Some(sight) = self.of_scene.as_mut().and_then(|of_scene| of_scene.sight.as_mut()) {
-            sight.set.0 *= factor;
-        }
         let own = self.panes.iter_mut().filter_map(|pane| pane.own.as_mut());
         own.chain([&mut self.eye]).for_each(|eye| eye.centre *= factor);
     }

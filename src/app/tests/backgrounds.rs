@@ -262,16 +262,11 @@ fn looking_up_keeps_up_with_the_window() {
 
 #[test]
 fn a_world_that_is_being_drawn_is_shown_coarsely_at_once_and_the_status_line_says_so() {
-    let pane = Pane { shows: Shows::Render, own: None, is_near: false };
-    let behind = Some("sunset".to_owned());
-    let workspace = Workspace {
-        layout: PaneLayout::One,
-        panes: [pane; 4],
-        wavelengths: 3,
-        behind,
-        ..Workspace::default()
-    };
+    let pane = Pane { shows: Shows::Render, own: None, is_near: false, stone: None };
+    let workspace = Workspace { layout: PaneLayout::One, panes: [pane; 4], ..Workspace::default() };
     let mut bench = Bench::sized(Setup { workspace, ..Setup::default() }, egui::vec2(700.0, 300.0));
+    let settings = &mut bench.harness.state_mut().model.document.work.settings;
+    (settings.wavelengths, settings.background) = (3, Some("sunset".to_owned()));
     bench.harness.run_steps(2);
     assert!(bench.harness.query_by_label_contains("done ·").is_none(), "an order is on its way");
     bench.wait(|editor| editor.views.gallery.traced.contains_key(&(0, Which::Present)));

@@ -20,14 +20,13 @@ fn scan(folder: &Path) -> PathBuf {
     path
 }
 
-const UP: MeshOptions =
-    MeshOptions {
-        up: Up::Given(DVec3::NEG_Y),
-        form: MeshForm::Found,
-        unit: MeshUnit::Found,
-        part: MeshPart::Found,
-        evening: Evening::WhereLikely,
-    };
+const UP: MeshOptions = MeshOptions {
+    up: Up::Given(DVec3::NEG_Y),
+    form: MeshForm::Found,
+    unit: MeshUnit::Found,
+    part: MeshPart::Found,
+    evening: Evening::WhereLikely,
+};
 
 #[test]
 fn a_mesh_that_is_opened_after_a_question_is_read_as_it_was_asked_for() {

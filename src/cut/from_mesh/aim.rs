@@ -165,10 +165,10 @@ impl Seen {
         self.shape > least && apart >= PUT_ALONG && !is_alike(&self.cues, &best.cues)
     }
 
-    /// Adds the score of symmetry, which takes longer to compute.
+    /// Adds the scores of symmetry, which takes longer to compute, and of height.
     fn look_closely(&mut self, parts: &FacetParts) {
         let Evenness { even, many } = evenness(parts, self.cues.up);
-        self.shape += weight::EVEN * even.powi(3) + weight::TALL * tall(&self.cues) * many.powi(3);
+        self.shape += weight::EVEN * even.powi(3) - weight::TALL * tall(&self.cues) * (1.0 - many.powi(3));
         self.own = own(&self.cues, even, self.custom);
     }
 }
@@ -207,7 +207,7 @@ fn is_alike(a: &Cues, b: &Cues) -> bool {
         && near(a.length, b.length)
 }
 
-/// Returns the score of the shape for a direction, without symmetry.
+/// Returns the score of the shape for a direction, without symmetry and height, which symmetry excuses.
 fn shape(cues: &Cues) -> f64 {
     let worth = |area: f64| weight::TABLE * (area / MEANT).min(1.0) + weight::TABLE_AREA * area.min(1.0);
     let (table, flat) = match (cues.table_area > WHOLE, cues.culet_area > WHOLE) {
@@ -219,7 +219,7 @@ fn shape(cues: &Cues) -> f64 {
         (false, false) if cues.is_drop() => (0.0, weight::DROP / weight::FLAT * cues.crown),
         (false, false) => (worth(cues.table_area) - worth(cues.culet_area), 1.0 - cues.crown),
     };
-    weight::GIRDLE * cues.girdle.min(1.0) + table + weight::FLAT * flat - weight::TALL * tall(cues)
+    weight::GIRDLE * cues.girdle.min(1.0) + table + weight::FLAT * flat
 }
 
 /// Returns 0 for a stone that is not tall, 1 for one that certainly is.

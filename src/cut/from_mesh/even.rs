@@ -274,7 +274,16 @@ fn best_mirror(plain: &Even, areas: &[f64]) -> Option<f64> {
 /// The places of the planes that each map of a symmetry carries the planes to. The maps are the turns, and the turns after the
 /// mirror.
 pub(super) struct Images {
-    maps: Vec<(Option<f64>, u32, Vec<usize>)>,
+    maps: Vec<Map>,
+}
+
+/// One map of a symmetry.
+struct Map {
+    /// The azimuth of the mirror that comes before the turn, radians; `None` without one.
+    mirror: Option<f64>,
+    turn: u32,
+    /// The place of the plane that each plane is carried to.
+    images: Vec<usize>,
 }
 
 impl Images {
@@ -283,18 +292,19 @@ impl Images {
         let list = Match::loose(&even.planes);
         let mirrors = std::iter::once(None).chain(even.mirror.map(Some));
         let maps = mirrors.flat_map(|mirror| (0..even.turns).map(move |turn| (mirror, turn)));
-        let maps =
-            maps.map(|(mirror, turn)| Some((mirror, turn, list.permutation(even.mapped(mirror, turn))?)));
+        let maps = maps.map(|(mirror, turn)| {
+            Some(Map { mirror, turn, images: list.permutation(even.mapped(mirror, turn))? })
+        });
         Some(Self { maps: maps.collect::<Option<_>>()? })
     }
 
     /// Returns the number of equations that the symmetry sets for the planes' numbers, three for each plane, in a fixed frame.
     pub fn constraints(&self) -> usize {
-        let planes = self.maps.first().map_or(0, |(.., images)| images.len());
+        let planes = self.maps.first().map_or(0, |map| map.images.len());
         let numbers = |plane: usize| {
             let own = |is_mirror: bool| {
-                let maps = self.maps.iter().filter(|(mirror, ..)| mirror.is_some() == is_mirror);
-                maps.filter(|(.., images)| images[plane] == plane).count()
+                let maps = self.maps.iter().filter(|map| map.mirror.is_some() == is_mirror);
+                maps.filter(|map| map.images[plane] == plane).count()
             };
             // A level facet has its height alone, one across a mirror its slope and distance. Facets that are images of one
             // another share their numbers.
@@ -312,7 +322,7 @@ impl Images {
 /// Returns each plane as the mean of its images, carried back; `None` where a mean has no direction.
 pub(super) fn averaged(even: &Even, images: &Images) -> Option<Even> {
     let mut sums = vec![(DVec3::ZERO, 0.0); even.planes.len()];
-    for (mirror, turn, images) in &images.maps {
+    for Map { mirror, turn, images } in &images.maps {
         // A mirror followed by a turn is again a mirror, which is its own inverse.
         let back = even.mapped(*mirror, if mirror.is_some() { *turn } else { even.turns - turn });
         for (sum, &image) in sums.iter_mut().zip(images) {

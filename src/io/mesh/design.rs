@@ -73,9 +73,7 @@ fn impossible(error: NotFaceted) -> Fault {
         NotFaceted::Curved => "save a coarser mesh",
         NotFaceted::Noisy => "scan it with less noise or more corners",
     };
-    Fault::whole(format!(
-        "it cannot be read as a faceted stone: {error}; {instead}, or read it as triangles"
-    ))
+    Fault::whole(format!("it cannot be read as a faceted stone: {error}; {instead}, or read it as triangles"))
 }
 
 /// Returns the note on the changes where a mesh is read as a convex stone. Lengths of the file times `scale` are

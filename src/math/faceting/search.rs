@@ -88,7 +88,7 @@ impl<'a> SolidSearch<'a> {
         let mut tried = |limits| self.gathered(limits).map_err(|found| failed.push((limits, found))).ok();
         let planar = limits.next().and_then(&mut tried);
         if planar.is_none() {
-            if let Some(scan) = scanned(self.surface) {
+            if let Some(scan) = scanned(self.surface, MOST_FACETS) {
                 return Some(self.of_scan(scan));
             }
         }

@@ -21,7 +21,7 @@ fn a_write_protected_file_is_refused_by_every_command_and_stays() {
         ("sheet tolkowsky --out kept/a.pdf", "a.pdf"),
         ("sweep tolkowsky --over table=53:54:1 --of return-even --out kept/a.csv", "a.csv"),
         ("export tolkowsky --views profile --format svg --out kept", "tolkowsky-profile.svg"),
-        ("retarget tolkowsky --to quartz --no-light --out kept/a.toml", "a.toml"),
+        ("retarget tolkowsky --material quartz --rule critical-angle --no-light --out kept/a.toml", "a.toml"),
     ] {
         std::fs::create_dir_all(desk.at("kept")).unwrap();
         let path = desk.at(format!("kept/{name}"));
@@ -47,7 +47,7 @@ fn comments_of_the_file_that_is_read_are_not_lost_unasked() {
     for line in [
         "convert a.toml a.toml",
         "convert a.toml ./a.toml",
-        "retarget a.toml --to quartz --no-light --out a.toml",
+        "retarget a.toml --material quartz --rule critical-angle --no-light --out a.toml",
     ] {
         assert!(desk.refused(line, 2).contains("its comments would be lost"), "{line}");
         assert_eq!(desk.read("a.toml"), before);
@@ -62,10 +62,10 @@ fn comments_of_the_file_that_is_read_are_not_lost_unasked() {
 #[cfg(unix)]
 const WRITERS: [&str; 8] = [
     "convert tolkowsky out/a.stl",
-    "convert tolkowsky out/a.toml",
+    "convert tolkowsky out/a.asc",
     "sheet tolkowsky --out out/a.pdf",
-    "sweep tolkowsky --over table=53:60:1 --of return-even --unresolved 0.2 --out out/a.csv",
-    "sweep tolkowsky --over table=53:60:1 --of return-even --unresolved 0.2 --out out/a.parquet",
+    "sweep tolkowsky --over table=53:65:0.5 --of return-even --unresolved 0.2 --out out/a.csv",
+    "sweep tolkowsky --over table=53:65:0.5 --of return-even --unresolved 0.2 --out out/a.parquet",
     "export cube.toml --views aset --size 200 --format png,exr,svg --out out",
     "render tolkowsky --size 64 --samples 1 --out out/a.exr",
     "spin cube.toml --frames 2 --size 32 --samples 1 --out out/a.png",
@@ -78,7 +78,7 @@ fn a_limit_on_the_size_of_files_is_an_error_and_leaves_nothing_behind() {
     for line in WRITERS {
         let _ = std::fs::remove_dir_all(desk.at("out"));
         std::fs::create_dir(desk.at("out")).unwrap();
-        let old = ["a.csv", "a.stl", "a.toml", "a.pdf", "a.parquet", "a.exr", "a.png", "cube-aset.png"];
+        let old = ["a.csv", "a.stl", "a.asc", "a.pdf", "a.parquet", "a.exr", "a.png", "cube-aset.png"];
         old.iter().for_each(|name| desk.write(&format!("out/{name}"), "old"));
         // In shells of POSIX the unit is 512 bytes.
         let mut limited = std::process::Command::new("sh");
@@ -118,7 +118,7 @@ fn a_full_disk_leaves_old_files_and_no_new_ones() {
     // Room is left for a folder's entries and for no content.
     let full = "head -c 12288 /dev/zero > out/filler; printf old > out/a.csv; ";
     for line in [
-        "sweep tolkowsky --over table=53:60:1 --of return-even --unresolved 0.2 --out out/a.csv",
+        "sweep tolkowsky --over table=53:65:0.5 --of return-even --unresolved 0.2 --out out/a.csv",
         "sweep tolkowsky --over table=53:60:1 --of return-even --unresolved 0.2 --out out/b.csv",
         "convert tolkowsky out/b.toml",
         "sheet tolkowsky --out out/b.pdf",

@@ -1,7 +1,7 @@
 //! NumberReader of text formats, with a decimal point, or with the decimal comma that some programs write in some countries.
 
-use crate::io::numbers::Token;
 use crate::io::file_error::Fault;
+use crate::io::numbers::Token;
 
 /// The most characters of a token that a message quotes.
 const QUOTED: usize = 40;

@@ -1,7 +1,7 @@
 //! Recognises the mesh format of a file by its first bytes.
 
-use crate::io::numbers::Token;
 use crate::io::decoding::{in_utf8, with_line_feeds};
+use crate::io::numbers::Token;
 
 /// The mesh formats that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use super::members::Members;
 use super::patches::Corners;
 use super::points::PlaneEstimate;
 use super::rounding::{alike, steps};
-use crate::math::faceting::PlaneError;
+use crate::math::faceting::plane_error::PlaneError;
 use crate::math::{bounds, solved};
 use glam::{DMat3, DVec3};
 

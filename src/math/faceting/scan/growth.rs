@@ -2,7 +2,6 @@
 
 use super::patches::{Corners, Patch, Visited};
 use super::points::PlaneEstimate;
-use crate::math::faceting::search::MOST_FACETS;
 
 /// Corners within this many standard deviations of the noise of a plane may lie on it.
 pub(super) const NEAR: f64 = 4.5;
@@ -28,8 +27,13 @@ const TAKEN: u8 = 1;
 const REFUSED: u8 = 2;
 
 /// Returns planes of facets for noise of this standard deviation. Corners whose `is_explained` is true lie on facets that are
-/// known, so that no region begins there. `None` where there are too many.
-pub(super) fn grown(corners: &Corners, noise: f64, is_explained: &[bool]) -> Option<Vec<PlaneEstimate>> {
+/// known, so that no region begins there. `None` where there are more than `most`.
+pub(super) fn grown(
+    corners: &Corners,
+    noise: f64,
+    is_explained: &[bool],
+    most: usize,
+) -> Option<Vec<PlaneEstimate>> {
     let marks = is_explained.iter().map(|&known| if known { TAKEN } else { FREE }).collect();
     let mut grower = Grower { corners, noise, marks, visited: Visited::of(corners.at.len()), found: vec![] };
     for size in corners.sizes(noise) {
@@ -37,7 +41,7 @@ pub(super) fn grown(corners: &Corners, noise: f64, is_explained: &[bool]) -> Opt
         grower.marks.iter_mut().filter(|mark| **mark == REFUSED).for_each(|mark| *mark = FREE);
         for patch in corners.patches(size, &is_free) {
             grower.try_patch(&patch);
-            if grower.found.len() > MOST_FACETS {
+            if grower.found.len() > most {
                 return None;
             }
         }

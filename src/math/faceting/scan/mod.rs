@@ -19,7 +19,7 @@ mod rounding;
 mod split;
 mod verdict;
 
-use super::PlaneError;
+use super::plane_error::PlaneError;
 use crate::math::{Plane, Polytope, Surface};
 use growth::grown;
 use members::{Members, noises};
@@ -54,14 +54,15 @@ pub(super) struct ScannedSolid {
     pub errors: Vec<PlaneError>,
 }
 
-/// Finds the solid that a scan represents; `None` where the surface is no scan of a convex solid with flat facets.
-pub(super) fn scanned(surface: &Surface) -> Option<ScannedSolid> {
+/// Finds the solid that a scan represents; `None` where the surface is no scan of a convex solid with flat facets, or would need
+/// more than `most`.
+pub(super) fn scanned(surface: &Surface, most: usize) -> Option<ScannedSolid> {
     if surface.vertices.len() < FEWEST {
         return None;
     }
     let corners = Corners::of(surface);
     let noise = corners.noise()?;
-    ASSUMED.iter().find_map(|times| Scan { surface, corners: &corners, noise: times * noise }.solid())
+    ASSUMED.iter().find_map(|times| Scan { surface, corners: &corners, noise: times * noise, most }.solid())
 }
 
 /// A scan, and the noise that is assumed.
@@ -69,6 +70,8 @@ struct Scan<'a> {
     surface: &'a Surface,
     corners: &'a Corners<'a>,
     noise: f64,
+    /// The most regions that are grown.
+    most: usize,
 }
 
 /// A solid with its corners and the planes fitted to them, in the order of its facets.
@@ -94,7 +97,7 @@ impl Scan<'_> {
 
     /// Assigns corners and fits planes until nothing changes.
     fn settled(&self) -> Option<Fitted> {
-        let first = grown(self.corners, self.noise, &vec![false; self.corners.at.len()])?;
+        let first = grown(self.corners, self.noise, &vec![false; self.corners.at.len()], self.most)?;
         let mut state = State { planes: vec![], noises: vec![], searches: 0, quiet: 0, inflation: 1.0 };
         state.add(first.iter().map(|fit| fit.plane), self.noise);
         for _ in 0..ROUNDS {
@@ -132,7 +135,7 @@ impl Scan<'_> {
         let parts = split::split(self.corners, members, fits, state.inflation);
         let found = if parts.iter().all(Option::is_none) {
             let noise = state.noises.iter().copied().fold(0.0, f64::max).max(self.noise);
-            grown(self.corners, noise, &members.explained)?.iter().map(|fit| fit.plane).collect()
+            grown(self.corners, noise, &members.explained, self.most)?.iter().map(|fit| fit.plane).collect()
         } else {
             state.keep(|f| parts[f].is_none());
             parts.into_iter().flatten().flatten().collect::<Vec<_>>()

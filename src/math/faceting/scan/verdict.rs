@@ -20,7 +20,7 @@ const CURVED: f64 = 0.3;
 
 /// The greatest difference between the volumes of solid and surface, as a part of the volume, besides what the distance
 /// between the two explains.
-const VOLUME: f64 = 1e-3;
+const VOLUME: f64 = 4e-4;
 
 /// The greatest part of the volume that triangles across the edges of the solid may cut off, where the scan has no corners on
 /// the edges.
