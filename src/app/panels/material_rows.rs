@@ -80,11 +80,25 @@ fn refraction(known: &Material, first: Option<&Material>, ui: &mut Ui) -> Option
     if (n, v) == (index, abbe) {
         return None;
     }
+    if let Some(first) = first.filter(|first| is_back(first, n, v)) {
+        return Some(first.clone());
+    }
     let material = match v.is_finite() {
         true => Material::from_abbe(&format!("index {n:.3}, Abbe number {v:.1}"), n, v),
         false => Material::from_index(&format!("index {n:.3}"), n),
     };
     material.ok()
+}
+
+/// The part of an Abbe number by which it may differ from that of the same glass, because it is read off a curve.
+const SAME_GLASS: f64 = 1e-3;
+
+/// Returns whether an index and an Abbe number are those of a material, of which one was set back by a double click.
+fn is_back(first: &Material, n: f64, v: f64) -> bool {
+    let own = [first.index(line::HELIUM_D), first.dispersion.abbe_number().unwrap_or(f64::INFINITY)];
+    let is_near = |(a, b): (f64, f64)| a == b || (a - b).abs() <= SAME_GLASS * b.abs();
+    let pairs = [(n, own[0]), (v, own[1])];
+    pairs.into_iter().any(|(a, b)| a == b) && pairs.into_iter().all(is_near)
 }
 
 /// Draws the rows for the colour and for how strong it is; returns the absorption that a change of one makes.

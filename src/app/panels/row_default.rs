@@ -14,7 +14,9 @@ pub fn is_wanted(ui: &Ui, name: &Response, slider: Option<&Response>) -> bool {
             && ui.input(|input| input.pointer.button_double_clicked(PointerButton::Primary))
     };
     if slider.is_some_and(Response::drag_stopped) {
-        ui.data_mut(|data| data.insert_temp(clicked_id(), ui.input(|input| input.time)));
+        // The time is read first: egui locks its data while it is written.
+        let now = ui.input(|input| input.time);
+        ui.data_mut(|data| data.insert_temp(clicked_id(), now));
     }
     name.double_clicked() || slider.is_some_and(is_double)
 }

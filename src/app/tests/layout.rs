@@ -387,6 +387,7 @@ fn film(bench: &Bench) -> (f64, glam::DVec2) {
 fn a_stone_keeps_its_scale_while_one_number_changes() {
     let mut bench = Bench::with(Setup { file: Some("pill".into()), ..Setup::default() });
     bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
+    bench.leave_one();
     bench.harness.run_steps(3);
     let before = film(&bench);
     let width = bench.harness.get_by_role_and_label(Role::SpinButton, "Width").rect();

@@ -58,8 +58,9 @@ fn double_click_name(bench: &mut Bench, role: Role, name: &str) {
 
 /// Changes each number of a document, undoes that, changes it again and resets it, and returns how many there are.
 fn assert_rows(bench: &mut Bench) -> usize {
-    // The angle of view is a step of the views.
-    let all: Vec<_> = numbers(bench).into_iter().filter(|(name, _)| name != "View angle").collect();
+    // The angle of view is a step of the views, and a number that is not known has no default.
+    let is_meant = |(name, value): &(String, f64)| name != "View angle" && value.is_finite();
+    let all: Vec<_> = numbers(bench).into_iter().filter(is_meant).collect();
     for (name, value) in &all {
         let before = work(bench);
         let is_least = *value == 0.0 || name == "Copies";
@@ -72,7 +73,7 @@ fn assert_rows(bench: &mut Bench) -> usize {
         bench.type_number(name, &format!("{changed:.4}"));
         double_click_name(bench, Role::SpinButton, name);
         assert!(
-            (number(bench, name) - value).abs() < 1e-6 * value.abs().max(1.0),
+            (number(bench, name) - value).abs() < 1e-4 * value.abs().max(1.0),
             "{name}: {}",
             number(bench, name)
         );

@@ -65,8 +65,7 @@ pub fn change(model: &mut Model, tasks: &mut Vec<Task>, change: FileAction) {
         FileAction::Ended => {
             safe::keep_last(model, tasks, true);
             // Where the system closed the window without asking the user, the autosave stays for the next start.
-            let is_safe = !model.document.is_changed() && !model.document.has_moved_copies();
-            if model.session.may_close || is_safe {
+            if model.session.may_close || !model.document.is_changed() {
                 safe::empty(model, tasks);
             }
         }

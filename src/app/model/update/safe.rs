@@ -13,7 +13,8 @@ pub fn note(model: &mut Model, tasks: &mut Vec<Task>) {
     model.session.safe.noted = model.document.work.clone();
     keep_last(model, tasks, false);
     let Model { document, session, .. } = &mut *model;
-    if !document.is_changed() && !document.has_moved_copies() {
+    // Copies that were moved are there at the next start in any case.
+    if !document.is_changed() {
         return empty(model, tasks);
     }
     if !session.safe.is_on || document.fault().is_some() {
