@@ -120,7 +120,7 @@ pub struct DesignSearch {
 }
 
 /// The record of a running search.
-#[derive(Default)]
+#[derive(Default, Clone)]
 struct Record {
     /// The places of the best design, and its appraisal.
     best: Option<(Vec<f64>, Appraisal)>,
@@ -265,7 +265,8 @@ impl DesignSearch {
 
     /// Measures the best finely, unless the search was stopped, in which case its figures stay rough.
     fn outcome(&self, trials: &Trials, watch: Watch) -> Result<SearchOutcome, SearchError> {
-        let record = trials.record();
+        // A copy, so that the lock is not held while the best is measured on the pool.
+        let record = trials.record().clone();
         let start = self.objective.start_places();
         let finest = self.options.unresolved / FINER;
         let mut best = self.objective.start().clone();
