@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus};
 use std::time::{Duration, Instant};
 
-/// How long all threads of a stuck program have slept. Nothing that the program does waits this long for the world around
-/// it.
+/// How long all threads of a program sleep before it counts as stuck. No command waits this long for a file or a driver.
 const STILL: Duration = Duration::from_secs(20);
 
 /// What one look at the threads of a process shows.
@@ -48,22 +47,22 @@ fn who_waits(process: u32) -> String {
     let stacks = Command::new("gdb")
         .args(["-p", &process.to_string(), "-batch", "-ex", "thread apply all bt 24"])
         .output();
-    let mut told = String::new();
+    let mut report = String::new();
     for thread in threads(process) {
         let (name, call) = (text(&thread, "comm"), text(&thread, "syscall"));
         let waits = text(&thread, "wchan");
-        let _ = writeln!(told, "{}: in {waits}, system call {}", name.trim(), call.trim());
+        let _ = writeln!(report, "{}: in {waits}, system call {}", name.trim(), call.trim());
     }
     if let Ok(stacks) = stacks {
-        told.push_str(&String::from_utf8_lossy(&stacks.stdout));
+        report.push_str(&String::from_utf8_lossy(&stacks.stdout));
     }
-    told
+    report
 }
 
-/// Waits until a program ends.
+/// Waits until a program ends, or until all of its threads wait for ever.
 ///
 /// # Errors
-/// The text says which of its threads wait for what, where the program will never end. It has been killed then.
+/// Returns which threads wait for what where the program would never end; it has been killed then.
 pub fn ended(program: &mut Child) -> Result<ExitStatus, String> {
     let (mut last, mut since) = (sighting(program.id()), Instant::now());
     loop {
@@ -74,10 +73,10 @@ pub fn ended(program: &mut Child) -> Result<ExitStatus, String> {
         if now != last || !now.all_sleep {
             (last, since) = (now, Instant::now());
         } else if since.elapsed() > STILL {
-            let told = who_waits(program.id());
+            let report = who_waits(program.id());
             program.kill().unwrap();
             program.wait().unwrap();
-            return Err(told);
+            return Err(report);
         }
         std::thread::sleep(Duration::from_millis(20));
     }
@@ -86,8 +85,8 @@ pub fn ended(program: &mut Child) -> Result<ExitStatus, String> {
 #[test]
 fn a_program_that_waits_for_ever_is_found_and_one_that_works_is_not() {
     let mut stuck = Command::new("sleep").arg("1000").spawn().unwrap();
-    let told = ended(&mut stuck).unwrap_err();
-    assert!(told.contains("sleep: in "), "{told}");
+    let report = ended(&mut stuck).unwrap_err();
+    assert!(report.contains("sleep: in "), "{report}");
     let mut busy =
         Command::new("sh").args(["-c", "k=0; while [ $k -lt 300000 ]; do k=$((k+1)); done"]).spawn().unwrap();
     assert!(ended(&mut busy).unwrap().success());
